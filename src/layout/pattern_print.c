@@ -224,11 +224,12 @@ const fw_layout_pattern_kind fw_layout_pattern_vernier = {
 /* back-mark: a window in a block of the device layer and, in its middle, the cross of the back
    side's own plate. Both are drawn as seen from the front; the plate for the back is the mirror
    image, which its order says. Centred in the window the sides agree; the distances from the arms
-   to the window's edges tell the offset: (left - right)/2, (below - above)/2. In: window, cross
-   (size over all), arm (width), m. Out: areas exact. Test: test_patterns.c. */
+   to the window's edges tell the offset: (left - right)/2, (below - above)/2. Bars of metal beside
+   the window tell that of the pads' plate alike. In: window, cross (size over all), arm (width), ring
+   (width of these bars; 0: none), m. Out: areas exact. Test: test_patterns.c. */
 
-enum { BACK_MARK_WINDOW, BACK_MARK_CROSS, BACK_MARK_ARM };
-static const double RIM_M = 40e-6;
+enum { BACK_MARK_WINDOW, BACK_MARK_CROSS, BACK_MARK_ARM, BACK_MARK_RING };
+static const double RIM_M = 40e-6, RING_CLEAR_M = 10e-6;
 
 static fw_status back_cross_draw(fw_layout_pen *pen, double m, double cross, double arm,
                                  double window) {
@@ -243,11 +244,26 @@ static fw_status back_cross_draw(fw_layout_pen *pen, double m, double cross, dou
     return FW_OK;
 }
 
+/* a bar of metal beside each side of the window, below what the device's plate leaves of the block */
+static fw_status draw_ring(fw_layout_pen *pen, double from, double to, double width) {
+    static const char label[] = "metal beside the back mark";
+    double a = from - RING_CLEAR_M, b = to + RING_CLEAR_M, middle = 0.5 * (from + to);
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, from, a - width, to, a));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, from, b, to, b + width));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, a - width, from, a, to));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, b, from, b + width, to));
+    FW_TRY(fw_layout_pen_chord(pen, "metal left", a, middle, from, middle, NULL));
+    return fw_layout_pen_chord(pen, "metal below", middle, a, middle, from, NULL);
+}
+
 static fw_status draw_back_mark(fw_layout_pen *pen) {
     double window = fw_layout_pen_value(pen, BACK_MARK_WINDOW), side = window + 2 * RIM_M;
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_STRUCTURE, "block of the back mark", 0, 0, side, side));
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M,
                              RIM_M + window, RIM_M + window));
+    double ring = fw_layout_pen_value(pen, BACK_MARK_RING);
+    if (ring > RIM_M - 2 * RING_CLEAR_M + 1e-12) return FW_GEOMETRY;
+    if (ring > 0) FW_TRY(draw_ring(pen, RIM_M, RIM_M + window, ring));
     return back_cross_draw(pen, 0.5 * side, fw_layout_pen_value(pen, BACK_MARK_CROSS),
                            fw_layout_pen_value(pen, BACK_MARK_ARM), window);
 }
@@ -257,23 +273,27 @@ const fw_layout_pattern_kind fw_layout_pattern_back_mark = {
     .what = "cross on the back's own layer in a window of the device layer",
     .parameter = {{"window", 160e-6, 40e-6, 1e-3, false},
                   {"cross", 120e-6, 20e-6, 1e-3, false},
-                  {"arm", 20e-6, 4e-6, 200e-6, false}},
-    .nparameter = 3,
+                  {"arm", 20e-6, 4e-6, 200e-6, false},
+                  {"ring", 0, 0, 20e-6, false}},
+    .nparameter = 4,
     .draw = draw_back_mark,
 };
 
 /* ---- frame-mark ---- */
 
 /* frame-mark: window and cross of `back-mark` in both uprights of every die's frame, as far apart
-   as the die is wide: two of them give offset and turn of the back. In: window, cross, arm, m.
+   as the die is wide: two of them give offset and turn of the back. In: window, cross, arm, ring, m.
    Test: test_patterns.c. */
 
-enum { FRAME_MARK_WINDOW, FRAME_MARK_CROSS, FRAME_MARK_ARM };
+enum { FRAME_MARK_WINDOW, FRAME_MARK_CROSS, FRAME_MARK_ARM, FRAME_MARK_RING };
 
 static fw_status draw_frame_mark(fw_layout_pen *pen) {
-    double window = fw_layout_pen_value(pen, FRAME_MARK_WINDOW);
-    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", 0, 0, window, window));
-    return back_cross_draw(pen, 0.5 * window, fw_layout_pen_value(pen, FRAME_MARK_CROSS),
+    double window = fw_layout_pen_value(pen, FRAME_MARK_WINDOW),
+           ring = fw_layout_pen_value(pen, FRAME_MARK_RING);
+    double from = ring > 0 ? RING_CLEAR_M + ring : 0, to = from + window;
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", from, from, to, to));
+    if (ring > 0) FW_TRY(draw_ring(pen, from, to, ring));
+    return back_cross_draw(pen, from + 0.5 * window, fw_layout_pen_value(pen, FRAME_MARK_CROSS),
                            fw_layout_pen_value(pen, FRAME_MARK_ARM), window);
 }
 
@@ -282,8 +302,9 @@ const fw_layout_pattern_kind fw_layout_pattern_frame_mark = {
     .what = "windows with a cross of the back on the frame of every die",
     .parameter = {{"window", 120e-6, 40e-6, 1e-3, false},
                   {"cross", 90e-6, 20e-6, 1e-3, false},
-                  {"arm", 14e-6, 4e-6, 200e-6, false}},
-    .nparameter = 3,
+                  {"arm", 14e-6, 4e-6, 200e-6, false},
+                  {"ring", 0, 0, 50e-6, false}},
+    .nparameter = 4,
     .draw = draw_frame_mark,
     .on_frame = 2,
 };

@@ -39,6 +39,7 @@ static fw_status judge(const fw_mask_content *content, const fw_mask_table *tabl
     double overlay = fw_mask_overlay_m(table, FW_ROLE_CAVITY),
            least = content->value[BOND] + 2 * overlay;
     FW_TRY(fw_release_cavity_make(verdict->arena, layout, &asked, &cavity));
+    verdict->widest_hollow_m = fmax(verdict->widest_hollow_m, cavity.widest.x1 - cavity.widest.x0);
     for (int i = 0; i < cavity.nground; i++) {
         const fw_release_ground *g = &cavity.ground[i];
         double side = g->square.x1 - g->square.x0;

@@ -255,9 +255,17 @@ typedef struct fw_mask_verdict {
     fw_arena *arena;
     const char **reason; /* (n) sentences */
     int n, room;
+    double widest_hollow_m; /* side of the largest square within one; 0: there is none */
 } fw_mask_verdict;
 fw_status fw_mask_contents_judge(fw_arena *arena, const fw_mask_table *table,
                                  const fw_layout *layout, fw_mask_verdict *verdict);
+/* a length of the first <content> of a kind, "margin" of "cavity"; NaN: the table has none */
+double fw_mask_content_m(const fw_mask_table *table, const char *kind, const char *parameter);
+/* the first plate that draws a role; -1: none does */
+int fw_mask_plate_of_role(const fw_mask_table *table, fw_layout_role role);
+/* budget between the plate of the device and the one with a role: along the rows that align them, added;
+   0 where one plate has both */
+double fw_mask_overlay_m(const fw_mask_table *table, fw_layout_role role);
 /* the certificate and, in `coupons`, every pattern: place, drawn sizes, what to measure and which
    quantity of the process it gives */
 fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_sha256,
@@ -376,7 +384,10 @@ void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_tab
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */
 void fw_mask_order_set_lines(fw_text *out, const fw_mask_table *table, const fw_mask_order *order);
-void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask);
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask,
+                              int plate);
+/* by how much its first layer is drawn outside of what is wanted */
+double fw_mask_plate_bias_m(const fw_mask *mask, int plate);
 void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box);
 
 /* boundaries of one layer in the GDSII file */

@@ -516,7 +516,8 @@ static void sizes(fw_json *json, const fw_mask *mask, const fw_mask_order *order
     fw_json_number(json, "min_feature_um", order->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", order->space_m * 1e6, 9);
     fw_json_line(json, 2);
-    fw_json_number(json, "bias_um_per_edge", mask->bias_m * 1e6, 9);
+    fw_json_number(json, "bias_um_per_edge", fw_mask_plate_bias_m(mask, order->plate_index) * 1e6,
+                   9);
     fw_json_truth(json, "bias_in_data", true);
     fw_json_whole(json, "mask_cd_bias_um", 0);
     fw_json_line(json, 2);

@@ -1,92 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which layers make the plate: "1/0 NOT 2/0 NOT 3/0". */
 #include "mask/mask.h"
 #include "geometry/segment.h"
 #include "mask/mask_polygons.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static int layer_named(const fw_mask_table *table, const char *s, char **end) {
-    if (*s < '0' || *s > '9') return -1;
-    long layer = strtol(s, end, 10), datatype = -1;
-    if (**end != '/' || (*end)[1] < '0' || (*end)[1] > '9') return -1;
-    datatype = strtol(*end + 1, end, 10);
-    for (int k = 0; k < table->nlayer; k++)
-        if (table->layer[k].layer == layer && table->layer[k].datatype == datatype) return k;
-    return -1;
-}
-
-/* behind "AND " and so on, or NULL */
-static const char *behind_operator(const char *s) {
-    static const char *const word[] = {" AND ", " OR ", " NOT ", " XOR "};
-    for (int i = 0; i < 4; i++)
-        if (strncmp(s, word[i], strlen(word[i])) == 0) return s + strlen(word[i]);
-    return NULL;
-}
-
-bool fw_mask_plate_layers(const fw_mask_table *table, const char *layers, bool *named, int *first,
-                          const char **wrong) {
-    const char *s = layers;
-    *first = -1;
-    while (s) {
-        char *end;
-        int k = layer_named(table, s, &end);
-        *wrong = s;
-        if (k < 0) return false;
-        if (*first < 0) *first = k;
-        if (named) named[k] = true;
-        s = *end ? behind_operator(end) : NULL;
-        *wrong = end;
-        if (*end && !s) return false;
-    }
-    return true;
-}
-
-bool fw_mask_plate_draws(const fw_mask_table *table, int plate, int layer) {
-    for (const char *s = fw_mask_plate_at(table, plate).layers; s;) {
-        char *end;
-        int k = layer_named(table, s, &end);
-        if (k < 0 || k == layer) return k == layer;
-        s = *end ? behind_operator(end) : NULL;
-    }
-    return false;
-}
-
-/* the operator before `s` */
-static fw_geometry_set_rule rule_before(const char *s) {
-    static const struct {
-        const char *word;
-        fw_geometry_set_rule rule;
-    } known[] = {{" AND ", FW_SET_AND}, {" NOT ", FW_SET_NOT}, {" XOR ", FW_SET_XOR}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strncmp(s - strlen(known[i].word), known[i].word, strlen(known[i].word)) == 0)
-            return known[i].rule;
-    return FW_SET_OR;
-}
-
-fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table,
-                              fw_mask_plate_term **term, int *n) {
-    return fw_mask_plate_terms_of(arena, table, table->device_plate, term, n);
-}
-
-fw_status fw_mask_plate_terms_of(fw_arena *arena, const fw_mask_table *table, int plate,
-                                 fw_mask_plate_term **term, int *n) {
-    const char *layers = fw_mask_plate_at(table, plate).layers;
-    *n = 0;
-    size_t most = layers ? strlen(layers) / 3 + 1 : (size_t)table->nlayer;
-    FW_NEED(*term = fw_arena_array(arena, fw_mask_plate_term, most));
-    for (int k = 0; !layers && k < table->nlayer; k++)
-        if (table->layer[k].biased) (*term)[(*n)++] = (fw_mask_plate_term){k, FW_SET_OR};
-    for (const char *s = layers; s;) {
-        char *end;
-        int k = layer_named(table, s, &end);
-        if (k < 0) return FW_INPUT; /* cannot be: the table was read */
-        (*term)[(*n)++] = (fw_mask_plate_term){k, s == layers ? FW_SET_OR : rule_before(s)};
-        s = *end ? behind_operator(end) : NULL;
-    }
-    return FW_OK;
-}
 
 /* What a mask shop asks for beside the data: which layers make the plate, tone, reading, sizes, and
    where to measure. docs/theory/mask-files.md says where the terms come from. */
@@ -215,13 +133,43 @@ static void least_line(fw_text *out, const char *what, double value_m) {
     fw_mask_order_line(out, what, line);
 }
 
-void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask) {
+/* "-20 um per edge of 6/0, 20 um of 7/0" of a plate with lengths of its own; of the device's "1.1 um per edge" */
+static void bias_line(fw_text *out, const fw_mask *mask, int plate) {
+    const fw_mask_table *table = mask->table;
+    char number[32];
+    int said = 0;
+    fw_text line = fw_text_new(out->arena);
+    bool own = plate != table->device_plate;
+    for (int k = 0; own && k < table->nlayer; k++) {
+        if (!fw_mask_plate_draws(table, plate, k)) continue;
+        double bias_m = fw_mask_layer_bias_m(mask, k);
+        fw_text_printf(&line, "%s%s um %sof %d/%d", said ? ", " : "",
+                       fw_number_text(number, sizeof number, bias_m * 1e6, 6),
+                       said ? "" : "per edge ", table->layer[k].layer, table->layer[k].datatype);
+        said++;
+    }
+    if (!own)
+        fw_text_printf(&line, "%s um per edge",
+                       fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
+    fw_text_add(&line, ", in the data already; mask CD bias 0");
+    fw_mask_order_line(out, "process bias", fw_text_end(&line) == FW_OK ? line.data : "");
+}
+
+double fw_mask_plate_bias_m(const fw_mask *mask, int plate) {
+    int first;
+    const char *wrong;
+    const char *layers = fw_mask_plate_at(mask->table, plate).layers;
+    bool own = plate != mask->table->device_plate && layers &&
+               fw_mask_plate_layers(mask->table, layers, NULL, &first, &wrong);
+    return own ? fw_mask_layer_bias_m(mask, first) : mask->bias_m;
+}
+
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask,
+                              int plate) {
     char line[200], number[32];
     least_line(out, "least feature", width_m);
     least_line(out, "least space", space_m);
-    snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
-             fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
-    fw_mask_order_line(out, "process bias", line);
+    bias_line(out, mask, plate);
     snprintf(line, sizeof line, "1 nm; arcs within %s nm",
              fw_number_text(number, sizeof number, mask->tolerance_m * 1e9, 6));
     fw_mask_order_line(out, "grid", line);
@@ -245,7 +193,7 @@ static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) 
     fw_mask_order_line(out, "top cell", mask->cell);
     fw_mask_order_set_lines(out, mask->table, order);
     fw_mask_order_plate_lines(out, "plate", mask->table, order);
-    fw_mask_order_size_lines(out, order->width_m, order->space_m, mask);
+    fw_mask_order_size_lines(out, order->width_m, order->space_m, mask, order->plate_index);
 }
 
 const char *fw_mask_order_gds(char text[FW_MASK_GDS_TEXT], const fw_mask_layer *layer) {

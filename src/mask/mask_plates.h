@@ -24,9 +24,6 @@ fw_status fw_mask_sheet_add(fw_mask_sheet *sheet, fw_layout_role role, int body,
 
 /* one reason more; text NULL: FW_NOMEM */
 fw_status fw_mask_verdict_add(fw_mask_verdict *verdict, const char *text);
-/* budget between the plate of the device and the one with a role: along the rows that align them, added;
-   0 where one plate has both */
-double fw_mask_overlay_m(const fw_mask_table *table, fw_layout_role role);
 double fw_mask_overlay_between_m(const fw_mask_table *table, int a, int b); /* of two plates */
 
 typedef struct fw_mask_content_kind { /* a row: one for each line of contents.def */

@@ -33,10 +33,14 @@ double fw_mask_overlay_between_m(const fw_mask_table *table, int a, int b) {
     return from_first(table, a) + from_first(table, b) - 2.0 * shared;
 }
 
-double fw_mask_overlay_m(const fw_mask_table *table, fw_layout_role role) {
-    for (int p = 0; p < table->nplate; p++) /* one plate has nothing to be put on */
+int fw_mask_plate_of_role(const fw_mask_table *table, fw_layout_role role) {
+    for (int p = 0; p < table->nplate; p++)
         for (int k = 0; k < table->nlayer; k++)
-            if (table->layer[k].roles & 1u << role && fw_mask_plate_draws(table, p, k))
-                return fw_mask_overlay_between_m(table, p, table->device_plate);
-    return 0.0;
+            if (table->layer[k].roles & 1u << role && fw_mask_plate_draws(table, p, k)) return p;
+    return -1;
+}
+
+double fw_mask_overlay_m(const fw_mask_table *table, fw_layout_role role) {
+    int plate = fw_mask_plate_of_role(table, role); /* one plate has nothing to be put on */
+    return plate < 0 ? 0.0 : fw_mask_overlay_between_m(table, plate, table->device_plate);
 }

@@ -3,6 +3,7 @@
 #include "mask/mask_plates.h"
 #include "layout/layout_text.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 int fw_mask_plates(const fw_mask_table *table) {
@@ -25,6 +26,15 @@ int fw_mask_plate_named(const fw_mask_table *table, const char *id) {
     return -1;
 }
 
+double fw_mask_content_m(const fw_mask_table *table, const char *kind, const char *parameter) {
+    for (int i = 0; i < table->ncontent; i++) {
+        const fw_mask_content_kind *k = table->content[i].kind;
+        for (int j = 0; strcmp(k->name, kind) == 0 && j < k->nparameter; j++)
+            if (strcmp(k->parameter[j].name, parameter) == 0) return table->content[i].value[j];
+    }
+    return (double)NAN;
+}
+
 fw_status fw_mask_sheet_add(fw_mask_sheet *sheet, fw_layout_role role, int body, const char *label,
                             const fw_geometry_contour *contour) {
     fw_layout_piece piece = {
@@ -41,5 +51,88 @@ fw_status fw_mask_verdict_add(fw_mask_verdict *verdict, const char *text) {
         verdict->room = more;
     }
     verdict->reason[verdict->n++] = text;
+    return FW_OK;
+}
+
+/* ---- which layers make a plate: "1/0 NOT 2/0 NOT 3/0" ---- */
+
+static int layer_named(const fw_mask_table *table, const char *s, char **end) {
+    if (*s < '0' || *s > '9') return -1;
+    long layer = strtol(s, end, 10), datatype = -1;
+    if (**end != '/' || (*end)[1] < '0' || (*end)[1] > '9') return -1;
+    datatype = strtol(*end + 1, end, 10);
+    for (int k = 0; k < table->nlayer; k++)
+        if (table->layer[k].layer == layer && table->layer[k].datatype == datatype) return k;
+    return -1;
+}
+
+/* behind "AND " and so on, or NULL */
+static const char *behind_operator(const char *s) {
+    static const char *const word[] = {" AND ", " OR ", " NOT ", " XOR "};
+    for (int i = 0; i < 4; i++)
+        if (strncmp(s, word[i], strlen(word[i])) == 0) return s + strlen(word[i]);
+    return NULL;
+}
+
+bool fw_mask_plate_layers(const fw_mask_table *table, const char *layers, bool *named, int *first,
+                          const char **wrong) {
+    const char *s = layers;
+    *first = -1;
+    while (s) {
+        char *end;
+        int k = layer_named(table, s, &end);
+        *wrong = s;
+        if (k < 0) return false;
+        if (*first < 0) *first = k;
+        if (named) named[k] = true;
+        s = *end ? behind_operator(end) : NULL;
+        *wrong = end;
+        if (*end && !s) return false;
+    }
+    return true;
+}
+
+bool fw_mask_plate_draws(const fw_mask_table *table, int plate, int layer) {
+    for (const char *s = fw_mask_plate_at(table, plate).layers; s;) {
+        char *end;
+        int k = layer_named(table, s, &end);
+        if (k < 0 || k == layer) return k == layer;
+        s = *end ? behind_operator(end) : NULL;
+    }
+    return false;
+}
+
+/* the operator before `s` */
+static fw_geometry_set_rule rule_before(const char *s) {
+    static const struct {
+        const char *word;
+        fw_geometry_set_rule rule;
+    } known[] = {{" AND ", FW_SET_AND}, {" NOT ", FW_SET_NOT}, {" XOR ", FW_SET_XOR}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strncmp(s - strlen(known[i].word), known[i].word, strlen(known[i].word)) == 0)
+            return known[i].rule;
+    return FW_SET_OR;
+}
+
+fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table,
+                              fw_mask_plate_term **term, int *n) {
+    return fw_mask_plate_terms_of(arena, table, table->device_plate, term, n);
+}
+
+fw_status fw_mask_plate_terms_of(fw_arena *arena, const fw_mask_table *table, int plate,
+                                 fw_mask_plate_term **term, int *n) {
+    const char *layers = fw_mask_plate_at(table, plate).layers;
+    *n = 0;
+    size_t most = layers ? strlen(layers) / 3 + 1 : (size_t)table->nlayer;
+    FW_NEED(*term = fw_arena_array(arena, fw_mask_plate_term, most));
+    for (int k = 0; !layers && k < table->nlayer; k++)
+        if (table->layer[k].biased) (*term)[(*n)++] = (fw_mask_plate_term){k, FW_SET_OR};
+    for (const char *s = layers; s;) {
+        char *end;
+        int k = layer_named(table, s, &end);
+        if (k < 0) return FW_INPUT; /* cannot be: the table was read */
+        (*term)[(*n)++] = (fw_mask_plate_term){k, s == layers ? FW_SET_OR : rule_before(s)};
+        s = *end ? behind_operator(end) : NULL;
+    }
     return FW_OK;
 }

@@ -399,28 +399,6 @@ static fw_status read_flow(fw_plan *plan, const fw_plan_flow *pf, fw_process_flo
     return apply_packs(plan, *flow);
 }
 
-/* where a flow prints several plates, its steps and its layer table speak of the same ones, in one order */
-static void check_plates(fw_plan *plan, const fw_process_flow *flow, const fw_mask_table *table) {
-    int printed = 0;
-    for (int i = 0; table->nplate > 1 && i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        if (!s->mask[0]) continue;
-        int plate = fw_mask_plate_named(table, s->mask);
-        if (plate < 0 || plate != printed)
-            fw_diag_error(
-                &plan->diags, 412, s->place,
-                "step %s prints mask=\"%s\"; next of the plates in masks/%s.xml is %s%s%s", s->id,
-                s->mask, flow->id, printed < table->nplate ? "\"" : "none",
-                printed < table->nplate ? table->plates[printed].id : "",
-                printed < table->nplate ? "\"" : "");
-        printed++;
-    }
-    if (table->nplate > 1 && printed < table->nplate)
-        fw_diag_error(&plan->diags, 412, table->plates[printed].place,
-                      "plate \"%s\" is printed by no step of flow %s", table->plates[printed].id,
-                      flow->id);
-}
-
 static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     const char *name = fw_arena_printf(plan->arena, "processes/%s.xml", pf->use->ref);
     FW_NEED(name);
@@ -442,7 +420,7 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
         FW_TRY(fw_mask_layer_map_apply(plan->arena, plan->layers, table, &plan->diags));
     size_t errors = plan->diags.errors;
     check_coupons(plan, pf->flow, table);
-    check_plates(plan, pf->flow, table);
+    fw_plan_check_plates(&plan->diags, pf->flow, table);
     return plan->diags.errors > errors ? FW_INPUT : FW_OK;
 }
 

@@ -62,8 +62,11 @@ fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_m
 static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
     bool drawn = plan->layout && plan->layout->drawn;
     fw_process_mask_facts facts;
+    fw_mask_verdict contents; /* hollows, pads: what the other plates draw */
     FW_TRY(release_of(plan, pf));
     FW_TRY(fw_plan_flow_facts(plan, pf, &facts));
+    FW_TRY(fw_mask_contents_judge(plan->arena, pf->table, plan->layout, &contents));
+    facts.widest_hollow_m = contents.widest_hollow_m;
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
     if (pf->flow->no_window && !pf->release_change) {
         fw_diags said = fw_diags_new(plan->arena);
@@ -71,10 +74,9 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
         facts.release_change = pf->release_change;
         FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, &facts, &said));
     }
-    fw_mask_verdict contents; /* hollows, pads: what the other plates draw */
-    FW_TRY(fw_mask_contents_judge(plan->arena, pf->table, plan->layout, &contents));
     for (int i = 0; i < contents.n; i++)
         FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, contents.reason[i]));
+    FW_TRY(fw_plan_check_hollows(plan, pf, diags));
     fw_process_drive_facts *drive;
     int n;
     FW_TRY(fw_plan_find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));

@@ -23,6 +23,12 @@ fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_pro
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* (nlayer of its table) what layers with shrink or grow get at every edge, m; FW_INPUT (FW-D411): not a known length */
 fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double **bias_m);
+/* do the steps and plates of a flow and the rows of its layer table speak of the same plates? FW-D412, FW-D421
+   (plates_agree.c) */
+void fw_plan_check_plates(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table);
+/* is what moves over its hollow wherever it goes, and is the hollow as deep as the scenes' air? Reasons of the flow,
+   FW-D422; once the verdict is there (hollows.c) */
+fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags *diags);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism_variant *variant, const fw_mask_table *table,

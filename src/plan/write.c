@@ -439,7 +439,7 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
         const char *ending;
         fw_status (*write)(const fw_process_flow *flow, const fw_recipe_header *header,
                            fw_text *out);
-        bool of_schedule, of_cut, of_measuring, of_one_plate;
+        bool of_schedule, of_cut, of_measuring;
     } format[] = {{".html", fw_recipe_write_html, .of_cut = false},
                   {".csv", fw_recipe_write_csv, .of_cut = false},
                   {".ics", fw_recipe_write_ics, .of_cut = false},
@@ -450,7 +450,7 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
                   {".schedule.svg", fw_recipe_write_schedule_svg, .of_schedule = true},
                   {".sections.svg", fw_recipe_write_sections_svg, .of_cut = true},
                   {".sections.json", fw_recipe_write_sections_json, .of_cut = true},
-                  {".stack.svg", fw_recipe_write_stack_svg, .of_cut = true, .of_one_plate = true}};
+                  {".stack.svg", fw_recipe_write_stack_svg, .of_cut = true}};
     FW_TRY(write_release(w, pf));
     fw_recipe_header header = fw_plan_recipe_header(w->plan, pf);
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
@@ -458,7 +458,6 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
         if (format[i].of_schedule && !header.schedule) continue;
         if (format[i].of_cut && !header.cut) continue;
         if (format[i].of_measuring && !header.measuring) continue;
-        if (format[i].of_one_plate && pf->flow->nplate > 0) continue; /* docs/limits.md */
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What kinds of coupons share: fits, their test, and results. */
 #include "process/coupon.h"
+#include "process/films.h"
 #include "process/pack.h"
 #include "base/constants.h"
 #include <math.h>
@@ -167,7 +168,8 @@ double fw_process_coupon_loss(const fw_process_flow *flow) {
     for (int i = 0; i < flow->nstep; i++)
         for (int k = 0; k < flow->step[i].nchange; k++) {
             const fw_process_change *c = &flow->step[i].change[k];
-            if (c->isotropic && c->thickness && !c->thickness->unknown)
+            if (c->isotropic && fw_process_where_is_of_device(flow, c->where) && c->thickness &&
+                !c->thickness->unknown)
                 loss += c->thickness->value * (1.0 + flow->step[i].overrun);
         }
     return loss;

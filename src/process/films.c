@@ -148,8 +148,8 @@ static const fw_process_film *mask_above(const maker *m, fw_process_side side, d
     const fw_process_film *best = NULL;
     for (int i = 0; i < f->n; i++) {
         const fw_process_film *c = &f->film[i];
-        if (only_in(m, c, side) && c->bottom_m >= z_m - TOUCH_M &&
-            (!best || c->bottom_m < best->bottom_m))
+        if (only_in(m, c, side) && fw_process_columns_edge(m->flow, c->in, side.plate) &&
+            c->bottom_m >= z_m - TOUCH_M && (!best || c->bottom_m < best->bottom_m))
             best = c;
     }
     return best;
@@ -385,9 +385,9 @@ static fw_status cut_walls(maker *m, const fw_process_change *c, const fw_proces
                            cut->step->id, c->anisotropy->id ? c->anisotropy->id : "anisotropy"));
 }
 
-/* one film, of which a side is etched beside a mask on the other */
+/* one film, of which a side is etched beside a mask on the other; bowl: its foot stays at the mask's edge */
 static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_process_change *c, int i,
-                             fw_process_side side) {
+                             fw_process_side side, bool bowl) {
     double edge = mask_edge(m, &m->films->film[i], other(side));
     bool field = side.plate == 0 && side.set;
     double way =
@@ -397,7 +397,6 @@ static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_proces
     FW_TRY(split(m, i, side, edge, &at));
     fw_process_film gone = m->films->film[at], walls = gone;
     double foot = edge, head = edge, t = known(c->thickness);
-    bool bowl = c->isotropic && side.plate && !isnan(t) && t < 0.98 * gone.thickness_m + TOUCH_M;
     if (c->isotropic && !isnan(t) && !bowl) foot = head = edge - way * t * (1.0 + s->overrun);
     if (bowl) head = edge - way * t;
     if (cut) {
@@ -440,7 +439,7 @@ static fw_status hollow_out(maker *m, const fw_process_step *s, const fw_process
     upper.thickness_m = t;
     upper.shortened = false;
     FW_TRY(add_film(m, upper));
-    return etch_beside(m, s, c, m->films->n - 1, side);
+    return etch_beside(m, s, c, m->films->n - 1, side, side.plate > 0);
 }
 
 /* an etch that runs sideways from every opening: out of the field, and from below the structure */
@@ -498,7 +497,7 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
         } else if (!whole && c->isotropic && known(c->thickness) < 0.5 * f->thickness_m) {
             FW_TRY(hollow_out(m, s, c, i, side));
         } else if (!whole && (etch || in_side(m, f, other(side)))) {
-            FW_TRY(etch_beside(m, s, c, i, side));
+            FW_TRY(etch_beside(m, s, c, i, side, false));
         } else {
             drop(m->films, i);
         }
@@ -506,9 +505,9 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
     return FW_OK;
 }
 
-/* the part of film i that lies open on top becomes a film of its own where the other part is covered; -1: none is open, or
-   no plate parts one from the other */
-static fw_status open_part(maker *m, int i, const double top[], int *open) {
+/* the part of film i that lies open on top becomes a film of its own where the other part is covered, or, where nothing
+   known is taken of it and other plates may lean its walls, stays one with it; -1: none is open, or no plate parts one from the other */
+static fw_status open_part(maker *m, int i, const double top[], bool taken, int *open) {
     const fw_process_film *f = &m->films->film[i];
     bool up[FW_STACK_MOST], any = false, all = true;
     for (int k = 0; k < m->columns; k++) {
@@ -517,7 +516,7 @@ static fw_status open_part(maker *m, int i, const double top[], int *open) {
         all = all && (up[k] || !f->in[k]);
     }
     *open = any ? i : -1;
-    if (!any || all) return FW_OK;
+    if (!any || all || !taken) return FW_OK;
     for (int half = 0; half < 2 * (m->flow->nplate + 1); half++) {
         fw_process_side side = {half / 2, half % 2 == 1};
         bool fits = true;
@@ -542,7 +541,7 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
         const fw_process_film *whole = &m->films->film[i];
         int at = -1;
         if (same(whole->material, x->material) && !whole->shortened && !isnan(whole->thickness_m))
-            FW_TRY(open_part(m, i, top, &at));
+            FW_TRY(open_part(m, i, top, !isnan(loss) || m->flow->nplate == 0, &at));
         if (at < 0) continue;
         open = true;
         if (isnan(loss)) continue;

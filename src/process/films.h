@@ -37,6 +37,11 @@ bool fw_process_where_side(const fw_process_flow *flow, const char *where, fw_pr
 bool fw_process_side_holds(const fw_process_flow *flow, fw_process_side side, int column);
 /* is the column in this part of the wafer ("all", "structure", "field", "cavity" ...)? */
 bool fw_process_where_holds(const fw_process_flow *flow, const char *where, int column);
+/* do edges of what is removed there lie at those of the device, not at those of another plate? */
+bool fw_process_where_is_of_device(const fw_process_flow *flow, const char *where);
+/* has what lies in these columns, all on one side of a plate, edges at that plate's? Not what another plate prints within
+   that side alone */
+bool fw_process_columns_edge(const fw_process_flow *flow, const bool in[], int plate);
 /* does one plate alone part them? */
 bool fw_process_columns_meet(const fw_process_flow *flow, int a, int b);
 /* "structure", "field, cavity" */

@@ -120,6 +120,7 @@ static void read_flow(const fw_process_flow *flow, double thickness_m, fw_proces
         for (int k = 0; k < s->nchange; k++) {
             const fw_process_change *c = &s->change[k];
             double depth = depth_of(flow, c, thickness_m);
+            if (!fw_process_where_is_of_device(flow, c->where)) continue;
             if (c->isotropic) {
                 p->wet_open = p->wet_open || isnan(depth);
                 p->wet_m += isnan(depth) ? 0.0 : depth * (1.0 + s->overrun);

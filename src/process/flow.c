@@ -99,6 +99,8 @@ static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     fill(flow, "mask.narrowest-slot", m->narrowest_slot_m, u);
     fill(flow, "mask.narrowest-line", m->narrowest_line_m, u);
     fill(flow, "mask.narrowest-flexure", flexure, u);
+    fill(flow, "mask.widest-hollow", m->widest_hollow_m > 0.0 ? m->widest_hollow_m : (double)NAN,
+         0.0);
     fill_plated(flow, m);
 }
 

@@ -91,7 +91,9 @@ static fw_status wet(fw_process_judge *j) {
     for (int i = 0; i < j->flow->nstep; i++)
         for (int k = 0; k < j->flow->step[i].nchange; k++) {
             const fw_process_step *s = &j->flow->step[i];
-            if (s->change[k].isotropic) FW_TRY(isotropic_loss(j, s, &s->change[k]));
+            if (s->change[k].isotropic &&
+                fw_process_where_is_of_device(j->flow, s->change[k].where))
+                FW_TRY(isotropic_loss(j, s, &s->change[k]));
         }
     return FW_OK;
 }

@@ -174,6 +174,7 @@ static const struct {
      false},
     {"is the device finished when the flow has ended?", fw_process_lint_end, false},
     {"is every mask but the first aligned to one before it?", fw_process_lint_plates, false},
+    {"is a plate drawn smaller by what its etch takes sideways?", fw_process_lint_shrink, true},
     {"is what a step uses up among its hazards?", fw_process_lint_uses, false},
     {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
 };

@@ -112,6 +112,7 @@ fw_status fw_process_lint_exposure(fw_process_pack *pack);
 fw_status fw_process_lint_masking(fw_process_pack *pack);
 /* masks one after the other (FW-D373) */
 fw_status fw_process_lint_plates(fw_process_pack *pack);
+fw_status fw_process_lint_shrink(fw_process_pack *pack);
 /* hazards of what a step uses up (FW-D374) */
 fw_status fw_process_lint_uses(fw_process_pack *pack);
 /* after fw_process_flow_judge: does the flow reach every die of the wafer? */

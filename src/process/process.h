@@ -373,7 +373,9 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     double perimeter_m;
     double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
-    int dies;                                  /* on the wafer or coupon */
+    double
+        widest_hollow_m; /* side of the largest square within a hollow below the device; 0: it has none */
+    int dies;            /* on the wafer or coupon */
     /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
        die's own */
     double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
@@ -443,6 +445,9 @@ bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags);
    not guaranteed, said behind them. `why` is kept. */
 fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,
                                      const char *why);
+/* what the step etches isotropically inside of a plate (*at, which may be NULL): the depth of its hollows; NULL: none does */
+const fw_quantity *fw_process_flow_hollow(const fw_process_flow *flow, const char *plate,
+                                          const struct fw_process_step **at);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);

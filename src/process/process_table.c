@@ -22,9 +22,10 @@ static const char *const carriers[] = {"none", "insulating", NULL};
 static const char *const source_kinds[] = {"publication", "datasheet", "handbook", "measured",
                                            "convention",  "assumed",   NULL};
 static const char *const corners[] = {"edge", "taper", "anisotropy", "thickness", "youngs", NULL};
-static const char *const operations[] = {
-    "clean",    "anodise",  "displace", "coat",    "bake",  "expose", "develop", "plate", "deposit",
-    "wet-etch", "dry-etch", "strip",    "release", "mount", "hold",   "inspect", NULL};
+static const char *const operations[] = {"clean",    "anodise", "displace", "coat",    "bake",
+                                         "expose",   "develop", "plate",    "deposit", "wet-etch",
+                                         "dry-etch", "strip",   "release",  "mount",   "bond",
+                                         "hold",     "inspect", "dice",     "package", NULL};
 static const char *const changes[] = {"add", "remove", "convert", "pattern", NULL};
 static const char *const sides[] = {"front", "back", NULL};
 static const char *const profiles[] = {"isotropic", "anisotropic", NULL};

@@ -4,6 +4,7 @@
    of the combinations: bit 0 of its code says field, bit p inside of plate p. Test: test_regions.c. */
 #include "process/films.h"
 #include "process/pack.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -35,10 +36,23 @@ bool fw_process_where_holds(const fw_process_flow *flow, const char *where, int 
            (fw_process_where_side(flow, where, &side) && fw_process_side_holds(flow, side, column));
 }
 
+bool fw_process_where_is_of_device(const fw_process_flow *flow, const char *where) {
+    fw_process_side side;
+    return !fw_process_where_side(flow, where, &side) || side.plate == 0;
+}
+
 /* do two columns lie beside each other: does one plate alone part them? */
 bool fw_process_columns_meet(const fw_process_flow *flow, int a, int b) {
     unsigned other = code_of(flow, a) ^ code_of(flow, b);
     return other && !(other & (other - 1u));
+}
+
+bool fw_process_columns_edge(const fw_process_flow *flow, const bool in[], int plate) {
+    int n = fw_process_flow_columns(flow);
+    for (int a = 0; a < n; a++)
+        for (int b = 0; in[a] && b < n; b++)
+            if ((code_of(flow, a) ^ code_of(flow, b)) == 1u << plate) return true;
+    return false;
 }
 
 const char *fw_process_column_name(const fw_process_flow *flow, int column, char name[FW_LABEL]) {
@@ -122,4 +136,44 @@ void fw_process_check_regions(fw_process_pack *pack) {
     }
     for (int i = 0; i < f->nfinished; i++)
         check_word(pack, f->finished[i].where, f->finished[i].place);
+}
+
+const fw_quantity *fw_process_flow_hollow(const fw_process_flow *flow, const char *plate,
+                                          const fw_process_step **at) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            fw_process_side side;
+            if (!c->isotropic || !fw_process_where_side(flow, c->where, &side) || !side.plate ||
+                !side.set || strcmp(flow->plate[side.plate - 1].id, plate) != 0)
+                continue;
+            if (at) *at = &flow->step[i];
+            return c->thickness;
+        }
+    return NULL;
+}
+
+/* u = d (1 + overrun): what an isotropic etch of the depth d takes from every edge. In: the pack as it stands, a
+   laboratory's values in it. Test: test_regions.c. */
+fw_status fw_process_lint_shrink(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    for (int p = 0; p < f->nplate; p++) {
+        const fw_process_step *step = NULL;
+        const fw_quantity *depth = fw_process_flow_hollow(f, f->plate[p].id, &step),
+                          *shrink = f->plate[p].shrink;
+        if ((!depth && !shrink) || (depth && depth->unknown) || (shrink && shrink->unknown))
+            continue;
+        double takes = depth ? depth->value * (1.0 + step->overrun) : 0.0,
+               drawn = shrink ? shrink->value : 0.0;
+        char a[32], b[32];
+        if (fabs(takes - drawn) <= 1e-9 * fmax(takes, drawn)) continue;
+        fw_diag_error(
+            pack->diags, 420, f->plate[p].place,
+            "plate \"%s\" is drawn smaller by %s um (shrink), but %s takes %s um from every edge; "
+            "they must be equal: give it shrink=\"...\" of a quantity that is",
+            f->plate[p].id, fw_number_text(b, sizeof b, drawn * 1e6, 4),
+            step ? fw_arena_printf(pack->arena, "step %s", step->id) : "no isotropic etch",
+            fw_number_text(a, sizeof a, takes * 1e6, 4));
+    }
+    return FW_OK;
 }

@@ -42,8 +42,22 @@ static bool add(fw_process_stack *s, int column, const fw_process_change *c, dou
     return true;
 }
 
+/* an isotropic etch that leaves most of a layer hollows it out (films.c); drawn is how much lower its top is then */
+static bool hollow_out(fw_process_stack *s, int column, const fw_process_change *c) {
+    int top = s->n[column] - 1;
+    if (!c->isotropic || !c->thickness || c->thickness->unknown || top < 0) return false;
+    fw_process_cell *cell = &s->cell[column][top];
+    double depth = c->thickness->value;
+    if (!(depth < 0.5 * cell->thickness_m) || strcmp(cell->material, c->material) != 0)
+        return false;
+    cell->thickness_m -= depth;
+    cell->height -= fmin(drawn_height(c->thickness), 0.6 * cell->height);
+    return true;
+}
+
 static bool take_away(fw_process_stack *s, int column, const fw_process_change *c) {
     int kept = 0, before = s->n[column];
+    if (hollow_out(s, column, c)) return true;
     for (int i = 0; i < before; i++)
         if (strcmp(s->cell[column][i].material, c->material) != 0)
             s->cell[column][kept++] = s->cell[column][i];

@@ -10,63 +10,6 @@
 
 /* ---- outlines in the frame of the cut ---- */
 
-static fw_recipe_spot local(const fw_recipe_cut *cut, fw_geometry_vec2 p, bool open) {
-    fw_geometry_vec2 d = vec_sub(p, cut->line.at);
-    return (fw_recipe_spot){vec_dot(d, cut->line.along), vec_cross(cut->line.along, d), open};
-}
-
-/* chords of an arc with a sagitta of at most the tolerance: |sweep|/(2 acos(1 - tolerance/r)) */
-static int chords(const fw_geometry_segment *s, double tolerance_m) {
-    if (s->kind == FW_LINE) return 1;
-    double step = tolerance_m < s->radius ? 2.0 * acos(1.0 - tolerance_m / s->radius) : 1.5;
-    return (int)ceil(fabs(s->sweep_rad) / step - 1e-9);
-}
-
-static fw_status flatten(fw_arena *arena, const fw_recipe_cut *cut, const fw_geometry_contour *c,
-                         double tolerance_m, fw_recipe_ring *out) {
-    size_t n = 0;
-    for (int i = 0; i < c->count; i++)
-        n += (size_t)chords(&c->segment[i], tolerance_m);
-    *out = (fw_recipe_ring){.corner = fw_arena_array(arena, fw_recipe_spot, n)};
-    FW_NEED(out->corner);
-    for (int i = 0; i < c->count; i++) {
-        const fw_geometry_segment *s = &c->segment[i];
-        int parts = chords(s, tolerance_m);
-        for (int k = 1; k <= parts; k++)
-            out->corner[out->n++] = local(cut, fw_geometry_segment_point(s, (double)k / parts),
-                                          (s->flags & FW_SEGMENT_JOINT) != 0);
-    }
-    return FW_OK;
-}
-
-/* distance inside one of the block's four sides */
-static double inside(const fw_recipe_cut *cut, int side, fw_recipe_spot p) {
-    const double d[] = {p.x, cut->length_m - p.x, p.y, cut->depth_m - p.y};
-    return d[side];
-}
-
-/* One ring against one side (Sutherland and Hodgman, Comm. ACM 17 (1974) 32): edges that run along
-   the side are marked open. */
-static fw_status clip_side(fw_arena *arena, const fw_recipe_cut *cut, int side,
-                           fw_recipe_ring *ring) {
-    fw_recipe_ring out = {.corner = fw_arena_array(arena, fw_recipe_spot, 2 * (size_t)ring->n)};
-    FW_NEED(out.corner);
-    for (int i = 0; i < ring->n; i++) {
-        fw_recipe_spot a = ring->corner[i > 0 ? i - 1 : ring->n - 1], b = ring->corner[i];
-        double da = inside(cut, side, a), db = inside(cut, side, b);
-        bool in_a = da >= 0.0, in_b = db >= 0.0;
-        if (in_a != in_b) {
-            double t = da / (da - db);
-            fw_recipe_spot at = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
-                                 in_a ? b.open : true};
-            out.corner[out.n++] = at;
-        }
-        if (in_b) out.corner[out.n++] = b;
-    }
-    *ring = out;
-    return FW_OK;
-}
-
 /* the structure with its edges so far outside the drawn ones, arcs within tolerance_m */
 static fw_status block_rings(fw_recipe_slicer *slicer, double edge_m, double tolerance_m,
                              fw_recipe_rings *rings) {
@@ -78,9 +21,7 @@ static fw_status block_rings(fw_recipe_slicer *slicer, double edge_m, double tol
     for (int k = 0; k < slicer->nshape; k++) {
         fw_recipe_ring *r = &rings->ring[rings->n];
         if (at->contour[k].count == 0) continue;
-        FW_TRY(flatten(slicer->arena, slicer->cut, &at->contour[k], tolerance_m, r));
-        for (int side = 0; side < 4 && r->n > 0; side++)
-            FW_TRY(clip_side(slicer->arena, slicer->cut, side, r));
+        FW_TRY(fw_recipe_ring_of(slicer->arena, slicer->cut, &at->contour[k], tolerance_m, r));
         if (r->n >= 3) rings->n++;
     }
     return FW_OK;
@@ -273,12 +214,13 @@ static fw_status draw_walls(fw_recipe_slicer *slicer, const view *v, const layer
 }
 
 /* is a ceiling covered by a film that lies on all of it? */
-static bool covered(const fw_process_films *films, const fw_process_film *f) {
+static bool covered(const fw_process_films *films, const fw_process_film *f, int columns) {
     for (int i = 0; i < films->n; i++) {
         const fw_process_film *g = &films->film[i];
-        if (!is_hidden(g) && fabs(g->bottom_m - f->top_m) <= 1e-12 && (g->in[0] || !f->in[0]) &&
-            (g->in[1] || !f->in[1]))
-            return true;
+        bool all = !is_hidden(g) && fabs(g->bottom_m - f->top_m) <= 1e-12;
+        for (int k = 0; k < columns && all; k++)
+            all = g->in[k] || !f->in[k];
+        if (all) return true;
     }
     return false;
 }
@@ -309,6 +251,50 @@ static void ceiling_edges(const view *v, const fw_recipe_rings *rings, const fw_
     fw_svg_path_end(v->out);
 }
 
+/* of a flow with further plates: the film's own region, whatever parts it */
+static fw_status draw_region(fw_recipe_slicer *slicer, const view *v, const fw_process_flow *flow,
+                             const fw_process_film *f, double tolerance_m) {
+    fw_recipe_rings rings;
+    char ink[8];
+    FW_TRY(fw_recipe_region_of(slicer, flow, f, 1.0, tolerance_m, &rings));
+    fw_svg_path(v->out, "fill='{r}'",
+                shaded(ink, fw_recipe_paint_fill(f->material, f->exposed), 1.07));
+    for (int i = 0; i < rings.n; i++) {
+        for (int k = 0; k < rings.ring[i].n; k++)
+            put(v, k ? 'L' : 'M', rings.ring[i].corner[k].x, rings.ring[i].corner[k].y, f->top_m);
+        fw_text_add(v->out, "Z");
+    }
+    fw_svg_path_end(v->out);
+    ceiling_edges(v, &rings, NULL, f->top_m);
+    return FW_OK;
+}
+
+/* walls of all films of a layer, sorted together: none crosses another */
+static fw_status draw_region_walls(fw_recipe_slicer *slicer, const view *v,
+                                   const fw_process_flow *flow, const layer *l,
+                                   double tolerance_m) {
+    double tx = sin(TURN), ty = -cos(TURN);
+    size_t most = 0;
+    int n = 0;
+    fw_recipe_rings *rings =
+        fw_arena_array(slicer->arena, fw_recipe_rings, (size_t)l->films->n + 1);
+    FW_NEED(rings);
+    for (int i = 0; i < l->films->n; i++) {
+        if (!fills_layer(l, &l->films->film[i])) continue;
+        FW_TRY(fw_recipe_region_of(slicer, flow, &l->films->film[i], 0.5, tolerance_m, &rings[i]));
+        for (int k = 0; k < rings[i].n; k++)
+            most += (size_t)rings[i].ring[k].n;
+    }
+    fw_recipe_wall *wall = fw_arena_array(slicer->arena, fw_recipe_wall, most + 1);
+    FW_NEED(wall);
+    for (int i = 0; i < l->films->n; i++)
+        n += walls_of(&rings[i], false, i, tx, ty, wall + n);
+    FW_TRY(fw_recipe_walls_sort(slicer->arena, wall, n, tx, ty));
+    for (int k = 0; k < n; k++)
+        draw_wall(v, &wall[k], &l->films->film[wall[k].film], l);
+    return FW_OK;
+}
+
 static fw_status draw_ceiling(fw_recipe_slicer *slicer, const view *v, const fw_process_film *f,
                               double tolerance_m) {
     fw_recipe_rings rings = {0};
@@ -328,8 +314,10 @@ static fw_status draw_ceiling(fw_recipe_slicer *slicer, const view *v, const fw_
     return FW_OK;
 }
 
-static fw_status draw_layers(fw_recipe_slicer *slicer, const view *v,
+static fw_status draw_layers(fw_recipe_slicer *slicer, const view *v, const fw_process_flow *flow,
                              const fw_process_films *films) {
+    int columns = fw_process_flow_columns(flow);
+    bool several = flow->nplate > 0;
     double tolerance_m = TOLERANCE_PX / v->k;
     double *level = fw_arena_array(slicer->arena, double, 2 * (size_t)films->n);
     FW_NEED(level);
@@ -341,12 +329,15 @@ static fw_status draw_layers(fw_recipe_slicer *slicer, const view *v,
     for (int i = 0; i + 1 < 2 * films->n; i++) {
         layer l = {films, level[i], level[i + 1]};
         if (l.high_m - l.low_m <= 1e-12) continue;
-        FW_TRY(draw_walls(slicer, v, &l, tolerance_m));
+        FW_TRY(several ? draw_region_walls(slicer, v, flow, &l, tolerance_m)
+                       : draw_walls(slicer, v, &l, tolerance_m));
         for (int k = 0; k < films->n; k++) {
             const fw_process_film *f = &films->film[k];
-            if (fabs(f->top_m - l.high_m) > 1e-12 || !fills_layer(&l, f) || covered(films, f))
+            if (fabs(f->top_m - l.high_m) > 1e-12 || !fills_layer(&l, f) ||
+                covered(films, f, columns))
                 continue;
-            FW_TRY(draw_ceiling(slicer, v, f, tolerance_m));
+            FW_TRY(several ? draw_region(slicer, v, flow, f, tolerance_m)
+                           : draw_ceiling(slicer, v, f, tolerance_m));
         }
     }
     return FW_OK;
@@ -417,7 +408,7 @@ fw_status fw_recipe_block_draw(fw_recipe_slicer *slicer, const fw_process_flow *
     v.origin = v.kz * high - v.yy * cut->depth_m + 1.0;
     *height = v.origin + v.yx * cut->length_m - v.kz * low + 1.0;
     fw_svg_open(out, "g stroke-linejoin='round'\n");
-    FW_TRY(draw_layers(slicer, &v, &films));
+    FW_TRY(draw_layers(slicer, &v, flow, &films));
     FW_TRY(draw_faces(slicer, &v, flow, index));
     fw_svg_close(out, "g\n");
     return FW_OK;

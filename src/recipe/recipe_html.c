@@ -107,8 +107,20 @@ static void hash_row(fw_text *out, const char *name, const char *hash) {
     fw_text_add(out, "</td></tr>\n");
 }
 
+/* of a flow that prints several: what makes this one, and the sheet it is ordered by */
+static void plate_layers(const fw_process_flow *flow, const fw_mask *drawn, const char *mask,
+                         fw_text *out) {
+    int row = drawn && drawn->table->nplate > 1 ? fw_mask_plate_named(drawn->table, mask) : -1;
+    if (row < 0) return;
+    fw_text_add(out, ", layers ");
+    fw_text_escaped(out, drawn->table->plates[row].layers);
+    fw_text_add(out, "; order sheet ");
+    fw_text_escaped(out, flow->id);
+    fw_text_printf(out, ".%s.order.txt", mask);
+}
+
 /* "Plate M1: file masks/al-masked-rie.gds" of every mask that a step exposes */
-static void plates(const fw_process_flow *flow, fw_text *out) {
+static void plates(const fw_process_flow *flow, const fw_mask *drawn, fw_text *out) {
     for (int i = 0; i < flow->nstep; i++) {
         const char *mask = flow->step[i].mask;
         bool again = !mask[0];
@@ -119,8 +131,9 @@ static void plates(const fw_process_flow *flow, fw_text *out) {
         fw_text_escaped(out, mask);
         fw_text_add(out, "</td><td colspan=\"3\">file masks/");
         fw_text_escaped(out, flow->id);
-        fw_text_add(out, ".gds; plate no. ____________&ensp; inspected ____________</td>"
-                         "</tr>\n");
+        fw_text_add(out, ".gds");
+        plate_layers(flow, drawn, mask, out);
+        fw_text_add(out, "; plate no. ____________&ensp; inspected ____________</td></tr>\n");
     }
 }
 
@@ -144,7 +157,7 @@ static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_tex
     blank_row(out, "Date", "Operator");
     blank_row(out, "Buddy (HF steps)", "Laboratory");
     blank_row(out, "Revision of this sheet", "Approved by, date");
-    plates(flow, out);
+    plates(flow, h->mask, out);
     hash_row(out, "Mask set, SHA-256", h->mask_sha256);
     hash_row(out, "Process file, SHA-256", flow->sha256);
     fw_text_add(out, "<tr><td class=\"k\">Process version</td><td>");

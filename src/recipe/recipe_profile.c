@@ -353,8 +353,8 @@ static fw_status put_field(fw_recipe_slicer *slicer, fw_recipe_cross_section *p,
 
 /* ---- flows with further plates ---- */
 
-static fw_status further_slicer(fw_recipe_slicer *slicer, const fw_process_flow *flow, int plate,
-                                fw_recipe_slicer **out) {
+fw_status fw_recipe_slicer_of_plate(fw_recipe_slicer *slicer, const fw_process_flow *flow,
+                                    int plate, fw_recipe_slicer **out) {
     if (plate == 0) {
         *out = slicer;
         return FW_OK;
@@ -375,7 +375,7 @@ static fw_status side_slices(fw_recipe_slicer *slicer, const fw_process_flow *fl
                              fw_process_side side, double edge_m, fw_geometry_slices *out) {
     fw_recipe_slicer *of;
     const fw_recipe_outline_at *at;
-    FW_TRY(further_slicer(slicer, flow, side.plate, &of));
+    FW_TRY(fw_recipe_slicer_of_plate(slicer, flow, side.plate, &of));
     FW_TRY(fw_recipe_slicer_at(of, edge_m, &at));
     bool inside = side.plate == 0 ? !side.set : side.set;
     *out = inside ? at->inside : at->gap;

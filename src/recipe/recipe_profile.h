@@ -29,6 +29,7 @@ typedef struct fw_recipe_slicer {
     double bias_m; /* of what the plate draws, against what is drawn */
     struct fw_recipe_slicer
         *further[FW_PROCESS_PLATES]; /* of the flow's other plates; NULL: not asked for yet */
+    struct fw_recipe_region *region; /* solved so far (block_region.c) */
 } fw_recipe_slicer;
 
 typedef struct fw_recipe_patch { /* a film in the section: a trapezium */
@@ -48,6 +49,9 @@ fw_status fw_recipe_slicer_start(fw_arena *arena, const fw_mask *mask, const fw_
 /* the structure with its edges so far outside the drawn ones */
 fw_status fw_recipe_slicer_at(fw_recipe_slicer *slicer, double edge_m,
                               const fw_recipe_outline_at **at);
+/* of the device's slicer: that of a further plate, from 1 */
+fw_status fw_recipe_slicer_of_plate(fw_recipe_slicer *slicer, const fw_process_flow *flow,
+                                    int plate, fw_recipe_slicer **out);
 /* width of opening g: the largest circle in it with its middle on the cut. So a slot that is cut
    askew has its own width. INFINITY where it has no end. */
 double fw_recipe_slicer_opening(const fw_recipe_slicer *slicer, const fw_recipe_outline_at *at,
@@ -135,6 +139,15 @@ typedef struct fw_recipe_wall { /* from a to b, material on its left; m */
     fw_recipe_spot a, b;
     int film;
 } fw_recipe_wall;
+
+/* an outline in the frame of the cut, arcs within tolerance_m, within the block */
+fw_status fw_recipe_ring_of(fw_arena *arena, const fw_recipe_cut *cut,
+                            const fw_geometry_contour *contour, double tolerance_m,
+                            fw_recipe_ring *ring);
+/* where a film of a flow with several plates lies; part: 0 at its foot, 1 at its head. Always asked with one tolerance */
+fw_status fw_recipe_region_of(fw_recipe_slicer *slicer, const fw_process_flow *flow,
+                              const fw_process_film *film, double part, double tolerance_m,
+                              fw_recipe_rings *rings);
 
 /* Sorts walls of one height so that none is drawn before one that it hides. toward: unit vector in
    the plane to the eye. */

@@ -12,10 +12,13 @@
 
 static const struct {
     const char *material, *fill;
-} palette[] = {
-    {"silicon-100", "#b9c2cf"},   {"silicon-substrate", "#a7b1c2"}, {"porous-silicon", "#e9dfc6"},
-    {"copper-plated", "#d98a52"}, {"copper-seed", "#8c4a21"},       {"aluminium", "#7d868f"},
-    {"resist", "#f4c4cc"},        {"carrier-wax", "#f3eaa5"},       {"carrier", "#e2e2e2"}};
+} palette[] = {{"silicon-100", "#b9c2cf"},    {"silicon-substrate", "#a7b1c2"},
+               {"porous-silicon", "#e9dfc6"}, {"copper-plated", "#d98a52"},
+               {"copper-seed", "#8c4a21"},    {"aluminium", "#7d868f"},
+               {"resist", "#f4c4cc"},         {"carrier-wax", "#f3eaa5"},
+               {"carrier", "#e2e2e2"},        {"glass-carrier", "#cfe3ea"},
+               {"gold", "#e3b64a"},           {"pad-gold", "#e3b64a"},
+               {"chromium", "#5f6b73"}};
 
 /* materials without a place in the palette take one of four tints by the sum of their letters */
 const char *fw_recipe_paint_fill(const char *material, bool exposed) {

@@ -165,6 +165,7 @@ fw_status fw_release_cavity_make(fw_arena *arena, const fw_layout *layout,
     FW_TRY(join_corners(&m));
     FW_TRY(flatten_nested(&m));
     FW_TRY(sort_outlines(&m, cavity));
+    FW_TRY(fw_release_cells_square(arena, &m.cells, m.hollow, &cavity->widest));
     return find_ground(&m, cavity);
 }
 

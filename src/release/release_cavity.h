@@ -30,7 +30,8 @@ typedef struct fw_release_cavity {
     fw_geometry_region land;   /* the holes, counter-clockwise: ground within a hollow */
     fw_release_ground *ground; /* (nground) */
     int nground;
-    double area_m2; /* hollow */
+    double area_m2;         /* hollow */
+    fw_geometry_box widest; /* the largest square within it */
 } fw_release_cavity;
 
 /* Of a layout that is drawn. A hollow within a land within a hollow is joined with the outer one: the land goes, and

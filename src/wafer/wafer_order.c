@@ -42,7 +42,7 @@ static void content(const fw_wafer *w, const fw_mask_order *order, const fw_mask
         polygons += s[k].polygons;
         vertices += s[k].vertices;
     }
-    fw_mask_order_size_lines(out, width, space, any);
+    fw_mask_order_size_lines(out, width, space, any, order->plate_index);
     fw_mask_order_extent_line(out, fw_wafer_extent(w));
     fw_text_printf(out, "%-22s %d dies, %d alignment sites, %d test dies\n", "places", w->dies,
                    w->alignments, w->tests);

@@ -208,7 +208,7 @@ fw_status fw_wafer_write_written_order(const fw_wafer *w, const fw_wafer_written
             ? "done: the data are the mirror image of the drawing; write them as they are"
             : "none: the data are as drawn; write them as they are");
     glass(w, out);
-    fw_mask_order_size_lines(out, width, space, any);
+    fw_mask_order_size_lines(out, width, space, any, w->table->device_plate);
     double least = fmin(width, space);
     tolerances(w, isfinite(least) ? least : FW_MASK_LOOK_M, out);
     FW_TRY(sites(w, written->mirrored, out));

@@ -61,7 +61,8 @@ class Effects(unittest.TestCase):
             device.write_text(text.replace(old, new) if old else text)
             done = run("mask", device, "--corners", "none", "-o", pathlib.Path(here) / "out")
             self.assertEqual(done.returncode, 0, done.stderr)
-            return done.stderr, (pathlib.Path(here) / "out/masks/al-masked-rie.svg").read_text()
+            flow = re.search('flow ref="([^"]*)"', text).group(1)
+            return done.stderr, (pathlib.Path(here) / f"out/masks/{flow}.svg").read_text()
 
     def test_what_moves_a_device_is_in_its_mask(self):
         said, whole = self.drawn("comb-stage")

@@ -13,7 +13,7 @@ import xml.etree.ElementTree as tree
 from common import FLOWS, ROOT, run
 
 SILICON, COPPER = FLOWS
-STAGE = ROOT / "docs/gallery/comb-stage/device.xml"
+GALLERY_STAGE = ROOT / "docs/gallery/comb-stage/device.xml"
 SPACE = "{urn:flexwright:process:1}"
 
 
@@ -44,13 +44,15 @@ class Flowback(unittest.TestCase):
         self.here = pathlib.Path(self.temporary.name)
         self.log = self.here / "lot.log"
         self.random = random.Random(1)
+        self.stage = self.here / "comb-stage.xml"  # in the flow of one plate
+        self.stage.write_text(GALLERY_STAGE.read_text().replace("silicon-on-glass", SILICON))
 
     def expect(self, result, status=0):
         self.assertEqual(result.returncode, status, result.stdout[-2000:] + result.stderr[-4000:])
         return result
 
     def command(self, *arguments):
-        return run("log", STAGE, "--flow", SILICON, "--run", self.log, *arguments)
+        return run("log", self.stage, "--flow", SILICON, "--run", self.log, *arguments)
 
     def sites(self, mean, spread):
         return " ".join(f"{self.random.gauss(mean, spread):.3f}" for _ in range(5))
@@ -103,7 +105,7 @@ class Flowback(unittest.TestCase):
                 self.assertIn(words, source.text)
         rows = [[float(v) for v in r.get("values").split()] for r in root.iter(SPACE + "row")]
         self.assertEqual(rows[0][1], rows[1][0])
-        self.expect(run("plan", STAGE, "--flow", SILICON, "--lab", lab, "-o", self.here / "out", "-q"))
+        self.expect(run("plan", self.stage, "--flow", SILICON, "--lab", lab, "-o", self.here / "out", "-q"))
         recipe = json.loads((self.here / "out/recipes" / f"{SILICON}.json").read_text())
         self.assertEqual({o["id"] for o in recipe["overrides"]}, {"rie.R", "rie.S"})
         # the same log gives the same bytes
@@ -164,12 +166,12 @@ undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
         alone.write_text(text[:start] + text[end:])
         used = []
         for pack in (lab, alone):
-            verdict = json.loads(self.expect(run("check", STAGE, "--lab", pack, "--json")).stdout)
+            verdict = json.loads(self.expect(run("check", self.stage, "--lab", pack, "--json")).stdout)
             used.append(verdict["governing"]["utilisation"])
         self.assertLess(used[0], 0.95 * used[1])
         # a matrix that cannot be is refused at its line
         lab.write_text(text.replace('values="1 -', 'values="1 -1'))
-        self.assertRegex(self.expect(run("check", STAGE, "--lab", lab), 3).stderr, r"lab\.xml:\d+:\d+: error: ")
+        self.assertRegex(self.expect(run("check", self.stage, "--lab", lab), 3).stderr, r"lab\.xml:\d+:\d+: error: ")
 
     def test_an_old_log(self):
         """one of before there were wafers is read, and goes on"""

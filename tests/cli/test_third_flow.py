@@ -22,7 +22,7 @@ def device_of(path):
     text = re.sub(r'\s*<scene [^>]*flow="%s"[^>]*>.*?</scene>' % FLOWS[1], "", text, flags=re.S)
     pitch = '<die release-pitch="60 um"'
     text = text.replace("<die", pitch) if "<die" in text else text.replace("<flow ref", pitch + "/><flow ref", 1)
-    return text.replace(FLOWS[0], FLOW)
+    return text.replace(FLOWS[0], FLOW).replace("silicon-on-glass", FLOW)
 
 
 class ThirdFlow(unittest.TestCase):

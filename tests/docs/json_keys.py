@@ -106,9 +106,10 @@ with tempfile.TemporaryDirectory() as here:
     walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")
     subprocess.run([program, "workspace", SIX, "-q", "-o", f"{here}/s"], cwd=ROOT, capture_output=True, timeout=240)
     walk(json.loads((pathlib.Path(here) / "s/certificate.json").read_text()), "workspace-certificate")
-    walk(json.loads((pathlib.Path(here) / "o/masks/al-masked-rie.order.json").read_text()), "order")
-    walk(json.loads((pathlib.Path(here) / "o/recipes/al-masked-rie.sections.json").read_text()), "sections")
-    walk(json.loads((pathlib.Path(here) / "o/recipes/al-masked-rie.measurements.json").read_text()), "measurements")
+    for plate in ("cavity", "pads", "device"):
+        walk(json.loads((pathlib.Path(here) / f"o/masks/silicon-on-glass.{plate}.order.json").read_text()), "order")
+    walk(json.loads((pathlib.Path(here) / "o/recipes/silicon-on-glass.sections.json").read_text()), "sections")
+    walk(json.loads((pathlib.Path(here) / "o/recipes/silicon-on-glass.measurements.json").read_text()), "measurements")
     subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,
                    timeout=240)
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")

@@ -57,6 +57,7 @@ CASES = {
     "Ranges that a pack does not know": (LEAF, None, "check", "0.99 to 1 is assumed, and the verdict holds there only"),
     "Stiffness of bodies with release holes": (SIX, ('<die width="5.6 mm"', '<die release-pitch="30 um" width="5.6 mm"'),
                                                "mask --corners none --advice none", "no hole can be opened near.*FW-D189"),
+    "Hollows below the test die": (COMB, None, "recipe", "the test die of this flow has no hollows"),
     "Times of handling steps": (SIX, None, "recipe --flow al-masked-rie", r'class="tag assumed"'),
     "What the release reaches": (SIX, None, "recipe --flow copper-on-porous-silicon", "NOT COMPUTABLE, missing: "),
 }
@@ -64,6 +65,7 @@ CASES = {
 SILENT = ["Bending of links", "Stiffness of contacts", "Residual stress that varies", "Friction at eyelets", "Bond wires and guides",
           "Tight bounds", "Pulses of an expression", "Peaks of joint forces at singular", "Differences within one device",
           "Bias that differs from place", "Tone and scale of the written plate", "Polygons that others make of the arcs", "Safety instructions",
+          "Travel in a required workspace", "Written plates of a flow that prints several",
           "Contacts and weight in the picture", "Sweeps and studies", "Browsers other than Chromium", "Wide kernels and FMA"]
 # looked at by another test
 ELSEWHERE = {"The full judgement while a slider": "tests/docs/json_keys.py",

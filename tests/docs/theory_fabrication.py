@@ -193,7 +193,8 @@ def release(g):
 
 def plates(g):
     overlay = g["o1"] + g["o2"]
-    return {"o": overlay, "side": g["b"] + 2 * overlay, "far": sqrt(2) * (g["m"] + 2 * g["g"])}
+    return {"o": overlay, "side": g["b"] + 2 * overlay, "far": sqrt(2) * (g["m"] + 2 * g["g"]),
+            "least": g["d"] + overlay}
 
 
 def contours(g):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""orders.py LINT_PACKS [--update]: the three packs with every step left out once, and every pair of neighbouring steps
+"""orders.py LINT_PACKS [--update]: the packs with every step left out once, and every pair of neighbouring steps
 exchanged once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
 can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
 import pathlib
@@ -10,10 +10,10 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie")
+PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "silicon-on-glass")
 HEAD = """# What is said of a flow with a step too few, or two in the wrong order
 
-Every step of the three packs left out once, every pair of neighbouring steps exchanged once (`tests/process/orders.py`).
+Every step of the packs left out once, every pair of neighbouring steps exchanged once (`tests/process/orders.py`).
 *refused*: an error, no plan is made. *warned*: the plan is made, and says so. *accepted*: nothing is said; the last
 column has the reason why that is right. A message is the first of its case.
 """
@@ -36,6 +36,16 @@ FINE = {
     "C15 C14": "the resist may take up water before the bead is off",
     "D11 D10": "the cut may be measured with its resist",
     "D12 D11": "the cut may be measured after the release",
+    "G16": LOOKS, "G17": LOOKS, "G29": LOOKS, "G35": LOOKS, "G40": LOOKS, "G43": LOOKS,
+    "G53": "the last one: a chip may be probed instead of wired",
+    "G02 G01": "the wafer may be cleaned before it is measured",
+    "G04 G03": "metal is evaporated on a dry wafer, in vacuum",
+    "G13 G12": "gold and chromium mask the glass by themselves, with more pinholes",
+    "G17 G16": "two looks at two wafers", "G18 G17": "the wafer may be cleaned before it is measured",
+    "G30 G29": "the sheet resistance may be measured after the bake as well",
+    "G36 G35": "the resist may be measured after its hard bake as well",
+    "G40 G39": "the aluminium may be measured with the resist as well",
+    "G50 G49": "the device may be looked at without its tethers as well",
 }
 
 

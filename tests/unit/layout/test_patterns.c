@@ -121,7 +121,7 @@ static void refusals(void **state) {
     } bad[] = {{"undercut-ladder", "to", 4e-6},  {"stress-pointer", "offset", 12e-6},
                {"stress-pointer", "arm", 60e-6}, {"van-der-pauw", "pad", 41e-6},
                {"vernier", "teeth", 16},         {"back-mark", "cross", 155e-6},
-               {"release-holes", "hole", 14e-6}};
+               {"back-mark", "ring", 21e-6},     {"release-holes", "hole", 14e-6}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         drawn *d = start(bad[i].kind);
         if (d->row.kind->sizes) sizes(d, usual_sizes, 4);
@@ -215,6 +215,18 @@ static void crosses(void **state) {
     assert_relative(area_of(d, FW_ROLE_BACK) * 1e12, 2 * 120.0 * 20 - 20.0 * 20, 1e-12);
     assert_relative(area_of(d, FW_ROLE_MARK) * 1e12, 160.0 * 160, 1e-12);
     assert_relative(area_of(d, FW_ROLE_STRUCTURE) * 1e12, 240.0 * 240, 1e-12);
+    assert_near(area_of(d, FW_ROLE_METAL), 0.0, 0.0);
+    fw_arena_free(d->arena);
+    d = start(
+        "back-mark"); /* a bar beside each side of the window, 10 um from it and from the edge */
+    set(d, "ring", 20 * UM);
+    draw(d);
+    assert_relative(area_of(d, FW_ROLE_METAL) * 1e12, 4 * 160.0 * 20, 1e-12);
+    for (int i = 0; i < d->c.npiece; i++) {
+        fw_geometry_box b = fw_geometry_contour_box(&d->c.piece[i].contour);
+        if (d->c.piece[i].role != FW_ROLE_METAL) continue;
+        assert_true(b.x0 > 9.9 * UM && b.y0 > 9.9 * UM && b.x1 < 230.1 * UM && b.y1 < 230.1 * UM);
+    }
     fw_arena_free(d->arena);
 }
 

@@ -178,6 +178,16 @@ static void contents(void **state) {
     assert_non_null(
         strstr(text.data,
                "to the marks of plate \"cavity\", seen from the back of the wafer, within 3 um"));
+    assert_non_null(strstr(text.data, "0 um per edge of 8/0, in the data already"));
+    fw_text cavity = fw_text_new(arena);
+    assert_int_equal(fw_mask_write_order_text(mask, 0, NULL, 0, &cavity), FW_OK);
+    assert_non_null(strstr(cavity.data, "-20 um per edge of 6/0, 20 um of 7/0, in the data"));
+    assert_near(fw_mask_plate_bias_m(mask, 0), -20 * UM, 1e-15);
+    assert_near(verdict.widest_hollow_m, 190 * UM, 11 * UM); /* 100 and both margins, on a grid */
+    assert_near(fw_mask_content_m(&table, "cavity", "margin"), 40 * UM, 1e-15);
+    assert_true(isnan(fw_mask_content_m(&table, "moat", "margin")));
+    assert_int_equal(fw_mask_plate_of_role(&table, FW_ROLE_METAL), 1);
+    assert_int_equal(fw_mask_plate_of_role(&table, FW_ROLE_BACK), -1);
     fw_text json = fw_text_new(arena);
     assert_int_equal(fw_mask_write_order(mask, 0, NULL, 0, &json), FW_OK);
     assert_non_null(strstr(json.data, "\"plate_of_set\": {"));

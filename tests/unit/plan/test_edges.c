@@ -9,7 +9,7 @@
 static fw_plan *loaded(const char *name) {
     fw_plan_options o = fw_plan_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
-    o.flow = "al-masked-rie";
+    o.flow = strcmp(name, "comb-stage") == 0 ? "silicon-on-glass" : "al-masked-rie";
     o.force = true;
     o.verdict.motion.effects.hinge = FW_HINGE_REVOLUTE; /* edges do not ask for more */
     fw_plan *plan = fw_plan_new(&o);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define SOI "soi-deep-rie"
-static const char *const packs[] = {COPPER, SILICON, SOI};
+static const char *const packs[] = {COPPER, SILICON, SOI, "silicon-on-glass"};
 static const fw_process_mask_gap gaps[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
 
 static fw_process_flow *computed(fw_process_flow *f) {
@@ -60,14 +60,14 @@ static bool stack_has(const fw_process_stack *s, const char *material, int colum
  */
 static void same_materials_as_the_lint(void **state) {
     (void)state;
-    for (int p = 0; p < 3; p++) {
+    for (int p = 0; p < 4; p++) {
         fw_process_flow *f = computed(pack(packs[p]));
         for (int i = 0; i < f->nstep; i++) {
             fw_process_films films;
             fw_process_stack stack;
             assert_int_equal(fw_process_flow_films(arena, f, i, &films), FW_OK);
             assert_int_equal(fw_process_flow_stack(arena, f, i, &stack, NULL), FW_OK);
-            for (int column = 0; column < 2; column++) {
+            for (int column = 0; column < fw_process_flow_columns(f); column++) {
                 for (int k = 0; k < films.n; k++)
                     if (films.film[k].in[column] && !is_floor(&films.film[k]) &&
                         !(films.film[k].reach_m > 0.0) &&
@@ -86,12 +86,12 @@ static void same_materials_as_the_lint(void **state) {
 /* films of one column lie on each other without overlap, and as thick as they are stated */
 static void films_lie_on_each_other(void **state) {
     (void)state;
-    for (int p = 0; p < 3; p++) {
+    for (int p = 0; p < 4; p++) {
         fw_process_flow *f = computed(pack(packs[p]));
         for (int i = 0; i < f->nstep; i++) {
             fw_process_films films;
             assert_int_equal(fw_process_flow_films(arena, f, i, &films), FW_OK);
-            for (int column = 0; column < 2; column++) {
+            for (int column = 0; column < fw_process_flow_columns(f); column++) {
                 double top = -1.0;
                 for (int k = 0; k < films.n; k++) {
                     const fw_process_film *c = &films.film[k];

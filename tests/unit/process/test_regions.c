@@ -112,6 +112,67 @@ static void hollow_below_a_layer(void **state) {
     assert_near(stack.cell[2][1].bottom, stack.cell[0][2].bottom, 1e-12);
 }
 
+#define GLASS "silicon-on-glass"
+
+/* the shipped flow of three plates: what its steps do to the parts of its wafer */
+static void hollowed_glass(void **state) {
+    (void)state;
+    fw_process_flow *f = computed_pack(GLASS, NULL, NULL);
+    const fw_process_step *at = NULL;
+    const fw_quantity *depth = fw_process_flow_hollow(f, "cavity", &at);
+    assert_non_null(depth);
+    assert_near(depth->value, 20e-6, 1e-15);
+    assert_string_equal(at->op, "wet-etch");
+    assert_null(fw_process_flow_hollow(f, "pads", NULL));
+    assert_near(f->bias_m, 1.1e-6,
+                1e-12); /* of the aluminium alone: the hollow is another plate's */
+    int etch = (int)(at - f->step), hollow = -1;
+    for (int k = 0; k < fw_process_flow_columns(f); k++)
+        if (fw_process_where_holds(f, "cavity", k)) hollow = k;
+    fw_process_films films;
+    fw_process_stack stack;
+    assert_int_equal(fw_process_flow_films(arena, f, etch, &films), FW_OK);
+    const fw_process_film *ground = film_in(&films, "glass-carrier", 0),
+                          *floor = film_in(&films, "glass-carrier", hollow);
+    assert_near(ground->top_m - floor->top_m, 20e-6, 1e-12);
+    assert_near(ground->further[0].foot_m, -20e-6, 1e-12); /* as printed, */
+    assert_near(ground->further[0].head_m, 0.0, 1e-12);    /* and as drawn where it is bonded */
+    assert_int_equal(fw_process_flow_stack(arena, f, etch, &stack, NULL), FW_OK);
+    assert_near(stack.cell[hollow][1].thickness_m, 480e-6, 1e-12);
+    assert_near(stack.cell[0][1].thickness_m, 500e-6, 1e-12);
+    assert_int_equal(fw_process_flow_stack(arena, f, f->nstep - 1, &stack, NULL), FW_OK);
+    for (int k = 0; k < stack.columns; k++) {
+        bool pad = fw_process_where_holds(f, "pad", k),
+             field = fw_process_where_holds(f, "field", k);
+        assert_int_equal(fw_process_stack_holds(&stack, k, "pad-gold"), pad);
+        assert_int_equal(fw_process_stack_holds(&stack, k, "silicon-100"), !field);
+        assert_int_equal(stack.n[k], field ? 1 : pad ? 3 : 2);
+    }
+}
+
+/* what the etch takes sideways, and what its plate is drawn smaller by */
+static void shrink(void **state) {
+    (void)state;
+    const struct {
+        const char *from, *to, *says;
+    } row[] = {
+        {"shrink=\"cavity.d\"", "shrink=\"si.d\"",
+         "plate \"cavity\" is drawn smaller by 50 um (shrink), but step G12 takes 20 um"},
+        {" shrink=\"cavity.d\"", "", "drawn smaller by 0 um (shrink), but step G12 takes 20 um"},
+        {"outside=\"bare\"", "outside=\"bare\" shrink=\"al.d\"",
+         "plate \"pads\" is drawn smaller by 1 um (shrink), but no isotropic etch takes 0 um"},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        diags = fw_diags_new(arena);
+        assert_null(read_pack(arena, GLASS, row[i].from, row[i].to, &diags));
+        if (!said_of(420, row[i].says)) fail_msg("%s", diags.item[0].message);
+    }
+    diags = fw_diags_new(arena);
+    assert_non_null(read_pack(arena, GLASS, "id=\"cavity.d\" value=\"20\"",
+                              "id=\"cavity.d\" value=\"30\"", &diags));
+    assert_int_equal(diags.errors, 0); /* both go with it */
+}
+
 static void mistakes(void **state) {
     (void)state;
     assert_null(with("<plate id=\"a\" inside=\"field\" outside=\"b\"/>"));
@@ -127,6 +188,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(columns, setup, teardown),
         cmocka_unit_test_setup_teardown(further_plates_change_nothing, setup, teardown),
         cmocka_unit_test_setup_teardown(hollow_below_a_layer, setup, teardown),
+        cmocka_unit_test_setup_teardown(hollowed_glass, setup, teardown),
+        cmocka_unit_test_setup_teardown(shrink, setup, teardown),
         cmocka_unit_test_setup_teardown(mistakes, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

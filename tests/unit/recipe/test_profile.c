@@ -319,8 +319,74 @@ static void walls(void **state) {
     fw_arena_free(arena);
 }
 
+/* area of a film's region behind the cut, m2 */
+static double region_area(bench *b, const char *step, const char *material, double part) {
+    fw_process_films films;
+    fw_recipe_rings rings;
+    double area = 0.0;
+    const fw_process_film *found = NULL;
+    assert_int_equal(fw_process_flow_films(b->s->arena, b->flow, step_index(b->flow, step), &films),
+                     FW_OK);
+    for (int i = 0; i < films.n; i++)
+        if (strcmp(films.film[i].material, material) == 0 &&
+            (!found || films.film[i].top_m > found->top_m))
+            found = &films.film[i];
+    assert_non_null(found);
+    assert_int_equal(fw_recipe_region_of(&b->slicer, b->flow, found, part, 0.1 * UM, &rings),
+                     FW_OK);
+    for (int i = 0; i < rings.n; i++)
+        for (int k = 0; k < rings.ring[i].n; k++) {
+            fw_recipe_spot p = rings.ring[i].corner[k],
+                           q = rings.ring[i].corner[(k + 1) % rings.ring[i].n];
+            area += 0.5 * (p.x * q.y - q.x * p.y);
+        }
+    return area;
+}
+
+/* where films lie when three plates part them: bars of silicon over a hollow of 110 um and its land of 30 by 40 um */
+static void regions_of_several_plates(void **state) {
+    (void)state;
+    size_t n;
+    bench b = start(SILICON, 0.0, 0.0);
+    scene *s = b.s;
+    const char *xml = pack_text(s->arena, "../masks/silicon-on-glass", &n);
+    s->diags = fw_diags_new(s->arena);
+    assert_int_equal(fw_mask_table_read(s->arena, "t.xml", xml, n, &s->diags, &s->table), FW_OK);
+    s->table.nrule = 0;
+    const double hollow[4][2] = {{-10, -500}, {100, -500}, {100, 500}, {-10, 500}},
+                 land[4][2] = {{30, 30}, {60, 30}, {60, 70}, {30, 70}};
+    scene_add(s, FW_ROLE_CAVITY, "hollow", polygon(s->arena, hollow, 4));
+    scene_add(s, FW_ROLE_LAND, "land", polygon(s->arena, land, 4));
+    b.flow = read_pack(s->arena, "silicon-on-glass", NULL, NULL, &s->diags);
+    assert_non_null(b.flow);
+    assert_int_equal(fw_process_flow_compute(s->arena, b.flow, &plain_facts, &s->diags), FW_OK);
+    double bias[16] = {0};
+    for (int k = 0; k < s->table.nlayer; k++)
+        bias[k] = s->table.layer[k].shrink ? -20 * UM : s->table.layer[k].grow ? 20 * UM : 0.0;
+    s->options.bias_m = b.flow->bias_m;
+    s->options.layer_bias_m = bias;
+    assert_int_equal(scene_build(s, &b.mask), FW_OK);
+    begin(&b);
+    double block = 194 * 100, silicon = drawn_length(0.0) / UM * 100;
+    assert_relative(region_area(&b, "G01", "glass-carrier", 1.0) / (UM * UM), block, 1e-9);
+    /* the ground as it was printed at its foot, as it is drawn at its head */
+    assert_relative(region_area(&b, "G12", "glass-carrier", 1.0) / (UM * UM),
+                    block - 110 * 100 + 30 * 40, 1e-9);
+    assert_relative(region_area(&b, "G12", "glass-carrier", 0.0) / (UM * UM),
+                    block - 70 * 100 + 70 * 80, 1e-9);
+    assert_relative(region_area(&b, "G12", "resist", 1.0) / (UM * UM), block - 70 * 100 + 70 * 80,
+                    1e-9);
+    assert_relative(region_area(&b, "G19", "silicon-100", 0.5) / (UM * UM), block, 1e-9);
+    assert_relative(region_area(&b, "G42", "silicon-100", 0.5) / (UM * UM), silicon, 1e-6);
+    fw_text svg = fw_text_new(s->arena);
+    assert_int_equal(fw_recipe_write_stack_svg(b.flow, &b.header, &svg), FW_OK);
+    assert_non_null(strstr(svg.data, ">G53&#160;") ? svg.data : strstr(svg.data, "G46"));
+    scene_free(s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(regions_of_several_plates),
         cmocka_unit_test(plated_volume),
         cmocka_unit_test(etched_by_hand),
         cmocka_unit_test(floors_and_conservation),

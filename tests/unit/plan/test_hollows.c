@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A flow of three plates and a device: where its pack and its layer table disagree, where a body runs over the edge of its
+   hollow, and where a scene reckons with other air than the flow leaves. */
+#include "plan/plan.h"
+#include "test.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char device_form[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"stage\">"
+    "<material ref=\"silicon-100\" thickness=\"50 um\"/><flow ref=\"silicon-on-glass\"/>"
+    "<flexure id=\"leaf\" kind=\"leaf\" length=\"400 um\" width=\"6 um\" gap=\"10 um\"/><mechanism>"
+    "<body id=\"left\" x=\"0 mm\" y=\"0.75 mm\" width=\"120 um\"/>"
+    "<body id=\"stage\" x=\"0.9 mm\" y=\"1.5 mm\" plate-width=\"0.7 mm\" plate-height=\"0.5 mm\"/>"
+    "<body id=\"right\" x=\"1.8 mm\" y=\"0.75 mm\" width=\"120 um\"/>"
+    "<revolute id=\"A\" a=\"ground\" b=\"left\" b-x=\"0 mm\" b-y=\"-0.75 mm\" hinge=\"leaf\"/>"
+    "<revolute id=\"B\" a=\"left\" a-x=\"0 mm\" a-y=\"0.75 mm\" b=\"stage\" b-x=\"-0.9 mm\" "
+    "b-y=\"0 mm\" hinge=\"leaf\"/>"
+    "<revolute id=\"C\" a=\"stage\" a-x=\"0.9 mm\" a-y=\"0 mm\" b=\"right\" b-x=\"0 mm\" "
+    "b-y=\"0.75 mm\" hinge=\"leaf\"/>"
+    "<revolute id=\"D\" a=\"right\" a-x=\"0 mm\" a-y=\"-0.75 mm\" b=\"ground\" b-x=\"1.8 mm\" "
+    "b-y=\"0 mm\" hinge=\"leaf\"/></mechanism>"
+    "<scene name=\"push\" duration=\"3 ms\"><force on=\"stage\" fx=\"4 uN\"/>"
+    "<air kind=\"slide\" on=\"stage\" gap=\"%s\"/></scene></device>";
+
+static char folder[] = "/tmp/hollows-XXXXXX";
+
+/* a file of the data directory, with one text exchanged */
+static void copy(const char *name, const char *from, const char *to) {
+    char path[400], text[200000];
+    snprintf(path, sizeof path, FW_TEST_SOURCE_DIR "/%s", name);
+    FILE *f = fopen(path, "rb");
+    assert_non_null(f);
+    size_t n = fread(text, 1, sizeof text - 1, f);
+    text[n] = '\0';
+    fclose(f);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    f = fopen(path, "wb");
+    assert_non_null(f);
+    char *at = from ? strstr(text, from) : NULL;
+    if (from && !at) fail_msg("%s has no %s", name, from);
+    if (at) {
+        fwrite(text, 1, (size_t)(at - text), f);
+        fputs(to, f);
+        fputs(at + strlen(from), f);
+    } else
+        fputs(text, f);
+    fclose(f);
+}
+
+static int set_up(void **state) {
+    char path[400];
+    (void)state;
+    strcpy(folder, "/tmp/hollows-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    static const char *const part[] = {"processes", "masks"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, part[i]);
+        mkdir(path, 0777);
+    }
+    copy("processes/base.xml", NULL, NULL);
+    copy("processes/silicon-on-glass.xml", NULL, NULL);
+    copy("masks/silicon-on-glass.xml", NULL, NULL);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    static const char *const file[] = {"processes/base.xml",
+                                       "processes/silicon-on-glass.xml",
+                                       "masks/silicon-on-glass.xml",
+                                       "processes",
+                                       "masks",
+                                       "."};
+    char path[400];
+    (void)state;
+    for (size_t i = 0; i < sizeof file / sizeof file[0]; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, file[i]);
+        i < 3 ? unlink(path) : rmdir(path);
+    }
+    rmdir(folder);
+    return 0;
+}
+
+static fw_plan *asked(const char *gap, fw_status *loaded) {
+    static char xml[4000];
+    fw_plan_options options = fw_plan_options_default();
+    options.data_directory = folder;
+    fw_plan *plan = fw_plan_new(&options);
+    snprintf(xml, sizeof xml, device_form, gap);
+    *loaded = fw_plan_load_memory(plan, "stage.xml", xml, strlen(xml));
+    return plan;
+}
+
+static bool said(const fw_plan *plan, int number, const char *words) {
+    for (size_t i = 0; i < plan->diags.count; i++)
+        if (plan->diags.item[i].number == number && strstr(plan->diags.item[i].message, words))
+            return true;
+    return false;
+}
+
+static const char *reason_of(const fw_plan *plan, const char *words) {
+    const fw_process_flow *f = plan->flow[0].flow;
+    for (int i = 0; i < f->nreason; i++)
+        if (strstr(f->reason[i], words)) return f->reason[i];
+    return NULL;
+}
+
+static fw_plan *judged(const char *gap) {
+    fw_status loaded;
+    fw_plan *plan = asked(gap, &loaded);
+    if (loaded != FW_OK || fw_plan_judge(plan) != FW_OK)
+        fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "no message");
+    return plan;
+}
+
+static void as_it_is(void **state) {
+    (void)state;
+    fw_plan *plan = judged("20 um");
+    if (plan->flow[0].flow->manufacturable == 0) fail_msg("%s", plan->flow[0].flow->reason[0]);
+    assert_null(reason_of(plan, "bonded glass"));
+    for (size_t i = 0; i < plan->diags.count; i++)
+        assert_true(plan->diags.item[i].number < 420 || plan->diags.item[i].number > 429);
+    const fw_quantity *hollow = fw_process_flow_quantity(plan->flow[0].flow, "mask.widest-hollow");
+    assert_false(hollow->unknown); /* below the stage: 500 um and both margins, on a grid */
+    assert_near(hollow->value, 580e-6, 25e-6);
+    fw_plan_free(plan);
+}
+
+static void other_air(void **state) {
+    (void)state;
+    static const struct {
+        const char *gap;
+        bool warned;
+    } row[] = {{"17.9 um", true}, {"18.1 um", false}, {"21.9 um", false}, {"22.1 um", true}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) { /* 20 +- 2 um are the flow's own */
+        fw_plan *plan = judged(row[i].gap);
+        assert_int_equal(said(plan, 422, "of air below what moves, but step G12"), row[i].warned);
+        fw_plan_free(plan);
+    }
+}
+
+/* refused where the way and the budget are more than the margin, and not where they are less; the way is that of the
+   motion's own samples */
+static void travel(void **state) {
+    (void)state;
+    fw_plan *plan = judged("20 um");
+    const fw_dynamics_motion *motion = plan->verdict.variant[0].motion[0];
+    const fw_mechanism *m = plan->verdict.variant[0].mechanism;
+    double way = 0.0;
+    for (int i = 0; i < motion->nsample; i++)
+        for (int b = 0; b < motion->nbody; b++) {
+            const double *q = motion->q + 3 * (i * motion->nbody + b);
+            double r =
+                b == 1 ? hypot(1.1e-3, 0.35e-3) : 1.2e-3; /* none is larger about its middle */
+            double turn = fabs(q[2] - m->drawn[b].phi_rad);
+            way = fmax(way, hypot(q[0] - m->drawn[b].x_m, q[1] - m->drawn[b].y_m) + r * turn);
+        }
+    fw_plan_free(plan);
+    if (!(way > 5e-6 && way < 37e-6)) fail_msg("goes %g m", way);
+    char to[200];
+    snprintf(to, sizeof to, "<content kind=\"cavity\" margin=\"%.3f um\"", way * 1e6 + 3.001);
+    copy("masks/silicon-on-glass.xml", "<content kind=\"cavity\" margin=\"40 um\"", to);
+    plan = judged("20 um");
+    assert_null(reason_of(plan, "bonded glass"));
+    fw_plan_free(plan);
+    copy("masks/silicon-on-glass.xml", "<content kind=\"cavity\" margin=\"40 um\"",
+         "<content kind=\"cavity\" margin=\"5 um\"");
+    plan = judged("20 um");
+    const char *why = reason_of(plan, "it would run over bonded glass");
+    double goes = 0.0;
+    assert_non_null(why);
+    assert_int_equal(plan->flow[0].flow->manufacturable, 0);
+    assert_int_equal(sscanf(strstr(why, " goes "), " goes %lf um", &goes), 1);
+    assert_true(goes * 1e-6 > 0.5 * way && goes * 1e-6 <= way * 1.001);
+    fw_plan_free(plan);
+}
+
+static void disagreements(void **state) {
+    (void)state;
+    static const struct {
+        const char *file, *from, *to;
+        int number;
+        const char *says;
+    } row[] = {
+        {"masks", "roles=\"land\" grow=\"cavity.d\"", "roles=\"land\" grow=\"si.d\"", 421,
+         "layer \"land\" of plate \"cavity\" is drawn by si.d, but the pack draws that plate by "
+         "cavity.d"},
+        {"masks", "roles=\"metal\"", "roles=\"metal\" shrink=\"cavity.d\"", 421,
+         "layer \"metal\" of plate \"pads\" is drawn by cavity.d, but the pack draws that plate by "
+         "nothing"},
+        {"masks", "marks=\"back\" overlay=\"3 um\"", "marks=\"back\" overlay=\"2 um\"", 421,
+         "lets plate \"pads\" lie 3 um off, but masks/silicon-on-glass.xml reckons with 2 um"},
+        {"processes", "<align to=\"cavity\" overlay=\"overlay.back\"",
+         "<align to=\"device\" overlay=\"overlay.back\"", 373, "aligns mask pads to 'device'"},
+        {"masks", "aligned-to=\"cavity\" marks=\"back\" overlay=\"3 um\"/>\n  <layer",
+         "aligned-to=\"pads\" marks=\"back\" overlay=\"3 um\"/>\n  <layer", 421,
+         "aligns plate \"device\" to cavity, and masks/silicon-on-glass.xml to pads"},
+        {"processes", "<plate id=\"pads\"", "<plate id=\"metal\"", 421,
+         "plate \"metal\" is no row in masks/silicon-on-glass.xml"},
+        {"processes", "mask=\"pads\"", "mask=\"metal\"", 412, "next of the plates"},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        char name[80];
+        fw_status loaded;
+        snprintf(name, sizeof name, "%s/silicon-on-glass.xml", row[i].file);
+        copy(name, row[i].from, row[i].to);
+        fw_plan *plan = asked("20 um", &loaded);
+        assert_int_equal(loaded, FW_INPUT);
+        if (!said(plan, row[i].number, row[i].says))
+            fail_msg("%s: %s", row[i].says,
+                     plan->diags.count ? plan->diags.item[0].message : "nothing");
+        fw_plan_free(plan);
+        copy(name, NULL, NULL);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(as_it_is, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(other_air, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(travel, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(disagreements, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
