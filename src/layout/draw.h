@@ -162,6 +162,7 @@ typedef struct fw_layout_comb_plan { /* one drive; several scenes may use it */
     /* middle of the overlap, or of the rotor's face; x where the rotor is pulled */
     fw_layout_local local;
     bool off;
+    const char *why; /* it is off */
     fw_geometry_contour rotor,
         stator;         /* rotor: before it is united with its body; stator: with pad */
     const char *letter; /* on the pad */
