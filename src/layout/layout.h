@@ -81,6 +81,8 @@ typedef struct fw_layout_electrode {
     const char *stator; /* label of its stator's piece, this very pointer; NULL: it is not drawn, */
     const char *why_not; /* for this reason */
     fw_geometry_vec2 at; /* middle of the overlap, or of the rotor's face */
+    bool routed;         /* its stator ends in a pad at the edge of the chip */
+    fw_geometry_box edge_pad;
 } fw_layout_electrode;
 
 typedef struct fw_layout {

@@ -44,11 +44,15 @@ static void plan_tendon(fw_layout_drawing *d, const fw_device_tendon *t) {
 
 static void plan_comb(fw_layout_drawing *d, const fw_device_comb *c) {
     for (int i = 0; i < d->ncomb; i++)
-        if (same_comb(d->comb[i].comb, c)) return;
+        if (same_comb(d->comb[i].comb, c)) {
+            d->comb[i].at_edge = d->comb[i].at_edge || c->pad_at_edge;
+            return;
+        }
     double length = c->length_m;
     if (isnan(length)) length = 2.0 * c->overlap_m;
     d->comb[d->ncomb++] =
         (fw_layout_comb_plan){.comb = c,
+                              .at_edge = c->pad_at_edge,
                               .width_m = c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M,
                               .length_m = length};
 }
@@ -539,6 +543,8 @@ fw_status fw_layout_actuators_add(fw_layout_drawing *d) {
                    *label = fw_arena_printf(d->arena, "stator of comb drive %s", id);
         FW_NEED(label);
         electrode[i].stator = label;
+        electrode[i].routed = p->routed;
+        electrode[i].edge_pad = p->edge_pad;
         FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, FW_ISLAND, FW_NONE, label, &p->stator));
     }
     report_masses(d);

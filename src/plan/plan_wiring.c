@@ -83,6 +83,14 @@ fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
         FW_TRY(fw_wiring_find(plan->arena, plan->device, layout, &asked, &pf->wiring));
     }
     const fw_wiring *w = pf->wiring;
+    bool routed = false;
+    for (int i = 0; i < plan->layout->nelectrode; i++)
+        routed = routed || plan->layout->electrode[i].routed;
+    if (routed && !w->carrier.insulates)
+        FW_TRY(fw_process_flow_add_reason(
+            plan->arena, pf->flow, 0,
+            "tracks to the chip's edge cut the frame, which hangs on nothing in a flow without an "
+            "insulating carrier: leave pad=\"edge\" out for this flow"));
     for (int i = w->nrefusal - 1; i >= 0 && w->carrier.insulates; i--)
         FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, w->refusal[i]));
     for (int i = 0; i < w->nopen; i++)

@@ -25,15 +25,36 @@ static void voltage_of(const fw_device_comb *c, double duration_s, double *low, 
 
 /* ---- contacts ---- */
 
-/* the piece of a net with the largest square; bases before the frame, which has marks and letters */
+/* where a track ends at the edge of the chip */
+static const fw_layout_electrode *track_of(const fw_layout *layout, const fw_wiring *w, int net) {
+    for (int k = 0; k < layout->nelectrode; k++)
+        for (int i = 0; layout->electrode[k].routed && i < layout->npiece; i++)
+            if (w->net_of[i] == net && layout->piece[i].label == layout->electrode[k].stator)
+                return &layout->electrode[k];
+    return NULL;
+}
+
+/* the piece of a net with the largest square; bases before the frame, which has marks and letters. At the edge
+   of the chip: the track's own pad, or the frame. */
 static fw_status find_pad(fw_arena *arena, const fw_layout *layout, const fw_wiring *w, int net,
-                          fw_wiring_net *n) {
+                          bool edge, fw_wiring_net *n) {
     double best = 0.0;
+    const fw_layout_electrode *track = edge ? track_of(layout, w, net) : NULL;
+    bool frame_first = edge && n->frame;
+    if (track) {
+        fw_geometry_box b = track->edge_pad;
+        n->pad = (fw_geometry_box){b.x0 + INSET_M, b.y0 + INSET_M, b.x1 - INSET_M, b.y1 - INSET_M};
+        n->pad_on = track->stator;
+        n->padded = fmin(b.x1 - b.x0, b.y1 - b.y0) - 2.0 * INSET_M >= LEAST_M * (1.0 - 1e-9);
+        n->at_edge = true;
+        return FW_OK;
+    }
     for (int pass = 0; pass < 2 && !n->padded; pass++)
         for (int i = 0; i < layout->npiece; i++) {
             const fw_layout_piece *p = &layout->piece[i];
             fw_geometry_box b;
-            bool held = p->role == (pass ? FW_ROLE_FRAME : FW_ROLE_STRUCTURE) && p->body < 0;
+            bool frame = (pass == 1) != frame_first;
+            bool held = p->role == (frame ? FW_ROLE_FRAME : FW_ROLE_STRUCTURE) && p->body < 0;
             if (w->net_of[i] != net || !held) continue;
             FW_TRY(fw_release_square_in(arena, layout, i, INSET_M, STEP_M, &b));
             if (!(b.x1 - b.x0 > best)) continue;
@@ -41,6 +62,7 @@ static fw_status find_pad(fw_arena *arena, const fw_layout *layout, const fw_wir
             n->pad = b;
             n->pad_on = p->label;
             n->padded = best >= LEAST_M * (1.0 - 1e-9);
+            n->at_edge = edge && frame;
         }
     return FW_OK;
 }
@@ -163,9 +185,12 @@ fw_status fw_wiring_drives(fw_arena *arena, const fw_device *device, const fw_la
         widen(&w->net[d->rotor], 0.0, 0.0);
         widen(&w->net[d->stator], d->low_V, d->high_V);
     }
+    bool edge = false;
+    for (int i = 0; i < layout->nelectrode; i++)
+        edge = edge || layout->electrode[i].routed;
     for (int i = 0; i < w->nnet; i++)
         if (w->net[i].needed || w->net[i].kind == FW_WIRING_STATOR)
-            FW_TRY(find_pad(arena, layout, w, i, &w->net[i]));
+            FW_TRY(find_pad(arena, layout, w, i, edge, &w->net[i]));
     for (int i = 0; i < w->ndrive; i++) {
         FW_TRY(judge(arena, w, plan[i], &w->drive[i]));
         if (w->drive[i].why)

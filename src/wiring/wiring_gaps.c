@@ -4,7 +4,7 @@
    In: nets with their potentials. A net that nobody contacts may have any potential between those of its
    neighbours, so the largest difference that there is counts. The gap is the lesser of that drawn and the
    least over the motions, less what walls come nearer by as made. Field: V/gap of parallel faces; at edges
-   and tips it is higher, which the range of wiring_breakdown.c does not know. Test: test_wiring_gaps.c */
+   and tips it is higher, which the range of wiring_breakdown.c does not know. Test: test_wiring_drives.c */
 #include "base/text.h"
 #include "geometry/segment.h"
 #include "wiring/wiring_nets.h"
