@@ -134,6 +134,10 @@ fw_status fw_wiring_compare(fw_arena *arena, const fw_wiring *wiring, const fw_l
 const char *fw_wiring_kind_word(fw_wiring_kind kind);         /* "rotor" */
 const char *fw_wiring_fault_word(fw_wiring_fault fault);      /* "shorted"; NULL: none */
 const char *fw_wiring_contact_word(const fw_wiring_net *net); /* "probed", "edge", "none" */
+/* where a net is contacted, and what a gap bears, in words */
+fw_status fw_wiring_contact_words(fw_arena *arena, const fw_wiring_net *net, const char **out);
+fw_status fw_wiring_gap_words(fw_arena *arena, const fw_wiring *wiring, const fw_wiring_gap *gap,
+                              const char **out);
 /* member "wiring" of an open object; NULL: null */
 void fw_wiring_json(const fw_wiring *wiring, fw_json *json);
 
