@@ -65,6 +65,20 @@ static fw_status carrier_of(fw_plan *plan, const fw_plan_flow *pf, fw_wiring_car
     return FW_OK;
 }
 
+static double outermost(const fw_process_edge *e) {
+    return fmax(e->top_m, fmax(e->middle_m, e->bottom_m)); /* fmax ignores what is not known */
+}
+
+/* by how much two walls may come nearer than drawn: what the flow leaves of its edges, at the ends of all ranges */
+static double walls_of(const fw_process_flow *flow) {
+    double most = 0.0;
+    for (int i = 0; i < flow->edges.ncls && flow->edges.solved; i++) {
+        const fw_process_edge_class *c = &flow->edges.cls[i];
+        most = fmax(most, fmax(outermost(&c->edge), fmax(outermost(&c->low), outermost(&c->high))));
+    }
+    return 2.0 * most;
+}
+
 static const fw_verdict_variant_verdict *verdict_of(const fw_plan *plan, const fw_plan_flow *pf) {
     ptrdiff_t i = pf - plan->flow;
     return plan->verdict.variant && i < plan->verdict.nvariant ? &plan->verdict.variant[i] : NULL;
@@ -76,7 +90,7 @@ fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
     if (!pf->flow || !plan->layout || !plan->layout->drawn) return FW_OK;
     if (!pf->wiring) {
         const fw_verdict_variant_verdict *v = verdict_of(plan, pf);
-        fw_wiring_asked asked = {.flow = pf->variant.flow};
+        fw_wiring_asked asked = {.flow = pf->variant.flow, .wall_m = walls_of(pf->flow)};
         if (v) asked.moved = v->stator, asked.nmoved = v->nstator;
         FW_TRY(carrier_of(plan, pf, &asked.carrier));
         FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
