@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The nets of the drawing found again on the mask, in its certificate and on its order sheets. Theory:
-   docs/theory/wiring.md; test: test_mask_wiring.c */
+   docs/theory/wiring.md; tests: test_wiring_mask.c, tests/accept/kl_nets.py */
 #include "mask/mask_writers.h"
 #include "mask/mask_polygons.h"
 #include <math.h>

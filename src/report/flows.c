@@ -26,29 +26,6 @@ static void manufacturable(fw_text *out, const fw_process_flow *flow) {
     fw_text_add(out, "</ul>\n");
 }
 
-/* nets, contacts and gaps, of a device that something drives */
-static fw_status wiring(fw_text *out, const fw_wiring *w) {
-    if (!w || w->ndrive == 0) return FW_OK;
-    fw_markup(out,
-              "<p>Insulated by: {s}.</p>\n<div class=\"wide\"><table><caption>Nets, where each is "
-              "contacted, and the gaps between them</caption><tbody>\n",
-              w->carrier.words);
-    for (int i = 0; i < w->nnet; i++) {
-        const char *words;
-        FW_TRY(fw_wiring_contact_words(out->arena, &w->net[i], &words));
-        fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td></tr>\n", w->net[i].name, words);
-    }
-    for (int i = 0; i < w->ngap; i++) {
-        const char *words;
-        FW_TRY(fw_wiring_gap_words(out->arena, w, &w->gap[i], &words));
-        fw_markup(out, "<tr><th scope=\"row\">gap</th><td>{s}</td></tr>\n", words);
-    }
-    for (int i = 0; i < w->nremark; i++)
-        fw_markup(out, "<tr><th scope=\"row\">note</th><td>{s}</td></tr>\n", w->remark[i]);
-    fw_text_add(out, "</tbody></table></div>\n");
-    return FW_OK;
-}
-
 fw_status fw_report_section_flows(fw_report_page *page) {
     fw_text *out = page->out;
     if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");
@@ -61,7 +38,7 @@ fw_status fw_report_section_flows(fw_report_page *page) {
                       fw_report_decision_word(f->variant->decision));
         fw_text_add(out, "</h3>\n");
         if (f->flow) manufacturable(out, f->flow);
-        FW_TRY(wiring(out, f->wiring));
+        FW_TRY(fw_report_wiring(out, f->wiring));
         if (f->variant && f->variant->nhinge)
             fw_report_hinge_table(out, f->variant->hinge, f->variant->nhinge, false,
                                   "Hinges in this flow");

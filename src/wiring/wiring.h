@@ -95,7 +95,8 @@ typedef struct fw_wiring {
     fw_wiring_carrier carrier;
     fw_wiring_net *net; /* (nnet) rotor first, then stators, then what is held */
     int nnet;
-    const int *net_of; /* (npiece) of the layout's pieces; -1: no conductor */
+    const fw_layout *layout; /* that they were found in */
+    const int *net_of;       /* (npiece) of the layout's pieces; -1: no conductor */
     int npiece;
     fw_wiring_drive *drive; /* (ndrive) */
     int ndrive;

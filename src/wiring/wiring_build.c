@@ -123,6 +123,7 @@ fw_status fw_wiring_find(fw_arena *arena, const fw_device *device, const fw_layo
     FW_NEED(w);
     *wiring = w;
     w->carrier = asked->carrier;
+    w->layout = layout;
     if (!layout->drawn) return FW_OK;
     FW_TRY(contours_of(arena, layout, &contour));
     FW_NEED(part = fw_arena_array(arena, int, (size_t)layout->npiece));
