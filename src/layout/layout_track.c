@@ -20,11 +20,14 @@
 static const double TRACK_M = 40e-6, STEP_M = 10e-6; /* as wide as a lead (comb.c) */
 static const double FREE_M = 60e-6, LEAST_M = 20e-6; /* as leads keep them */
 static const double PAD_M = 150e-6;                  /* side of a pad at the edge */
+static const double STEP_MOST_M = 60e-6; /* that is, windows beyond 38 mm square get no tracks */
+static const double CELLS_MOST = 4e5;    /* of a search; in larger windows they are larger */
 enum { TURN = 6, WAYS = 4 };
 
 typedef struct field {
     fw_layout_drawing *d;
     fw_geometry_vec2 from; /* middle of cell (0, 0) */
+    double step; /* from cell to cell: a band of half a track and LEAST_M is wider than that */
     int columns, rows;
     unsigned char *blocked; /* 1: by others, 2: by the own stator */
 } field;
@@ -37,17 +40,17 @@ typedef struct way { /* cells where it turns, from the pad on */
 } way;
 
 static fw_geometry_vec2 middle_of(const field *f, int column, int row) {
-    return fw_v(f->from.x + column * STEP_M, f->from.y + row * STEP_M);
+    return fw_v(f->from.x + column * f->step, f->from.y + row * f->step);
 }
 
 /* ---- what is in the way ---- */
 
 static void block_segment(field *f, const fw_geometry_segment *s, double reach, unsigned char by) {
     fw_geometry_box b = fw_segment_box(s);
-    int x0 = (int)ceil((b.x0 - reach - f->from.x) / STEP_M),
-        x1 = (int)floor((b.x1 + reach - f->from.x) / STEP_M),
-        y0 = (int)ceil((b.y0 - reach - f->from.y) / STEP_M),
-        y1 = (int)floor((b.y1 + reach - f->from.y) / STEP_M);
+    int x0 = (int)ceil((b.x0 - reach - f->from.x) / f->step),
+        x1 = (int)floor((b.x1 + reach - f->from.x) / f->step),
+        y0 = (int)ceil((b.y0 - reach - f->from.y) / f->step),
+        y1 = (int)floor((b.y1 + reach - f->from.y) / f->step);
     for (int y = y0 < 0 ? 0 : y0; y <= y1 && y < f->rows; y++)
         for (int x = x0 < 0 ? 0 : x0; x <= x1 && x < f->columns; x++) {
             double t;
@@ -281,16 +284,18 @@ static fw_status follow(field *f, fw_layout_comb_plan *p, const search *s, fw_ge
 static fw_status try_track(fw_layout_drawing *d, int own, double space, bool *good) {
     const fw_geometry_box *w = &d->layout->window;
     fw_layout_comb_plan *p = &d->comb[own];
-    field f = {.d = d};
+    double area = (w->x1 - w->x0) * (w->y1 - w->y0);
+    field f = {.d = d, .step = STEP_M * fmax(1.0, ceil(sqrt(area / CELLS_MOST) / STEP_M))};
     fw_geometry_vec2 pad = p->pad_at;
-    int column = (int)floor((pad.x - w->x0) / STEP_M), row = (int)floor((pad.y - w->y0) / STEP_M);
+    int column = (int)floor((pad.x - w->x0) / f.step), row = (int)floor((pad.y - w->y0) / f.step);
     *good = false;
-    f.from = fw_v(pad.x - column * STEP_M, pad.y - row * STEP_M);
-    f.columns = column + (int)floor((w->x1 - pad.x) / STEP_M) + 1;
-    f.rows = row + (int)floor((w->y1 - pad.y) / STEP_M) + 1;
+    f.from = fw_v(pad.x - column * f.step, pad.y - row * f.step);
+    f.columns = column + (int)floor((w->x1 - pad.x) / f.step) + 1;
+    f.rows = row + (int)floor((w->y1 - pad.y) / f.step) + 1;
+    fw_mark mark = fw_arena_mark(d->arena);
     size_t cells = (size_t)f.columns * (size_t)f.rows;
     search s = {.best = -1};
-    if (cells > 16000000) return FW_OK;
+    if (f.step > STEP_MOST_M) return FW_OK;
     FW_NEED(f.blocked = fw_arena_array(d->arena, unsigned char, cells));
     FW_NEED(s.cost = fw_arena_array(d->arena, int, cells *WAYS));
     FW_NEED(s.before = fw_arena_array(d->arena, int, cells *WAYS));
@@ -298,12 +303,14 @@ static fw_status try_track(fw_layout_drawing *d, int own, double space, bool *go
         s.cost[i] = -1;
     FW_TRY(block_all(&f, own, space));
     int rim =
-        (int)ceil((0.5 * TRACK_M + LEAST_M) / STEP_M); /* along the frame's upper and lower bar */
+        (int)ceil((0.5 * TRACK_M + LEAST_M) / f.step); /* along the frame's upper and lower bar */
     for (int y = 0; y < f.rows; y++)
         for (int x = 0; x < f.columns && (y < rim || y >= f.rows - rim); x++)
             f.blocked[(size_t)y * (size_t)f.columns + (size_t)x] |= 1;
     FW_TRY(look(&f, &s, &p->stator, column, row));
-    return s.best >= 0 ? follow(&f, p, &s, pad, good) : FW_OK;
+    if (s.best >= 0) FW_TRY(follow(&f, p, &s, pad, good));
+    if (!*good) fw_arena_rewind(d->arena, mark);
+    return FW_OK;
 }
 
 static fw_status refuse(fw_layout_drawing *d, const fw_layout_comb_plan *p) {
