@@ -29,6 +29,7 @@ typedef struct field {
     fw_geometry_vec2 from; /* middle of cell (0, 0) */
     double step; /* from cell to cell: a band of half a track and LEAST_M is wider than that */
     int columns, rows;
+    int rim; /* cells along the frame: none above and below, and only straight across left and right */
     unsigned char *blocked; /* 1: by others, 2: by the own stator */
 } field;
 
@@ -191,7 +192,8 @@ static fw_status look(field *f, search *s, const fw_geometry_contour *own, int c
             }
             for (int turn = 0; turn < WAYS; turn++) {
                 int u = x + step_x[turn], v = y + step_y[turn];
-                if ((turn + 2) % WAYS == way_of || !is_free(f, u, v, 3)) continue;
+                bool along = step_x[turn] == 0 && (u < f->rim || u >= f->columns - f->rim);
+                if ((turn + 2) % WAYS == way_of || along || !is_free(f, u, v, 3)) continue;
                 int dearer = cost + (turn == way_of ? 1 : 1 + TURN - 1);
                 FW_TRY(offer(f->d, s, (v * f->columns + u) * WAYS + turn, dearer, state));
             }
@@ -302,10 +304,9 @@ static fw_status try_track(fw_layout_drawing *d, int own, double space, bool *go
     for (size_t i = 0; i < cells * WAYS; i++)
         s.cost[i] = -1;
     FW_TRY(block_all(&f, own, space));
-    int rim =
-        (int)ceil((0.5 * TRACK_M + LEAST_M) / f.step); /* along the frame's upper and lower bar */
+    f.rim = (int)ceil((0.5 * TRACK_M + LEAST_M) / f.step);
     for (int y = 0; y < f.rows; y++)
-        for (int x = 0; x < f.columns && (y < rim || y >= f.rows - rim); x++)
+        for (int x = 0; x < f.columns && (y < f.rim || y >= f.rows - f.rim); x++)
             f.blocked[(size_t)y * (size_t)f.columns + (size_t)x] |= 1;
     FW_TRY(look(&f, &s, &p->stator, column, row));
     if (s.best >= 0) FW_TRY(follow(&f, p, &s, pad, good));
