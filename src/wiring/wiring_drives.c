@@ -193,7 +193,9 @@ fw_status fw_wiring_drives(fw_arena *arena, const fw_device *device, const fw_la
             FW_TRY(find_pad(arena, layout, w, i, edge, &w->net[i]));
     for (int i = 0; i < w->ndrive; i++) {
         FW_TRY(judge(arena, w, plan[i], &w->drive[i]));
-        if (w->drive[i].why)
+        if (w->drive[i].fault == FW_WIRING_NOT_DRAWN) /* added by hand it may work all the same */
+            FW_TRY(fw_wiring_say(arena, &w->open, &w->nopen, w->drive[i].why));
+        else if (w->drive[i].why)
             FW_TRY(fw_wiring_say(arena, &w->refusal, &w->nrefusal, w->drive[i].why));
     }
     for (int i = 0; i < w->nnet; i++)
