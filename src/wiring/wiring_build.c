@@ -94,23 +94,13 @@ static fw_status fill_nets(fw_arena *arena, const fw_layout *layout, const fw_wi
     return FW_OK;
 }
 
-static bool shares_cut(const fw_geometry_contour *p, const fw_geometry_contour *q) {
-    for (int i = 0; i < p->count; i++)
-        for (int k = 0; (p->segment[i].flags & FW_SEGMENT_JOINT) && k < q->count; k++) {
-            const fw_geometry_segment *s = &p->segment[i], *t = &q->segment[k];
-            if ((t->flags & FW_SEGMENT_JOINT) && vec_same(s->a, t->b) && vec_same(s->b, t->a))
-                return true;
-        }
-    return false;
-}
-
 /* tethers that end at a body of another net connect the two until they are broken */
 static void mark_tethers(const fw_layout *layout, fw_wiring *w) {
     for (int i = 0; i < layout->npiece; i++) {
         if (layout->piece[i].role != FW_ROLE_TETHER || w->net_of[i] < 0) continue;
         for (int k = 0; k < layout->npiece; k++)
             if (layout->piece[k].body >= 0 && w->net_of[k] >= 0 && w->net_of[k] != w->net_of[i] &&
-                shares_cut(&layout->piece[i].contour, &layout->piece[k].contour))
+                fw_wiring_share_cut(&layout->piece[i].contour, &layout->piece[k].contour))
                 w->net[w->net_of[i]].tethered = true;
     }
 }

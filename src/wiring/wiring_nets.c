@@ -116,6 +116,17 @@ fw_status fw_wiring_parts(fw_arena *arena, const fw_layout *layout,
     return FW_OK;
 }
 
+bool fw_wiring_share_cut(const fw_geometry_contour *p, const fw_geometry_contour *q) {
+    for (int i = 0; i < p->count; i++)
+        for (int k = 0; (p->segment[i].flags & FW_SEGMENT_JOINT) && k < q->count; k++) {
+            const fw_geometry_segment *s = &p->segment[i], *t = &q->segment[k];
+            if ((t->flags & FW_SEGMENT_JOINT) && vec_distance(s->a, t->b) < TOGETHER_M &&
+                vec_distance(s->b, t->a) < TOGETHER_M)
+                return true;
+        }
+    return false;
+}
+
 fw_wiring_near fw_wiring_least(const fw_layout *layout, const fw_geometry_contour *contour,
                                const fw_geometry_box *box, const int *part, int a, int b) {
     fw_wiring_near near = {.m = HUGE_VAL, .piece = {-1, -1}};
@@ -125,6 +136,9 @@ fw_wiring_near fw_wiring_least(const fw_layout *layout, const fw_geometry_contou
             for (int k = 0; part[i] == a && k < layout->npiece; k++) {
                 fw_geometry_vec2 at[2];
                 if (part[k] != b || fw_box_gap(box[i], box[k]) >= limit) continue;
+                if (breaks(&layout->piece[i], &layout->piece[k]) &&
+                    fw_wiring_share_cut(&contour[i], &contour[k]))
+                    continue; /* a tether and what it holds: broken apart */
                 double m = fw_geometry_contour_distance_below(&contour[i], &contour[k], limit,
                                                               &at[0], &at[1]);
                 if (m >= limit) continue;

@@ -11,7 +11,10 @@ fw_status fw_wiring_parts(fw_arena *arena, const fw_layout *layout,
                           const fw_geometry_contour *contour, bool islands, bool touching,
                           int *part);
 bool fw_wiring_conducts(const fw_layout_piece *piece, bool islands);
-/* the least distance of two parts, and where; HUGE_VAL: one is not there. boxes: (npiece) */
+/* do two outlines share a JOINT? */
+bool fw_wiring_share_cut(const fw_geometry_contour *p, const fw_geometry_contour *q);
+/* the least distance of two parts, and where, but for tethers and the bodies that they hold; HUGE_VAL: one is not
+   there. boxes: (npiece) */
 typedef struct fw_wiring_near {
     double m;
     fw_geometry_vec2 at[2];

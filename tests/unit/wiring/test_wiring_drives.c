@@ -234,6 +234,35 @@ static void the_range_of_a_voltage(void **unused) {
     fw_arena_free(b->arena);
 }
 
+/* a part of the frame on which nothing hangs but a tether: a net of its own, one with the rotor until it is broken */
+static void a_tether_is_broken(void **unused) {
+    (void)unused;
+    bench *b = bench_new(10, 120, 50);
+    add(b, FW_ROLE_FRAME, FW_GROUND, "frame", -300, 300, 300, 400, BOTTOM);
+    int finger_at = add(b, FW_ROLE_TETHER, FW_GROUND, "tether of link A", -300, 200, 300, 300, TOP);
+    b->piece[0].contour.segment[TOP].flags |= FW_SEGMENT_JOINT;
+    /* the cut at the link is as wide as the link */
+    fw_geometry_contour finger;
+    fw_geometry_outline o =
+        fw_geometry_outline_start(b->arena, (fw_geometry_vec2){-70 * UM, 200 * UM});
+    const double corner[3][2] = {{70, 200}, {300, 300}, {-300, 300}};
+    for (int i = 0; i < 3; i++)
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){corner[i][0] * UM, corner[i][1] * UM},
+                                 i % 2 ? 0 : FW_SEGMENT_JOINT);
+    assert_int_equal(fw_geometry_outline_close(&o, &finger), FW_OK);
+    b->piece[finger_at].contour = finger;
+    const fw_wiring *w = find(b);
+    assert_int_equal(w->nnet, 4);
+    assert_string_equal(w->net[3].name, "frame");
+    assert_int_equal(w->net[3].pieces, 2);
+    assert_true(w->net[3].tethered);
+    assert_int_equal(w->nrefusal, 0);
+    const fw_wiring_gap *g = gap_between(w, 0, 3);
+    assert_true(!g || g->m > 50e-6);
+    assert_int_equal(w->nremark, 2);
+    fw_arena_free(b->arena);
+}
+
 /* the handle below an oxide is a net of its own */
 static void a_handle_is_seen(void **unused) {
     (void)unused;
@@ -262,6 +291,7 @@ int main(void) {
         cmocka_unit_test(voltage_is_held_against_breakdown),
         cmocka_unit_test(gaps_in_motion),
         cmocka_unit_test(the_range_of_a_voltage),
+        cmocka_unit_test(a_tether_is_broken),
         cmocka_unit_test(a_handle_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
