@@ -87,6 +87,7 @@ fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples
 fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
 fw_script_test(release.distances COMMAND tests/release/distances.py ${FW_PROGRAM} 1 8 TIMEOUT 900)
 set_tests_properties(release.distances PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(accept.nets COMMAND ${Python3_EXECUTABLE} tests/accept/nets.py ${FW_PROGRAM})
 fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
 # width and space as written before KLayout's, in both directions; with FW_TEST_ALL=1 24 devices
 fw_script_test(accept.written COMMAND tests/accept/written_rules.py ${FW_PROGRAM} TIMEOUT 600)
@@ -136,7 +137,8 @@ target_link_libraries(fault_memory PRIVATE fw_plan)
 fw_first_part_of(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml FIRST 60 WHOLE 120)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
 fw_script_test(accept.wafer COMMAND tests/accept/wafer.sh ${FW_PROGRAM})
-set_tests_properties(accept.masks accept.wafer accept.random accept.selftest accept.written PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(accept.masks accept.wafer accept.nets accept.random accept.selftest accept.written
+                     PROPERTIES SKIP_RETURN_CODE 77)
 if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
     fw_script_test(library.consumer COMMAND tests/consumer/run.sh ${PROJECT_BINARY_DIR} ${FW_PROGRAM})
 endif()

@@ -244,7 +244,7 @@ static void check_comb(fw_device_reader *r, const fw_xml_record *record, const f
 
 static fw_status build_comb(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
-    const char *kind = fw_xml_text_of(record, "kind");
+    const char *kind = fw_xml_text_of(record, "kind"), *pad = fw_xml_text_of(record, "pad");
     double fingers = fw_xml_number_or(record, "fingers", 0.0);
     fw_device_comb c = {.id = fw_xml_text_of(record, "id"),
                         .kind = kind && strcmp(kind, "plate") == 0 ? FW_ELECTRODES_PLATE
@@ -261,6 +261,7 @@ static fw_status build_comb(fw_device_scene_reader *s, int at) {
                         .depth_m = fw_xml_number_of(record, "depth"),
                         .width_m = fw_xml_number_or(record, "width", FW_FINGER_WIDTH_M),
                         .voltage_V = fw_xml_number_of(record, "voltage"),
+                        .pad_at_edge = pad && strcmp(pad, "edge") == 0,
                         .place = record->element->place};
     check_comb(s->r, record, &c);
     FW_TRY(fw_device_time_law(s->r, record, &c.law));

@@ -214,6 +214,7 @@ typedef struct fw_device_comb {
     double width_m; /* of the fingers as drawn; 0: the default */
     double voltage_V;
     const fw_quantity_law *law;
+    bool pad_at_edge; /* a track leads from the stator's pad to the edge of the chip */
     fw_place place;
 } fw_device_comb;
 

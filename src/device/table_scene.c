@@ -50,6 +50,7 @@ const fw_xml_element_row fw_device_table_scene[] = {
 
 /* Rows of the table: what else can act in a <scene>. Each calls for the effect of its name. */
 
+static const char *const pad_places[] = {"probed", "edge", NULL};
 static const char *const electrode_kinds[] = {"comb", "plate", NULL};
 static const char *const contact_sides[] = {"inside", "outside", NULL};
 static const char *const air_kinds[] = {"slide", "squeeze", "drag", NULL};
@@ -136,6 +137,10 @@ static const fw_xml_attribute_row comb_rows[] = {
      .sentence = "Of the electrodes, across the wafer."},
     {"voltage", D_VOLTAGE, RANGE(-1e4, 1e4, "gaps of micrometres break down far below 10 kV"),
      .sentence = "Between rotor and stator, times the law; the force goes with its square."},
+    {"pad", .kind = FW_KIND_WORD, .words = pad_places, .fallback = "probed",
+     .sentence = "Where the stator is contacted: probed on its pad, or at the edge of the chip, to "
+                 "which a track leads through a gap in the frame (in flows with an insulating "
+                 "carrier). What any scene says of a drive holds."},
 };
 static const fw_xml_attribute_row base_rows[] = {
     {"ax", D_GRAVITY, .fallback = "0 m/s^2",

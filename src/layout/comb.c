@@ -176,7 +176,8 @@ typedef struct candidate {
 
 /* bars of the lead and the pad (axis-parallel, on the grid), each a part to unite */
 static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, const candidate *c,
-                           fw_geometry_contour part[3], int *npart, fw_geometry_vec2 *letter_at) {
+                           fw_geometry_contour part[3], int *npart, fw_geometry_vec2 *letter_at,
+                           fw_geometry_vec2 *pad_at) {
     double face = p->comb->kind == FW_ELECTRODES_COMB ? p->length_m - 0.5 * p->comb->overlap_m
                                                       : p->comb->gap_m;
     fw_geometry_vec2 u = fw_v(p->local.c, p->local.s), n = fw_left(u), way = u;
@@ -203,6 +204,7 @@ static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, c
                                    &part[(*npart)++]));
     *letter_at =
         fw_v(fw_layout_to_grid(x0 + 0.5 * (wide - text)), fw_layout_to_grid(y0 + MARGIN_M));
+    *pad_at = fw_v(fw_layout_to_grid(x0 + 0.5 * wide), fw_layout_to_grid(y0 + strip + 0.5 * PAD_M));
     return fw_geometry_contour_rectangle(d->arena, (fw_geometry_box){x0, y0, x0 + wide, y0 + high},
                                          &part[(*npart)++]);
 }
@@ -246,7 +248,7 @@ static fw_status try_lead(fw_layout_drawing *d, fw_layout_comb_plan *p,
     fw_geometry_contour part[3];
     int npart;
     *done = false;
-    FW_TRY(draw_lead(d, p, c, part, &npart, &p->letter_at));
+    FW_TRY(draw_lead(d, p, c, part, &npart, &p->letter_at, &p->pad_at));
     FW_TRY(is_free(d, p, part, npart, space_m, done));
     if (!*done) return FW_OK;
     fw_geometry_contour whole;
@@ -319,6 +321,7 @@ fw_status fw_layout_stator_place(fw_layout_drawing *d, fw_layout_comb_plan *p, c
     bool done;
     int before = (int)(p - d->comb);
     p->stator = (fw_geometry_contour){NULL, 0};
+    p->routed = false;
     FW_TRY(impossible(d, p, why));
     if (*why) return FW_OK;
     FW_TRY(fw_layout_comb_stator(d->arena, p, &electrode));

@@ -162,11 +162,20 @@ typedef struct fw_layout_comb_plan { /* one drive; several scenes may use it */
     /* middle of the overlap, or of the rotor's face; x where the rotor is pulled */
     fw_layout_local local;
     bool off;
+    const char *why; /* it is off */
     fw_geometry_contour rotor,
         stator;         /* rotor: before it is united with its body; stator: with pad */
     const char *letter; /* on the pad */
-    fw_geometry_vec2 letter_at;
+    fw_geometry_vec2 letter_at, pad_at; /* pad_at: middle of what is bonded */
+    bool at_edge;                       /* a track is asked for */
+    bool routed; /* a track leads to the edge of the chip, and ends there in */
+    fw_geometry_box edge_pad;
 } fw_layout_comb_plan;
+
+typedef struct fw_layout_track { /* where it goes through the frame */
+    bool right;
+    double y_m, half_m; /* its middle, and half of the gap in the upright */
+} fw_layout_track;
 
 typedef struct fw_layout_shapes {   /* what the description draws of a body, in the world */
     fw_geometry_region solid, hole; /* holes counter-clockwise as well */
@@ -198,6 +207,8 @@ typedef struct fw_layout_drawing {
     int neyelet;
     fw_layout_comb_plan *comb; /* (ncomb) */
     int ncomb;
+    fw_layout_track *track; /* (ntrack) */
+    int ntrack;
     bool said;           /* a drawing of this device was commented before */
     const fw_diags *own; /* diags of the drawing itself: of tries no faults are kept */
     int fault_capacity;
@@ -299,6 +310,10 @@ fw_status fw_layout_actuators_add(fw_layout_drawing *d); /* pieces */
 /* lettering and marks where rings went give way */
 fw_status fw_layout_actuators_letters(fw_layout_drawing *d);
 
+/* tracks from the pads to the chip's edge, where the die asks for them; behind the tethers (layout_track.c) */
+fw_status fw_layout_tracks_route(fw_layout_drawing *d);
+fw_status fw_layout_tracks_cut(fw_layout_drawing *d, const fw_geometry_contour *half,
+                               fw_geometry_region *parts);
 /* rotor's and stator's electrodes alone: world outlines. docs/theory/layout.md, section 5 */
 fw_status fw_layout_comb_rotor(fw_arena *arena, const fw_layout_comb_plan *plan,
                                fw_geometry_contour *rotor);

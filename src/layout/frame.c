@@ -305,6 +305,9 @@ static double cut_height(const fw_layout_drawing *d, fw_layout_window_side side)
                 const fw_layout_eyelet_plan *e = &d->eyelet[i];
                 clear = e->off || fabs(y - e->at.y) > 0.5 * e->hole_m + e->ring_m + free_m;
             }
+            for (int i = 0; i < d->ntrack && clear; i++)
+                clear = d->track[i].right != (side == FW_RIGHT) ||
+                        fabs(y - d->track[i].y_m) > free_m + d->track[i].half_m;
             if (clear) return fw_layout_to_grid(y);
         }
     return middle;
@@ -334,10 +337,14 @@ fw_status fw_layout_frame_draw(fw_layout_drawing *d) {
         fw_geometry_vec2 where;
         FW_TRY(fw_geometry_outline_close(&o, &raw));
         FW_TRY(fw_layout_actuators_on_frame(d, &raw));
-        FW_TRY(fw_geometry_contour_round(d->arena, &raw, 0.0, fw_layout_rule.corner_m, &round,
-                                         &where));
-        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_FRAME, FW_GROUND, FW_NONE,
-                                     low ? "frame, lower half" : "frame, upper half", &round));
+        fw_geometry_region parts = {&raw, 1}; /* what tracks leave of it */
+        if (d->ntrack > 0) FW_TRY(fw_layout_tracks_cut(d, &raw, &parts));
+        for (int i = 0; i < parts.count; i++) {
+            FW_TRY(fw_geometry_contour_round(d->arena, &parts.contour[i], 0.0,
+                                             fw_layout_rule.corner_m, &round, &where));
+            FW_TRY(fw_layout_drawing_add(d, FW_ROLE_FRAME, FW_GROUND, FW_NONE,
+                                         low ? "frame, lower half" : "frame, upper half", &round));
+        }
     }
     return FW_OK;
 }

@@ -75,6 +75,16 @@ typedef struct fw_layout_fault {
     fw_geometry_region overlap; /* what two outlines both cover; count 0: they do not overlap */
 } fw_layout_fault;
 
+/* of a comb drive or a plate that moves the device: what the drawing has of it */
+typedef struct fw_layout_electrode {
+    const fw_device_comb *comb; /* the first of those at this place */
+    const char *stator; /* label of its stator's piece, this very pointer; NULL: it is not drawn, */
+    const char *why_not; /* for this reason */
+    fw_geometry_vec2 at; /* middle of the overlap, or of the rotor's face */
+    bool routed;         /* its stator ends in a pad at the edge of the chip */
+    fw_geometry_box edge_pad;
+} fw_layout_electrode;
+
 typedef struct fw_layout {
     bool drawn; /* false: the mechanism has no shapes; `why_not` says what is missing */
     const char *why_not;
@@ -88,7 +98,9 @@ typedef struct fw_layout {
     /* walls stand out from what is drawn by edge_m, and by the flare beside it at one face: 0 as
        drawn (verdict/verdict_fabrication.h) */
     double edge_m, flare_m;
-    bool fill; /* the flow's thief and fill are wanted in the window */
+    bool fill;                            /* the flow's thief and fill are wanted in the window */
+    const fw_layout_electrode *electrode; /* (nelectrode) each place once */
+    int nelectrode;
     /* (nfault) none of a layout that is drawn. Else it cannot be made as it is stated: the pieces
        are what can be shown of it, nothing is measured of what they lack (area 0, hinge not drawn),
        and no mask is made of them */
@@ -96,6 +108,9 @@ typedef struct fw_layout {
     int nfault;
 } fw_layout;
 
+/* what is drawn of a drive of a scene; NULL: nothing was planned for it */
+const fw_layout_electrode *fw_layout_electrode_of(const fw_layout *layout,
+                                                  const fw_device_comb *comb);
 /* material of a body, or of what stands, that something may meet: no flexure, lettering or mark */
 bool fw_layout_is_wall(const fw_layout_piece *piece);
 /* is there such a piece of the body, or of what stands (FW_GROUND)? */

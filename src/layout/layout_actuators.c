@@ -44,11 +44,15 @@ static void plan_tendon(fw_layout_drawing *d, const fw_device_tendon *t) {
 
 static void plan_comb(fw_layout_drawing *d, const fw_device_comb *c) {
     for (int i = 0; i < d->ncomb; i++)
-        if (same_comb(d->comb[i].comb, c)) return;
+        if (same_comb(d->comb[i].comb, c)) {
+            d->comb[i].at_edge = d->comb[i].at_edge || c->pad_at_edge;
+            return;
+        }
     double length = c->length_m;
     if (isnan(length)) length = 2.0 * c->overlap_m;
     d->comb[d->ncomb++] =
         (fw_layout_comb_plan){.comb = c,
+                              .at_edge = c->pad_at_edge,
                               .width_m = c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M,
                               .length_m = length};
 }
@@ -93,6 +97,7 @@ static void eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const cha
 
 static void comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const char *why) {
     p->off = true;
+    p->why = why;
     p->rotor.count = p->stator.count = 0;
     if (d->said) return;
     fw_diag_warning(
@@ -512,16 +517,34 @@ static void report_masses(fw_layout_drawing *d) {
     }
 }
 
+const fw_layout_electrode *fw_layout_electrode_of(const fw_layout *layout,
+                                                  const fw_device_comb *comb) {
+    for (int i = 0; i < layout->nelectrode; i++)
+        if (same_comb(layout->electrode[i].comb, comb)) return &layout->electrode[i];
+    return NULL;
+}
+
 fw_status fw_layout_actuators_add(fw_layout_drawing *d) {
+    fw_layout_electrode *electrode =
+        fw_arena_array(d->arena, fw_layout_electrode, (size_t)d->ncomb);
+    FW_NEED(electrode);
+    d->layout->electrode = electrode;
+    d->layout->nelectrode = d->ncomb;
     for (int i = 0; i < d->neyelet; i++) {
         const fw_layout_eyelet_plan *e = &d->eyelet[i];
         if (!e->off && e->cap.count > 0) FW_TRY(add_cap(d, e));
     }
     for (int i = 0; i < d->ncomb; i++) {
         const fw_layout_comb_plan *p = &d->comb[i];
+        electrode[i] =
+            (fw_layout_electrode){.comb = p->comb, .why_not = p->why, .at = p->local.origin};
         if (p->off) continue;
         const char *id = p->comb->id ? p->comb->id : "(unnamed)",
                    *label = fw_arena_printf(d->arena, "stator of comb drive %s", id);
+        FW_NEED(label);
+        electrode[i].stator = label;
+        electrode[i].routed = p->routed;
+        electrode[i].edge_pad = p->edge_pad;
         FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, FW_ISLAND, FW_NONE, label, &p->stator));
     }
     report_masses(d);

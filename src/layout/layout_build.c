@@ -184,6 +184,7 @@ static fw_status draw_frame(fw_layout_drawing *d, fw_status *base) {
     FW_TRY(draw_ground(d, base));
     FW_TRY(*base == FW_OK ? fw_layout_actuators_on_base(d) : FW_OK);
     FW_TRY(*base == FW_OK ? fw_layout_tethers_draw(d) : FW_OK);
+    FW_TRY(*base == FW_OK ? fw_layout_tracks_route(d) : FW_OK);
     return fw_layout_frame_draw(d);
 }
 

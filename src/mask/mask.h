@@ -8,6 +8,7 @@
 #include "geometry/polygon.h"
 #include "geometry/tessellate.h"
 #include "layout/content.h"
+#include "wiring/wiring.h"
 
 typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
     int layer, datatype;
@@ -176,6 +177,9 @@ typedef struct fw_mask {
     int nfinding;
     int nbroken; /* of them those that forbid the mask */
     bool whole;  /* every polygon is there and proven */
+    const fw_wiring
+        *wiring; /* nets as drawn; NULL: they were not asked for, and `wired` is empty */
+    fw_wiring_on_mask wired; /* the same on the mask */
 } fw_mask;
 
 /* what a layer's polygons stand outside of what is drawn, m per edge */
@@ -215,6 +219,7 @@ typedef struct fw_mask_options {
     bool no_islands; /* the flow has no insulating carrier: what is not joined would fall out */
     /* (table->nlayer) what layers with shrink or grow get at every edge, m; NULL: nothing */
     const double *layer_bias_m;
+    const fw_wiring *wiring; /* of the same layout, to be found again on the mask; may be NULL */
 } fw_mask_options;
 /* biases, checks the rules, flattens, certifies. FW_OK: the mask can be made. FW_INPUT with a mask:
    rules are broken, and its findings say all of them; diagnostics name the worst. FW_INPUT or

@@ -321,6 +321,10 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
         m->shape[k].box = fw_geometry_contour_box(&m->shape[k].contour);
     fw_status status = judge(arena, layout, m, measure, diags);
     if (status != FW_OK && !(status == FW_INPUT && m->nbroken)) return status;
+    m->wiring = options->wiring;
+    fw_status wired = fw_mask_wiring_check(arena, layout, m, diags);
+    if (wired != FW_OK && wired != FW_INPUT) return wired;
+    if (status == FW_OK) status = wired;
     m->rejected = options->rejected || m->nbroken > 0;
     FW_NEED(m->cell = cell_name(arena, device_name, m->rejected));
     *mask = m;

@@ -363,6 +363,7 @@ static fw_status certificate(fw_json *json, const fw_mask *mask, const char *gds
         fw_json_end(json);
     checks(json, mask);
     shapes(json, mask);
+    fw_mask_wiring_json(json, mask);
     fw_json_line(json, 2);
     fw_json_list(json, "notes");
     for (int i = 0; i < n; i++) {
@@ -586,6 +587,7 @@ fw_status fw_mask_write_order(const fw_mask *mask, int plate, const fw_output_fi
     for (int i = 0; i < order.nsite; i++)
         site(&json, mask, &order.site[i], i + 1);
     fw_json_end_line(&json, 2);
+    fw_mask_wiring_order_json(&json, mask);
     files(&json, file, nfile);
     fw_json_end_line(&json, 2);
     fw_json_end_line(&json, 0);

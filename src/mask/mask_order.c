@@ -2,6 +2,7 @@
 #include "mask/mask.h"
 #include "geometry/segment.h"
 #include "mask/mask_polygons.h"
+#include "mask/mask_writers.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -261,6 +262,7 @@ fw_status fw_mask_write_order_text(const fw_mask *mask, int plate, const fw_outp
                    order.polygons, order.vertices, mask->vertex_limit);
     layers(mask, &order, out);
     sites(mask, &order, out);
+    FW_TRY(fw_mask_wiring_order_text(mask, out));
     fw_text_add(out, "\nfiles: sha256, bytes, name\n");
     for (int i = 0; i < nfile; i++)
         fw_text_printf(out, "%s  %zu  %s\n", file[i].sha256, file[i].size, file[i].name);

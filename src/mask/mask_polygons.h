@@ -59,4 +59,9 @@ void fw_mask_measure_add(fw_mask_measure *measure, const fw_mask_shape *shape);
 fw_status fw_mask_polygon_cut(fw_arena *arena, const fw_geometry_polygon *polygon, int most,
                               fw_geometry_polygon **part, int *npart, double *clear_dbu);
 
+/* finds the nets that were asked for on the mask, FW-D441 where they differ: in `wired`; `wiring` becomes NULL where
+   it is of another layout */
+fw_status fw_mask_wiring_check(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
+                               fw_diags *diags);
+
 #endif

@@ -169,6 +169,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
                                .thickness_m = pf->variant.thickness_m,
                                .rejected = rejected,
                                .no_islands = !fw_plan_insulated(pf),
+                               .wiring = pf->wiring,
                                .title = plan->device->die.title};
     if (!fw_mask_flattening_named(plan->options.mask_flatten, &options.flattening)) return FW_USAGE;
     FW_TRY(notes_of(plan, pf, &options));

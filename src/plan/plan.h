@@ -74,8 +74,9 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_wafer *measured_on;   /* whose times it is about; NULL: those of the die alone */
     const char *release_change;    /* what opens a window for it; NULL: it has one */
     const fw_release
-        *release;        /* after judging; NULL: nothing is drawn, or the flow frees nothing */
-    fw_text release_svg; /* its picture as a fragment, composed once; empty: none */
+        *release;            /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+    const fw_wiring *wiring; /* after judging; NULL: nothing is drawn */
+    fw_text release_svg;     /* its picture as a fragment, composed once; empty: none */
 } fw_plan_flow;
 
 typedef struct fw_plan_input_file { /* for the manifest */

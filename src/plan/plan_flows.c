@@ -80,8 +80,9 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     fw_process_drive_facts *drive;
     int n;
     FW_TRY(fw_plan_find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));
-    return fw_process_flow_judge_drives(plan->arena, pf->flow,
-                                        pf->use && pf->use->insulating_carrier, drive, n, diags);
+    FW_TRY(fw_process_flow_judge_drives(plan->arena, pf->flow,
+                                        pf->use && pf->use->insulating_carrier, drive, n, diags));
+    return fw_plan_wiring(plan, pf);
 }
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {

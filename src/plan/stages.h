@@ -44,6 +44,8 @@ fw_status fw_plan_release_solve(fw_plan *plan, const fw_plan_flow *pf, const fw_
 /* of a flow without a window for its release: what opens one, in words (plan_release.c). The flow is
    computed again by the caller */
 fw_status fw_plan_release_change(fw_plan *plan, fw_plan_flow *pf, const char **out);
+/* nets, contacts and gaps in a flow, once, and what they add to its judgement (plan_wiring.c) */
+fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* what the times and the judgement of a flow are computed with: of the wafer where it is laid out */

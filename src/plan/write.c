@@ -18,7 +18,8 @@ static fw_report_flow *report_flows(fw_plan *plan) {
                              plan->flow[i].mask_error,
                              plan->flow[i].violated,
                              plan->flow[i].measuring,
-                             plan->flow[i].release_svg.length ? &plan->flow[i].release_svg : NULL};
+                             plan->flow[i].release_svg.length ? &plan->flow[i].release_svg : NULL,
+                             plan->flow[i].wiring};
     return flow;
 }
 
@@ -123,7 +124,8 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .mask = pf->mask,
                               .cut = pf->cut,
                               .measuring = pf->measuring,
-                              .release = pf->release_svg.length ? &pf->release_svg : NULL};
+                              .release = pf->release_svg.length ? &pf->release_svg : NULL,
+                              .wiring = pf->wiring};
 }
 
 /* of a rejected device */

@@ -22,6 +22,7 @@ typedef struct fw_recipe_header {
     const fw_recipe_cut *cut;      /* NULL: the same */
     const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
     const fw_text *release;        /* the picture of the release as a fragment; NULL: none */
+    const fw_wiring *wiring;       /* nets and their contacts; NULL: nothing is drawn */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,

@@ -203,6 +203,32 @@ static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw
     fw_text_add(out, "</div>\n");
 }
 
+/* nets and where each is contacted, of a device that something drives */
+static void wiring(const fw_wiring *w, fw_text *out) {
+    if (!w || w->ndrive == 0) return;
+    fw_text_add(out, "<p class=\"small\"><b>Wiring.</b> Insulated by: ");
+    fw_text_escaped(out, w->carrier.words);
+    fw_text_add(out, ".</p>\n<ul class=\"small\">\n");
+    for (int i = 0; i < w->nnet + w->ngap + w->nremark; i++) {
+        const char *words = NULL;
+        int gap = i - w->nnet, remark = gap - w->ngap;
+        fw_text_add(out, "<li>");
+        if (gap < 0) {
+            fw_text_escaped(out, w->net[i].name);
+            fw_text_add(out, ": ");
+            if (fw_wiring_contact_words(out->arena, &w->net[i], &words) != FW_OK)
+                out->failed = true;
+        } else if (remark < 0) {
+            if (fw_wiring_gap_words(out->arena, w, &w->gap[gap], &words) != FW_OK)
+                out->failed = true;
+        } else
+            words = w->remark[remark];
+        fw_text_escaped(out, words ? words : "");
+        fw_text_add(out, "</li>\n");
+    }
+    fw_text_add(out, "</ul>\n");
+}
+
 static void summary_row(const fw_process_step *s, fw_text *out) {
     const fw_process_time *t = &s->time;
     fw_text_add(out, "<tr><td class=\"id\"><span class=\"box\"></span><a href=\"#");
@@ -279,6 +305,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
                     "fabricate.</div>\n");
     front(flow, header, out);
     judgement(flow, header, out);
+    wiring(header->wiring, out);
     overrides_table(flow, out);
     fw_recipe_html_measurements(header, out);
     summary(flow, out);

@@ -38,6 +38,7 @@ fw_status fw_report_section_flows(fw_report_page *page) {
                       fw_report_decision_word(f->variant->decision));
         fw_text_add(out, "</h3>\n");
         if (f->flow) manufacturable(out, f->flow);
+        FW_TRY(fw_report_wiring(out, f->wiring));
         if (f->variant && f->variant->nhinge)
             fw_report_hinge_table(out, f->variant->hinge, f->variant->nhinge, false,
                                   "Hinges in this flow");

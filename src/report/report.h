@@ -29,6 +29,7 @@ typedef struct fw_report_flow { /* one process flow of the device */
     const fw_mask *violated;       /* its findings are listed; NULL: no rule is broken */
     const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
     const fw_text *release;        /* picture of when every place is free; NULL: none */
+    const fw_wiring *wiring;       /* NULL: nothing is drawn */
 } fw_report_flow;
 
 typedef struct fw_report_input {

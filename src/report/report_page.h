@@ -206,4 +206,7 @@ void fw_report_hinge_table(fw_text *out, const fw_verdict_hinge_verdict *hinge, 
 void fw_report_hinge_model(const fw_mechanism *mechanism, const fw_effects_hinge_use *use,
                            const fw_statics_level_step *level, fw_text *out);
 
+/* ---- report_wiring.c: nets of a flow, their contacts and gaps; nothing where nothing is driven ---- */
+fw_status fw_report_wiring(fw_text *out, const fw_wiring *wiring);
+
 #endif

@@ -219,7 +219,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
-    FW_TRY(fw_verdict_clearance_begin(arena, layout, m, watch, v));
+    FW_TRY(fw_verdict_clearance_begin(arena, layout, m, !brief && !v->corner, watch, v));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;

@@ -5,6 +5,7 @@
 #ifndef FW_VERDICT_VERDICT_H
 #define FW_VERDICT_VERDICT_H
 #include "clearance/clearance.h"
+#include "wiring/wiring.h"
 #include "dynamics/dynamics.h"
 #include "probe/probe.h"
 #include "statics/level.h"
@@ -167,6 +168,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_clearance_things *things; /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */
     int nclearance;
+    fw_wiring_moved *stator; /* (nstator) every stator in every scene, as drawn; none at a corner */
+    int nstator;
     fw_probe_result *probed;             /* (nscene x nprobe); NULL: no probe has a course */
     fw_verdict_requirement *requirement; /* (nrequirement) the same at every corner */
     int nrequirement;

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
+#include "geometry/segment.h"
 #include <math.h>
 
 /* of the least clearance, beside 1 nm; distances that are computed for it, and
@@ -36,14 +37,58 @@ static fw_clearance_wish wish_of(const fw_device *device, const fw_layout *layou
                                .most_ever = MOST_EVER};
 }
 
+/* bodies without the discs that hold their flexures, and of what stands one stator */
+static fw_status stator_alone(fw_arena *arena, const fw_clearance_things *things, const char *label,
+                              fw_clearance_things *out) {
+    *out = (fw_clearance_things){.nbody = things->nbody};
+    FW_NEED(out->solid = fw_arena_array(arena, fw_clearance_solid, (size_t)things->nbody + 1));
+    for (int i = 0; i <= things->nbody; i++) {
+        const fw_clearance_solid *from = &things->solid[i];
+        fw_clearance_solid *to = &out->solid[i];
+        *to = *from;
+        to->count = 0;
+        FW_NEED(to->edge = fw_arena_array(arena, fw_clearance_edge, (size_t)from->count));
+        for (int k = 0; k < from->count; k++) {
+            const fw_clearance_edge *e = &from->edge[k];
+            if (e->bends || (i == things->nbody && e->label != label)) continue;
+            fw_geometry_box box = fw_segment_box(&e->segment);
+            to->box = to->count ? fw_box_join(to->box, box) : box;
+            to->edge[to->count++] = *e;
+        }
+    }
+    return FW_OK;
+}
+
+/* the stators of a layout, for a watch of what is drawn */
+static fw_status watch_stators(fw_arena *arena, const fw_layout *layout,
+                               fw_verdict_clearance_watch *w) {
+    if (layout->nelectrode == 0) return FW_OK;
+    FW_NEED(w->stator = fw_arena_array(arena, fw_verdict_stator_watch, (size_t)layout->nelectrode));
+    const int n = w->things->nbody + 1;
+    bool *among = fw_arena_array(arena, bool, (size_t)n *(size_t)n);
+    FW_NEED(among);
+    for (int i = 0; i < n * n; i++)
+        among[i] = i % n < n - 1 && i / n < n - 1;
+    w->among = among;
+    for (int i = 0; i < layout->nelectrode; i++) {
+        const char *label = layout->electrode[i].stator;
+        if (!label) continue;
+        fw_verdict_stator_watch *s = &w->stator[w->nstator++];
+        *s = (fw_verdict_stator_watch){.label = label, .least = fw_clearance_nothing()};
+        FW_TRY(stator_alone(arena, w->things, label, &s->things));
+    }
+    return FW_OK;
+}
+
 fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
-                                     const fw_mechanism *m, fw_verdict_clearance_watch watch[2],
+                                     const fw_mechanism *m, bool with_stators,
+                                     fw_verdict_clearance_watch watch[2],
                                      fw_verdict_variant_verdict *v) {
     fw_clearance_things *things;
     size_t most = (size_t)m->device->nscene + (size_t)m->device->nworkspace;
     size_t solids = (size_t)m->nbody + 1;
     watch[0] = watch[1] = (fw_verdict_clearance_watch){.things = NULL};
-    v->nclearance = 0;
+    v->nclearance = v->nstator = 0;
     v->things = NULL;
     if (!layout || !layout->drawn) return FW_OK;
     FW_NEED(v->clearance = fw_arena_array(arena, fw_verdict_clearance, most));
@@ -57,7 +102,11 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
         watch[i].arena = arena;
         watch[i].wish = wish_of(m->device, layout, may_meet);
         FW_TRY(fw_clearance_path_new(arena, m->nbody, &watch[i].path));
+        if (with_stators) FW_TRY(watch_stators(arena, layout, &watch[i]));
     }
+    if (watch[0].nstator > 0)
+        FW_NEED(v->stator = fw_arena_array(arena, fw_wiring_moved,
+                                           (size_t)watch[0].nstator * (size_t)m->device->nscene));
     return FW_OK;
 }
 
@@ -87,8 +136,15 @@ static void empty(fw_verdict_clearance_watch *w) {
 
 /* what is in the path so far leaves it */
 static fw_status consume(fw_verdict_clearance_watch *w) {
-    if (w->path.npiece > 0)
+    if (w->path.npiece > 0) {
         FW_TRY(fw_clearance_of_path(w->arena, w->things, &w->path, &w->wish, &w->least));
+        fw_clearance_wish wish = w->wish; /* bodies among each other were looked at */
+        wish.may_meet = w->among;
+        wish.enough_m = HUGE_VAL;
+        for (int i = 0; i < w->nstator; i++)
+            FW_TRY(fw_clearance_of_path(w->arena, &w->stator[i].things, &w->path, &wish,
+                                        &w->stator[i].least));
+    }
     empty(w);
     return FW_OK;
 }
@@ -105,6 +161,8 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
         w->path.jump_m = 0;
         w->parts = false;
         w->least = fw_clearance_nothing();
+        for (int i = 0; i < w->nstator; i++)
+            w->stator[i].least = fw_clearance_nothing();
         w->status = FW_OK;
         return;
     }
@@ -251,6 +309,15 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     w->wish.enough_m = brief ? w->wish.needed_m : HUGE_VAL;
     if (w->path.njump > 0) warn_jump(scene, &w->path, diags);
     FW_TRY(consume(w));
+    for (int k = 0; k < w->nstator; k++) {
+        const fw_clearance_least *l = &w->stator[k].least;
+        if (!l->known) continue;
+        v->stator[v->nstator++] = (fw_wiring_moved){.stator = w->stator[k].label,
+                                                    .scene = scene->name,
+                                                    .m = l->m,
+                                                    .t_s = l->t_s,
+                                                    .at = l->at.at_a};
+    }
     if (!w->least.known) return FW_OK; /* nothing moves against anything */
     fw_verdict_clearance *c = &v->clearance[v->nclearance++];
     *c = (fw_verdict_clearance){.scene = scene->name,

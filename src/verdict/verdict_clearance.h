@@ -4,19 +4,29 @@
 #define FW_VERDICT_VERDICT_CLEARANCE_H
 #include "verdict/verdict.h"
 
+/* one stator alone against all that moves: what shorts the drive */
+typedef struct fw_verdict_stator_watch {
+    const char *label;
+    fw_clearance_things things;
+    fw_clearance_least least;
+} fw_verdict_stator_watch;
+
 typedef struct fw_verdict_clearance_watch { /* of one run of a scene */
     const fw_clearance_things *things;      /* NULL: nothing is drawn */
     fw_arena *arena;
     fw_clearance_path path;
     fw_clearance_wish wish;
-    fw_clearance_least least; /* of what has left the path */
-    bool parts;               /* something has, before the motion's end */
+    fw_clearance_least least;        /* of what has left the path */
+    bool parts;                      /* something has, before the motion's end */
+    fw_verdict_stator_watch *stator; /* (nstator) */
+    int nstator;
+    const bool *among; /* (nsolid x nsolid) all pairs but those with what stands */
     fw_status status;
 } fw_verdict_clearance_watch;
 
-/* room for all scenes of a variant; layout may be NULL */
+/* room for all scenes of a variant; layout may be NULL. with_stators: each is looked at by itself, too */
 fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
-                                     const fw_mechanism *mechanism,
+                                     const fw_mechanism *mechanism, bool with_stators,
                                      fw_verdict_clearance_watch watch[2],
                                      fw_verdict_variant_verdict *v);
 /* which pairs the scene lets meet */

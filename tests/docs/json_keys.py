@@ -17,7 +17,8 @@ sections = {name: set(re.findall(r"`(\w+)`", text))
 # keys of these objects are ids of bodies and joints
 BY_ID = {"q", "com", "v", "a", "before", "after", "shape", "damped_shape", "velocity", "acceleration", "revolute_N", "tie_N_Nm",
          "driver_N_or_Nm", "limit_rad", "boundary_share", "dq"}
-SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model": "Hinge model", "measurements": "measurements"}
+SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model": "Hinge model", "measurements": "measurements",
+          "wiring": "wiring"}
 problems, seen, documents = [], {}, 0
 
 SIX = "docs/gallery/reference-six-bar/device.xml"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The worked examples of the pages about drawing, masks and processes, written again from their equations. SI in and out."""
 import re
-from math import acos, asin, asinh, ceil, cos, floor, log, pi, sin, sqrt, tan
+from math import acos, asin, asinh, ceil, cos, exp, floor, log, pi, sin, sqrt, tan
 
 import theory_flexures
 
@@ -195,6 +195,24 @@ def plates(g):
     overlay = g["o1"] + g["o2"]
     return {"o": overlay, "side": g["b"] + 2 * overlay, "far": sqrt(2) * (g["m"] + 2 * g["g"]),
             "least": g["d"] + overlay}
+
+
+def wiring(g):
+    """Paschen's law with p d in Torr m; A, B per m and Torr"""
+    A, B, torr = 15e2, 365e2, 760.0
+
+    def volts(d, gamma):
+        loss = log(1 + 1 / gamma)
+        least = exp(1) * loss / A
+        return B * least if torr * d < least else B * torr * d / (log(A * torr * d) - log(loss))
+    return {"E": g["U"] / g["d"], "low": volts(g["d"], 0.02), "high": volts(g["d"], 0.005),
+            "at": exp(1) * log(201) / A / torr, "farlow": volts(g["far"], 0.02), "farhigh": volts(g["far"], 0.005)}
+
+
+def wiring_program(run, _):
+    gaps = run("check", "docs/gallery/comb-stage/device.xml", "--json")["flows"][0]["wiring"]["gaps"]
+    low, high = gaps[2]["breakdown_V"]
+    return {"farlow": low, "farhigh": high}
 
 
 def contours(g):

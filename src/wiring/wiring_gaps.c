@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How near nets come to each other, what difference of potential stands across the gap, and what it bears.
+
+   In: nets with their potentials. A net that nobody contacts may have any potential between those of its
+   neighbours, so the largest difference that there is counts. The gap is the lesser of that drawn and the
+   least over the motions, less what walls come nearer by as made. Field: V/gap of parallel faces; at edges
+   and tips it is higher, which the range of wiring_breakdown.c does not know. Test: test_wiring_drives.c */
+#include "base/text.h"
+#include "geometry/segment.h"
+#include "wiring/wiring_nets.h"
+#include <math.h>
+
+typedef struct span {
+    double low, high;
+} span;
+
+/* potentials that a net may have */
+static span potential(const fw_wiring *w, int net) {
+    span all = {0.0, 0.0};
+    if (net < w->nnet && w->net[net].needed) return (span){w->net[net].low_V, w->net[net].high_V};
+    if (net < w->nnet && w->net[net].kind == FW_WIRING_ROTOR && w->net[net].needed) return all;
+    for (int i = 0; i < w->nnet; i++) {
+        all.low = fmin(all.low, w->net[i].low_V);
+        all.high = fmax(all.high, w->net[i].high_V);
+    }
+    return all;
+}
+
+static double difference(span p, span q) {
+    return fmax(p.high - q.low, q.high - p.low);
+}
+
+static void take_motion(const fw_wiring *w, const fw_layout *layout, const fw_wiring_asked *asked,
+                        fw_wiring_gap *g) {
+    g->moved_m = g->t_s = (double)NAN;
+    if (w->net[g->a].kind != FW_WIRING_ROTOR || w->net[g->b].kind != FW_WIRING_STATOR) return;
+    for (int k = 0; k < asked->nmoved; k++) {
+        const fw_wiring_moved *m = &asked->moved[k];
+        bool mine = false;
+        for (int i = 0; i < layout->npiece && !mine; i++)
+            mine = w->net_of[i] == g->b && layout->piece[i].label == m->stator;
+        if (!mine || !(isnan(g->moved_m) || m->m < g->moved_m)) continue;
+        g->moved_m = m->m;
+        g->t_s = m->t_s;
+        g->scene = m->scene;
+    }
+}
+
+static void bear(const fw_wiring *w, fw_wiring_gap *g) {
+    g->volts = difference(potential(w, g->a), potential(w, g->b));
+    g->field_V_per_m = g->made_m > 0.0 ? g->volts / g->made_m : HUGE_VAL;
+    fw_wiring_breakdown(g->made_m, g->breakdown_V);
+}
+
+/* ---- what there is to say ---- */
+
+static fw_status say_gap(fw_arena *arena, const fw_wiring *w, const fw_wiring_gap *g,
+                         const char **out) {
+    char gap[32], volts[32], field[32], low[32], high[32], x[32], y[32];
+    FW_NEED(*out = fw_arena_printf(
+                arena,
+                "between %s and %s there are up to %s V across %s um (%s V/um) at (%s, %s) um%s%s, "
+                "and air breaks down between %s and %s V",
+                w->net[g->a].name, g->b < w->nnet ? w->net[g->b].name : "the handle",
+                fw_number_text(volts, sizeof volts, g->volts, 4),
+                fw_number_text(gap, sizeof gap, 1e6 * g->made_m, 4),
+                fw_number_text(field, sizeof field, 1e-6 * g->field_V_per_m, 3),
+                fw_number_text(x, sizeof x, 1e6 * g->at[0].x, 5),
+                fw_number_text(y, sizeof y, 1e6 * g->at[0].y, 5), g->scene ? " in scene " : "",
+                g->scene ? g->scene : "", fw_number_text(low, sizeof low, g->breakdown_V[0], 3),
+                fw_number_text(high, sizeof high, g->breakdown_V[1], 3)));
+    return FW_OK;
+}
+
+static fw_status judge(fw_arena *arena, fw_wiring *w, const fw_wiring_gap *g) {
+    const char *what;
+    if (!(g->volts > 0.0)) return FW_OK;
+    if (!(g->made_m > 0.0)) {
+        FW_NEED(what = fw_arena_printf(arena,
+                                       "%s and %s touch%s%s while they are at different "
+                                       "potentials, which shorts the drive: let them move less, or "
+                                       "draw them further apart",
+                                       w->net[g->a].name, w->net[g->b].name,
+                                       g->scene ? " in scene " : "", g->scene ? g->scene : ""));
+        return fw_wiring_say(arena, &w->refusal, &w->nrefusal, what);
+    }
+    if (g->volts < g->breakdown_V[0]) return FW_OK;
+    FW_TRY(say_gap(arena, w, g, &what));
+    bool surely = g->volts > g->breakdown_V[1];
+    FW_NEED(what = fw_arena_printf(arena, "%s: ask for less voltage, or for a wider gap%s", what,
+                                   surely ? "" : ", or measure it"));
+    return surely ? fw_wiring_say(arena, &w->refusal, &w->nrefusal, what)
+                  : fw_wiring_say(arena, &w->open, &w->nopen, what);
+}
+
+/* the conductor below the insulator: across it below what is held, and across the air that the release leaves
+   below what moves, which is as thin */
+static fw_status handle_gaps(fw_arena *arena, fw_wiring *w) {
+    const fw_wiring_carrier *c = &w->carrier;
+    char volts[32], um[32], low[32], high[32];
+    if (!c->insulates || !c->handle || !(c->thickness_m > 0.0)) return FW_OK;
+    for (int i = 0; i < w->nnet; i++) {
+        fw_wiring_gap *g = &w->gap[w->ngap++];
+        *g = (fw_wiring_gap){.a = i,
+                             .b = w->nnet,
+                             .m = c->thickness_m,
+                             .at = {w->net[i].at, w->net[i].at},
+                             .label = {w->net[i].name, "handle"},
+                             .moved_m = (double)NAN,
+                             .t_s = (double)NAN,
+                             .made_m = c->thickness_m};
+        g->volts = difference(potential(w, i), potential(w, w->nnet));
+        g->field_V_per_m = g->volts / c->thickness_m;
+        g->breakdown_V[0] = g->breakdown_V[1] = c->breakdown_V_per_m * c->thickness_m;
+        if (w->net[i].kind == FW_WIRING_ROTOR) fw_wiring_breakdown(c->thickness_m, g->breakdown_V);
+        if (!(g->volts > 0.0) || isnan(g->breakdown_V[0]) || g->volts < g->breakdown_V[0]) continue;
+        FW_TRY(fw_wiring_say(
+            arena, &w->open, &w->nopen,
+            fw_arena_printf(arena,
+                            "between %s and the handle there may be %s V across %s um of %s, which "
+                            "breaks down between %s and %s V: tie the handle to the rotor's "
+                            "potential, or ask for less voltage",
+                            w->net[i].name, fw_number_text(volts, sizeof volts, g->volts, 4),
+                            fw_number_text(um, sizeof um, 1e6 * c->thickness_m, 3),
+                            w->net[i].kind == FW_WIRING_ROTOR ? "air" : "insulator",
+                            fw_number_text(low, sizeof low, g->breakdown_V[0], 3),
+                            fw_number_text(high, sizeof high, g->breakdown_V[1], 3))));
+    }
+    return FW_OK;
+}
+
+static fw_status remarks(fw_arena *arena, const fw_layout *layout, fw_wiring *w) {
+    for (int i = 0; i < w->nnet; i++) {
+        const fw_wiring_net *n = &w->net[i];
+        if (n->kind == FW_WIRING_HELD && w->ndrive > 0)
+            FW_TRY(
+                fw_wiring_say(arena, &w->remark, &w->nremark,
+                              fw_arena_printf(arena,
+                                              "%s is contacted by nothing and floats between the "
+                                              "potentials of its neighbours",
+                                              n->name)));
+        if (n->tethered)
+            FW_TRY(fw_wiring_say(arena, &w->remark, &w->nremark,
+                                 fw_arena_printf(arena,
+                                                 "until its tethers are broken %s is one conductor "
+                                                 "with what they hold",
+                                                 n->name)));
+    }
+    (void)layout;
+    if (w->ndrive == 0 || !w->carrier.insulates || !w->carrier.handle) return FW_OK;
+    return fw_wiring_say(arena, &w->remark, &w->nremark,
+                         "the handle below the insulator is a conductor by itself: tie it to the "
+                         "rotor's potential, so that it pulls at nothing that moves");
+}
+
+fw_status fw_wiring_gaps(fw_arena *arena, const fw_layout *layout, const fw_wiring_asked *asked,
+                         fw_wiring *w) {
+    size_t n = (size_t)w->nnet;
+    fw_geometry_box *box;
+    fw_geometry_contour *contour;
+    FW_NEED(w->gap = fw_arena_array(arena, fw_wiring_gap, n * (n + 1) / 2));
+    FW_NEED(box = fw_arena_array(arena, fw_geometry_box, (size_t)layout->npiece));
+    FW_NEED(contour = fw_arena_array(arena, fw_geometry_contour, (size_t)layout->npiece));
+    for (int i = 0; i < layout->npiece; i++) {
+        contour[i] = layout->piece[i].contour;
+        if (w->net_of[i] >= 0) box[i] = fw_geometry_contour_box(&contour[i]);
+    }
+    for (int a = 0; a < w->nnet; a++)
+        for (int b = a + 1; b < w->nnet; b++) {
+            fw_wiring_near near = fw_wiring_least(layout, contour, box, w->net_of, a, b);
+            if (near.piece[0] < 0) continue;
+            fw_wiring_gap *g = &w->gap[w->ngap++];
+            *g = (fw_wiring_gap){.a = a, .b = b, .m = near.m};
+            for (int k = 0; k < 2; k++) {
+                g->at[k] = near.at[k];
+                g->label[k] = layout->piece[near.piece[k]].label;
+            }
+            take_motion(w, layout, asked, g);
+            g->made_m = (g->moved_m < g->m ? g->moved_m : g->m) - asked->wall_m;
+            bear(w, g);
+            FW_TRY(judge(arena, w, g));
+        }
+    FW_TRY(handle_gaps(arena, w));
+    return remarks(arena, layout, w);
+}
