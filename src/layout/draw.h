@@ -205,6 +205,12 @@ typedef struct fw_layout_drawing {
     int nattachment;
 } fw_layout_drawing;
 
+/* ---- layout_missing.c: what finds no room, and that it is said ---- */
+fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item);
+/* one place of the drawing, whichever scenes it is in */
+bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q);
+bool fw_layout_same_eyelet(const fw_device_eyelet *p, const fw_device_eyelet *q);
+
 /* index into raw, plain and held; the joint tells bases apart */
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint);
 /* held, else plain */
@@ -291,7 +297,7 @@ bool fw_layout_stators_drawn(const fw_layout_drawing *d);
 bool fw_layout_near_stator(const fw_layout_drawing *d, const fw_geometry_contour *c,
                            double space_m);
 /* all stators are given up, because of `why`; the bodies are to be drawn again */
-void fw_layout_stators_drop(fw_layout_drawing *d, const char *why);
+fw_status fw_layout_stators_drop(fw_layout_drawing *d, const char *why);
 /* rings on the base; for the tethers to avoid: all rings and stators */
 fw_status fw_layout_actuators_on_base(fw_layout_drawing *d);
 fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour *raw);

@@ -117,7 +117,7 @@ static fw_status draw_ground(fw_layout_drawing *d, fw_status *base) {
         FW_TRY(fw_layout_actuators_draw(d));
         FW_TRY(try_ground(d, base, &why));
         if (!why) return FW_OK;
-        fw_layout_stators_drop(d, why);
+        FW_TRY(fw_layout_stators_drop(d, why));
     }
 }
 
@@ -252,7 +252,7 @@ static void say_joints(const fw_device *device, fw_diags *diags) {
 
 /* warnings and notes of a drawing, which are not repeated when the device is drawn again */
 static bool comments_drawing(int number) {
-    static const int of_drawing[] = {131, 138, 139, 189, 255, 258};
+    static const int of_drawing[] = {127, 131, 138, 139, 189, 255, 258};
     for (size_t i = 0; i < sizeof of_drawing / sizeof of_drawing[0]; i++)
         if (number == of_drawing[i]) return true;
     return false;

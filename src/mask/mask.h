@@ -163,6 +163,8 @@ typedef struct fw_mask {
     fw_geometry_box box;
     int vertex_limit;           /* of one GDSII boundary */
     bool rejected;              /* every file says REJECTED */
+    const char *const *because; /* (nbecause) why the verdict rejects the design */
+    int nbecause;
     const double *layer_bias_m; /* as of the options; NULL: none */
     const char **note;          /* (nnote) lines written on the documentation layer */
     int nnote;
@@ -205,6 +207,8 @@ typedef struct fw_mask_options {
     fw_geometry_flattening flattening;
     double thickness_m; /* of the device */
     bool rejected;
+    const char *const *because; /* (nbecause) why, for certificate and order sheet */
+    int nbecause;
     const char *title;
     const char **note;
     int nnote;
@@ -365,6 +369,8 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
 /* Lines of the sheet for people, ASCII: one of them; what is on the plate (called `what`), with its
    tone, reading and mirror; least sizes (INFINITY: none), bias and grid; corners of the data, m */
 void fw_mask_order_line(fw_text *out, const char *what, const char *value);
+/* the head of what is rejected, with why */
+void fw_mask_order_rejected(fw_text *out, const fw_mask *mask);
 void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */

@@ -322,6 +322,8 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     fw_status status = judge(arena, layout, m, measure, diags);
     if (status != FW_OK && !(status == FW_INPUT && m->nbroken)) return status;
     m->rejected = options->rejected || m->nbroken > 0;
+    m->because = options->because;
+    m->nbecause = options->nbecause;
     FW_NEED(m->cell = cell_name(arena, device_name, m->rejected));
     *mask = m;
     return status;

@@ -101,6 +101,8 @@ typedef struct fw_plan {
     } start;
     int dies; /* made at once; 1 without a wafer */
     fw_verdict verdict;
+    const char **because; /* (nbecause) why it is rejected */
+    int nbecause;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;
     int files_written; /* by the last fw_plan_write, the manifest not counted; 0: no directory made

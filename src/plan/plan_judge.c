@@ -38,6 +38,8 @@ fw_status fw_plan_judge(fw_plan *plan) {
     FW_TRY(
         fw_verdict_run(plan->arena, plan->device, &options, &plan->diags, verdict, &plan->layout));
     FW_TRY(fw_verdict_advise(plan->arena, plan->device, &options, verdict));
+    if (verdict->decision == FW_REJECT)
+        FW_TRY(fw_verdict_rejections(plan->arena, verdict, &plan->because, &plan->nbecause));
     FW_TRY(fw_plan_compute_flows(plan));
     return fw_plan_measurements_find(plan, false);
 }

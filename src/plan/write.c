@@ -119,6 +119,8 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .mask_sha256 = pf->mask_sha256,
                               .program_version = FW_VERSION,
                               .rejected = plan->verdict.decision == FW_REJECT,
+                              .because = plan->because,
+                              .nbecause = plan->nbecause,
                               .schedule = pf->schedule,
                               .mask = pf->mask,
                               .cut = pf->cut,

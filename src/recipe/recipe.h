@@ -17,6 +17,8 @@ typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of i
 typedef struct fw_recipe_header {
     const char *device, *flow_sha256, *mask_sha256, *program_version;
     bool rejected;
+    const char *const *because; /* (nbecause) why the verdict rejects the design */
+    int nbecause;
     const fw_schedule *schedule;   /* NULL: none was asked for */
     const fw_mask *mask;           /* NULL: none was made; then the layers are drawn not to scale */
     const fw_recipe_cut *cut;      /* NULL: the same */

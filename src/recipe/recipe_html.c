@@ -73,7 +73,7 @@ static const char style[] =
     "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"
     ".s{display:inline-block;width:8.6mm;height:4.4mm;border:0.4pt solid #888;margin-right:0.5mm}\n"
     ".rejected{border:2.2pt solid #000;text-align:center;font-size:13pt;font-weight:bold;"
-    "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n"
+    "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n.because{font-weight:bold}\n"
     "@media screen{.rejected{position:sticky;top:0;background:#fff;z-index:1}}\n"
     "@media print{body{max-width:none;padding:0}a{color:#000;text-decoration:none}}\n";
 
@@ -249,6 +249,19 @@ static void sources(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out, "</ol>\n");
 }
 
+static void rejected(const fw_recipe_header *header, fw_text *out) {
+    fw_text_add(out, "<div class=\"rejected\">REJECTED: the verdict rejects this design. Do not "
+                     "fabricate.</div>\n");
+    if (header->nbecause == 0) return;
+    fw_text_add(out, "<ul class=\"because\">\n");
+    for (int i = 0; i < header->nbecause; i++) {
+        fw_text_add(out, "<li>");
+        fw_text_escaped(out, header->because[i]);
+        fw_text_add(out, "</li>\n");
+    }
+    fw_text_add(out, "</ul>\n");
+}
+
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *out) {
     fw_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -260,10 +273,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     fw_text_add(out, style);
     margin_boxes(flow, header, out);
     fw_text_add(out, "</style>\n</head>\n<body>\n");
-    if (header->rejected)
-        fw_text_add(out,
-                    "<div class=\"rejected\">REJECTED: the verdict rejects this design. Do not "
-                    "fabricate.</div>\n");
+    if (header->rejected) rejected(header, out);
     front(flow, header, out);
     judgement(flow, header, out);
     overrides_table(flow, out);
