@@ -3,6 +3,7 @@
    keeps a short stub; everything beyond the neck stays on the frame. */
 #include "layout/tether_finger.h"
 #include <math.h>
+#include <string.h>
 
 /* the tether's own outline: the neck, widened to the finger, to the frame's stub */
 static fw_status draw_tether(fw_layout_drawing *d, double at, double cut, fw_layout_attachment *a) {
@@ -195,27 +196,85 @@ static fw_status say_missing(fw_layout_drawing *d, int body) {
     return fw_layout_missing_add(d, m);
 }
 
+/* fingers to a body, as its kind has them */
+static fw_status hold(fw_layout_drawing *d, int body, int *held) {
+    *held = 0;
+    if (fw_layout_has_shapes(d->device, body))
+        FW_TRY(hold_shapes(d, body, held));
+    else if (is_heavy(d->device, body))
+        FW_TRY(hold_plate(d, body, held));
+    else
+        FW_TRY(hold_bar(d, body, held));
+    return *held == 0 ? hold_anywhere(d, body, held) : FW_OK;
+}
+
+/* fingers to all bodies in this order; *without: how many of them have none, *first the first of them */
+static fw_status hold_all(fw_layout_drawing *d, const int *order, int n, int *held, int *without,
+                          int *first) {
+    *without = 0;
+    for (int i = 0; i < n; i++) {
+        FW_TRY(hold(d, order[i], &held[order[i]]));
+        if (held[order[i]] > 0) continue;
+        if ((*without)++ == 0) *first = i;
+    }
+    return FW_OK;
+}
+
+/* the drawing as it was before any finger */
+static void let_go(fw_layout_drawing *d, const fw_geometry_contour *raw, int nattachment) {
+    for (int b = 0; b < d->device->nbody; b++) {
+        d->raw[b] = raw[b];
+        d->held[b].count = 0;
+    }
+    d->nattachment = nattachment;
+}
+
+/* a finger may stand in another body's way: one that got none goes first, and all is tried again */
+static fw_status hold_in_turn(fw_layout_drawing *d, int *order, int n, int *held) {
+    const int before = d->nattachment;
+    const size_t bodies = (size_t)d->device->nbody;
+    fw_geometry_contour *raw = fw_arena_grow(d->arena, d->raw, bodies, bodies, sizeof *raw);
+    int *best = fw_arena_grow(d->arena, order, (size_t)n, (size_t)n, sizeof *best);
+    int without, first = 0, least;
+    FW_NEED(raw && best ? d : NULL);
+    FW_TRY(hold_all(d, order, n, held, &without, &first));
+    least = without;
+    for (int round = 1; round < n && without > 0 && first > 0; round++) {
+        int moved = order[first];
+        memmove(order + 1, order, (size_t)first * sizeof *order);
+        order[0] = moved;
+        let_go(d, raw, before);
+        FW_TRY(hold_all(d, order, n, held, &without, &first));
+        if (without >= least) continue;
+        least = without;
+        memcpy(best, order, (size_t)n * sizeof *best);
+    }
+    if (without == least) return FW_OK;
+    let_go(d, raw, before);
+    return hold_all(d, best, n, held, &without, &first);
+}
+
+static fw_status say_held(fw_layout_drawing *d, int body, int held) {
+    const char *label;
+    if (held == 0) return say_missing(d, body);
+    if (held > 1 || d->said || !is_heavy(d->device, body)) return FW_OK;
+    FW_NEED(label = fw_layout_body_label(d, body));
+    fw_diag_note(d->diags, 127, d->device->body[body].place,
+                 "%s is held by one tether: a second finger finds no room", label);
+    return FW_OK;
+}
+
 /* a body that no finger reaches is among what is missing */
 fw_status fw_layout_tethers_draw(fw_layout_drawing *d) {
+    size_t bodies = (size_t)d->device->nbody;
+    int *order, *held, n = 0;
     if (!d->device->die.tethers) return FW_OK;
-    for (int b = 0; b < d->device->nbody; b++) {
-        bool plate = is_heavy(d->device, b);
-        int held = 0;
-        if (!needs_tether(d->device, b)) continue;
-        if (fw_layout_has_shapes(d->device, b))
-            FW_TRY(hold_shapes(d, b, &held));
-        else if (plate)
-            FW_TRY(hold_plate(d, b, &held));
-        else
-            FW_TRY(hold_bar(d, b, &held));
-        if (held == 0) FW_TRY(hold_anywhere(d, b, &held));
-        if (held == 0) FW_TRY(say_missing(d, b));
-        if (held == 1 && plate && !d->said) {
-            const char *label = fw_layout_body_label(d, b);
-            FW_NEED(label);
-            fw_diag_note(d->diags, 127, d->device->body[b].place,
-                         "%s is held by one tether: a second finger finds no room", label);
-        }
-    }
+    FW_NEED(order = fw_arena_array(d->arena, int, bodies));
+    FW_NEED(held = fw_arena_array(d->arena, int, bodies));
+    for (int b = 0; b < d->device->nbody; b++)
+        if (needs_tether(d->device, b)) order[n++] = b;
+    FW_TRY(hold_in_turn(d, order, n, held));
+    for (int b = 0; b < d->device->nbody; b++)
+        if (needs_tether(d->device, b)) FW_TRY(say_held(d, b, held[b]));
     return FW_OK;
 }

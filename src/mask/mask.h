@@ -2,6 +2,7 @@
 /* Masks: layers from masks/FLOW.xml, exact biased outlines, polygons on the 1 nm grid, writers. */
 #ifndef FW_MASK_MASK_H
 #define FW_MASK_MASK_H
+#include "base/json.h"
 #include "base/diag.h"
 #include "base/output.h"
 #include "geometry/contour.h"
@@ -371,6 +372,8 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
 void fw_mask_order_line(fw_text *out, const char *what, const char *value);
 /* the head of what is rejected, with why */
 void fw_mask_order_rejected(fw_text *out, const fw_mask *mask);
+/* the same as a member of an object; nothing where the verdict does not reject it */
+void fw_mask_json_because(fw_json *json, const fw_mask *mask);
 void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */

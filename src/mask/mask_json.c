@@ -45,16 +45,6 @@ static void line_text(fw_json *json, const char *key, const char *value) {
     fw_json_text(json, key, value);
 }
 
-/* why the verdict rejects the design; nothing where it does not */
-static void because(fw_json *json, const fw_mask *mask) {
-    if (mask->nbecause == 0) return;
-    fw_json_line(json, 2);
-    fw_json_list(json, "rejected_because");
-    for (int i = 0; i < mask->nbecause; i++)
-        fw_json_text(json, NULL, mask->because[i]);
-    fw_json_end(json);
-}
-
 /* a list with one line per file; without any, its brackets stand together */
 static void files(fw_json *json, const fw_output_file *file, int n) {
     fw_json_line(json, 2);
@@ -327,7 +317,7 @@ static void head(fw_json *json, const fw_mask *mask, const char *gds_sha256) {
     line_text(json, "version", FW_VERSION);
     fw_json_line(json, 2);
     fw_json_truth(json, "rejected", mask->rejected);
-    because(json, mask);
+    fw_mask_json_because(json, mask);
     line_text(json, "gds_sha256", gds_sha256 ? gds_sha256 : "");
     line_text(json, "reading", mask->table->reading);
     fw_json_line(json, 2);
@@ -510,7 +500,7 @@ static void order_head(fw_json *json, const fw_mask *mask, const fw_mask_order *
     fw_json_text(json, "version", FW_VERSION);
     fw_json_line(json, 2);
     yes_no(json, "rejected", mask->rejected);
-    because(json, mask);
+    fw_mask_json_because(json, mask);
     plate_of_set(json, mask->table, order);
     line_text(json, "plate", row->layers);
     line_text(json, "plate_text", row->order);

@@ -237,6 +237,15 @@ void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box) {
     fw_text_add(out, " um\n");
 }
 
+void fw_mask_json_because(fw_json *json, const fw_mask *mask) {
+    if (mask->nbecause == 0) return;
+    fw_json_line(json, 2);
+    fw_json_list(json, "rejected_because");
+    for (int i = 0; i < mask->nbecause; i++)
+        fw_json_text(json, NULL, mask->because[i]);
+    fw_json_end(json);
+}
+
 void fw_mask_order_rejected(fw_text *out, const fw_mask *mask) {
     fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n");
     for (int i = 0; i < mask->nbecause; i++)

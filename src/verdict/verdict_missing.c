@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Nothing is in the motion, or holds the device, that is not in its masks: what finds no room in the
-   drawing rejects it, in the flows whose scenes have it. Test: tests/unit/plan/test_missing.c */
+   drawing rejects it, in the flows whose scenes have it. Test: tests/unit/plan/test_not_drawn.c */
 #include "verdict/verdict_parts.h"
 #include <math.h>
 

@@ -118,7 +118,7 @@ class Effects(unittest.TestCase):
         said, whole = self.drawn("four-tendons")
         self.assertNotIn("FW-D131", said)
         said, less = self.drawn("four-tendons", 'x="0.6 mm" y="0.12 mm"', 'x="0.65 mm" y="0.12 mm"')
-        self.assertRegex(said, r"tendon T2 .* eyelet at .* not drawn: .*hinge D at \([-0-9.]+, [-0-9.]+\) um")
+        self.assertRegex(said, r"eyelet of tendon T2 at .* not drawn: .*hinge D at \([-0-9.]+, [-0-9.]+\) um")
         self.assertLess(len(less), len(whole))
 
     def test_explicit_steps_are_given_up(self):
