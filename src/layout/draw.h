@@ -139,6 +139,7 @@ typedef struct fw_layout_attachment {
     int body;
     fw_layout_window_side side;
     double low_m, high_m, stub_m;
+    double at_m, cut_m; /* of a tether: along the side, and the depth of its cut */
     /* the way of a tether, from inside the body; count 0 for the base */
     fw_geometry_contour finger;
     fw_geometry_contour tether; /* from the neck to the frame; count 0 for the base */

@@ -89,6 +89,17 @@ typedef struct fw_layout_missing {
     const char *room; /* the nearest change with which it is drawn; NULL: not looked for */
 } fw_layout_missing;
 
+typedef struct fw_layout_tether { /* a straight finger of the frame with a neck at the body */
+    int body;
+    const char *label;           /* of its piece: "tether of link AB" */
+    fw_geometry_vec2 cut;        /* world: middle of the cut at the body's stub */
+    fw_geometry_vec2 outward;    /* unit, from the body to the frame */
+    double length_m;             /* from the cut to the inner edge of the frame */
+    double finger_m, neck_m;     /* widths */
+    double neck_long_m, flare_m; /* from the cut: the neck, then where it widens to the finger */
+    double stub_m; /* of the body, straight and as wide as the neck, before it is rounded */
+} fw_layout_tether;
+
 typedef struct fw_layout {
     bool drawn; /* false: the mechanism has no shapes; `why_not` says what is missing */
     const char *why_not;
@@ -108,6 +119,8 @@ typedef struct fw_layout {
        and no mask is made of them */
     fw_layout_fault *fault;
     int nfault;
+    fw_layout_tether *tether; /* (ntether) */
+    int ntether;
     fw_layout_missing *missing; /* (nmissing) of a layout that is drawn, too */
     int nmissing;
 } fw_layout;

@@ -71,6 +71,8 @@ static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_sid
         return FW_OK; /* no length for neck, finger and the frame's stub */
     FW_TRY(add_stub(d, body, at, cut, deep, side, done));
     if (!*done) return FW_OK;
+    a.at_m = at;
+    a.cut_m = cut;
     FW_TRY(draw_tether(d, at, cut, &a));
     return fw_layout_attachment_add(d, &a);
 }

@@ -18,7 +18,8 @@ static fw_report_flow *report_flows(fw_plan *plan) {
                              plan->flow[i].mask_error,
                              plan->flow[i].violated,
                              plan->flow[i].measuring,
-                             plan->flow[i].release_svg.length ? &plan->flow[i].release_svg : NULL};
+                             plan->flow[i].release_svg.length ? &plan->flow[i].release_svg : NULL,
+                             plan->flow[i].tethers};
     return flow;
 }
 
@@ -119,6 +120,10 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .mask_sha256 = pf->mask_sha256,
                               .program_version = FW_VERSION,
                               .rejected = plan->verdict.decision == FW_REJECT,
+                              .tethers = pf->tethers,
+                              .mechanism = plan->verdict.variant
+                                               ? plan->verdict.variant[pf - plan->flow].mechanism
+                                               : NULL,
                               .because = plan->because,
                               .nbecause = plan->nbecause,
                               .schedule = pf->schedule,

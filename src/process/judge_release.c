@@ -65,6 +65,7 @@ void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts 
     const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     bool known = r && r->slowest >= 0 && r->needed_m > 0.0;
     flow->release = known ? r : NULL;
+    flow->hold = known ? facts->hold : NULL;
     flow->release_foot_m = foot_of(flow);
     flow->release_lag_known = knows_lag(flow);
     for (int i = 0; i < flow->nstep; i++)

@@ -70,6 +70,7 @@ void fw_process_release_json(const fw_process_flow *flow, fw_json *json) {
     for (int i = 0; i < r->npart; i++)
         part(json, &r->part[i], run - foot);
     fw_json_end(json);
+    fw_process_hold_json(flow, json);
     fw_json_end(json);
 }
 

@@ -162,6 +162,13 @@ static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_tex
         flow->count[FW_DERIVED], flow->count[FW_MEASURED], flow->not_computable, flow->nstep);
 }
 
+static void labelled(const char *label, const char *words, fw_text *out) {
+    if (!words || out->failed) return;
+    fw_text_printf(out, "<p class=\"small\"><b>%s:</b> ", label);
+    fw_text_escaped(out, words);
+    fw_text_add(out, ".</p>\n");
+}
+
 static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
     static const char *const word[] = {"Not guaranteed until something is measured",
                                        "Not manufacturable in this flow",
@@ -178,13 +185,12 @@ static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw
     fw_text_add(out, " µm per edge.</b> ");
     fw_text_escaped(out, flow->bias_note ? flow->bias_note : "");
     fw_text_add(out, ".</p>\n");
-    const char *release;
-    if (fw_process_release_words(out->arena, flow, &release) != FW_OK) out->failed = true;
-    if (out->failed || !release) return;
-    fw_text_add(out, "<p class=\"small\"><b>Release window:</b> ");
-    fw_text_escaped(out, release);
-    fw_text_add(out, ".</p>\n");
-    if (!h->release) return;
+    const char *words;
+    if (fw_process_release_words(out->arena, flow, &words) != FW_OK) out->failed = true;
+    labelled("Release window", words, out);
+    if (fw_process_hold_words(out->arena, flow, &words) != FW_OK) out->failed = true;
+    labelled("What holds meanwhile", words, out);
+    if (!h->release || out->failed) return;
     fw_text_add(out, "<div class=\"release\">");
     fw_text_bytes(out, h->release->data, h->release->length);
     fw_text_add(out, "</div>\n");
@@ -249,6 +255,20 @@ static void sources(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out, "</ol>\n");
 }
 
+/* the last thing that holds the device, behind the last step */
+static fw_status tethers(const fw_recipe_header *header, fw_text *out) {
+    const char *words = NULL;
+    if (header->mechanism)
+        FW_TRY(fw_statics_tethers_words(out->arena, header->mechanism, header->tethers, &words));
+    if (!words) return FW_OK;
+    fw_text_add(out,
+                "<h3>Before use: the tethers</h3>\n<p class=\"note\"><span class=\"box\"></span> ");
+    fw_text_escaped(out, words);
+    fw_text_add(out, ".</p>\n<p class=\"small\">Broken by, at, instrument: ____________________ "
+                     "Hinges whole under the microscope: <span class=\"box\"></span></p>\n");
+    return FW_OK;
+}
+
 static void rejected(const fw_recipe_header *header, fw_text *out) {
     fw_text_add(out, "<div class=\"rejected\">REJECTED: the verdict rejects this design. Do not "
                      "fabricate.</div>\n");
@@ -293,6 +313,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)
         fw_recipe_html_step(flow, i, header, cut ? &slicer : NULL, &scale, out);
+    FW_TRY(tethers(header, out));
     fw_recipe_html_deviations(out);
     sources(flow, out);
     fw_text_add(out, "</body>\n</html>\n");

@@ -197,6 +197,7 @@ fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_head
     words(out, "bias_note", flow->bias_note);
     edges(flow, out);
     fw_process_release_json(flow, out);
+    fw_statics_tethers_json(out, header->mechanism, header->tethers);
     FW_TRY(fw_recipe_json_bill(flow, header, out));
     fw_json_end(out);
     return fw_json_finish(out, "\n");

@@ -307,6 +307,7 @@ static void flow(fw_json *json, const fw_report_flow *f) {
     fw_json_end(json);
     fw_json_text(json, "mask_error", f->mask_error);
     if (f->flow) fw_process_release_json(f->flow, json);
+    if (v && v->mechanism) fw_statics_tethers_json(json, v->mechanism, f->tethers);
     if (v) {
         fw_json_text(json, "verdict", word(v->decision));
         governing(json, v->hinge, v->nhinge, v->governing);
