@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct holder {
     fw_arena *arena;
@@ -76,7 +77,9 @@ static fw_status add_tethers(holder *h, int body, fw_release_body_hold *out) {
     for (int i = 0; i < l->ntether; i++)
         if (l->tether[i].body == body) label = l->tether[i].label, n++;
     if (n == 0) return FW_OK;
-    FW_TRY(add(h, out, n == 1 ? label : fw_arena_printf(h->arena, "%d times %s", n, label)));
+    FW_TRY(add(h, out,
+               n == 1 ? label
+                      : fw_arena_printf(h->arena, "%d tethers%s", n, label + strlen("tether"))));
     out->holders += n - 1;
     return FW_OK;
 }

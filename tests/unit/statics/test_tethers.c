@@ -202,6 +202,47 @@ static void stepped_beams_agree_with_direct_stiffness(void **unused) {
     }
 }
 
+/* Two hinges at one place: one after the other, with a body between, they are one of twice the compliance;
+   beside each other, one of half of it. The place and the bodies' own frames are anywhere. */
+static void hinges_add_up(void **unused) {
+    (void)unused;
+    for (int beside = 0; beside < 2; beside++) {
+        case_of one, two;
+        fw_arena *arena = fw_arena_new(0);
+        fw_mechanism_mass body[2];
+        fw_mechanism_pin pin[2];
+        fw_mechanism_hinge hinge[2];
+        fw_layout_hinge_layout drawn[2] = {{0}, {0}};
+        make(&one, 3.0, 0.35e-3, 0.25e-3);
+        make(&two, beside ? 6.0 : 1.5, 0.35e-3, 0.25e-3);
+        body[0] = two.body, body[1] = two.body;
+        body[1].x_m = -0.2e-3, body[1].y_m = 0.4e-3;
+        pin[0] = pin[1] = two.pin;
+        hinge[0] = hinge[1] = two.hinge;
+        hinge[1].pin = 1;
+        if (beside) {
+            pin[1].body_a = 0, pin[1].body_b = FW_GROUND; /* turned round */
+            pin[1].ax_m = pin[1].bx_m, pin[1].ay_m = pin[1].by_m;
+            pin[1].bx_m = pin[1].by_m = 0.0;
+        } else { /* ground, body 1, body 0 */
+            pin[0].body_a = 1, pin[0].ax_m = 0.2e-3, pin[0].ay_m = -0.4e-3;
+            pin[1].body_b = 1, pin[1].bx_m = 0.2e-3, pin[1].by_m = -0.4e-3;
+        }
+        one.hinge.closed_form.stress_per_rad_Pa = 1e17; /* beside it the pull is nothing */
+        for (int k = 0; k < 2; k++)
+            hinge[k].closed_form.stress_per_rad_Pa = beside ? 1e17 : 2e17;
+        two.layout.hinge = drawn;
+        two.m.body = body, two.m.pin = pin, two.m.hinge = hinge;
+        two.m.nbody = beside ? 1 : 2, two.m.npin = two.m.nhinge = 2;
+        const fw_statics_tether_break *a = &found(arena, &one)->item[0].last,
+                                      *b = &found(arena, &two)->item[0].last;
+        assert_relative(b->force_N, a->force_N, 1e-8);
+        assert_relative(b->move_m, a->move_m, 1e-8);
+        assert_relative(b->hinge_share, a->hinge_share, 1e-4);
+        fw_arena_free(arena);
+    }
+}
+
 /* a stiffer hinge takes more of the load */
 static void the_share_of_the_hinge_is_told(void **unused) {
     (void)unused;
@@ -231,6 +272,7 @@ int main(void) {
         cmocka_unit_test(a_free_body_leaves_a_cantilever),
         cmocka_unit_test(a_held_body_leaves_two_walls),
         cmocka_unit_test(stepped_beams_agree_with_direct_stiffness),
+        cmocka_unit_test(hinges_add_up),
         cmocka_unit_test(the_share_of_the_hinge_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
