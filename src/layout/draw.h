@@ -139,6 +139,7 @@ typedef struct fw_layout_attachment {
     int body;
     fw_layout_window_side side;
     double low_m, high_m, stub_m;
+    double at_m, cut_m; /* of a tether: along the side, and the depth of its cut */
     /* the way of a tether, from inside the body; count 0 for the base */
     fw_geometry_contour finger;
     fw_geometry_contour tether; /* from the neck to the frame; count 0 for the base */
@@ -215,6 +216,12 @@ typedef struct fw_layout_drawing {
     fw_layout_attachment *attachment; /* (nattachment) what meets the frame */
     int nattachment;
 } fw_layout_drawing;
+
+/* ---- layout_missing.c: what finds no room, and that it is said ---- */
+fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item);
+/* one place of the drawing, whichever scenes it is in */
+bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q);
+bool fw_layout_same_eyelet(const fw_device_eyelet *p, const fw_device_eyelet *q);
 
 /* index into raw, plain and held; the joint tells bases apart */
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint);
@@ -302,7 +309,7 @@ bool fw_layout_stators_drawn(const fw_layout_drawing *d);
 bool fw_layout_near_stator(const fw_layout_drawing *d, const fw_geometry_contour *c,
                            double space_m);
 /* all stators are given up, because of `why`; the bodies are to be drawn again */
-void fw_layout_stators_drop(fw_layout_drawing *d, const char *why);
+fw_status fw_layout_stators_drop(fw_layout_drawing *d, const char *why);
 /* rings on the base; for the tethers to avoid: all rings and stators */
 fw_status fw_layout_actuators_on_base(fw_layout_drawing *d);
 fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour *raw);

@@ -84,6 +84,30 @@ typedef struct fw_layout_electrode {
     bool routed;         /* its stator ends in a pad at the edge of the chip */
     fw_geometry_box edge_pad;
 } fw_layout_electrode;
+/* What the motion has, or the file asks for, and what finds no room in the drawing: an electrode pair,
+   an eyelet, the tethers of a body. It is left out whole, and the device is not accepted with it. */
+typedef struct fw_layout_missing {
+    int number;                     /* FW-Dnnn of its warning */
+    const fw_device_comb *comb;     /* of the device; else NULL */
+    const fw_device_eyelet *eyelet; /* the same */
+    int body;                       /* that it belongs to, or FW_GROUND */
+    const char *name;               /* "comb drive upper", "the tethers of link AB" */
+    fw_geometry_vec2 at;            /* world: where it should be */
+    fw_place place;
+    const char *why;  /* what is in its way, and where: a clause */
+    const char *room; /* the nearest change with which it is drawn; NULL: not looked for */
+} fw_layout_missing;
+
+typedef struct fw_layout_tether { /* a straight finger of the frame with a neck at the body */
+    int body;
+    const char *label;           /* of its piece: "tether of link AB" */
+    fw_geometry_vec2 cut;        /* world: middle of the cut at the body's stub */
+    fw_geometry_vec2 outward;    /* unit, from the body to the frame */
+    double length_m;             /* from the cut to the inner edge of the frame */
+    double finger_m, neck_m;     /* widths */
+    double neck_long_m, flare_m; /* from the cut: the neck, then where it widens to the finger */
+    double stub_m; /* of the body, straight and as wide as the neck, before it is rounded */
+} fw_layout_tether;
 
 typedef struct fw_layout {
     bool drawn; /* false: the mechanism has no shapes; `why_not` says what is missing */
@@ -106,6 +130,10 @@ typedef struct fw_layout {
        and no mask is made of them */
     fw_layout_fault *fault;
     int nfault;
+    fw_layout_tether *tether; /* (ntether) */
+    int ntether;
+    fw_layout_missing *missing; /* (nmissing) of a layout that is drawn, too */
+    int nmissing;
 } fw_layout;
 
 /* what is drawn of a drive of a scene; NULL: nothing was planned for it */
@@ -122,5 +150,13 @@ double fw_layout_walls_m(const fw_layout *layout);
    can be shown of it with its faults. */
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout);
+
+/* Is what is missing in a scene of this flow (NULL: the device's own material)? Tethers are of all. */
+bool fw_layout_missing_in_flow(const fw_device *device, const fw_layout_missing *missing,
+                               const char *flow);
+/* *out: the same layout with the nearest room of everything that is missing, each found by drawing the
+   device again with a changed copy of the part (layout_room.c). Nothing is missing: *out is layout. */
+fw_status fw_layout_rooms_find(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               const fw_layout **out);
 
 #endif

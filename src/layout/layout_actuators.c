@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What moves the device: eyelets of tendons and electrodes of comb drives become part of the
    drawing, as far as nothing is in their way. What cannot be drawn is left out whole and said
-   (FW-D131); the motion has it all the same. */
+   (FW-D131); the motion has it all the same, so that the device is rejected. */
 #include "geometry/segment.h"
 #include "layout/draw.h"
 #include "layout/layout_text.h"
@@ -16,22 +16,12 @@ static const double LETTER_M = 45e-6, STROKE_M = 5e-6;      /* on bond pads, as 
 
 /* ---- collecting ---- */
 
-static bool same_comb(const fw_device_comb *p, const fw_device_comb *q) {
-    bool length = p->length_m == q->length_m || (isnan(p->length_m) && isnan(q->length_m));
-    return p->kind == q->kind && p->body_a == q->body_a && p->body_b == q->body_b &&
-           p->bx_m == q->bx_m && p->by_m == q->by_m && p->direction_rad == q->direction_rad &&
-           p->fingers == q->fingers && p->gap_m == q->gap_m && p->width_m == q->width_m && length &&
-           (p->kind == FW_ELECTRODES_PLATE || p->overlap_m == q->overlap_m);
-}
-
 static void plan_tendon(fw_layout_drawing *d, const fw_device_tendon *t) {
     for (int k = 0; k < t->neyelet; k++) {
         const fw_device_eyelet *e = &t->eyelet[k];
         bool there = false;
-        for (int i = 0; i < d->neyelet && !there; i++) {
-            const fw_device_eyelet *o = d->eyelet[i].eyelet;
-            there = o->body == e->body && o->x_m == e->x_m && o->y_m == e->y_m;
-        }
+        for (int i = 0; i < d->neyelet && !there; i++)
+            there = fw_layout_same_eyelet(d->eyelet[i].eyelet, e);
         if (!there)
             d->eyelet[d->neyelet++] =
                 (fw_layout_eyelet_plan){.tendon = t,
@@ -44,7 +34,7 @@ static void plan_tendon(fw_layout_drawing *d, const fw_device_tendon *t) {
 
 static void plan_comb(fw_layout_drawing *d, const fw_device_comb *c) {
     for (int i = 0; i < d->ncomb; i++)
-        if (same_comb(d->comb[i].comb, c)) {
+        if (fw_layout_same_comb(d->comb[i].comb, c)) {
             d->comb[i].at_edge = d->comb[i].at_edge || c->pad_at_edge;
             return;
         }
@@ -82,29 +72,33 @@ fw_status fw_layout_actuators_plan(fw_layout_drawing *d) {
 
 /* ---- saying ---- */
 
-static void eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why) {
-    char x[32], y[32];
+static fw_status eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why) {
+    const char *of = e->tendon->id ? e->tendon->id : "(unnamed)";
     e->off = true;
     e->cap.count = 0;
-    if (d->said) return;
-    fw_diag_warning(d->diags, 131, e->eyelet->place,
-                    "tendon %s moves the device, but its eyelet at (%s, %s) um is not drawn: %s; "
-                    "add it to the mask by hand before you order it%s",
-                    e->tendon->id ? e->tendon->id : "(unnamed)", fw_layout_um(x, e->at.x),
-                    fw_layout_um(y, e->at.y), why,
-                    e->on_frame ? "" : "; its mass is not in the motion either");
+    return fw_layout_missing_add(
+        d, (fw_layout_missing){.number = 131,
+                               .eyelet = e->eyelet,
+                               .body = e->eyelet->body,
+                               .name = fw_arena_printf(d->arena, "eyelet of tendon %s", of),
+                               .at = e->at,
+                               .place = e->eyelet->place,
+                               .why = why});
 }
 
-static void comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const char *why) {
+static fw_status comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const char *why) {
+    const char *id = p->comb->id ? p->comb->id : "(unnamed)";
     p->off = true;
     p->why = why;
     p->rotor.count = p->stator.count = 0;
-    if (d->said) return;
-    fw_diag_warning(
-        d->diags, 131, p->comb->place,
-        "comb drive %s moves the device, but it is not drawn: %s; add the electrodes to "
-        "the mask by hand before you order it; their mass is not in the motion either",
-        p->comb->id ? p->comb->id : "(unnamed)", why);
+    return fw_layout_missing_add(
+        d, (fw_layout_missing){.number = 131,
+                               .comb = p->comb,
+                               .body = p->comb->body_b,
+                               .name = fw_arena_printf(d->arena, "comb drive %s", id),
+                               .at = p->local.origin,
+                               .place = p->comb->place,
+                               .why = why});
 }
 
 /* ---- bodies ---- */
@@ -282,8 +276,7 @@ static fw_status eyelet_add(fw_layout_drawing *d, int slot, int body, fw_layout_
                             fw_geometry_contour *raw) {
     const char *why;
     FW_TRY(eyelet_fit(d, slot, body, e, soundness_now(d, slot), raw, &why));
-    if (why) eyelet_off(d, e, why);
-    return FW_OK;
+    return why ? eyelet_off(d, e, why) : FW_OK;
 }
 
 /* body as it was before, then everything on it that can be drawn; one pass for the poses that hold
@@ -303,7 +296,7 @@ static fw_status dress(fw_layout_drawing *d, int body) {
         if (!why && !good)
             why = "between its rotor and its body there would be steps or slits that no mask shows";
         if (why)
-            comb_off(d, p, why);
+            FW_TRY(comb_off(d, p, why));
         else
             raw = with;
     }
@@ -357,7 +350,7 @@ fw_status fw_layout_actuators_draw(fw_layout_drawing *d) {
             if (d->comb[i].off) continue;
             FW_TRY(fw_layout_stator_place(d, &d->comb[i], &why));
             if (!why) continue;
-            comb_off(d, &d->comb[i], why);
+            FW_TRY(comb_off(d, &d->comb[i], why));
             again = true; /* its rotor goes, too */
         }
     }
@@ -366,9 +359,10 @@ fw_status fw_layout_actuators_draw(fw_layout_drawing *d) {
 
 /* ---- stators ---- */
 
-void fw_layout_stators_drop(fw_layout_drawing *d, const char *why) {
+fw_status fw_layout_stators_drop(fw_layout_drawing *d, const char *why) {
     for (int i = 0; i < d->ncomb; i++)
-        if (!d->comb[i].off) comb_off(d, &d->comb[i], why);
+        if (!d->comb[i].off) FW_TRY(comb_off(d, &d->comb[i], why));
+    return FW_OK;
 }
 
 /* Eyelets on base and frame, and the pieces of all that moves the device. */
@@ -431,7 +425,7 @@ fw_status fw_layout_actuators_on_base(fw_layout_drawing *d) {
         e->on_frame = e->eyelet->body == FW_GROUND && slot < 0;
         if (slot >= 0 &&
             to_frame(d, e->at) < 0.5 * e->hole_m + e->ring_m + fw_layout_rule.least_space_m) {
-            eyelet_off(d, e, across);
+            FW_TRY(eyelet_off(d, e, across));
             continue;
         }
         if (slot >= 0) FW_TRY(eyelet_add(d, slot, FW_GROUND, e, &d->raw[slot]));
@@ -470,12 +464,12 @@ fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour
         const char *beyond;
         FW_TRY(outside(d, e, &beyond));
         if (beyond) {
-            eyelet_off(d, e, beyond);
+            FW_TRY(eyelet_off(d, e, beyond));
             continue;
         }
         if (e->at.y < half.y0 || e->at.y > half.y1) continue;
         if (near_base(d, e)) {
-            eyelet_off(d, e, across);
+            FW_TRY(eyelet_off(d, e, across));
             continue;
         }
         fw_geometry_contour open = *raw;
@@ -484,7 +478,7 @@ fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour
         FW_TRY(frame_soundness(d, raw, &before));
         FW_TRY(eyelet_fit(d, -1, FW_GROUND, e, before, &open, &why));
         if (why)
-            eyelet_off(d, e, why);
+            FW_TRY(eyelet_off(d, e, why));
         else
             *raw = open;
     }
@@ -520,7 +514,7 @@ static void report_masses(fw_layout_drawing *d) {
 const fw_layout_electrode *fw_layout_electrode_of(const fw_layout *layout,
                                                   const fw_device_comb *comb) {
     for (int i = 0; i < layout->nelectrode; i++)
-        if (same_comb(layout->electrode[i].comb, comb)) return &layout->electrode[i];
+        if (fw_layout_same_comb(layout->electrode[i].comb, comb)) return &layout->electrode[i];
     return NULL;
 }
 

@@ -45,6 +45,27 @@ static const char *missing(fw_arena *arena, const fw_device *device, bool *faile
     return why;
 }
 
+/* its piece, and its sizes for those who ask what breaks it */
+static fw_status add_tether(fw_layout_drawing *d, const fw_layout_attachment *a) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    fw_layout *l = d->layout;
+    const char *label = fw_layout_body_label(d, a->body);
+    FW_NEED(label);
+    FW_NEED(label = fw_arena_printf(d->arena, "tether of %s", label));
+    l->tether[l->ntether++] =
+        (fw_layout_tether){.body = a->body,
+                           .label = label,
+                           .cut = fw_layout_window_point(l, a->side, a->at_m, a->cut_m),
+                           .outward = fw_layout_window_outward(a->side),
+                           .length_m = a->cut_m,
+                           .finger_m = rule->tether_m,
+                           .neck_m = rule->tether_neck_m,
+                           .neck_long_m = rule->neck_long_m,
+                           .flare_m = rule->tether_m - rule->tether_neck_m,
+                           .stub_m = rule->neck_straight_m};
+    return fw_layout_drawing_add(d, FW_ROLE_TETHER, FW_GROUND, FW_NONE, label, &a->tether);
+}
+
 static fw_status add_bodies(fw_layout_drawing *d) {
     for (int s = 0; s < d->nslot; s++) {
         int body = s < d->device->nbody ? s : FW_GROUND;
@@ -56,14 +77,9 @@ static fw_status add_bodies(fw_layout_drawing *d) {
             FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE, label,
                                          &d->caps[body].contour[i]));
     }
-    for (int i = 0; i < d->nattachment; i++) {
-        const fw_layout_attachment *a = &d->attachment[i];
-        if (a->tether.count == 0) continue;
-        const char *label = fw_layout_body_label(d, a->body);
-        FW_NEED(label);
-        FW_NEED(label = fw_arena_printf(d->arena, "tether of %s", label));
-        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_TETHER, FW_GROUND, FW_NONE, label, &a->tether));
-    }
+    FW_NEED(d->layout->tether = fw_arena_array(d->arena, fw_layout_tether, (size_t)d->nattachment));
+    for (int i = 0; i < d->nattachment; i++)
+        if (d->attachment[i].tether.count > 0) FW_TRY(add_tether(d, &d->attachment[i]));
     for (int j = 0; j < d->device->nrevolute; j++) {
         const char *label =
             fw_arena_printf(d->arena, "flexure of hinge %s", d->device->revolute[j].id);
@@ -117,7 +133,7 @@ static fw_status draw_ground(fw_layout_drawing *d, fw_status *base) {
         FW_TRY(fw_layout_actuators_draw(d));
         FW_TRY(try_ground(d, base, &why));
         if (!why) return FW_OK;
-        fw_layout_stators_drop(d, why);
+        FW_TRY(fw_layout_stators_drop(d, why));
     }
 }
 
@@ -253,7 +269,7 @@ static void say_joints(const fw_device *device, fw_diags *diags) {
 
 /* warnings and notes of a drawing, which are not repeated when the device is drawn again */
 static bool comments_drawing(int number) {
-    static const int of_drawing[] = {131, 138, 139, 189, 255, 258};
+    static const int of_drawing[] = {127, 131, 138, 139, 189, 255, 258};
     for (size_t i = 0; i < sizeof of_drawing / sizeof of_drawing[0]; i++)
         if (number == of_drawing[i]) return true;
     return false;

@@ -1,118 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tethers: fingers of the frame that hold the moving bodies by a neck until it is broken. The body
    keeps a short stub; everything beyond the neck stays on the frame. */
-#include "geometry/segment.h"
-#include "layout/draw.h"
-#include "layout/layout_text.h"
+#include "layout/tether_finger.h"
 #include <math.h>
-
-static bool finger_is_clear(const fw_layout_drawing *d, const fw_geometry_contour *finger,
-                            int body) {
-    const double space = fw_layout_rule.strip_clear_m, between = fw_layout_rule.fingers_apart_m;
-    for (int s = 0; s < d->nslot; s++) {
-        if (s == body || d->plain[s].count == 0) continue;
-        if (fw_geometry_contour_distance_below(finger, &d->plain[s], space, NULL, NULL) < space)
-            return false;
-    }
-    for (int i = 0; i < d->nlug; i++)
-        if (fw_geometry_contour_distance_below(finger, &d->lug[i], space, NULL, NULL) < space)
-            return false;
-    for (int i = 0; i < d->nattachment; i++) {
-        const fw_layout_attachment *a = &d->attachment[i];
-        if (a->finger.count > 0 &&
-            fw_geometry_contour_distance_below(finger, &a->finger, between, NULL, NULL) < between)
-            return false;
-    }
-    fw_geometry_box box =
-        fw_geometry_contour_box(finger); /* axis-parallel, so the box is the finger */
-    for (int j = 0; j < d->device->nrevolute; j++) {
-        const fw_layout_hinge_layout *h = &d->layout->hinge[j];
-        double x = fmax(fmax(box.x0 - h->centre.x, h->centre.x - box.x1), 0.0);
-        double y = fmax(fmax(box.y0 - h->centre.y, h->centre.y - box.y1), 0.0);
-        if (hypot(x, y) < h->keep_out_m + fw_layout_rule.strip_disc_m) return false;
-    }
-    return true;
-}
-
-enum { FEW = 128 };
-
-/* a lower bound of the distance from an outline: no segment's box is nearer */
-static double clear_way(const fw_geometry_contour *c, const fw_geometry_box *box,
-                        fw_geometry_vec2 p) {
-    fw_geometry_box at = {p.x, p.y, p.x, p.y};
-    double least = HUGE_VAL;
-    for (int i = 0; i < c->count; i++) {
-        fw_geometry_box own = i < FEW ? box[i] : fw_segment_box(&c->segment[i]);
-        if (fw_box_apart(&at, &own, least)) continue;
-        double gap = fw_box_gap(at, own);
-        if (gap < least) gap = fmax(gap, fw_geometry_segment_clear_of(&c->segment[i], &at));
-        if (gap < least) least = gap;
-    }
-    return least;
-}
-
-/* the finger may leave its own body only once: everything from a little outside on is free. Looked
-   at every 2 um, but where no edge is near for longer */
-static bool leaves_once(const fw_layout_drawing *d, const fw_layout_attachment *a,
-                        fw_geometry_vec2 from) {
-    const fw_geometry_contour *body = &d->plain[a->body];
-    fw_geometry_vec2 out = fw_layout_window_outward(a->side);
-    fw_geometry_vec2 side = fw_left(out);
-    double length = fw_dot(fw_sub(fw_layout_window_point(d->layout, a->side, 0.0, 0.0), from), out);
-    fw_geometry_box box = fw_geometry_contour_box(body), own[FEW];
-    for (int i = 0; i < body->count && i < FEW; i++)
-        own[i] = fw_segment_box(&body->segment[i]);
-    const double beside = 0.5 * fw_layout_rule.tether_m + fw_layout_rule.finger_beside_m;
-    for (int edge = -1; edge <= 1; edge++) {
-        bool inside = true;
-        double known = -1.0; /* up to there nothing changes */
-        for (double s = 0.0; s < length; s += fw_layout_rule.finger_step_m) {
-            if (s < known) continue;
-            fw_geometry_vec2 p = fw_add(fw_add(from, s, out), edge * beside, side);
-            bool in = p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1 &&
-                      fw_geometry_contour_contains(body, p);
-            if (in && !inside) return false;
-            inside = in;
-            known = s + clear_way(body, own, p) - 1e-9;
-        }
-        if (inside) return false;
-    }
-    return fw_geometry_contour_contains(body, from);
-}
-
-/* where a line straight outwards leaves the body, as depth in the window: inside at `deep`, outside
-   at the window's edge, once in between */
-static double edge_depth(const fw_layout_drawing *d, const fw_layout_attachment *a, double along,
-                         double deep) {
-    double in = deep, out = 0.0;
-    const fw_geometry_contour *body = &d->plain[a->body];
-    if (!fw_geometry_contour_contains(body, fw_layout_window_point(d->layout, a->side, along, in)))
-        return deep;
-    while (in - out > 1e-9) {
-        double middle = 0.5 * (in + out);
-        if (fw_geometry_contour_contains(body,
-                                         fw_layout_window_point(d->layout, a->side, along, middle)))
-            in = middle;
-        else
-            out = middle;
-    }
-    return in;
-}
-
-/* Depth of the neck's cut. The stub's corners at a body's edge of slope m (against the side) are
-   rounded by r; the farther one ends r sqrt(1 + m2) outside the edge at r from the stub. A little
-   more stays straight, so that the cut is square. Exact for a straight edge. test_layout.c
-   tethers_break_at_the_body */
-static double neck_depth(const fw_layout_drawing *d, const fw_layout_attachment *a, double at,
-                         double deep) {
-    double r = d->corner_m[a->body], far = 0.5 * fw_layout_rule.tether_neck_m + r;
-    double low = edge_depth(d, a, at - far, deep), high = edge_depth(d, a, at + far, deep);
-    double middle = edge_depth(d, a, at, deep), slope = (high - low) / (2.0 * far);
-    double cut =
-        fmin(middle, fmin(low, high)) - r * hypot(1.0, slope) - fw_layout_rule.neck_straight_m;
-    return middle - cut < fw_layout_rule.tether_cut_m ? fw_layout_to_grid(cut)
-                                                      : -1.0; /* else: no straight edge */
-}
+#include <string.h>
 
 /* the tether's own outline: the neck, widened to the finger, to the frame's stub */
 static fw_status draw_tether(fw_layout_drawing *d, double at, double cut, fw_layout_attachment *a) {
@@ -170,30 +61,20 @@ static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_sid
     *done = false;
     FW_TRY(fw_layout_strip_draw(d, side, start, start, along, 0.5 * fw_layout_rule.tether_m,
                                 fw_layout_rule.tether_stub_m, &a));
-    if (!leaves_once(d, &a, from) || !finger_is_clear(d, &a.finger, body)) return FW_OK;
+    if (!fw_layout_finger_leaves_once(d, &a, from) ||
+        !fw_layout_finger_is_clear(d, &a.finger, body))
+        return FW_OK;
     fw_geometry_vec2 edge = fw_layout_window_point(d->layout, side, along, 0.0);
     double at = fw_layout_to_grid(along), deep = fw_norm(fw_sub(edge, from));
-    double cut = neck_depth(d, &a, at, deep);
+    double cut = fw_layout_finger_cut(d, &a, at, deep);
     if (cut < fw_layout_rule.finger_least_m)
         return FW_OK; /* no length for neck, finger and the frame's stub */
     FW_TRY(add_stub(d, body, at, cut, deep, side, done));
     if (!*done) return FW_OK;
+    a.at_m = at;
+    a.cut_m = cut;
     FW_TRY(draw_tether(d, at, cut, &a));
     return fw_layout_attachment_add(d, &a);
-}
-
-static void sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
-                              fw_layout_window_side order[4]) {
-    double far[4];
-    for (int i = 0; i < 4; i++) {
-        fw_layout_window_side s = (fw_layout_window_side)i;
-        far[i] =
-            fw_dot(fw_sub(fw_layout_window_point(l, s, 0.0, 0.0), p), fw_layout_window_outward(s));
-        int k = i;
-        for (; k > 0 && far[order[k - 1]] > far[i] + 1e-9; k--)
-            order[k] = order[k - 1];
-        order[k] = s;
-    }
 }
 
 /* two fingers in mirrored places on the nearest side where that works, else any two, else one */
@@ -202,7 +83,7 @@ static fw_status hold_plate(fw_layout_drawing *d, int body, int *held) {
     static const double place[] = {0.14, 0.22, 0.07, 0.3, 0.38};
     fw_geometry_vec2 middle = fw_v(b->plate_x_m, b->plate_y_m), x = fw_polar(b->plate_angle_rad);
     fw_layout_window_side order[4];
-    sides_by_distance(d->layout, middle, order);
+    fw_layout_sides_by_distance(d->layout, middle, order);
     for (int s = 0; s < 4 && *held < 2; s++) {
         fw_geometry_vec2 out = fw_layout_window_outward(order[s]), y = fw_left(x);
         bool across = fabs(fw_dot(out, y)) > fabs(fw_dot(out, x));
@@ -227,7 +108,7 @@ static fw_status hold_bar(fw_layout_drawing *d, int body, int *held) {
     fw_geometry_vec2 p = fw_layout_joint_point(d->device, joint[0]),
                      q = fw_layout_joint_point(d->device, joint[1]);
     fw_layout_window_side order[4];
-    sides_by_distance(d->layout, fw_v(0.5 * (p.x + q.x), 0.5 * (p.y + q.y)), order);
+    fw_layout_sides_by_distance(d->layout, fw_v(0.5 * (p.x + q.x), 0.5 * (p.y + q.y)), order);
     for (int s = 0; s < 4 && *held < 1; s++) {
         fw_geometry_vec2 along = fw_towards(p, q), out = fw_layout_window_outward(order[s]);
         if (fabs(fw_dot(along, out)) > 0.8) continue; /* would run along the bar */
@@ -240,22 +121,6 @@ static fw_status hold_bar(fw_layout_drawing *d, int body, int *held) {
     return FW_OK;
 }
 
-/* where a line straight inwards from a side meets the body, if its edge is one there and beside; a
-   stub near a corner that somebody drew would leave a slit. Segment -1: it is not */
-static fw_layout_ray_hit smooth_edge(const fw_layout_drawing *d, int body,
-                                     fw_layout_window_side side, double along) {
-    const double beside = 30e-6;
-    fw_geometry_vec2 out = fw_layout_window_outward(side), in = fw_v(-out.x, -out.y);
-    fw_layout_ray_hit hit[3];
-    for (int k = 0; k < 3; k++) {
-        double at = along + (k - 1) * beside;
-        hit[k] = fw_layout_first_hit(&d->plain[body],
-                                     fw_layout_window_point(d->layout, side, at, 0.0), in);
-    }
-    if (hit[0].segment != hit[1].segment || hit[2].segment != hit[1].segment) hit[1].segment = -1;
-    return hit[1];
-}
-
 /* Two fingers to what a description draws of a body: on the nearest side of the window where that
    works, else on any two, from places in the inner part of the body's own extent */
 static fw_status hold_shapes(fw_layout_drawing *d, int body, int *held) {
@@ -264,20 +129,44 @@ static fw_status hold_shapes(fw_layout_drawing *d, int body, int *held) {
     fw_geometry_box box = fw_geometry_contour_box(&d->plain[body]);
     fw_layout_window_side order[4];
     double taken = HUGE_VAL; /* share of the place that has a finger on this side */
-    sides_by_distance(d->layout, d->layout->body[body].centroid, order);
+    fw_layout_sides_by_distance(d->layout, d->layout->body[body].centroid, order);
     for (int s = 0; s < 4 && *held < 2; s++, taken = HUGE_VAL) {
         bool up = order[s] == FW_LEFT || order[s] == FW_RIGHT;
         fw_geometry_vec2 out = fw_layout_window_outward(order[s]);
         for (size_t i = 0; i < sizeof place / sizeof place[0] && *held < 2; i++) {
             double along =
                 up ? box.y0 + place[i] * (box.y1 - box.y0) : box.x0 + place[i] * (box.x1 - box.x0);
-            fw_layout_ray_hit hit = smooth_edge(d, body, order[s], along);
+            fw_layout_ray_hit hit = fw_layout_finger_edge(d, body, order[s], along);
             bool done;
             if (hit.segment < 0 || fabs(place[i] - taken) < apart) continue;
             FW_TRY(try_finger(d, body, order[s], fw_add(hit.at, -into, out), &done));
             if (done) taken = place[i];
             *held += done;
         }
+    }
+    return FW_OK;
+}
+
+/* one finger to any place of a body's edge, where none of the usual ones has room: outwards from the
+   middle of each side */
+static fw_status hold_anywhere(fw_layout_drawing *d, int body, int *held) {
+    const double into = 30e-6, step = 10e-6;
+    fw_geometry_box box = fw_geometry_contour_box(&d->plain[body]);
+    fw_layout_window_side order[4];
+    fw_layout_sides_by_distance(d->layout, d->layout->body[body].centroid, order);
+    for (int s = 0; s < 4 && *held < 1; s++) {
+        bool up = order[s] == FW_LEFT || order[s] == FW_RIGHT;
+        double low = up ? box.y0 : box.x0, high = up ? box.y1 : box.x1, middle = 0.5 * (low + high);
+        fw_geometry_vec2 out = fw_layout_window_outward(order[s]);
+        for (double off = 0.0; middle + off < high && *held < 1; off += step)
+            for (int sign = -1; sign <= (off > 0.0) && *held < 1; sign += 2) {
+                fw_layout_ray_hit hit =
+                    fw_layout_finger_edge(d, body, order[s], middle + sign * off);
+                bool done = false;
+                if (hit.segment >= 0)
+                    FW_TRY(try_finger(d, body, order[s], fw_add(hit.at, -into, out), &done));
+                *held += done;
+            }
     }
     return FW_OK;
 }
@@ -300,28 +189,94 @@ static bool needs_tether(const fw_device *device, int body) {
     return plates ? is_heavy(device, body) : fw_layout_steps_to_ground(device, body) == most;
 }
 
-/* a body that no finger reaches freely stays without; a platform without is worth a warning */
-fw_status fw_layout_tethers_draw(fw_layout_drawing *d) {
-    if (!d->device->die.tethers) return FW_OK;
-    for (int b = 0; b < d->device->nbody; b++) {
-        bool plate = is_heavy(d->device, b);
-        int held = 0;
-        if (!needs_tether(d->device, b)) continue;
-        if (fw_layout_has_shapes(d->device, b))
-            FW_TRY(hold_shapes(d, b, &held));
-        else if (plate)
-            FW_TRY(hold_plate(d, b, &held));
-        else
-            FW_TRY(hold_bar(d, b, &held));
-        if (!plate || held > 0) continue;
-        const char *label = fw_layout_body_label(d, b);
-        FW_NEED(label);
-        fw_diag_warning(d->diags, 127, d->device->body[b].place,
-                        "%s has no tether: no straight finger of the frame reaches it without "
-                        "crossing another part, so that nothing holds it between release and "
-                        "use; handle the released device with care, or leave it free access to "
-                        "one side",
-                        label);
+static fw_status say_missing(fw_layout_drawing *d, int body) {
+    fw_layout_missing m = {.number = 127, .body = body, .place = d->device->body[body].place};
+    const char *label = fw_layout_body_label(d, body);
+    FW_NEED(label);
+    FW_NEED(m.name = fw_arena_printf(d->arena, "the tethers of %s", label));
+    FW_TRY(fw_layout_tether_room(d, body, &m.at, &m.why, &m.room));
+    return fw_layout_missing_add(d, m);
+}
+
+/* fingers to a body, as its kind has them */
+static fw_status hold(fw_layout_drawing *d, int body, int *held) {
+    *held = 0;
+    if (fw_layout_has_shapes(d->device, body))
+        FW_TRY(hold_shapes(d, body, held));
+    else if (is_heavy(d->device, body))
+        FW_TRY(hold_plate(d, body, held));
+    else
+        FW_TRY(hold_bar(d, body, held));
+    return *held == 0 ? hold_anywhere(d, body, held) : FW_OK;
+}
+
+/* fingers to all bodies in this order; *without: how many of them have none, *first the first of them */
+static fw_status hold_all(fw_layout_drawing *d, const int *order, int n, int *held, int *without,
+                          int *first) {
+    *without = 0;
+    for (int i = 0; i < n; i++) {
+        FW_TRY(hold(d, order[i], &held[order[i]]));
+        if (held[order[i]] > 0) continue;
+        if ((*without)++ == 0) *first = i;
     }
+    return FW_OK;
+}
+
+/* the drawing as it was before any finger */
+static void let_go(fw_layout_drawing *d, const fw_geometry_contour *raw, int nattachment) {
+    for (int b = 0; b < d->device->nbody; b++) {
+        d->raw[b] = raw[b];
+        d->held[b].count = 0;
+    }
+    d->nattachment = nattachment;
+}
+
+/* a finger may stand in another body's way: one that got none goes first, and all is tried again */
+static fw_status hold_in_turn(fw_layout_drawing *d, int *order, int n, int *held) {
+    const int before = d->nattachment;
+    const size_t bodies = (size_t)d->device->nbody;
+    fw_geometry_contour *raw = fw_arena_grow(d->arena, d->raw, bodies, bodies, sizeof *raw);
+    int *best = fw_arena_grow(d->arena, order, (size_t)n, (size_t)n, sizeof *best);
+    int without, first = 0, least;
+    FW_NEED(raw && best ? d : NULL);
+    FW_TRY(hold_all(d, order, n, held, &without, &first));
+    least = without;
+    for (int round = 1; round < n && without > 0 && first > 0; round++) {
+        int moved = order[first];
+        memmove(order + 1, order, (size_t)first * sizeof *order);
+        order[0] = moved;
+        let_go(d, raw, before);
+        FW_TRY(hold_all(d, order, n, held, &without, &first));
+        if (without >= least) continue;
+        least = without;
+        memcpy(best, order, (size_t)n * sizeof *best);
+    }
+    if (without == least) return FW_OK;
+    let_go(d, raw, before);
+    return hold_all(d, best, n, held, &without, &first);
+}
+
+static fw_status say_held(fw_layout_drawing *d, int body, int held) {
+    const char *label;
+    if (held == 0) return say_missing(d, body);
+    if (held > 1 || d->said || !is_heavy(d->device, body)) return FW_OK;
+    FW_NEED(label = fw_layout_body_label(d, body));
+    fw_diag_note(d->diags, 127, d->device->body[body].place,
+                 "%s is held by one tether: a second finger finds no room", label);
+    return FW_OK;
+}
+
+/* a body that no finger reaches is among what is missing */
+fw_status fw_layout_tethers_draw(fw_layout_drawing *d) {
+    size_t bodies = (size_t)d->device->nbody;
+    int *order, *held, n = 0;
+    if (!d->device->die.tethers) return FW_OK;
+    FW_NEED(order = fw_arena_array(d->arena, int, bodies));
+    FW_NEED(held = fw_arena_array(d->arena, int, bodies));
+    for (int b = 0; b < d->device->nbody; b++)
+        if (needs_tether(d->device, b)) order[n++] = b;
+    FW_TRY(hold_in_turn(d, order, n, held));
+    for (int b = 0; b < d->device->nbody; b++)
+        if (needs_tether(d->device, b)) FW_TRY(say_held(d, b, held[b]));
     return FW_OK;
 }

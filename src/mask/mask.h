@@ -2,6 +2,7 @@
 /* Masks: layers from masks/FLOW.xml, exact biased outlines, polygons on the 1 nm grid, writers. */
 #ifndef FW_MASK_MASK_H
 #define FW_MASK_MASK_H
+#include "base/json.h"
 #include "base/diag.h"
 #include "base/output.h"
 #include "geometry/contour.h"
@@ -167,6 +168,8 @@ typedef struct fw_mask {
     fw_geometry_box box;
     int vertex_limit;           /* of one GDSII boundary */
     bool rejected;              /* every file says REJECTED */
+    const char *const *because; /* (nbecause) why the verdict rejects the design */
+    int nbecause;
     const double *layer_bias_m; /* as of the options; NULL: none */
     const char **note;          /* (nnote) lines written on the documentation layer */
     int nnote;
@@ -212,6 +215,8 @@ typedef struct fw_mask_options {
     fw_geometry_flattening flattening;
     double thickness_m; /* of the device */
     bool rejected;
+    const char *const *because; /* (nbecause) why, for certificate and order sheet */
+    int nbecause;
     const char *title;
     const char **note;
     int nnote;
@@ -385,6 +390,10 @@ void fw_mask_order_line(fw_text *out, const char *what, const char *value);
 enum { FW_MASK_GDS_TEXT = 32 };
 const char *fw_mask_order_gds(char text[FW_MASK_GDS_TEXT], const fw_mask_layer *layer);
 int fw_mask_order_gds_width(const fw_mask_table *table);
+/* the head of what is rejected, with why */
+void fw_mask_order_rejected(fw_text *out, const fw_mask *mask);
+/* the same as a member of an object; nothing where the verdict does not reject it */
+void fw_mask_json_because(fw_json *json, const fw_mask *mask);
 void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */

@@ -326,6 +326,8 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     if (wired != FW_OK && wired != FW_INPUT) return wired;
     if (status == FW_OK) status = wired;
     m->rejected = options->rejected || m->nbroken > 0;
+    m->because = options->because;
+    m->nbecause = options->nbecause;
     FW_NEED(m->cell = cell_name(arena, device_name, m->rejected));
     *mask = m;
     return status;

@@ -317,6 +317,7 @@ static void head(fw_json *json, const fw_mask *mask, const char *gds_sha256) {
     line_text(json, "version", FW_VERSION);
     fw_json_line(json, 2);
     fw_json_truth(json, "rejected", mask->rejected);
+    fw_mask_json_because(json, mask);
     line_text(json, "gds_sha256", gds_sha256 ? gds_sha256 : "");
     line_text(json, "reading", mask->table->reading);
     fw_json_line(json, 2);
@@ -500,6 +501,7 @@ static void order_head(fw_json *json, const fw_mask *mask, const fw_mask_order *
     fw_json_text(json, "version", FW_VERSION);
     fw_json_line(json, 2);
     yes_no(json, "rejected", mask->rejected);
+    fw_mask_json_because(json, mask);
     plate_of_set(json, mask->table, order);
     line_text(json, "plate", row->layers);
     line_text(json, "plate_text", row->order);

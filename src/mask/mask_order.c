@@ -186,8 +186,24 @@ void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box) {
     fw_text_add(out, " um\n");
 }
 
+void fw_mask_json_because(fw_json *json, const fw_mask *mask) {
+    if (mask->nbecause == 0) return;
+    fw_json_line(json, 2);
+    fw_json_list(json, "rejected_because");
+    for (int i = 0; i < mask->nbecause; i++)
+        fw_json_text(json, NULL, mask->because[i]);
+    fw_json_end(json);
+}
+
+void fw_mask_order_rejected(fw_text *out, const fw_mask *mask) {
+    fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n");
+    for (int i = 0; i < mask->nbecause; i++)
+        fw_text_printf(out, "  because %s\n", mask->because[i]);
+    fw_text_add(out, "\n");
+}
+
 static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
-    if (mask->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
+    if (mask->rejected) fw_mask_order_rejected(out, mask);
     fw_text_printf(out, "Order sheet of mask %s (flexwright " FW_VERSION ")\n\n", order->name);
     fw_mask_order_line(out, "device", mask->device);
     fw_mask_order_line(out, "flow", mask->flow);

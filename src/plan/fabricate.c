@@ -19,6 +19,8 @@ static fw_status lay_out_coupons(fw_plan *plan, fw_plan_flow *pf) {
                                                .flattening = pf->mask->flattening,
                                                .thickness_m = pf->mask->thickness_m,
                                                .rejected = pf->mask->rejected,
+                                               .because = pf->mask->because,
+                                               .nbecause = pf->mask->nbecause,
                                                .note = pf->mask->note,
                                                .nnote = pf->mask->nnote,
                                                .layer_bias_m = pf->mask->layer_bias_m}};
@@ -168,6 +170,8 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
                                .vertex_limit = plan->options.mask_vertices,
                                .thickness_m = pf->variant.thickness_m,
                                .rejected = rejected,
+                               .because = plan->because,
+                               .nbecause = plan->nbecause,
                                .no_islands = !fw_plan_insulated(pf),
                                .wiring = pf->wiring,
                                .title = plan->device->die.title};

@@ -74,7 +74,10 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_wafer *measured_on;   /* whose times it is about; NULL: those of the die alone */
     const char *release_change;    /* what opens a window for it; NULL: it has one */
     const fw_release
-        *release;            /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+        *release; /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+    const fw_release_hold *hold; /* the same: what its bodies hang on meanwhile */
+    const fw_statics_tethers
+        *tethers;            /* what breaks them; NULL: there are none, or nothing is judged */
     const fw_wiring *wiring; /* after judging; NULL: nothing is drawn */
     fw_text release_svg;     /* its picture as a fragment, composed once; empty: none */
 } fw_plan_flow;
@@ -102,6 +105,8 @@ typedef struct fw_plan {
     } start;
     int dies; /* made at once; 1 without a wafer */
     fw_verdict verdict;
+    const char **because; /* (nbecause) why it is rejected */
+    int nbecause;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;
     int files_written; /* by the last fw_plan_write, the manifest not counted; 0: no directory made

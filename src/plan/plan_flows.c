@@ -46,7 +46,8 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
 static fw_status release_of(fw_plan *plan, fw_plan_flow *pf) {
     if (pf->release || !plan->layout || !plan->layout->drawn) return FW_OK;
     if (!fw_process_flow_releases(pf->flow)) return FW_OK;
-    return fw_plan_release_solve(plan, pf, plan->layout, &pf->release);
+    FW_TRY(fw_plan_release_solve(plan, pf, plan->layout, &pf->release));
+    return fw_release_hold_find(plan->arena, plan->device, plan->layout, pf->release, &pf->hold);
 }
 
 fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts) {
@@ -54,6 +55,7 @@ fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_m
                               fw_plan_insulated(pf), facts));
     facts->dies = plan->dies;
     facts->release = pf->release;
+    facts->hold = pf->hold;
     facts->release_change = pf->release_change;
     return pf->wafer ? add_wafer_facts(plan->arena, pf->wafer, facts) : FW_OK;
 }

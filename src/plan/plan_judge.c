@@ -4,6 +4,7 @@
 #include "probe/probe.h"
 #include "process/process.h"
 #include "statics/quasi.h"
+#include "statics/tethers.h"
 #include <math.h>
 #include <string.h>
 
@@ -38,7 +39,13 @@ fw_status fw_plan_judge(fw_plan *plan) {
     FW_TRY(
         fw_verdict_run(plan->arena, plan->device, &options, &plan->diags, verdict, &plan->layout));
     FW_TRY(fw_verdict_advise(plan->arena, plan->device, &options, verdict));
+    if (verdict->decision == FW_REJECT)
+        FW_TRY(fw_verdict_rejections(plan->arena, verdict, &plan->because, &plan->nbecause));
     FW_TRY(fw_plan_compute_flows(plan));
+    for (int i = 0; i < plan->nflow; i++)
+        if (verdict->variant[i].mechanism)
+            FW_TRY(fw_statics_tethers_find(plan->arena, verdict->variant[i].mechanism,
+                                           &plan->flow[i].tethers));
     return fw_plan_measurements_find(plan, false);
 }
 

@@ -19,7 +19,8 @@ static fw_report_flow *report_flows(fw_plan *plan) {
                              plan->flow[i].violated,
                              plan->flow[i].measuring,
                              plan->flow[i].release_svg.length ? &plan->flow[i].release_svg : NULL,
-                             plan->flow[i].wiring};
+                             plan->flow[i].wiring,
+                             plan->flow[i].tethers};
     return flow;
 }
 
@@ -120,6 +121,12 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .mask_sha256 = pf->mask_sha256,
                               .program_version = FW_VERSION,
                               .rejected = plan->verdict.decision == FW_REJECT,
+                              .tethers = pf->tethers,
+                              .mechanism = plan->verdict.variant
+                                               ? plan->verdict.variant[pf - plan->flow].mechanism
+                                               : NULL,
+                              .because = plan->because,
+                              .nbecause = plan->nbecause,
                               .schedule = pf->schedule,
                               .mask = pf->mask,
                               .cut = pf->cut,

@@ -23,6 +23,17 @@ bool fw_process_flow_releases(const fw_process_flow *flow) {
     return false;
 }
 
+const fw_process_step *fw_process_flow_release_step(const fw_process_flow *flow, double *reach_m) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++)
+            if (flow->step[i].change[k].reach) {
+                *reach_m = fw_process_judge_known(flow->step[i].change[k].reach);
+                return &flow->step[i];
+            }
+    *reach_m = (double)NAN;
+    return NULL;
+}
+
 bool fw_process_flow_frees_all(const fw_process_flow *flow) {
     for (int i = 0; i < flow->nstep; i++)
         for (int k = 0; k < flow->step[i].nchange; k++) {
@@ -65,6 +76,7 @@ void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts 
     const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     bool known = r && r->slowest >= 0 && r->needed_m > 0.0;
     flow->release = known ? r : NULL;
+    flow->hold = known ? facts->hold : NULL;
     flow->release_foot_m = foot_of(flow);
     flow->release_lag_known = knows_lag(flow);
     for (int i = 0; i < flow->nstep; i++)

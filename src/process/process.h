@@ -7,7 +7,7 @@
 #include "device/material.h"
 #include "process/fixed_point.h"
 #include "quantity/quantity.h"
-#include "release/release.h"
+#include "release/release_hold.h"
 #include "verdict/verdict_fabrication.h"
 #include <stdbool.h>
 
@@ -353,10 +353,11 @@ typedef struct fw_process_flow {
     bool nearest_known;
     /* of the mask's facts; NULL: nothing is drawn, or no step frees anything */
     const fw_release *release;
-    double release_foot_m;  /* how far the foot of the walls stands outside of what is drawn */
-    bool release_lag_known; /* the law of its time knows how narrow openings fall behind */
-    bool no_window;         /* what must stay is lost before all that moves is free */
-    bool tight;             /* something on the mask prints in perfect contact only */
+    const fw_release_hold *hold; /* what holds each body meanwhile; NULL likewise */
+    double release_foot_m;       /* how far the foot of the walls stands outside of what is drawn */
+    bool release_lag_known;      /* the law of its time knows how narrow openings fall behind */
+    bool no_window;              /* what must stay is lost before all that moves is free */
+    bool tight;                  /* something on the mask prints in perfect contact only */
     fw_process_plate plate[FW_PROCESS_PLATES]; /* (nplate) in the order of printing */
     unsigned
         column_code[FW_STACK_MOST]; /* (ncolumn) what the columns of its stacks are: regions.c */
@@ -387,7 +388,8 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     int ngap;
     /* distances from its openings, of a flow that releases it; NULL: nothing is drawn */
     const fw_release *release;
-    const char *release_change; /* what opens a window for it; NULL: not looked for */
+    const fw_release_hold *hold; /* what holds its bodies meanwhile; NULL: not looked for */
+    const char *release_change;  /* what opens a window for it; NULL: not looked for */
 } fw_process_mask_facts;
 
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that
@@ -405,6 +407,10 @@ const char *fw_process_duty_word(fw_release_duty duty); /* "moves" */
 fw_status fw_process_release_words(fw_arena *arena, const fw_process_flow *flow, const char **out);
 /* member "release" of an open object: window, and every part with its reach */
 void fw_process_release_json(const fw_process_flow *flow, fw_json *json);
+/* which body lets go when, on what it hangs then, and the anchors: sentences; NULL likewise */
+fw_status fw_process_hold_words(fw_arena *arena, const fw_process_flow *flow, const char **out);
+/* members "lets_go" and "mechanisms" of an open object; nothing where there are none */
+void fw_process_hold_json(const fw_process_flow *flow, fw_json *json);
 /* is that etch to take its layer from below everything, frame and bases too (where="all")? */
 bool fw_process_flow_frees_all(const fw_process_flow *flow);
 /* share of its bond that what must stay has to keep, 0 where the pack does not say */

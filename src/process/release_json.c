@@ -4,17 +4,6 @@
 #include "process/judge.h"
 #include <math.h>
 
-const fw_process_step *fw_process_flow_release_step(const fw_process_flow *flow, double *reach_m) {
-    for (int i = 0; i < flow->nstep; i++)
-        for (int k = 0; k < flow->step[i].nchange; k++)
-            if (flow->step[i].change[k].reach) {
-                *reach_m = fw_process_judge_known(flow->step[i].change[k].reach);
-                return &flow->step[i];
-            }
-    *reach_m = (double)NAN;
-    return NULL;
-}
-
 const char *fw_process_duty_word(fw_release_duty duty) {
     switch (duty) {
     case FW_RELEASE_MOVES:
@@ -70,6 +59,7 @@ void fw_process_release_json(const fw_process_flow *flow, fw_json *json) {
     for (int i = 0; i < r->npart; i++)
         part(json, &r->part[i], run - foot);
     fw_json_end(json);
+    fw_process_hold_json(flow, json);
     fw_json_end(json);
 }
 

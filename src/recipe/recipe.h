@@ -7,6 +7,7 @@
 #include "measuring/measuring.h"
 #include "process/process.h"
 #include "schedule/schedule.h"
+#include "statics/tethers.h"
 
 typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of it is shown */
     fw_geometry_cut_line line; /* shown from 0 to length_m along it */
@@ -17,12 +18,16 @@ typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of i
 typedef struct fw_recipe_header {
     const char *device, *flow_sha256, *mask_sha256, *program_version;
     bool rejected;
+    const char *const *because; /* (nbecause) why the verdict rejects the design */
+    int nbecause;
     const fw_schedule *schedule;   /* NULL: none was asked for */
     const fw_mask *mask;           /* NULL: none was made; then the layers are drawn not to scale */
     const fw_recipe_cut *cut;      /* NULL: the same */
     const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
-    const fw_text *release;        /* the picture of the release as a fragment; NULL: none */
-    const fw_wiring *wiring;       /* nets and their contacts; NULL: nothing is drawn */
+    const fw_statics_tethers *tethers; /* NULL: there are none; then no mechanism is needed */
+    const fw_mechanism *mechanism;     /* that they hold */
+    const fw_text *release;            /* the picture of the release as a fragment; NULL: none */
+    const fw_wiring *wiring;           /* nets and their contacts; NULL: nothing is drawn */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,

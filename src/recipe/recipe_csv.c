@@ -97,6 +97,11 @@ fw_status fw_recipe_write_csv(const fw_process_flow *flow, const fw_recipe_heade
     fw_text_add(out, "step,title,name,value,unit,uncertainty,status,source\n");
     if (header->rejected)
         fw_text_add(out, ",REJECTED,the verdict rejects this design: do not fabricate,,,,,\n");
+    for (int i = 0; header->rejected && i < header->nbecause; i++) {
+        fw_text_add(out, ",REJECTED,");
+        put_csv(out, header->because[i]);
+        fw_text_add(out, ",,,,,\n");
+    }
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         fw_recipe_row *row = NULL;

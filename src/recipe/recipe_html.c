@@ -73,7 +73,7 @@ static const char style[] =
     "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"
     ".s{display:inline-block;width:8.6mm;height:4.4mm;border:0.4pt solid #888;margin-right:0.5mm}\n"
     ".rejected{border:2.2pt solid #000;text-align:center;font-size:13pt;font-weight:bold;"
-    "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n"
+    "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n.because{font-weight:bold}\n"
     "@media screen{.rejected{position:sticky;top:0;background:#fff;z-index:1}}\n"
     "@media print{body{max-width:none;padding:0}a{color:#000;text-decoration:none}}\n";
 
@@ -175,6 +175,13 @@ static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_tex
         flow->count[FW_DERIVED], flow->count[FW_MEASURED], flow->not_computable, flow->nstep);
 }
 
+static void labelled(const char *label, const char *words, fw_text *out) {
+    if (!words || out->failed) return;
+    fw_text_printf(out, "<p class=\"small\"><b>%s:</b> ", label);
+    fw_text_escaped(out, words);
+    fw_text_add(out, ".</p>\n");
+}
+
 static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
     static const char *const word[] = {"Not guaranteed until something is measured",
                                        "Not manufacturable in this flow",
@@ -191,13 +198,12 @@ static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw
     fw_text_add(out, " µm per edge.</b> ");
     fw_text_escaped(out, flow->bias_note ? flow->bias_note : "");
     fw_text_add(out, ".</p>\n");
-    const char *release;
-    if (fw_process_release_words(out->arena, flow, &release) != FW_OK) out->failed = true;
-    if (out->failed || !release) return;
-    fw_text_add(out, "<p class=\"small\"><b>Release window:</b> ");
-    fw_text_escaped(out, release);
-    fw_text_add(out, ".</p>\n");
-    if (!h->release) return;
+    const char *words;
+    if (fw_process_release_words(out->arena, flow, &words) != FW_OK) out->failed = true;
+    labelled("Release window", words, out);
+    if (fw_process_hold_words(out->arena, flow, &words) != FW_OK) out->failed = true;
+    labelled("What holds meanwhile", words, out);
+    if (!h->release || out->failed) return;
     fw_text_add(out, "<div class=\"release\">");
     fw_text_bytes(out, h->release->data, h->release->length);
     fw_text_add(out, "</div>\n");
@@ -288,6 +294,33 @@ static void sources(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out, "</ol>\n");
 }
 
+/* the last thing that holds the device, behind the last step */
+static fw_status tethers(const fw_recipe_header *header, fw_text *out) {
+    const char *words = NULL;
+    if (header->mechanism)
+        FW_TRY(fw_statics_tethers_words(out->arena, header->mechanism, header->tethers, &words));
+    if (!words) return FW_OK;
+    fw_text_add(out,
+                "<h3>Before use: the tethers</h3>\n<p class=\"note\"><span class=\"box\"></span> ");
+    fw_text_escaped(out, words);
+    fw_text_add(out, ".</p>\n<p class=\"small\">Broken by, at, instrument: ____________________ "
+                     "Hinges whole under the microscope: <span class=\"box\"></span></p>\n");
+    return FW_OK;
+}
+
+static void rejected(const fw_recipe_header *header, fw_text *out) {
+    fw_text_add(out, "<div class=\"rejected\">REJECTED: the verdict rejects this design. Do not "
+                     "fabricate.</div>\n");
+    if (header->nbecause == 0) return;
+    fw_text_add(out, "<ul class=\"because\">\n");
+    for (int i = 0; i < header->nbecause; i++) {
+        fw_text_add(out, "<li>");
+        fw_text_escaped(out, header->because[i]);
+        fw_text_add(out, "</li>\n");
+    }
+    fw_text_add(out, "</ul>\n");
+}
+
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *out) {
     fw_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -299,10 +332,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     fw_text_add(out, style);
     margin_boxes(flow, header, out);
     fw_text_add(out, "</style>\n</head>\n<body>\n");
-    if (header->rejected)
-        fw_text_add(out,
-                    "<div class=\"rejected\">REJECTED: the verdict rejects this design. Do not "
-                    "fabricate.</div>\n");
+    if (header->rejected) rejected(header, out);
     front(flow, header, out);
     judgement(flow, header, out);
     wiring(header->wiring, out);
@@ -323,6 +353,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)
         fw_recipe_html_step(flow, i, header, cut ? &slicer : NULL, &scale, out);
+    FW_TRY(tethers(header, out));
     fw_recipe_html_deviations(out);
     sources(flow, out);
     fw_text_add(out, "</body>\n</html>\n");

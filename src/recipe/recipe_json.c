@@ -39,7 +39,7 @@ static void quantity(fw_json *out, const fw_recipe_row *row) {
     fw_json_end(out);
 }
 
-static void strings(fw_json *out, const char *name, const char **list, int n) {
+static void strings(fw_json *out, const char *name, const char *const *list, int n) {
     fw_json_list(out, name);
     for (int i = 0; i < n; i++)
         words(out, NULL, list[i]);
@@ -168,6 +168,7 @@ fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_head
     words(out, "device", header->device);
     fw_json_truth(out, "rejected", header->rejected);
     if (header->rejected) words(out, "banner", "REJECTED");
+    if (header->nbecause > 0) strings(out, "rejected_because", header->because, header->nbecause);
     fw_json_list(out, "steps");
     for (int i = 0; i < flow->nstep; i++) {
         fw_json_line(out, 0);
@@ -197,6 +198,7 @@ fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_head
     edges(flow, out);
     fw_process_release_json(flow, out);
     fw_wiring_json(header->wiring, out);
+    fw_statics_tethers_json(out, header->mechanism, header->tethers);
     FW_TRY(fw_recipe_json_bill(flow, header, out));
     fw_json_end(out);
     return fw_json_finish(out, "\n");

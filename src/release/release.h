@@ -23,6 +23,7 @@ typedef struct fw_release_part {
     fw_release_duty duty;
     fw_layout_role role;
     int body, joint; /* as of its pieces */
+    int piece;       /* the first of them */
     double area_m2;
     /* distance of the worst point from the nearest opening: found at `at`, and proved nowhere more
        than most_m */

@@ -56,6 +56,7 @@ fw_status fw_release_parts(fw_arena *arena, const fw_layout *layout, bool island
                                                .role = p->role,
                                                .body = p->body,
                                                .joint = p->joint,
+                                               .piece = i,
                                                .kept_m = (double)NAN};
         }
         (*part_of)[i] = which;

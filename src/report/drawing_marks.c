@@ -76,6 +76,22 @@ static fw_status faults(maker *k, const fw_layout *layout) {
     return FW_OK;
 }
 
+static fw_status missing(maker *k, const fw_layout *layout) {
+    for (int i = 0; layout && i < layout->nmissing; i++) {
+        const fw_layout_missing *of = &layout->missing[i];
+        fw_report_mark *m = add(k);
+        FW_NEED(m);
+        m->number = of->number;
+        m->at = of->at;
+        if (of->body >= 0) m->body[m->nbody++] = of->body;
+        FW_NEED(m->label = fw_arena_printf(k->arena, "%s: not drawn", of->name));
+        FW_NEED(m->text =
+                    fw_arena_printf(k->arena, "%s: %s%s%s", of->name, of->why,
+                                    of->room ? "; nearest room: " : "", of->room ? of->room : ""));
+    }
+    return FW_OK;
+}
+
 static bool marks_joint(const fw_report_marks *marks, int joint) {
     for (int i = 0; i < marks->count; i++)
         for (int n = 0; n < marks->item[i].njoint; n++)
@@ -207,6 +223,7 @@ fw_status fw_report_marks_of(fw_arena *arena, const fw_device *device, const fw_
     maker k = {arena, device, marks, 0};
     FW_TRY(faults(&k, layout));
     if (!verdict || verdict->decision != FW_REJECT) return FW_OK;
+    FW_TRY(missing(&k, layout));
     FW_TRY(hinges(&k, verdict));
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];

@@ -225,6 +225,21 @@ static void release(fw_text *out, const fw_report_flow *f) {
     fw_text_add(out, "</figure>\n");
 }
 
+static void paragraph(fw_text *out, const char *words) {
+    if (words) fw_markup(out, "<p>{s}.</p>\n", words);
+}
+
+/* what holds the device meanwhile, and what breaks the last that does */
+static fw_status hanging(fw_text *out, const fw_report_flow *f) {
+    const char *words;
+    FW_TRY(fw_process_hold_words(out->arena, f->flow, &words));
+    paragraph(out, words);
+    if (!f->variant || !f->variant->mechanism) return FW_OK;
+    FW_TRY(fw_statics_tethers_words(out->arena, f->variant->mechanism, f->tethers, &words));
+    paragraph(out, words);
+    return FW_OK;
+}
+
 fw_status fw_report_section_recipes(fw_report_page *page) {
     fw_text *out = page->out;
     for (int i = 0; i < page->in->nflow; i++) {
@@ -238,6 +253,7 @@ fw_status fw_report_section_recipes(fw_report_page *page) {
         else
             fw_text_add(out, "none is missing.</p>\n");
         release(out, &page->in->flow[i]);
+        FW_TRY(hanging(out, &page->in->flow[i]));
         steps(out, flow);
     }
     if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");

@@ -308,6 +308,7 @@ static void flow(fw_json *json, const fw_report_flow *f) {
     fw_json_text(json, "mask_error", f->mask_error);
     if (f->flow) fw_process_release_json(f->flow, json);
     if (f->flow) fw_wiring_json(f->wiring, json);
+    if (v && v->mechanism) fw_statics_tethers_json(json, v->mechanism, f->tethers);
     if (v) {
         fw_json_text(json, "verdict", word(v->decision));
         governing(json, v->hinge, v->nhinge, v->governing);
@@ -390,6 +391,28 @@ static void reasons(fw_json *json, const fw_verdict *v) {
     fw_json_end(json);
 }
 
+/* nothing is written where all is drawn */
+static void not_drawn(fw_json *json, const fw_layout *layout) {
+    if (!layout || layout->nmissing == 0) return;
+    fw_json_list(json, "not_drawn");
+    for (int i = 0; i < layout->nmissing; i++) {
+        const fw_layout_missing *m = &layout->missing[i];
+        fw_json_object(json, NULL);
+        fw_json_text(json, "part", m->name);
+        fw_json_list(json, "at_m");
+        fw_json_real(json, NULL, m->at.x);
+        fw_json_real(json, NULL, m->at.y);
+        fw_json_end(json);
+        fw_json_whole(json, "line", m->place.line);
+        fw_json_whole(json, "column", m->place.column);
+        fw_json_textf(json, "code", "FW-D%03d", m->number);
+        fw_json_text(json, "why", m->why);
+        fw_json_text(json, "nearest_room", m->room);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}
+
 static void accuracy(fw_json *json, const fw_verdict *v) {
     fw_json_object(json, "accuracy");
     fw_json_real(json, "wanted", v->accuracy_wanted);
@@ -468,6 +491,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     pull_ins(&json, input);
     fw_report_json_requirements(&json, input);
     reasons(&json, v);
+    not_drawn(&json, input->layout);
     fw_report_json_clearances(&json, v);
     accuracy(&json, v);
     advice(&json, v);

@@ -18,6 +18,7 @@
 #include "process/process.h"
 #include "recipe/recipe.h"
 #include "statics/modes.h"
+#include "statics/tethers.h"
 #include "verdict/verdict.h"
 #include "workspace/survey.h"
 
@@ -30,6 +31,7 @@ typedef struct fw_report_flow { /* one process flow of the device */
     const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
     const fw_text *release;        /* picture of when every place is free; NULL: none */
     const fw_wiring *wiring;       /* NULL: nothing is drawn */
+    const fw_statics_tethers *tethers; /* what breaks them; NULL: none */
 } fw_report_flow;
 
 typedef struct fw_report_input {

@@ -92,6 +92,14 @@ static void flow(fw_text *out, const fw_report_flow *rf, int detail) {
     const char *release;
     if (fw_process_release_words(out->arena, f, &release) != FW_OK) out->failed = true;
     if (!out->failed && release) fw_text_printf(out, "  %s\n", release);
+    if (detail > 0) {
+        if (fw_process_hold_words(out->arena, f, &release) != FW_OK) out->failed = true;
+        if (!out->failed && release) fw_text_printf(out, "  %s\n", release);
+        if (rf->variant->mechanism && fw_statics_tethers_words(out->arena, rf->variant->mechanism,
+                                                               rf->tethers, &release) != FW_OK)
+            out->failed = true;
+        if (!out->failed && rf->tethers) fw_text_printf(out, "  %s\n", release);
+    }
     fw_text_printf(out, "  %d steps, computed times add up to ", f->nstep);
     fw_text_number(out, f->total_s / 3600.0, 3);
     fw_text_printf(out, " h; %d steps not computable\n", f->not_computable);

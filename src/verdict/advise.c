@@ -454,6 +454,11 @@ static const char *hopeless(const fw_device *device, const fw_verdict *verdict) 
     return NULL;
 }
 
+/* neither a flexure nor a load makes room for a part: only parameters may */
+static bool lacks_part(const fw_verdict *verdict) {
+    return verdict->layout && verdict->layout->nmissing > 0;
+}
+
 static const char ended_early[] =
     "the search was ended where it would have taken too long: there may be smaller changes";
 
@@ -461,6 +466,17 @@ static fw_status conclude(const advice *a, const char *why) {
     fw_verdict *v = a->out;
     v->advice_note = v->nproposal > 0 && a->ended ? ended_early : NULL;
     if (v->nproposal > 0) return FW_OK;
+    if (lacks_part(v)) {
+        FW_NEED(
+            v->advice_note = fw_arena_printf(
+                a->trial->arena,
+                "%sa part that finds no room in the drawing is not drawn, which neither flexures "
+                "nor loads change: move it to its nearest room",
+                v->nparameter > 0 ? "no change of a parameter was found with which the design is "
+                                    "accepted; "
+                                  : ""));
+        return FW_OK;
+    }
     FW_NEED(v->advice_note = fw_arena_printf(
                 a->trial->arena,
                 "no change was found with which the design is accepted and can be drawn; tried "
@@ -496,11 +512,12 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
     FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
     FW_TRY(fw_verdict_change_parameters(&trial, verdict));
     FW_TRY(propose_parameters(&a));
-    if (!why) FW_TRY(change_by(&a, lengthen, propose_lengths, &added));
-    if (!why && !added) FW_TRY(change_by(&a, widen, propose_widths, &added));
-    FW_TRY(change_by(&a, lighten, propose_shares, &added));
+    const bool lacks = lacks_part(verdict);
+    if (!why && !lacks) FW_TRY(change_by(&a, lengthen, propose_lengths, &added));
+    if (!why && !lacks && !added) FW_TRY(change_by(&a, widen, propose_widths, &added));
+    if (!lacks) FW_TRY(change_by(&a, lighten, propose_shares, &added));
     FW_TRY(change_parameters_together(&a));
-    FW_TRY(change_all(&a));
+    if (!lacks) FW_TRY(change_all(&a));
     qsort(verdict->proposal, (size_t)verdict->nproposal, sizeof *verdict->proposal, by_change);
     return conclude(&a, why);
 }

@@ -216,6 +216,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
                      (size_t)device->nrevolute + 3; /* strips; out of reach, as made, riders */
+    reasons += (size_t)fw_verdict_missing_most(device);
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
@@ -392,6 +393,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
             v->governing = k;
     }
     FW_TRY(judge_reach(arena, v));
+    FW_TRY(fw_verdict_missing(arena, device, layout, v));
     for (int i = 0; i < v->nreason; i++)
         v->decision = fw_verdict_worse(v->decision, v->reason[i].decision);
     v->drawn = v->decision;

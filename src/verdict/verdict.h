@@ -346,6 +346,9 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
    Test: tests/unit/verdict/test_governing.c */
 fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int kinds, bool made,
                                fw_verdict_check *check, bool *found);
+/* why it is rejected, sentences, each once; none where it is not */
+fw_status fw_verdict_rejections(fw_arena *arena, const fw_verdict *verdict, const char ***text,
+                                int *n);
 /* advice_note where no advice was asked for */
 extern const char fw_verdict_not_searched[];
 /* of what is not accepted, where advice is asked for: proposals, each one run, the value of each

@@ -37,6 +37,13 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v);
 
+/* ---- verdict_missing.c: what the motion has and the masks lack ---- */
+
+int fw_verdict_missing_most(const fw_device *device); /* reasons of one flow */
+/* reasons of v */
+fw_status fw_verdict_missing(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             fw_verdict_variant_verdict *v);
+
 /* ---- verdict_requirement.c: what the device is for ---- */
 
 /* which requirements there are in this flow, before anything is run: v->requirement */

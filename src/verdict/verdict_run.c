@@ -122,14 +122,16 @@ static fw_status first_attempt(fw_arena *arena, const fw_device *device, const f
 
 /* the drawing, whose messages are warnings where the mechanics can be judged without it; *judged:
    NULL where it cannot be made */
-static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
-                      const fw_layout **layout, const fw_layout **judged) {
+static fw_status draw(fw_arena *arena, const fw_device *device, const fw_verdict_options *options,
+                      fw_diags *diags, const fw_layout **layout, const fw_layout **judged) {
     fw_diags drawing = fw_diags_new(arena);
     *layout = NULL;
     fw_status status = fw_layout_build(arena, device, &drawing, layout);
     bool impossible = status == FW_GEOMETRY || status == FW_INPUT;
     if (drawing.failed) return FW_NOMEM;
     if (status != FW_OK && !impossible) return status;
+    if (!options->at_a_glance && !options->decision_only) /* trials need no room */
+        FW_TRY(fw_layout_rooms_find(arena, device, *layout, layout));
     *judged = impossible ? NULL : *layout;
     bool fatal = impossible && fw_device_needs_shapes(device);
     for (size_t i = 0; i < drawing.count; i++) {
@@ -189,7 +191,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout) {
     const fw_layout *judged;
-    FW_TRY(draw(arena, device, diags, layout, &judged));
+    FW_TRY(draw(arena, device, options, diags, layout, &judged));
     FW_TRY(take_inputs(arena, device, judged, &options->fabricated_of, verdict));
     int nvariant = verdict->nvariant;
     fw_verdict_variant_verdict *variant = verdict->variant;

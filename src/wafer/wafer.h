@@ -143,6 +143,7 @@ typedef struct fw_wafer {
     fw_wafer_width_effect effect;
     double overlay_m; /* as in fw_wafer_input */
     bool rejected;
+    const fw_mask *rejecting; /* the first mask of its dies that is; NULL: none */
 } fw_wafer;
 
 fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags *diags,

@@ -41,8 +41,9 @@ static void count(fw_wafer_maker *m) {
     for (int v = 0; v < w->nvariant; v++) {
         const fw_mask *mask = w->variant[v].mask ? w->variant[v].mask : m->input->stand_in.mask;
         without += w->variant[v].dies == 0;
-        w->rejected = w->rejected || (w->variant[v].dies > 0 && mask->rejected);
+        if (w->variant[v].dies > 0 && mask->rejected && !w->rejecting) w->rejecting = mask;
     }
+    w->rejected = w->rejecting != NULL;
     if (without > 0)
         fw_diag_warning(
             m->diags, 195, w->device->wafer.place,

@@ -21,6 +21,7 @@ static void head(fw_json *json, const fw_wafer *w, const char *gds_sha256) {
     fw_json_text(json, "flow", w->flow);
     fw_json_text(json, "version", FW_VERSION);
     fw_json_truth(json, "rejected", w->rejected);
+    if (w->rejecting) fw_mask_json_because(json, w->rejecting);
     fw_json_line(json, 2);
     fw_json_text(json, "gds_sha256", gds_sha256 ? gds_sha256 : "");
     fw_json_line(json, 2);

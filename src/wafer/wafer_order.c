@@ -16,7 +16,7 @@ static void lengths(fw_text *out, const char *what, double a_m, const char *betw
 }
 
 static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
-    if (w->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
+    if (w->rejecting) fw_mask_order_rejected(out, w->rejecting);
     bool several = fw_mask_plates(w->table) > 1;
     fw_text_printf(out, "Order sheet of plate %s-%s%s%s (flexwright " FW_VERSION ")\n\n", w->top,
                    w->flow, several ? "-" : "",

@@ -190,7 +190,7 @@ fw_status fw_wafer_write_written_order(const fw_wafer *w, const fw_wafer_written
     FW_TRY(fw_wafer_sums(w, out->arena, &s));
     for (int k = 0; k < w->table->nlayer; k++)
         if (order.plate[k]) width = fmin(width, s[k].width_m), space = fmin(space, s[k].space_m);
-    if (w->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
+    if (w->rejecting) fw_mask_order_rejected(out, w->rejecting);
     fw_text_printf(out, "Order sheet of the written plate %s-%s (flexwright " FW_VERSION ")\n\n",
                    w->top, w->flow);
     fw_mask_order_line(out, "device", w->device->name);

@@ -59,15 +59,60 @@ class Effects(unittest.TestCase):
         with tempfile.TemporaryDirectory() as here:
             device = pathlib.Path(here) / "device.xml"
             device.write_text(text.replace(old, new) if old else text)
-            done = run("mask", device, "--corners", "none", "-o", pathlib.Path(here) / "out")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            asked = ("--corners", "none", "--advice", "none", "-o", pathlib.Path(here) / "out")
+            done = run("mask", device, *asked)
             flow = re.search('flow ref="([^"]*)"', text).group(1)
-            return done.stderr, (pathlib.Path(here) / f"out/masks/{flow}.svg").read_text()
+            if old:  # what is not drawn is rejected, and has no mask unless it is forced
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertFalse((pathlib.Path(here) / f"out/masks/{flow}.svg").exists())
+                done = run("mask", device, "--force", *asked)
+            self.assertEqual(done.returncode, 1 if old else 0, done.stderr)
+            masks = pathlib.Path(here) / "out/masks"
+            if old:
+                self.reason_stands(masks, flow)
+            picture = (masks / f"{flow}.svg").read_text()
+            return done.stderr, "".join(re.findall(r"""\bd=["']([^"']*)["']""", picture))  # what is drawn, without titles
+
+    def reason_stands(self, masks, flow):
+        """on certificate and order sheet, with part, place and nearest room"""
+        for name in (f"{flow}.json", f"{flow}.order.json"):
+            sheet = json.loads((masks / name).read_text())
+            self.assertTrue(sheet["rejected"])
+            self.assertTrue(any(re.search(r"line \d+, column \d+.*not in the masks.*nearest room: .*FW-D131", r)
+                                for r in sheet["rejected_because"]), sheet["rejected_because"])
+        self.assertRegex((masks / f"{flow}.order.txt").read_text(),
+                         r"^REJECTED: .*Do not order\.\n  because .* at \([-0-9.]+, [-0-9.]+\) um.*nearest room: ")
+
+    def test_what_is_not_drawn_is_rejected(self):
+        """check and plan, their JSON and the run sheet"""
+        text = (ROOT / "docs/gallery/comb-stage/device.xml").read_text()
+        with tempfile.TemporaryDirectory() as here:
+            device = pathlib.Path(here) / "device.xml"
+            device.write_text(text.replace('x="0.43 mm" y="0.44 mm"', 'x="0.75 mm" y="0.1 mm"'))
+            done = run("check", device, "--corners", "none", "--advice", "none", "--json")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            said = json.loads(done.stdout)
+            self.assertEqual((said["verdict"], said["drawn"]), ("reject", "reject"))
+            part = said["not_drawn"][0]
+            self.assertEqual((part["part"], part["code"]), ("comb drive upper", "FW-D131"))
+            self.assertIn("link right", part["why"])
+            x, y = re.search(r'x="([-0-9.]+ um)" y="([-0-9.]+ um)"', part["nearest_room"]).groups()
+            self.assertEqual([r["code"] for r in said["reasons"]], ["FW-D131"])
+            out = pathlib.Path(here) / "out"
+            done = run("plan", device, "--corners", "none", "--advice", "none", "--force", "-o", out)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            for name in ("report.html", "recipes/silicon-on-glass.html", "recipes/silicon-on-glass.csv",
+                         "recipes/silicon-on-glass.json", "masks/silicon-on-glass.order.txt"):
+                self.assertIn("comb drive upper at (", (out / name).read_text(), name)
+            # moved to the room that is named it is accepted
+            device.write_text(text.replace('x="0.43 mm" y="0.44 mm"', f'x="{x}" y="{y}"'))
+            done = run("check", device, "--corners", "none", "--advice", "none")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_what_moves_a_device_is_in_its_mask(self):
         said, whole = self.drawn("comb-stage")
         self.assertNotIn("FW-D131", said)
-        # fingers in the midst of another link: named with the place, and the stage is judged without
+        # fingers in the midst of another link: named with the place
         said, less = self.drawn("comb-stage", 'x="0.43 mm" y="0.44 mm"', 'x="0.75 mm" y="0.1 mm"')
         self.assertRegex(said, r"comb drive upper .* not drawn: .*link right at \([-0-9.]+, [-0-9.]+\) um.*FW-D131")
         self.assertEqual(len(re.findall("FW-D131", said)), 1)
@@ -75,7 +120,7 @@ class Effects(unittest.TestCase):
         said, whole = self.drawn("four-tendons")
         self.assertNotIn("FW-D131", said)
         said, less = self.drawn("four-tendons", 'x="0.6 mm" y="0.12 mm"', 'x="0.65 mm" y="0.12 mm"')
-        self.assertRegex(said, r"tendon T2 .* eyelet at .* not drawn: .*hinge D at \([-0-9.]+, [-0-9.]+\) um")
+        self.assertRegex(said, r"eyelet of tendon T2 at .* not drawn: .*hinge D at \([-0-9.]+, [-0-9.]+\) um")
         self.assertLess(len(less), len(whole))
 
     def test_explicit_steps_are_given_up(self):

@@ -188,7 +188,11 @@ def layout(g):
 
 def release(g):
     need = g["p"] / sqrt(2) - g["D"] / 2
-    return {"need": need, "lost": g["a"] / 2 * (1 - sqrt(g["s"])), "run": need * (1 + g["E"]), "t": need / g["R"]}
+    bears, inertia = g["S"] * g["h"] * g["wt"] ** 2 / 6, g["h"] * g["wt"] ** 3 / 12  # moment; second moment of the section
+    free, b = bears / g["at"], g["Lt"] - g["at"]
+    return {"need": need, "lost": g["a"] / 2 * (1 - sqrt(g["s"])), "run": need * (1 + g["E"]), "t": need / g["R"],
+            "Pfree": free, "way": free * g["at"] ** 3 / (3 * g["Et"] * inertia),
+            "Pheld": bears / max(g["at"] ** 2 * b, g["at"] * b**2) * g["Lt"] ** 2}
 
 
 def plates(g):

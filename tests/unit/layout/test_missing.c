@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What finds no room in a drawing is kept with its place and the reason, and the room that is named for
+   it is room: the device with that very change is drawn whole. */
+#include "fixture.h"
+#include "layout/draw.h"
+#include "layout/layout.h"
+#include "test.h"
+#include <stdio.h>
+#include <string.h>
+
+static fw_device_scene scene;
+static fw_device_comb comb;
+static fw_device_tendon tendon;
+static fw_device_eyelet eyelet;
+
+typedef struct drawn {
+    fw_arena *arena;
+    fw_diags diags;
+    const fw_layout *layout;
+} drawn;
+
+static drawn draw(const fw_device *device) {
+    drawn d = {.arena = fw_arena_new(0)};
+    assert_non_null(d.arena);
+    d.diags = fw_diags_new(d.arena);
+    assert_int_equal(fw_layout_build(d.arena, device, &d.diags, &d.layout), FW_OK);
+    return d;
+}
+
+/* the only thing missing, with its nearest room; warned of at its place */
+static const fw_layout_missing *only_missing(drawn *d, const fw_device *device, int number) {
+    assert_int_equal(fw_layout_rooms_find(d->arena, device, d->layout, &d->layout), FW_OK);
+    assert_int_equal(d->layout->nmissing, 1);
+    const fw_layout_missing *m = &d->layout->missing[0];
+    int said = 0;
+    assert_int_equal(m->number, number);
+    assert_non_null(m->why);
+    assert_non_null(m->room);
+    for (size_t i = 0; i < d->diags.count; i++)
+        said += d->diags.item[i].number == number && d->diags.item[i].severity == FW_WARNING &&
+                d->diags.item[i].place.line == m->place.line && m->place.line > 0;
+    assert_int_equal(said, 1);
+    assert_true(isfinite(m->at.x + m->at.y));
+    return m;
+}
+
+static void nothing_missing(const fw_device *device) {
+    drawn d = draw(device);
+    if (d.layout->nmissing > 0) fail_msg("%s", d.layout->missing[0].why);
+    fw_arena_free(d.arena);
+}
+
+/* a plate on one hinge, with electrodes at a place of its own axes */
+static void paddle_with_comb(fixture *f, fw_device_electrodes kind, double x_m, double y_m) {
+    fixture_paddle(f);
+    f->body[0].x_m = 0.5e-3;
+    f->body[0].y_m = 0.3e-3;
+    double c = cos(M_PI / 6), s = sin(M_PI / 6);
+    comb = (fw_device_comb){.id = "push",
+                            .kind = kind,
+                            .body_a = FW_GROUND,
+                            .bx_m = c * x_m - s * y_m,
+                            .by_m = s * x_m + c * y_m,
+                            .direction_rad = M_PI / 6,
+                            .fingers = 5,
+                            .gap_m = 9e-6,
+                            .overlap_m = 40e-6,
+                            .length_m = 100e-6,
+                            .width_m = 10e-6,
+                            .place = {"test.xml", 12, 5}};
+    scene = (fw_device_scene){.name = "s", .comb = &comb, .ncomb = 1};
+    f->device.die.tethers = false;
+    f->device.scene = &scene;
+    f->device.nscene = 1;
+}
+
+static bool take_place(const char *room, double *x_m, double *y_m) {
+    const char *at = strstr(room, "x=\"");
+    double x = 0, y = 0;
+    if (!at || sscanf(at, "x=\"%lf um\" y=\"%lf um\"", &x, &y) != 2) return false;
+    *x_m = 1e-6 * x;
+    *y_m = 1e-6 * y;
+    return true;
+}
+
+/* five digits of a micrometre are what a user writes */
+static void a_comb_names_a_place_that_has_room(void **unused) {
+    (void)unused;
+    static const double wrong[][2] = {{-0.5e-3, -0.2e-3}, {0.55e-3, 0.0}, {0.2e-3, 0.0}};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        fixture f;
+        paddle_with_comb(&f, FW_ELECTRODES_COMB, wrong[i][0], wrong[i][1]);
+        drawn d = draw(&f.device);
+        if (d.layout->nmissing == 0) { /* a stem reaches it */
+            fw_arena_free(d.arena);
+            continue;
+        }
+        const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+        assert_ptr_equal(m->comb, &comb);
+        assert_string_equal(m->name, "comb drive push");
+        if (!take_place(m->room, &comb.bx_m, &comb.by_m)) fail_msg("%s", m->room);
+        nothing_missing(&f.device);
+        fw_arena_free(d.arena);
+    }
+}
+
+static void too_many_fingers_are_fewer(void **unused) {
+    (void)unused;
+    fixture f;
+    int fewer = 0;
+    paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.48e-3, 0.0);
+    nothing_missing(&f.device);
+    comb.fingers = 101;
+    drawn d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    const char *at = strstr(m->room, "fingers=\"");
+    if (!at || sscanf(at, "fingers=\"%d\"", &fewer) != 1) fail_msg("%s: %s", m->why, m->room);
+    assert_in_range(fewer, 1, 100);
+    comb.fingers = fewer;
+    nothing_missing(&f.device);
+    fw_arena_free(d.arena);
+}
+
+static void short_fingers_are_longer(void **unused) {
+    (void)unused;
+    fixture f;
+    double um = 0;
+    paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.48e-3, 0.0);
+    comb.length_m = 45e-6;
+    drawn d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    const char *at = strstr(m->room, "length=\"");
+    if (!at || sscanf(at, "length=\"%lf um\"", &um) != 1) fail_msg("%s", m->room);
+    comb.length_m = 1e-6 * um;
+    nothing_missing(&f.device);
+    fw_arena_free(d.arena);
+}
+
+static void a_plate_names_a_place_that_has_room(void **unused) {
+    (void)unused;
+    fixture f;
+    paddle_with_comb(&f, FW_ELECTRODES_PLATE, 0.3e-3, 0.0); /* inside its own body */
+    drawn d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    if (!take_place(m->room, &comb.bx_m, &comb.by_m)) fail_msg("%s", m->room);
+    nothing_missing(&f.device);
+    fw_arena_free(d.arena);
+}
+
+static void no_insulation_has_no_room(void **unused) {
+    (void)unused;
+    fixture f;
+    paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.48e-3, 0.0);
+    comb.body_a = 0;
+    drawn d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    assert_non_null(strstr(m->why, "nothing insulates"));
+    assert_non_null(strstr(m->room, "none was found"));
+    fw_arena_free(d.arena);
+}
+
+static void paddle_with_eyelet(fixture *f, int body, double x_m, double y_m) {
+    fixture_paddle(f);
+    f->device.die.tethers = false;
+    eyelet = (fw_device_eyelet){.body = body, .x_m = x_m, .y_m = y_m, .place = {"test.xml", 9, 7}};
+    tendon = (fw_device_tendon){
+        .id = "t", .eyelet = &eyelet, .neyelet = 1, .pull_N = 1e-3, .draw_m = NONE};
+    scene = (fw_device_scene){.name = "s", .tendon = &tendon, .ntendon = 1};
+    f->device.scene = &scene;
+    f->device.nscene = 1;
+}
+
+static void an_eyelet_names_a_place_that_has_room(void **unused) {
+    (void)unused;
+    static const struct {
+        int body;
+        double x_m, y_m;
+    } wrong[] = {{0, 0.0, 1.2e-3}, {FW_GROUND, 0.7e-3, 2.5e-3}};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        fixture f;
+        paddle_with_eyelet(&f, wrong[i].body, wrong[i].x_m, wrong[i].y_m);
+        drawn d = draw(&f.device);
+        const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+        assert_ptr_equal(m->eyelet, &eyelet);
+        if (!take_place(m->room, &eyelet.x_m, &eyelet.y_m)) fail_msg("%s: %s", m->why, m->room);
+        nothing_missing(&f.device);
+        fw_arena_free(d.arena);
+    }
+}
+
+/* electrodes of one flow's scenes are no matter of another flow; tethers are of all */
+static void flows_lack_what_their_scenes_have(void **unused) {
+    (void)unused;
+    fixture f;
+    paddle_with_comb(&f, FW_ELECTRODES_PLATE, 0.3e-3, 0.0);
+    scene.flow = "dry";
+    drawn d = draw(&f.device);
+    const fw_layout_missing tethers = {.number = 127};
+    assert_int_equal(d.layout->nmissing, 1);
+    assert_true(fw_layout_missing_in_flow(&f.device, d.layout->missing, "dry"));
+    assert_false(fw_layout_missing_in_flow(&f.device, d.layout->missing, "wet"));
+    assert_true(fw_layout_missing_in_flow(&f.device, &tethers, "wet"));
+    fw_arena_free(d.arena);
+}
+
+/* ---- tethers ---- */
+
+static int pieces_named(const fw_layout *l, const char *label) {
+    int n = 0;
+    for (int i = 0; i < l->npiece; i++)
+        n += strcmp(l->piece[i].label, label) == 0;
+    return n;
+}
+
+static bool is_missing(const fw_layout *l, int number, const char *name) {
+    for (int i = 0; i < l->nmissing; i++)
+        if (l->missing[i].number == number && strcmp(l->missing[i].name, name) == 0) return true;
+    return false;
+}
+
+/* a plate in a ring of another body: no straight finger goes through that */
+static const char enclosed[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"silicon-100\" "
+    "thickness=\"50 um\"/><flexure id=\"f\" kind=\"csfh\" radius=\"80 um\" angle=\"240 deg\" "
+    "width=\"8 um\" gap=\"8 um\"/><mechanism>"
+    "<body id=\"ring\" x=\"0 mm\" y=\"0 mm\">"
+    "<bar x=\"0.4 mm\" y=\"0 mm\" to-x=\"0.4 mm\" to-y=\"1.3 mm\" width=\"80 um\"/>"
+    "<bar x=\"0.4 mm\" y=\"1.3 mm\" to-x=\"2.8 mm\" to-y=\"1.3 mm\" width=\"80 um\"/>"
+    "<bar x=\"2.8 mm\" y=\"1.3 mm\" to-x=\"2.8 mm\" to-y=\"-1.3 mm\" width=\"80 um\"/>"
+    "<bar x=\"2.8 mm\" y=\"-1.3 mm\" to-x=\"0.4 mm\" to-y=\"-1.3 mm\" width=\"80 um\"/>"
+    "<bar x=\"0.4 mm\" y=\"-1.3 mm\" to-x=\"0.4 mm\" to-y=\"%s mm\" width=\"80 um\"/></body>"
+    "<body id=\"stage\" x=\"0.8 mm\" y=\"0 mm\"><plate x=\"0.7 mm\" width=\"1 mm\" height=\"0.9 "
+    "mm\"/>"
+    "</body><revolute id=\"A\" a=\"ground\" b=\"ring\" hinge=\"f\"/>"
+    "<revolute id=\"B\" a=\"ring\" a-x=\"0.8 mm\" b=\"stage\" hinge=\"f\"/></mechanism>%s</device>";
+
+static drawn draw_enclosed(const char *down_to, const char *rest, const fw_device **device) {
+    drawn d = {.arena = fw_arena_new(0)};
+    static char xml[8192];
+    assert_non_null(d.arena);
+    snprintf(xml, sizeof xml, enclosed, down_to, rest);
+    d.diags = fw_diags_new(d.arena);
+    fw_status status =
+        fw_device_read(d.arena, "t.xml", xml, strlen(xml), NULL, 0, &d.diags, device);
+    if (status == FW_OK) status = fw_layout_build(d.arena, *device, &d.diags, &d.layout);
+    if (status != FW_OK || !d.layout->drawn)
+        fail_msg("%s: %s", fw_status_text(status),
+                 d.diags.count ? d.diags.item[0].message : d.layout->why_not);
+    return d;
+}
+
+static void an_enclosed_body_has_no_tether(void **unused) {
+    (void)unused;
+    const fw_device *device;
+    drawn d = draw_enclosed("0", "", &device);
+    const fw_layout_missing *m = only_missing(&d, device, 127);
+    assert_string_equal(m->name, "the tethers of link stage");
+    assert_non_null(strstr(m->why, "link ring"));
+    assert_non_null(strstr(m->room, "farther aside"));
+    assert_int_equal(pieces_named(d.layout, "tether of link stage"), 0);
+    fw_arena_free(d.arena);
+    /* who says that it is to be without is taken at their word */
+    d = draw_enclosed("0", "<die tethers=\"no\"/>", &device);
+    assert_int_equal(d.layout->nmissing, 0);
+    fw_arena_free(d.arena);
+    /* half of a side open: there is a way in, though not at the middle */
+    d = draw_enclosed("-0.9", "", &device);
+    if (d.layout->nmissing > 0)
+        fail_msg("%s: %s", d.layout->missing[0].why, d.layout->missing[0].room);
+    assert_true(pieces_named(d.layout, "tether of link stage") > 0);
+    fw_arena_free(d.arena);
+}
+
+static uint64_t state = 20261123;
+static double lot(double low, double high) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return low + (high - low) * (double)(state >> 11) / 9007199254740992.0;
+}
+
+static void move_hinges(fixture *f, double by_m) {
+    for (int j = 0; j < f->device.nrevolute; j++) {
+        f->revolute[j].x_m += lot(-by_m, by_m);
+        f->revolute[j].y_m += lot(-by_m, by_m);
+    }
+}
+
+/* Devices moved at random: whatever is to be held has a tether or is said to lack it, and whatever
+   moves the device is a piece or is said to be none. */
+static void all_is_drawn_or_said(void **unused) {
+    (void)unused;
+    static void (*const make[])(fixture *) = {fixture_six_bar, fixture_four_bar, fixture_stage};
+    static const int held[] = {2, 1, 6};
+    int without = 0, whole = 0;
+    for (int k = 0; k < 90; k++) {
+        fixture f;
+        char name[96], label[64];
+        make[k % 3](&f);
+        move_hinges(&f, 0.15e-3);
+        const fw_device_body *b = &f.body[held[k % 3]];
+        comb = (fw_device_comb){.id = "c",
+                                .kind = k % 2 ? FW_ELECTRODES_COMB : FW_ELECTRODES_PLATE,
+                                .body_a = FW_GROUND,
+                                .body_b = held[k % 3],
+                                .bx_m = lot(-0.5e-3, 0.5e-3),
+                                .by_m = lot(-0.3e-3, 0.3e-3),
+                                .direction_rad = 0.5 * M_PI * (int)lot(0, 4),
+                                .fingers = 3,
+                                .gap_m = 9e-6,
+                                .overlap_m = 40e-6,
+                                .length_m = 100e-6,
+                                .width_m = 10e-6};
+        scene = (fw_device_scene){.name = "s", .comb = &comb, .ncomb = 1};
+        f.device.scene = &scene;
+        f.device.nscene = k % 5 < 2;
+        drawn d = {.arena = fw_arena_new(0)};
+        d.diags = fw_diags_new(d.arena);
+        if (fw_layout_build(d.arena, &f.device, &d.diags, &d.layout) == FW_OK) {
+            snprintf(label, sizeof label, "tether of %s %s", b->platform ? "platform" : "link",
+                     b->id);
+            snprintf(name, sizeof name, "the tethers of %s", label + strlen("tether of "));
+            assert_int_equal(pieces_named(d.layout, label) == 0, is_missing(d.layout, 127, name));
+            if (f.device.nscene > 0)
+                assert_int_equal(pieces_named(d.layout, "stator of comb drive c") == 0,
+                                 is_missing(d.layout, 131, "comb drive c"));
+            *(d.layout->nmissing > 0 ? &without : &whole) += 1;
+        }
+        fw_arena_free(d.arena);
+    }
+    if (without < 10 || whole < 10) fail_msg("%d without, %d whole", without, whole);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_comb_names_a_place_that_has_room),
+        cmocka_unit_test(too_many_fingers_are_fewer),
+        cmocka_unit_test(short_fingers_are_longer),
+        cmocka_unit_test(a_plate_names_a_place_that_has_room),
+        cmocka_unit_test(no_insulation_has_no_room),
+        cmocka_unit_test(an_eyelet_names_a_place_that_has_room),
+        cmocka_unit_test(flows_lack_what_their_scenes_have),
+        cmocka_unit_test(an_enclosed_body_has_no_tether),
+        cmocka_unit_test(all_is_drawn_or_said),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
