@@ -98,7 +98,9 @@ static fw_status try_change(search *s, const change *c, bool *fits) {
     const fw_layout *layout = NULL;
     *fits = false;
     if (s->left <= 0) return FW_OK;
+    if (fw_arena_cancelled(s->arena)) return FW_CANCELLED;
     s->left--;
+    device.release_pitch_m = 0.0; /* holes keep off whatever is drawn, and cost most of a drawing */
     fw_arena *arena = fw_arena_part(s->arena, 0);
     FW_NEED(arena);
     fw_diags quiet = fw_diags_new(arena);
