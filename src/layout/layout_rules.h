@@ -16,7 +16,8 @@ typedef struct fw_layout_rules {
     double own_space_m;    /* space, */
     double own_hollow_m;   /* hollow radius, */
     double own_bend_m;     /* the same where an arc turns by more than 45 degrees: its two ends face
-                              each other across it, */
+                              each other across it, and of a quarter turn written in chords within
+                              5 nm the first and the last are 1.33 radii apart, */
     double own_tip_m;      /* and convex radius there */
     double least_corner_m; /* corners that do not fit are halved, not below this: smaller ones are
                               lost in the resolution of a mask (0.5 um) */

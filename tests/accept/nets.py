@@ -31,7 +31,7 @@ def variant(text, lot, flow):
         return words
     text = re.sub(r"<comb-drive[^>]*>", drive, text)
     text = re.sub(r'<parameter name="volts" value="[^"]*"', f'<parameter name="volts" value="{lot.uniform(5, 40):.1f} V"', text)
-    return text.replace('ref="al-masked-rie"', f'ref="{flow}"')
+    return re.sub(r'<flow ref="[^"]*"', f'<flow ref="{flow}"', text)
 
 
 def main():

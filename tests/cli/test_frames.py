@@ -111,7 +111,7 @@ class Frames(unittest.TestCase):
                     document["bands"] = {k: v for k, v in numbers(document).items() if "utilisation_band" in k}
                 self.same(a.pop("bands"), b.pop("bands"), 1e-2, "^$")
                 # the instant of a least clearance is known only as well as its 0.2 % allow at a flat minimum
-                self.same(a, b, within, self.SKIP + r"|/d?q/|/(damped_)?shape/|/path/events/\d+/q|/clearances/\d+/(t_s|at|pose)")
+                self.same(a, b, within, self.SKIP + r"|/d?q/|/(damped_)?shape/|/path/events/\d+/q|/clearances/\d+/(t_s|at|pose)|/wiring/gaps/\d+/(t_s|at_m)")
 
     def frames(self, document, shift):
         """the centre of mass is where it is, seen from the frame"""

@@ -185,16 +185,16 @@ class Plan(InTemporary):
 <material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie" carrier="insulating"/>
 <flexure id="f" {flexure}/>
 <mechanism>
-<body id="arm" mass="0.02 mg" inertia="0.003 mg mm^2" x="0.5 mm" y="0 mm" width="100 um"/>
+<body id="arm" mass="0.02 mg" inertia="0.003 mg mm^2" x="0.5 mm" y="0 mm" plate-width="0.9 mm" plate-height="100 um"/>
 <revolute id="h" a="ground" b="arm" b-x="-0.5 mm" hinge="f" {hinge}/>
 </mechanism>{"".join(scenes)}</device>"""
         return self.device(text)
 
-    def plate(self, name, volts, law="", duration="5 ms"):
-        """static pull-in at 27.168 V of a pin, 27.09 V of the flexure, which gives across, too; thrown to the stator
+    def plate(self, name, volts, law="", duration="5 ms", where='y="62 um" direction="90 deg"'):
+        """static pull-in at 27.168 V of a pin, 27.1 V of the flexure, which gives across, too; thrown to the stator
         by a step from about 0.92 of it on"""
         return (f'<scene name="{name}" duration="{duration}"><comb-drive id="p" kind="plate" on="arm" '
-                f'x="0.3 mm" direction="90 deg" gap="6 um" length="300 um" depth="50 um" '
+                f'x="0.3 mm" {where} gap="6 um" length="300 um" depth="50 um" '
                 f'voltage="{volts} V" {law}/></scene>')
 
     def judged(self, device, status):
@@ -209,12 +209,12 @@ class Plan(InTemporary):
                             hinge='axis="90 deg" stiffness="1e-6 N m/rad" damping="1e-11 N m s/rad"')
 
         def tendon(pull):
-            return (f'<tendon id="T" pull="{pull} mN"><eyelet on="arm" x="0.5 mm"/>'
-                    '<eyelet on="ground" x="-1 mm"/></tendon>')
-        # the tendon is 2 mm long, its lever 1 mm: a pin bears 1e-6 N m/rad * 2 / 1 mm = 2 mN, the leaf 2.2. Along
-        # itself it rings to twice its load, which is over before anything has left
-        self.assertEqual(self.judged(pressed(tendon(1.9)), 0)["reasons"], [])
-        device = pressed(tendon(3))
+            return (f'<tendon id="T" pull="{pull} mN"><eyelet on="arm" x="0.4 mm"/>'
+                    '<eyelet on="ground" x="-0.61 mm"/></tendon>')
+        # the tendon is 1.51 mm long, its lever 0.9 mm: a pin bears 1e-6 N m/rad * 1.51 / (0.9 mm * 0.61) = 2.75 mN, the
+        # leaf a tenth more. Along itself it rings to twice its load, which is over before anything has left
+        self.assertEqual(self.judged(pressed(tendon(2.6)), 0)["reasons"], [])
+        device = pressed(tendon(4.1))
         reason, = self.judged(device, 1)["reasons"]
         self.assertEqual((reason["code"], reason["scene"], reason["verdict"]),
                          ("FW-D259", "press", "reject"))
@@ -270,7 +270,7 @@ class Plan(InTemporary):
                          [("h", "fine", "accept")])
         reason, = verdict["reasons"]
         self.assertEqual((reason["code"], reason["scene"], reason["verdict"]), ("FW-D242", "bad", "reject"))
-        self.assertRegex(reason["text"], "pull-in of comb drive p is at 27.09 V, below the 60 V")
+        self.assertRegex(reason["text"], "pull-in of comb drive p is at 27.1 V, below the 60 V")
         result = self.expect(run("plan", device, "-o", self.here / "o", *QUIET), 1)
         self.assertRegex(result.stdout, r"rejected because: p of scene bad .*FW-D242")
         self.assertEqual(json.loads((self.here / "o/verdict.json").read_text())["reasons"], [reason])
@@ -295,7 +295,7 @@ class Plan(InTemporary):
     def test_a_pulse_beyond_pull_in_says_why(self):
         device = self.arm(self.plate("a", 60, 'law="step" end="0.02 ms"'))
         result = self.expect(run("check", device, *QUIET), 4)
-        self.assertRegex(result.stdout, "inconclusive because: scene a .*60 V, beyond the pull-in voltage 27.09 V")
+        self.assertRegex(result.stdout, "inconclusive because: scene a .*60 V, beyond the pull-in voltage 27.1 V")
         self.assertRegex(run("check", device, "-q", *QUIET).stdout, "beyond the pull-in voltage")
 
     def followed(self, text, sentence):
@@ -317,8 +317,8 @@ class Plan(InTemporary):
         def scene(name, loads):
             return f'<scene name="{name}" duration="5 ms">{loads}</scene>'
 
-        def tendon(how, x="1 mm", y="2 mm"):
-            return (f'<tendon id="T" {how}><eyelet on="arm" x="0.5 mm"/><eyelet on="ground" x="{x}" '
+        def tendon(how, x="0.9 mm", y="0.58 mm"):
+            return (f'<tendon id="T" {how}><eyelet on="arm" x="0.4 mm"/><eyelet on="ground" x="{x}" '
                     f'y="{y}"/></tendon>')
         force = '<force on="arm" x="0.5 mm" fy="0.5 mN"/>'
         cases = {
@@ -327,12 +327,14 @@ class Plan(InTemporary):
             "draw": ([scene("a", tendon('draw="0.8 mm" stiffness="20 N/m"'))],
                      "the loads (tendon draws) of scene a"),
             "shock": ([scene("a", '<base-motion ay="30000 m/s^2"/>')], "the loads (base motion) of scene a"),
-            "pressed": ([scene("a", tendon('pull="3 mN"', "-1 mm", "0 mm"))],
+            "pressed": ([scene("a", tendon('pull="4.1 mN"', "-0.58 mm", "0 mm"))],
                         "the loads (tendon pulls) of scene a"),
             "thrown": ([self.plate("a", 26.4)], "the voltages of scene a"),
             "pulse": ([self.plate("a", 60, 'law="step" end="0.02 ms"')], "the voltages of scene a"),
             "fringe": ([self.plate("a", 26.9, 'law="ramp" rise="45 ms"', "50 ms")], "the voltages of scene a"),
-            "several": ([scene("a", force + tendon('pull="1 mN"')), self.plate("b", 60),
+            # the stator is there in every scene: below the arm, which scene a lifts
+            "several": ([scene("a", force + tendon('pull="1 mN"').replace('x="0.4 mm"', 'x="0.42 mm" y="57 um"')),
+                         self.plate("b", 60, where='y="-62 um" direction="-90 deg"'),
                          scene("c", '<torque on="arm" value="0.001 uN m"/>')],
                         "the loads (forces, tendon pulls) of scene a"),
         }

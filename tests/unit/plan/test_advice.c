@@ -213,16 +213,18 @@ static void counts(void **state) {
     fw_arena *arena = fw_arena_new(0);
     const char *text = fw_arena_printf(
         arena,
-        "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><parameter name=\"n\" value=\"90\" "
-        "min=\"1\" max=\"200\"/><material ref=\"silicon-100\" thickness=\"50 um\"/><flow "
+        "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><parameter name=\"n\" value=\"22\" "
+        "min=\"1\" max=\"40\"/><material ref=\"silicon-100\" thickness=\"50 um\"/><flow "
         "ref=\"al-masked-rie\" carrier=\"insulating\"/><flexure id=\"f\" kind=\"csfh\" "
         "radius=\"100 "
         "um\" angle=\"270 deg\" width=\"8 um\" gap=\"8 um\" fillet=\"4 um\"/><mechanism><body "
-        "id=\"arm\" mass=\"0.02 mg\" inertia=\"0.003 mg mm^2\" x=\"0.5 mm\" y=\"0 mm\" width=\"60 "
-        "um\"/><revolute id=\"h\" a=\"ground\" b=\"arm\" b-x=\"-0.5 mm\" hinge=\"f\" axis=\"180 "
+        "id=\"arm\" mass=\"0.02 mg\" inertia=\"0.003 mg mm^2\" x=\"0.5 mm\" y=\"0 mm\" "
+        "plate-width=\"0.9 mm\" plate-height=\"60 um\"/><revolute id=\"h\" a=\"ground\" b=\"arm\" "
+        "b-x=\"-0.5 mm\" hinge=\"f\" axis=\"180 "
         "deg\"/></mechanism><scene name=\"a\" duration=\"5 ms\"><comb-drive kind=\"comb\" id=\"c\" "
         "on=\"arm\" "
-        "x=\"0.3 mm\" direction=\"90 deg\" fingers=\"n\" gap=\"3 um\" overlap=\"60 um\" "
+        "x=\"0.15 mm\" y=\"67 um\" direction=\"90 deg\" fingers=\"n\" gap=\"5 um\" overlap=\"60 "
+        "um\" "
         "voltage=\"60 V\"/></scene></device>");
     fw_plan *plan = judged(text, NULL, true);
     const fw_verdict_parameter_advice *n = of(plan, "n");
