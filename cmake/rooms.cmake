@@ -40,8 +40,7 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/effects/table.c PROPERTIES
                             "${effects_without}")
 
 # Under the sanitizers these take longer to optimise than it saves where they run
-set(FW_ROOMS_PLAIN assembly continuum cli effects layout mask measuring mechanism plan probe process recipe release report
-    serve study verdict wafer)
+set(FW_ROOMS_PLAIN cli continuum measuring mechanism plan probe process recipe report serve study verdict wafer)
 if(FW_SANITIZE) # all but this one, of which a test asks for a million Jacobians
     set_source_files_properties(${PROJECT_SOURCE_DIR}/src/continuum/mesh.c PROPERTIES COMPILE_OPTIONS -O1)
 endif()
