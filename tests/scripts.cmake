@@ -60,7 +60,7 @@ fw_script_test(cli.third_flow COMMAND ${Python3_EXECUTABLE} tests/cli/test_third
 fw_script_test(cli.sections COMMAND ${Python3_EXECUTABLE} tests/cli/test_sections.py ${FW_PROGRAM})
 fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/cli/test_violations.py ${FW_PROGRAM})
 fw_script_test(cli.mask_certificate COMMAND ${Python3_EXECUTABLE} tests/cli/test_mask_certificate.py ${FW_PROGRAM})
-fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
+fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/faults/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)
 # random devices before beams of their own: tests/judge/README.md says how to ask for many
 fw_script_test(judge.self LABEL quick COMMAND ${Python3_EXECUTABLE} tests/judge/self_test.py $<TARGET_FILE:judge>
@@ -132,7 +132,7 @@ add_executable(live live/live.c)
 target_link_libraries(live PRIVATE fw_plan)
 fw_first_part_of(live.memory COMMAND live memory FIRST 3000 WHOLE 10000)
 
-add_executable(fault_memory fault/memory.c)
+add_executable(fault_memory faults/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)
 fw_first_part_of(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml FIRST 60 WHOLE 120)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})

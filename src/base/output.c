@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/output.h"
+#include "base/output_file.h"
 #include "base/text.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
-#include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,54 +19,23 @@ struct fw_output {
     size_t count, capacity;
 };
 
-static fw_status failed(fw_diags *diags, const char *path, const char *what) {
-    fw_diag_error(diags, 222, (fw_place){.file = path}, "cannot %s: %s; nothing was changed", what,
-                  strerror(errno));
-    return FW_IO;
+static bool is_entry(const struct dirent *e) {
+    return strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0;
 }
 
-void fw_output_remove_tree(int parent, const char *name) {
-    int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (fd >= 0) {
-        DIR *dir = fdopendir(fd);
-        if (dir) {
-            for (struct dirent *e; (e = readdir(dir));)
-                if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0)
-                    fw_output_remove_tree(fd, e->d_name);
-            closedir(dir);
-        } else
-            close(fd);
-        unlinkat(parent, name, AT_REMOVEDIR);
-    } else
-        unlinkat(parent, name, 0);
-}
-
-static int directory_is_empty(const char *path) {
-    DIR *dir = opendir(path);
-    if (!dir) return 0;
-    int empty = 1;
-    for (struct dirent *e; (e = readdir(dir));)
-        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0) empty = 0;
+static fw_status directory_is_empty(fw_output *o, bool *empty) {
+    DIR *dir = opendir(o->path);
+    if (!dir)
+        return errno == ENOMEM ? FW_NOMEM
+                               : fw_output_failed(o->diags, o->path, "look into the directory");
+    *empty = true;
+    errno = 0;
+    for (struct dirent *e; *empty && (e = readdir(dir)); errno = 0)
+        *empty = !is_entry(e);
+    int why = errno;
     closedir(dir);
-    return empty;
-}
-
-void fw_output_remove_leftovers(fw_arena *arena, const char *path) {
-    const char *slash = strrchr(path, '/');
-    const char *parent = slash ? fw_arena_strndup(arena, path, (size_t)(slash - path) + 1) : ".";
-    const char *prefix = fw_arena_printf(arena, "%s.tmp-", slash ? slash + 1 : path);
-    DIR *dir = parent && prefix ? opendir(parent) : NULL;
-    if (!dir) return;
-    for (struct dirent *e; (e = readdir(dir));) {
-        if (strncmp(e->d_name, prefix, strlen(prefix)) != 0) continue;
-        char *end;
-        long pid = strtol(e->d_name + strlen(prefix), &end, 10);
-        char proc[64];
-        snprintf(proc, sizeof proc, "/proc/%ld", pid);
-        if (*end == '\0' && pid > 0 && access(proc, F_OK) != 0)
-            fw_output_remove_tree(dirfd(dir), e->d_name);
-    }
-    closedir(dir);
+    errno = why;
+    return why == 0 ? FW_OK : fw_output_failed(o->diags, o->path, "look into the directory");
 }
 
 static fw_status make_parents(fw_arena *arena, const char *path, fw_diags *diags) {
@@ -79,7 +44,7 @@ static fw_status make_parents(fw_arena *arena, const char *path, fw_diags *diags
     for (char *slash = strchr(copy + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         if (mkdir(copy, 0777) != 0 && errno != EEXIST)
-            return failed(diags, path, "make the directories above it");
+            return fw_output_failed(diags, path, "make the directories above it");
         *slash = '/';
     }
     return FW_OK;
@@ -129,29 +94,54 @@ static fw_status unchanged(fw_output *o, const json_t *manifest, const char *nam
 static fw_status only_ours(fw_output *o, const json_t *manifest, const char *below) {
     const char *path = fw_arena_printf(o->arena, "%s/%s", o->path, below);
     DIR *dir = path ? opendir(path) : NULL;
-    if (!dir) return path ? failed(o->diags, path, "look into the directory") : FW_NOMEM;
+    if (!dir)
+        return path && errno != ENOMEM ? fw_output_failed(o->diags, path, "look into the directory")
+                                       : FW_NOMEM;
     fw_status status = FW_OK;
-    for (struct dirent *e; status == FW_OK && (e = readdir(dir));) {
-        if (strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0) continue;
+    /* an entry that cannot be read may be a person's file */
+    errno = 0;
+    for (struct dirent *e; status == FW_OK && (e = readdir(dir)); errno = 0) {
+        if (!is_entry(e)) continue;
         const char *name = fw_arena_printf(o->arena, "%s%s%s", below, *below ? "/" : "", e->d_name);
         struct stat info;
         if (!name)
             status = FW_NOMEM;
         else if (fstatat(dirfd(dir), e->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0)
-            status = failed(o->diags, name, "look at the file");
+            status = fw_output_failed(o->diags, name, "look at the file");
         else if (S_ISDIR(info.st_mode))
             status = only_ours(o, manifest, name);
         else if (strcmp(name, "manifest.json") != 0)
             status = unchanged(o, manifest, name);
     }
+    if (status == FW_OK && errno != 0)
+        status = fw_output_failed(o->diags, path, "look into the directory");
     closedir(dir);
     return status;
+}
+
+/* *manifest of what is there, NULL: there is none, or it is not one */
+static fw_status read_manifest(fw_output *o, json_t **manifest) {
+    const char *path = fw_arena_printf(o->arena, "%s/manifest.json", o->path);
+    FW_NEED(path);
+    *manifest = NULL;
+    struct stat info;
+    if (lstat(path, &info) != 0)
+        return errno == ENOENT ? FW_OK : fw_output_failed(o->diags, path, "look at the file");
+    char *text;
+    size_t n;
+    FW_TRY(fw_input_read(o->arena, path, SIZE_MAX / 4, o->diags, &text, &n));
+    errno = 0; /* jansson tells a lack of memory by its error only sometimes */
+    *manifest = json_loadb(text, n, 0, NULL);
+    return !*manifest && errno == ENOMEM ? FW_NOMEM : FW_OK;
 }
 
 /* what is there may be replaced: nothing, an empty directory, or exactly what a manifest lists */
 static fw_status check_target(fw_output *o) {
     struct stat info;
-    if (lstat(o->path, &info) != 0) return FW_OK;
+    if (lstat(o->path, &info) != 0)
+        return errno == ENOENT || errno == ENOTDIR /* making the parents will say */
+                   ? FW_OK
+                   : fw_output_failed(o->diags, o->path, "look at what is there");
     fw_place place = {.file = o->path};
     if (!S_ISDIR(info.st_mode)) {
         fw_diag_error(o->diags, 223, place, "%s: choose a directory with -o",
@@ -159,10 +149,11 @@ static fw_status check_target(fw_output *o) {
                                             : "exists and is not a directory");
         return FW_IO;
     }
-    if (directory_is_empty(o->path)) return FW_OK;
-    const char *path = fw_arena_printf(o->arena, "%s/manifest.json", o->path);
-    FW_NEED(path);
-    json_t *manifest = json_load_file(path, 0, NULL);
+    bool empty;
+    json_t *manifest;
+    FW_TRY(directory_is_empty(o, &empty));
+    if (empty) return FW_OK;
+    FW_TRY(read_manifest(o, &manifest));
     if (!manifest) {
         fw_diag_error(o->diags, 223, place,
                       "is not empty and was not written by flexwright (no manifest.json in it): "
@@ -188,33 +179,9 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
     o->build = fw_arena_printf(arena, "%s.tmp-%ld", o->path, (long)getpid());
     FW_NEED(o->build);
     fw_output_remove_tree(AT_FDCWD, o->build);
-    if (mkdir(o->build, 0777) != 0) return failed(diags, o->build, "make the directory");
+    if (mkdir(o->build, 0777) != 0) return fw_output_failed(diags, o->build, "make the directory");
     *output = o;
     return FW_OK;
-}
-
-/* writes, syncs and closes; every one of the three may be the first to report a full disk */
-static int write_whole(const char *path, const void *data, size_t n) {
-    int fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (fd < 0) return 0;
-    const char *p = data;
-    while (n > 0) {
-        ssize_t done = write(fd, p, n);
-        if (done < 0 && errno == EINTR) continue;
-        if (done <= 0) {
-            int why = done == 0 ? ENOSPC : errno;
-            close(fd);
-            errno = why;
-            return 0;
-        }
-        p += done;
-        n -= (size_t)done;
-    }
-    int ok = fsync(fd) == 0 || errno == EINVAL; /* EINVAL: a pipe or device has nothing to sync */
-    int why = errno;
-    if (close(fd) != 0 && ok) return 0;
-    errno = why;
-    return ok;
 }
 
 static fw_status remember(fw_output *o, const char *name, const void *data, size_t n) {
@@ -241,7 +208,7 @@ fw_status fw_output_write(fw_output *o, const char *name, const void *data, size
     const char *path = fw_arena_printf(o->arena, "%s/%s", o->build, name);
     FW_NEED(path);
     FW_TRY(make_parents(o->arena, path, o->diags));
-    if (!write_whole(path, data, n)) return failed(o->diags, path, "write the file");
+    if (!fw_output_put(path, data, n)) return fw_output_failed(o->diags, path, "write the file");
     return remember(o, name, data, n);
 }
 
@@ -250,39 +217,41 @@ const fw_output_file *fw_output_files(const fw_output *o, size_t *count) {
     return o->file;
 }
 
-static int sync_directory(const char *path) {
-    int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd < 0) return 0;
-    int ok = fsync(fd) == 0 || errno == EINVAL;
-    close(fd);
-    return ok;
+/* the directories of the files, from the innermost: what each lists must be on the disk before the
+   whole is put in place */
+static fw_status sync_directories(fw_output *o) {
+    const char *last = "";
+    for (size_t i = 0; i < o->count; i++) { /* by name: files of a directory stand together */
+        const char *name = o->file[i].name;
+        for (const char *slash = strrchr(name, '/'); slash;
+             slash = memrchr(name, '/', (size_t)(slash - name))) {
+            size_t n = (size_t)(slash - name);
+            if (strncmp(last, name, n + 1) == 0) continue;
+            const char *path = fw_arena_printf(o->arena, "%s/%.*s", o->build, (int)n, name);
+            FW_NEED(path);
+            if (!fw_output_sync_directory(path))
+                return fw_output_failed(o->diags, path, "sync the directory");
+        }
+        last = name;
+    }
+    return fw_output_sync_directory(o->build)
+               ? FW_OK
+               : fw_output_failed(o->diags, o->build, "sync the directory");
 }
 
 fw_status fw_output_commit(fw_output *o) {
-    if (!sync_directory(o->build)) return failed(o->diags, o->build, "sync the directory");
-    struct stat info;
-    if (lstat(o->path, &info) != 0) {
-        if (rename(o->build, o->path) != 0)
-            return failed(o->diags, o->path, "put the results in place");
-    } else if (renameat2(AT_FDCWD, o->build, AT_FDCWD, o->path, RENAME_EXCHANGE) == 0) {
-        fw_output_remove_tree(AT_FDCWD, o->build); /* now holds what was there before */
-    } else { /* a file system without exchange: move the old one aside first */
-        const char *aside = fw_arena_printf(o->arena, "%s.tmp-%ld-old", o->path, (long)getpid());
-        FW_NEED(aside);
-        if (rename(o->path, aside) != 0)
-            return failed(o->diags, o->path, "move the earlier results aside");
-        if (rename(o->build, o->path) != 0) {
-            rename(aside, o->path);
-            return failed(o->diags, o->path, "put the results in place");
-        }
-        fw_output_remove_tree(AT_FDCWD, aside);
-    }
-    o->build = NULL;
-    const char *slash = strrchr(o->path, '/');
-    const char *parent =
-        slash ? fw_arena_strndup(o->arena, o->path, (size_t)(slash - o->path) + 1) : ".";
+    FW_TRY(sync_directories(o));
+    const char *spare = fw_arena_printf(o->arena, "%s.tmp-%ld-old", o->path, (long)getpid());
+    const char *parent = fw_output_parent(o->arena, o->path);
+    FW_NEED(spare);
     FW_NEED(parent);
-    sync_directory(parent);
+    struct stat info;
+    bool earlier = lstat(o->path, &info) == 0;
+    if (earlier ? !fw_output_exchange(o->build, o->path, spare) : rename(o->build, o->path) != 0)
+        return fw_output_failed(o->diags, o->path, "put the results in place");
+    if (earlier) fw_output_remove_tree(AT_FDCWD, o->build); /* now holds what was there before */
+    o->build = NULL;
+    fw_output_sync_directory(parent);
     return FW_OK;
 }
 
@@ -291,147 +260,4 @@ void fw_output_abort(fw_output *o) {
         fw_output_remove_tree(AT_FDCWD, o->build);
         o->build = NULL;
     }
-}
-
-fw_status fw_output_single(fw_arena *arena, const char *path, const void *data, size_t n,
-                           fw_diags *diags) {
-    if (strcmp(path, "-") == 0) {
-        if (fwrite(data, 1, n, stdout) != n || fflush(stdout) != 0)
-            return failed(diags, "standard output", "write");
-        return FW_OK;
-    }
-    struct stat info;
-    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) /* a device or pipe: no rename */
-        return write_whole(path, data, n) ? FW_OK : failed(diags, path, "write");
-    const char *build = fw_arena_printf(arena, "%s.tmp-%ld", path, (long)getpid());
-    FW_NEED(build);
-    if (!write_whole(build, data, n) || rename(build, path) != 0) {
-        int why = errno;
-        unlink(build);
-        errno = why;
-        return failed(diags, path, "write the file");
-    }
-    return FW_OK;
-}
-
-fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
-                        char **data, size_t *n) {
-    int standard = strcmp(path, "-") == 0;
-    fw_place place = {.file = standard ? "standard input" : path};
-    int fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
-    struct stat info;
-    if (fd < 0 || (!standard && fstat(fd, &info) == 0 && S_ISDIR(info.st_mode))) {
-        fw_diag_error(diags, 220, place, "cannot be read: %s",
-                      fd < 0 ? strerror(errno) : "it is a directory");
-        if (fd >= 0) close(fd);
-        return FW_IO;
-    }
-    size_t capacity = 64 * 1024, length = 0;
-    char *buffer = fw_arena_alloc(arena, capacity + 1, 1);
-    fw_status status = buffer ? FW_OK : FW_NOMEM;
-    while (status == FW_OK) {
-        ssize_t got = read(fd, buffer + length, capacity - length);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
-            fw_diag_error(diags, 220, place, "cannot be read: %s", strerror(errno));
-            status = FW_IO;
-        }
-        if (got <= 0) break;
-        length += (size_t)got;
-        if (length > most) {
-            fw_diag_error(diags, 221, place,
-                          "is larger than %zu bytes, the most that is read from one file", most);
-            status = FW_INPUT;
-        } else if (length == capacity) {
-            buffer = fw_arena_grow(arena, buffer, length, 2 * capacity + 1, 1);
-            capacity *= 2;
-            if (!buffer) status = FW_NOMEM;
-        }
-    }
-    if (!standard) close(fd);
-    if (status != FW_OK) return status;
-    buffer[length] = '\0';
-    *data = buffer;
-    *n = length;
-    return FW_OK;
-}
-
-fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, const char **path) {
-    const char *const root[] = {override, FW_INSTALL_DATA_DIR, FW_SOURCE_DATA_DIR};
-    bool given = override && override[0];
-    for (size_t i = given ? 0 : 1; i < (given ? 1 : sizeof root / sizeof root[0]); i++) {
-        FW_NEED(*path = fw_arena_printf(arena, "%s/%s", root[i], name));
-        if (access(*path, R_OK) == 0) return FW_OK;
-    }
-    *path = NULL;
-    return FW_OK;
-}
-
-static fw_status append_failed(const fw_append *file, int number, const char *what) {
-    fw_place place = {file->path, 0, 0};
-    fw_diag_error(file->diags, number, place, "%s: %s", what, strerror(errno));
-    return FW_IO;
-}
-
-static fw_status read_all(fw_arena *arena, size_t most, fw_append *file) {
-    struct stat info;
-    if (fstat(file->fd, &info) != 0) return append_failed(file, 220, "cannot be read");
-    if (!S_ISREG(info.st_mode)) {
-        errno = EINVAL;
-        return append_failed(file, 220, "is not a file");
-    }
-    if ((unsigned long long)info.st_size > most) {
-        errno = EFBIG;
-        append_failed(file, 221, "is too large");
-        return FW_LIMIT;
-    }
-    file->n = (size_t)info.st_size;
-    FW_NEED(file->text = fw_arena_array(arena, char, file->n + 1));
-    for (size_t done = 0; done < file->n;) {
-        ssize_t got = pread(file->fd, file->text + done, file->n - done, (off_t)done);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return append_failed(file, 220, "cannot be read");
-        done += (size_t)got;
-    }
-    return FW_OK;
-}
-
-fw_status fw_append_open(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
-                         fw_append *file) {
-    *file = (fw_append){.path = path, .fd = -1, .diags = diags};
-    file->fd = open(path, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    if (file->fd < 0) return append_failed(file, 222, "cannot be opened for writing");
-    int locked;
-    do
-        locked = flock(file->fd, LOCK_EX);
-    while (locked != 0 && errno == EINTR);
-    fw_status status =
-        locked == 0 ? read_all(arena, most, file) : append_failed(file, 222, "cannot be locked");
-    if (status != FW_OK) fw_append_close(file);
-    return status;
-}
-
-fw_status fw_append_text(fw_append *file, const char *text, size_t n) {
-    ssize_t put;
-    do
-        put = write(file->fd, text, n);
-    while (put < 0 && errno == EINTR);
-    if (put == (ssize_t)n && fsync(file->fd) == 0) {
-        file->n += n;
-        return FW_OK;
-    }
-    if (put >= 0 && put < (ssize_t)n) errno = ENOSPC;
-    fw_status status = append_failed(file, 222, "could not be written, and is as it was");
-    if (ftruncate(file->fd, (off_t)file->n) != 0)
-        append_failed(file, 222, "its last line is not complete and could not be taken away");
-    return status;
-}
-
-void fw_append_close(fw_append *file) {
-    if (file->fd < 0) return;
-    struct stat info;
-    if (fstat(file->fd, &info) == 0 && info.st_size == 0 && S_ISREG(info.st_mode))
-        unlink(file->path);
-    close(file->fd);
-    file->fd = -1;
 }

@@ -31,8 +31,20 @@ void fw_output_abort(fw_output *output); /* removes what was built; NULL and twi
 fw_status fw_output_single(fw_arena *arena, const char *path, const void *data, size_t n,
                            fw_diags *diags);
 
-/* a whole file or, for "-", standard input, at most `most` bytes (FW_LIMIT beyond); NUL added
-   after the end. Errors name the file (FW-D220, FW-D221). */
+typedef struct fw_output_member {
+    const char *name; /* without '/' */
+    const void *data;
+    size_t n;
+} fw_output_member;
+/* Files of a directory that is there and may hold others: each one whole, and where one cannot be
+   put in place those before it are as they were. A kill between two of them leaves some old, some
+   new. Sweeps what a killed run left of these names. */
+fw_status fw_output_members(fw_arena *arena, const char *directory, const fw_output_member *file,
+                            size_t count, fw_diags *diags);
+
+/* a whole file or, for "-", standard input, at most `most` bytes (FW_INPUT beyond); NUL added
+   after the end. Errors name the file (FW-D220, FW-D221). Anything but a file (a pipe, a device, a
+   socket, a directory) is refused at once, never waited for. */
 fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
                         char **data, size_t *n);
 
@@ -56,6 +68,8 @@ typedef struct fw_append {
 fw_status fw_append_open(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
                          fw_append *file);
 fw_status fw_append_text(fw_append *file, const char *text, size_t n);
+/* what was added since the file had n bytes, where something that goes with it could not be written */
+void fw_append_take_back(fw_append *file, size_t n);
 void fw_append_close(fw_append *file); /* removes a file that it made and that is still empty */
 
 #endif

@@ -165,22 +165,14 @@ int fw_cli_command_statics(fw_cli_options *options) {
     return with_design(options, statics);
 }
 
-static int save_in(fw_design *design, const char *directory, const char *name, int document) {
-    char path[4200];
-    if (snprintf(path, sizeof path, "%s/%s", directory, name) >= (int)sizeof path)
-        return FW_STATUS_IO;
-    return fw_design_save(design, document, path);
-}
-
 /* the picture is worth most where the joints do not close: it is saved in any case */
 static int save_pictures(fw_design *design, const fw_cli_options *options, bool closed) {
+    static const fw_cli_session_file file[] = {{FW_DOCUMENT_ASSEMBLE_SVG, "assemble.svg"},
+                                               {FW_DOCUMENT_ASSEMBLE_JSON, "assemble.json"}};
     int status = FW_STATUS_OK;
     if (options->svg) status = fw_design_save(design, FW_DOCUMENT_ASSEMBLE_SVG, options->svg);
     if (status != FW_STATUS_OK || !options->output) return status;
-    mkdir(options->output, 0777); /* what is wrong with it, saving will say */
-    status = save_in(design, options->output, "assemble.svg", FW_DOCUMENT_ASSEMBLE_SVG);
-    if (status != FW_STATUS_OK || !closed) return status;
-    return save_in(design, options->output, "assemble.json", FW_DOCUMENT_ASSEMBLE_JSON);
+    return fw_cli_session_save(design, options->output, file, closed ? 2 : 1);
 }
 
 static int assemble(fw_design *design, const fw_cli_options *options) {

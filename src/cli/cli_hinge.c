@@ -311,13 +311,9 @@ static fw_status save(fw_plan *plan, const fw_cli_options *options, const fw_tex
     if (options->svg)
         FW_TRY(fw_output_single(plan->arena, options->svg, svg->data, svg->length, &plan->diags));
     if (!options->output) return FW_OK;
-    fw_output *output;
-    FW_TRY(fw_output_open(plan->arena, options->output, &plan->diags, &output));
-    fw_status status = fw_output_write(output, "hinge.json", json->data, json->length);
-    if (status == FW_OK) status = fw_output_write(output, "hinge.svg", svg->data, svg->length);
-    if (status == FW_OK) status = fw_output_commit(output);
-    fw_output_abort(output);
-    return status;
+    const fw_output_member file[] = {{"hinge.json", json->data, json->length},
+                                     {"hinge.svg", svg->data, svg->length}};
+    return (fw_status)fw_cli_session_put(plan, options->output, file, 2);
 }
 
 static fw_status picture(fw_plan *plan, const fw_plan_ladders *all, fw_text *out) {

@@ -124,7 +124,7 @@ int fw_cli_command_calibrate(fw_cli_options *options) {
     if (strpbrk(options->design.flow, "/\\"))
         return fw_cli_usage("--flow takes the name of a flow, not a path");
     work w = {.arena = fw_arena_new(0), .options = options};
-    if (!w.arena) return fw_status_exit(FW_NOMEM);
+    if (!w.arena) return fw_cli_session_no_memory();
     w.diags = fw_diags_new(w.arena);
     fw_status status = run(&w);
     fw_text said = fw_text_new(w.arena);
@@ -136,7 +136,9 @@ int fw_cli_command_calibrate(fw_cli_options *options) {
     w.diags.count = kept;
     fw_diags_print(&w.diags, &said, options->device, w.text, w.n, 0);
     if (!said.failed) fputs(said.data, stderr);
-    if (status != FW_OK && w.diags.errors == 0)
+    if (status == FW_NOMEM)
+        fw_cli_session_no_memory();
+    else if (status != FW_OK && w.diags.errors == 0)
         fprintf(stderr, "flexwright: error: %s; nothing was written\n", fw_status_text(status));
     fw_arena_free(w.arena);
     return fw_status_exit(status);
@@ -233,12 +235,17 @@ static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, 
                                &line));
     const char *all = fw_arena_printf(plan->arena, "%s%s", first, line);
     FW_NEED(all);
-    FW_TRY(fw_append_text(file, all, strlen(all)));
     const char *head, *name, *chain = strrchr(line, '='); /* a line ends with its chain */
     FW_NEED(chain = fw_arena_strndup(plan->arena, chain + 1, strcspn(chain + 1, "\n")));
     FW_TRY(fw_recipe_asrun_head(plan->arena, run.nentry + 1, chain, &head));
     FW_TRY(head_name(plan->arena, options->run, &name));
-    FW_TRY(fw_output_single(plan->arena, name, head, strlen(head), &plan->diags));
+    size_t before = file->n;
+    FW_TRY(fw_append_text(file, all, strlen(all)));
+    fw_status status = fw_output_single(plan->arena, name, head, strlen(head), &plan->diags);
+    if (status != FW_OK) {
+        fw_append_take_back(file, before); /* else it would be added a second time */
+        return status;
+    }
     if (!options->quiet) printf("%s: entry %d\n", options->run, run.nentry + 1);
     return FW_OK;
 }

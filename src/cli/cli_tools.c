@@ -36,8 +36,9 @@ static _Noreturn void let_go(const char *opener, const char *page) {
 
 static void open_browser(const char *page) {
     fw_arena *arena = fw_arena_new(0);
-    const char *opener = arena ? fw_continuum_program(arena, "xdg-open") : NULL;
+    const char *opener = NULL;
     int status = 1;
+    if (arena && fw_continuum_program(arena, "xdg-open", &opener) != FW_OK) opener = NULL;
     pid_t first = opener ? fork() : -1;
     if (first == 0) let_go(opener, page);
     if (first < 0 || waitpid(first, &status, 0) != first || status != 0)
@@ -138,28 +139,33 @@ int fw_cli_command_explain(fw_cli_options *options) {
 
 /* ---- doctor ---- */
 
-int fw_cli_command_doctor(fw_cli_options *options) {
+static fw_status examine(fw_arena *arena, const char *data_directory, int *missing) {
     static const char *const needed[] = {"processes/base.xml", "processes/al-masked-rie.xml",
                                          "processes/copper-on-porous-silicon.xml",
                                          "masks/al-masked-rie.xml",
                                          "masks/copper-on-porous-silicon.xml"};
-    fw_arena *arena = fw_arena_new(0);
-    if (!arena) return fw_status_exit(FW_NOMEM);
-    printf("flexwright %s\ncompiler %s\njansson %s\n", FW_VERSION, __VERSION__, JANSSON_VERSION);
-    int missing = 0;
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
-        const char *path = NULL;
-        if (fw_data_path(arena, options->design.data_directory, needed[i], &path) != FW_OK)
-            path = NULL;
+        const char *path;
+        FW_TRY(fw_data_path(arena, data_directory, needed[i], &path));
         printf("%-40s %s\n", needed[i], path ? path : "MISSING");
-        missing += !path;
+        *missing += !path;
     }
-    const char *solver = fw_continuum_program(arena, "ccx"); /* no part of what must be there */
+    const char *solver; /* no part of what must be there */
+    FW_TRY(fw_continuum_program(arena, "ccx", &solver));
     printf("%-40s %s\n", "ccx (continuum level of hinges)", solver ? solver : fw_continuum_install);
+    return FW_OK;
+}
+
+int fw_cli_command_doctor(fw_cli_options *options) {
+    int missing = 0;
+    printf("flexwright %s\ncompiler %s\njansson %s\n", FW_VERSION, __VERSION__, JANSSON_VERSION);
+    fw_arena *arena = fw_arena_new(0);
+    fw_status status = arena ? examine(arena, options->design.data_directory, &missing) : FW_NOMEM;
+    fw_arena_free(arena);
+    if (status != FW_OK) return fw_cli_session_no_memory();
 #if defined(__x86_64__)
     printf("processor: fma %s, avx2 %s\n", __builtin_cpu_supports("fma") ? "yes" : "no",
            __builtin_cpu_supports("avx2") ? "yes" : "no");
 #endif
-    fw_arena_free(arena);
     return missing ? fw_status_exit(FW_IO) : 0;
 }

@@ -20,11 +20,15 @@ void fw_cli_session_stage(const fw_cli_options *options, const char *stage) {
     if (options->verbose && !options->quiet) fprintf(stderr, "flexwright: %s\n", stage);
 }
 
+int fw_cli_session_no_memory(void) {
+    fputs("flexwright: error: out of memory\n", stderr);
+    return fw_status_exit(FW_NOMEM);
+}
+
 fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status) {
     fw_design *design = fw_design_new(&options->design);
     if (!design) {
-        fputs("flexwright: error: out of memory\n", stderr);
-        *exit_status = fw_status_exit(FW_NOMEM);
+        *exit_status = fw_cli_session_no_memory();
         return NULL;
     }
     fw_plan_design_cancel_with(design, options->interrupted);
@@ -54,40 +58,28 @@ int fw_cli_session_print(fw_design *design, const fw_cli_options *options, int d
     return print(design, options, document, stdout);
 }
 
-enum { FILES_MOST = 8, PATH_MOST = 4200 };
-typedef char file_path[PATH_MOST];
-
-static int save_aside(fw_design *design, const char *directory, const fw_cli_session_file *file,
-                      file_path aside, file_path path) {
-    int a = snprintf(aside, PATH_MOST, "%s/.%s.%ld", directory, file->name, (long)getpid());
-    int b = snprintf(path, PATH_MOST, "%s/%s", directory, file->name);
-    if (a >= PATH_MOST || b >= PATH_MOST) return FW_STATUS_IO;
-    return fw_design_save(design, file->document, aside);
+int fw_cli_session_put(fw_plan *plan, const char *directory, const fw_output_member *file,
+                       size_t count) {
+    bool made = mkdir(directory, 0777) == 0; /* what is wrong with it, saving will say */
+    fw_status status = fw_output_members(plan->arena, directory, file, count, &plan->diags);
+    if (status != FW_OK && made) rmdir(directory);
+    return (int)status;
 }
 
-/* all of them or none: composed first, then written under other names, which they lose at the
-   end */
+/* composed first, then written */
 int fw_cli_session_save(fw_design *design, const char *directory, const fw_cli_session_file *file,
                         size_t count) {
-    static file_path aside[FILES_MOST], path[FILES_MOST];
-    int status = count <= FILES_MOST ? FW_STATUS_OK : FW_STATUS_INTERNAL;
-    const char *text;
-    size_t n, written = 0;
-    for (size_t i = 0; status == FW_STATUS_OK && i < count; i++)
-        status = fw_design_document(design, file[i].document, &text, &n);
-    if (status != FW_STATUS_OK) return status;
-    bool fabricated = mkdir(directory, 0777) == 0; /* what is wrong with it, saving will say */
-    while (status == FW_STATUS_OK && written < count) {
-        status = save_aside(design, directory, &file[written], aside[written], path[written]);
-        written += status == FW_STATUS_OK;
+    enum { FILES_MOST = 8 };
+    fw_output_member member[FILES_MOST];
+    if (count > FILES_MOST) return FW_STATUS_INTERNAL;
+    for (size_t i = 0; i < count; i++) {
+        const char *text;
+        size_t n;
+        int status = fw_design_document(design, file[i].document, &text, &n);
+        if (status != FW_STATUS_OK) return status;
+        member[i] = (fw_output_member){file[i].name, text, n};
     }
-    for (size_t i = 0; i < written; i++)
-        if (status != FW_STATUS_OK)
-            unlink(aside[i]);
-        else if (rename(aside[i], path[i]) != 0)
-            status = FW_STATUS_IO;
-    if (status != FW_STATUS_OK && fabricated) rmdir(directory);
-    return status;
+    return fw_cli_session_put(fw_plan_design_plan(design), directory, member, count);
 }
 
 bool fw_cli_session_file_on_stdout(const fw_cli_options *options) {

@@ -2,6 +2,7 @@
 /* What the commands share. Private to the room. */
 #ifndef FW_CLI_SESSION_H
 #define FW_CLI_SESSION_H
+#include "base/output.h"
 #include "cli/options.h"
 #include "plan/plan.h"
 
@@ -15,6 +16,8 @@ fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status);
 /* prints the diagnostics on standard error and frees; returns the exit status */
 int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int status,
                          int result_if_ok);
+/* says so where there is no design to say it of; returns the exit status */
+int fw_cli_session_no_memory(void);
 /* a line on standard error with -v */
 void fw_cli_session_stage(const fw_cli_options *options, const char *stage);
 /* a document (FW_DOCUMENT_...) on standard output; returns the library's status */
@@ -24,9 +27,13 @@ typedef struct fw_cli_session_file {
     int document; /* FW_DOCUMENT_... */
     const char *name;
 } fw_cli_session_file;
-/* documents as files of a directory, all of them or none; returns the library's status */
+/* documents as files of a directory, which is made where it is not there and may hold others: all of
+   them or none; returns the library's status */
 int fw_cli_session_save(fw_design *design, const char *directory, const fw_cli_session_file *file,
                         size_t count);
+/* the same of bytes */
+int fw_cli_session_put(fw_plan *plan, const char *directory, const fw_output_member *file,
+                       size_t count);
 /* --csv - : the table has standard output for itself */
 bool fw_cli_session_file_on_stdout(const fw_cli_options *options);
 

@@ -100,8 +100,8 @@ fw_status fw_continuum_hinge_deck(fw_arena *arena, const fw_continuum_shape *sha
                                   const fw_continuum_options *options, fw_place place,
                                   fw_diags *diags, fw_text *deck);
 
-/* absolute path of an external program in PATH, or NULL; for `doctor` */
-const char *fw_continuum_program(fw_arena *arena, const char *name);
+/* *path: absolute, of an external program in PATH, or NULL: it is not there; for `doctor` too */
+fw_status fw_continuum_program(fw_arena *arena, const char *name, const char **path);
 extern const char *const fw_continuum_install; /* how to get the solver */
 
 #endif

@@ -186,12 +186,9 @@ fw_status fw_continuum_hinge(fw_arena *arena, const fw_continuum_shape *shape,
     *result = (fw_continuum_result){
         .stiffness_error = (double)NAN, .strain_error = (double)NAN, .centre_error_m = (double)NAN};
     FW_TRY(usable(material, options, place, diags));
-    job j = {.shape = shape,
-             .material = material,
-             .options = options,
-             .place = place,
-             .diags = diags,
-             .program = fw_continuum_program(arena, "ccx")};
+    job j = {
+        .shape = shape, .material = material, .options = options, .place = place, .diags = diags};
+    FW_TRY(fw_continuum_program(arena, "ccx", &j.program));
     if (!j.program) {
         result->missing = fw_continuum_install;
         fw_diag_note(diags, 214, place, "%s", fw_continuum_install);

@@ -312,7 +312,8 @@ fw_status fw_continuum_solid_solve(fw_arena *arena, const fw_continuum_solid_dev
                                    fw_continuum_solid_result *result) {
     *result = (fw_continuum_solid_result){.strain_hinge = 0};
     FW_TRY(complete(device, options, diags));
-    const char *program = fw_continuum_program(arena, "ccx");
+    const char *program;
+    FW_TRY(fw_continuum_program(arena, "ccx", &program));
     if (!program) {
         result->missing = fw_continuum_install;
         fw_diag_note(diags, 214, (fw_place){0}, "%s", fw_continuum_install);

@@ -18,20 +18,23 @@
 #include <time.h>
 #include <unistd.h>
 
-const char *fw_continuum_program(fw_arena *arena, const char *name) {
-    const char *path = getenv("PATH");
-    for (const char *p = path ? path : "/usr/local/bin:/usr/bin:/bin"; *p;) {
+fw_status fw_continuum_program(fw_arena *arena, const char *name, const char **path) {
+    const char *all = getenv("PATH");
+    *path = NULL;
+    for (const char *p = all ? all : "/usr/local/bin:/usr/bin:/bin"; *p;) {
         size_t n = strcspn(p, ":");
         struct stat info;
         if (n > 0 && *p == '/') { /* a relative entry would depend on where one stands */
             const char *file = fw_arena_printf(arena, "%.*s/%s", (int)n, p, name);
-            if (!file) return NULL;
-            if (stat(file, &info) == 0 && S_ISREG(info.st_mode) && access(file, X_OK) == 0)
-                return file;
+            FW_NEED(file);
+            if (stat(file, &info) == 0 && S_ISREG(info.st_mode) && access(file, X_OK) == 0) {
+                *path = file;
+                return FW_OK;
+            }
         }
         p += n + (p[n] == ':');
     }
-    return NULL;
+    return FW_OK;
 }
 
 fw_status fw_continuum_external_room_open(const fw_arena *work, fw_continuum_external_room *room) {

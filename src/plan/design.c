@@ -241,8 +241,11 @@ fw_status fw_plan_design_usage(fw_design *d, const char *what) {
 int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argument),
                        void *argument) {
     locale_t before = uselocale(d->locale);
+    bool whole = !d->plan->diags.failed;
     fw_status status = work(d, argument);
     uselocale(before);
+    /* a warning that found no room must not make a result look better than it is */
+    if (status == FW_OK && whole && d->plan->diags.failed) status = FW_NOMEM;
     return (int)status;
 }
 

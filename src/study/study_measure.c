@@ -232,7 +232,8 @@ static fw_status counted(fw_study_problem *p, const char *valgrind,
 
 fw_status fw_study_tradeoff_count(fw_study_problem *p, const fw_study_tradeoff_options *o,
                                   fw_study_tradeoff *t) {
-    const char *valgrind = fw_continuum_program(p->arena, "valgrind");
+    const char *valgrind;
+    FW_TRY(fw_continuum_program(p->arena, "valgrind", &valgrind));
     if (!o->count)
         t->instructions_why = "not asked for";
     else if (!o->argv)

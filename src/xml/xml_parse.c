@@ -3,6 +3,7 @@
 #include "xml/xml.h"
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
+#include <errno.h>
 #include <limits.h>
 #include <pthread.h>
 #include <string.h>
@@ -37,6 +38,14 @@ static void stop(reader *r) {
 static void out_of_memory(reader *r) {
     r->no_memory = 1;
     stop(r);
+}
+
+/* libxml2 does not say of every allocation that failed: it takes a namespace for no URI, or leaves out
+   what it had no room for. The allocator says it in errno, which nobody sets back: it is 0 before the
+   parser runs, and everything of ours that runs in between looks here first. */
+static int parser_lacks_memory(reader *r) {
+    if (errno == ENOMEM && !r->refused) out_of_memory(r);
+    return r->refused;
 }
 
 static fw_place place_at(const reader *r, size_t offset) {
@@ -148,7 +157,7 @@ static void start_element(void *context, const xmlChar *name, const xmlChar *pre
                           int nattributes, int ndefaulted, const xmlChar **attributes) {
     reader *r = context;
     (void)prefix, (void)nspaces, (void)spaces, (void)ndefaulted;
-    if (r->refused) return;
+    if (parser_lacks_memory(r)) return;
     node *n = fw_arena_one(r->arena, node);
     if (!n) {
         out_of_memory(r);
@@ -188,7 +197,7 @@ static void end_element(void *context, const xmlChar *name, const xmlChar *prefi
                         const xmlChar *space) {
     reader *r = context;
     (void)name, (void)prefix, (void)space;
-    if (r->refused || !r->current) return;
+    if (parser_lacks_memory(r) || !r->current) return;
     node *n = r->current;
     fw_text *t = &r->text[n->depth];
     while (t->length > 0 && strchr(" \t\r\n", t->data[t->length - 1]))
@@ -203,7 +212,7 @@ static void end_element(void *context, const xmlChar *name, const xmlChar *prefi
 
 static void characters(void *context, const xmlChar *text, int length) {
     reader *r = context;
-    if (r->refused || !r->current || length <= 0) return;
+    if (parser_lacks_memory(r) || !r->current || length <= 0) return;
     const char *s = (const char *)text;
     size_t n = (size_t)length, skip = 0;
     if (r->text[r->current->depth].length == 0) {
@@ -309,7 +318,7 @@ static void report_unclosed(reader *r) {
 
 static void structured_error(void *context, xmlErrorPtr error) {
     reader *r = context;
-    if (r->refused || error->level < XML_ERR_ERROR) return;
+    if (parser_lacks_memory(r) || error->level < XML_ERR_ERROR) return;
     if (error->code == XML_ERR_NO_MEMORY) {
         out_of_memory(r);
         return;
@@ -337,12 +346,18 @@ static void structured_error(void *context, xmlErrorPtr error) {
     stop(r);
 }
 
+/* libxml2 would print it */
+static void say_nothing(void *context, xmlErrorPtr error) {
+    (void)context, (void)error;
+}
+
 static fw_status parse(reader *r) {
     const char *start = r->xml.data + r->body;
     size_t n = r->xml.n - r->body;
     if (n > INT_MAX) return FW_LIMIT;
     static pthread_once_t once = PTHREAD_ONCE_INIT; /* designs are read in parallel */
     pthread_once(&once, xmlInitParser);
+    errno = 0;
     r->parser = xmlCreateMemoryParserCtxt(start, (int)n);
     FW_NEED(r->parser);
     xmlSAXHandler sax = {.initialized = XML_SAX2_MAGIC,
@@ -359,7 +374,12 @@ static fw_status parse(reader *r) {
     /* NOENT: values have '&' where the file has &amp;, not libxml2's own "&#38;"; there are no other
        entities, the guard and refuse_doctype see to that */
     xmlCtxtUseOptions(r->parser, XML_PARSE_NONET | XML_PARSE_BIG_LINES | XML_PARSE_NOENT);
+    xmlStructuredErrorFunc before = xmlStructuredError;
+    void *of_before = xmlStructuredErrorContext;
+    xmlSetStructuredErrorFunc(NULL, say_nothing); /* of this thread: what has no parser at hand */
     xmlParseDocument(r->parser);
+    parser_lacks_memory(r);
+    xmlSetStructuredErrorFunc(of_before, before);
     if (r->parser->myDoc) xmlFreeDoc(r->parser->myDoc);
     r->parser->myDoc = NULL;
     int sound = r->parser->wellFormed;

@@ -2,7 +2,9 @@
 #include "base/output.h"
 #include "test.h"
 #include <stdlib.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 typedef struct room {
@@ -137,6 +139,62 @@ static void input_says_what_is_wrong(void **state) {
     assert_int_equal(fw_output_single(r->arena, "/dev/full", "x", 1, &r->diags), FW_IO);
 }
 
+/* none of them is waited for: the test would not end */
+static void what_is_no_file_is_refused(void **state) {
+    room *r = *state;
+    static const char *const what[] = {"pipe", "socket", "device", "directory"};
+    assert_int_equal(mkfifo(below(r, "pipe"), 0600), 0);
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    snprintf(address.sun_path, sizeof address.sun_path, "%s/socket", r->path);
+    int fd = socket(AF_UNIX, SOCK_STREAM, 0);
+    assert_int_equal(bind(fd, (struct sockaddr *)&address, sizeof address), 0);
+    assert_int_equal(symlink("/dev/zero", below(r, "device")), 0);
+    assert_int_equal(mkdir(below(r, "directory"), 0700), 0);
+    for (size_t i = 0; i < sizeof what / sizeof what[0]; i++) {
+        char *text;
+        size_t n;
+        const char *path = below(r, what[i]);
+        r->diags.count = 0;
+        assert_int_equal(fw_input_read(r->arena, path, 10, &r->diags, &text, &n), FW_IO);
+        assert_int_equal(r->diags.item[0].number, 220);
+        assert_non_null(strstr(r->diags.item[0].message, what[i]));
+        fw_append file;
+        assert_int_equal(fw_append_open(r->arena, path, 10, &r->diags, &file), FW_IO);
+    }
+    close(fd);
+}
+
+/* the last one's place is taken by a directory: the first is as it was, and nothing else is there */
+static void members_are_all_or_none(void **state) {
+    room *r = *state;
+    const fw_output_member old[] = {{"a", "old", 3}};
+    const fw_output_member three[] = {{"a", "new", 3}, {"b", "new", 3}, {"c", "new", 3}};
+    assert_int_equal(fw_output_members(r->arena, r->path, old, 1, &r->diags), FW_OK);
+    assert_int_equal(mkdir(below(r, "c"), 0700), 0);
+    assert_int_equal(fw_output_members(r->arena, r->path, three, 3, &r->diags), FW_IO);
+    assert_int_equal(
+        system(fw_arena_printf(
+            r->arena, "cd %s && test $(cat a) = old && test $(ls | tr -d '\\n') = ac", r->path)),
+        0);
+    assert_int_equal(rmdir(below(r, "c")), 0);
+    assert_int_equal(fw_output_members(r->arena, r->path, three, 3, &r->diags), FW_OK);
+    assert_int_equal(
+        system(fw_arena_printf(
+            r->arena, "cd %s && test $(cat a b c) = newnewnew && test $(ls | wc -l) = 3", r->path)),
+        0);
+}
+
+static void what_was_added_is_taken_back(void **state) {
+    room *r = *state;
+    fw_append file;
+    assert_int_equal(fw_append_open(r->arena, below(r, "log"), 100, &r->diags, &file), FW_OK);
+    assert_int_equal(fw_append_text(&file, "one\n", 4), FW_OK);
+    assert_int_equal(fw_append_text(&file, "two\n", 4), FW_OK);
+    fw_append_take_back(&file, 4);
+    fw_append_close(&file);
+    assert_int_equal(system(fw_arena_printf(r->arena, "test $(cat %s/log) = one", r->path)), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(whole_and_replaced_whole, enter, leave),
@@ -145,6 +203,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(what_people_add_is_kept, enter, leave),
         cmocka_unit_test_setup_teardown(leftovers_of_the_dead_are_removed, enter, leave),
         cmocka_unit_test_setup_teardown(input_says_what_is_wrong, enter, leave),
+        cmocka_unit_test_setup_teardown(what_is_no_file_is_refused, enter, leave),
+        cmocka_unit_test_setup_teardown(members_are_all_or_none, enter, leave),
+        cmocka_unit_test_setup_teardown(what_was_added_is_taken_back, enter, leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

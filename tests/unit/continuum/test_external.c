@@ -71,14 +71,17 @@ static void surroundings(void **state) {
     fw_arena_free(work);
 }
 
-static void found(void **state) {
+static void program_is_found(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     const char *path = getenv("PATH");
     char *kept = fw_arena_strdup(arena, path ? path : "");
     setenv("PATH", ":.:/nonexistent:/bin", 1);
-    assert_string_equal(fw_continuum_program(arena, "sh"), "/bin/sh");
-    assert_null(fw_continuum_program(arena, "no-such-program"));
+    const char *found;
+    assert_int_equal(fw_continuum_program(arena, "sh", &found), FW_OK);
+    assert_string_equal(found, "/bin/sh");
+    assert_int_equal(fw_continuum_program(arena, "no-such-program", &found), FW_OK);
+    assert_null(found);
     setenv("PATH", kept, 1);
     fw_arena_free(arena);
 }
@@ -173,7 +176,7 @@ static void field_file(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ends),       cmocka_unit_test(surroundings),
-        cmocka_unit_test(found),      cmocka_unit_test(principal_values),
+        cmocka_unit_test(program_is_found),      cmocka_unit_test(principal_values),
         cmocka_unit_test(print_file), cmocka_unit_test(field_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

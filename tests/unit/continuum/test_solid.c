@@ -58,7 +58,9 @@ static void driven(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
-    if (!fw_continuum_program(arena, "ccx")) {
+    const char *ccx;
+    assert_int_equal(fw_continuum_program(arena, "ccx", &ccx), FW_OK);
+    if (!ccx) {
         fw_arena_free(arena);
         skip();
     }
@@ -182,7 +184,9 @@ static void against_the_engine(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
-    if (!fw_continuum_program(arena, "ccx")) {
+    const char *ccx;
+    assert_int_equal(fw_continuum_program(arena, "ccx", &ccx), FW_OK);
+    if (!ccx) {
         fw_arena_free(arena);
         skip();
     }

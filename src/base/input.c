@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whole files in, and files that only grow. */
+#include "base/output.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* what may be read: a file of bytes. A pipe would be waited for, a device has no end, and both would
+   give something else the second time; opened without waiting, and refused by what they are. */
+static const char *not_a_file(mode_t mode) {
+    if (S_ISREG(mode)) return NULL;
+    if (S_ISDIR(mode)) return "it is a directory";
+    if (S_ISFIFO(mode))
+        return "it is a pipe; for standard input give - as the name of the device file";
+    if (S_ISSOCK(mode)) return "it is a socket";
+    return "it is a device";
+}
+
+/* the descriptor, or -1 with *why */
+static int open_file(const char *path, const char **why) {
+    int fd;
+    do
+        fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    while (fd < 0 && errno == EINTR);
+    struct stat info;
+    *why = fd < 0 || fstat(fd, &info) != 0 ? strerror(errno) : not_a_file(info.st_mode);
+    if (fd >= 0 && *why) {
+        close(fd);
+        fd = -1;
+    } else if (errno == ENXIO && fd < 0)
+        *why = "it is a socket";
+    return fd;
+}
+
+fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
+                        char **data, size_t *n) {
+    int standard = strcmp(path, "-") == 0;
+    fw_place place = {.file = standard ? "standard input" : path};
+    const char *why;
+    int fd = standard ? STDIN_FILENO : open_file(path, &why);
+    if (fd < 0) {
+        fw_diag_error(diags, 220, place, "cannot be read: %s", why);
+        return FW_IO;
+    }
+    size_t capacity = 64 * 1024, length = 0;
+    char *buffer = fw_arena_alloc(arena, capacity + 1, 1);
+    fw_status status = buffer ? FW_OK : FW_NOMEM;
+    while (status == FW_OK) {
+        ssize_t got = read(fd, buffer + length, capacity - length);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) {
+            fw_diag_error(diags, 220, place, "cannot be read: %s", strerror(errno));
+            status = FW_IO;
+        }
+        if (got <= 0) break;
+        length += (size_t)got;
+        if (length > most) {
+            fw_diag_error(diags, 221, place,
+                          "is larger than %zu bytes, the most that is read from one file", most);
+            status = FW_INPUT;
+        } else if (length == capacity) {
+            buffer = fw_arena_grow(arena, buffer, length, 2 * capacity + 1, 1);
+            capacity *= 2;
+            if (!buffer) status = FW_NOMEM;
+        }
+    }
+    if (!standard) close(fd);
+    if (status != FW_OK) return status;
+    buffer[length] = '\0';
+    *data = buffer;
+    *n = length;
+    return FW_OK;
+}
+
+fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, const char **path) {
+    const char *const root[] = {override, FW_INSTALL_DATA_DIR, FW_SOURCE_DATA_DIR};
+    bool given = override && override[0];
+    for (size_t i = given ? 0 : 1; i < (given ? 1 : sizeof root / sizeof root[0]); i++) {
+        FW_NEED(*path = fw_arena_printf(arena, "%s/%s", root[i], name));
+        if (access(*path, R_OK) == 0) return FW_OK;
+    }
+    *path = NULL;
+    return FW_OK;
+}
+
+static fw_status append_failed(const fw_append *file, int number, const char *what) {
+    fw_place place = {file->path, 0, 0};
+    fw_diag_error(file->diags, number, place, "%s: %s", what, strerror(errno));
+    return FW_IO;
+}
+
+static fw_status read_all(fw_arena *arena, size_t most, fw_append *file) {
+    struct stat info;
+    if (fstat(file->fd, &info) != 0) return append_failed(file, 220, "cannot be read");
+    if (!S_ISREG(info.st_mode)) {
+        errno = EINVAL;
+        return append_failed(file, 220, "is not a file");
+    }
+    if ((unsigned long long)info.st_size > most) {
+        errno = EFBIG;
+        append_failed(file, 221, "is too large");
+        return FW_LIMIT;
+    }
+    file->n = (size_t)info.st_size;
+    FW_NEED(file->text = fw_arena_array(arena, char, file->n + 1));
+    for (size_t done = 0; done < file->n;) {
+        ssize_t got = pread(file->fd, file->text + done, file->n - done, (off_t)done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return append_failed(file, 220, "cannot be read");
+        done += (size_t)got;
+    }
+    return FW_OK;
+}
+
+fw_status fw_append_open(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
+                         fw_append *file) {
+    *file = (fw_append){.path = path, .fd = -1, .diags = diags};
+    file->fd = open(path, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
+    if (file->fd < 0) return append_failed(file, 222, "cannot be opened for writing");
+    int locked;
+    do
+        locked = flock(file->fd, LOCK_EX);
+    while (locked != 0 && errno == EINTR);
+    fw_status status =
+        locked == 0 ? read_all(arena, most, file) : append_failed(file, 222, "cannot be locked");
+    if (status != FW_OK) fw_append_close(file);
+    return status;
+}
+
+fw_status fw_append_text(fw_append *file, const char *text, size_t n) {
+    ssize_t put;
+    do
+        put = write(file->fd, text, n);
+    while (put < 0 && errno == EINTR);
+    if (put == (ssize_t)n && fsync(file->fd) == 0) {
+        file->n += n;
+        return FW_OK;
+    }
+    if (put >= 0 && put < (ssize_t)n) errno = ENOSPC;
+    fw_status status = append_failed(file, 222, "could not be written, and is as it was");
+    fw_append_take_back(file, file->n);
+    return status;
+}
+
+void fw_append_take_back(fw_append *file, size_t n) {
+    if (ftruncate(file->fd, (off_t)n) != 0 || fsync(file->fd) != 0)
+        append_failed(file, 222, "its last line should not be there and could not be taken away");
+    else
+        file->n = n;
+}
+
+void fw_append_close(fw_append *file) {
+    if (file->fd < 0) return;
+    struct stat info;
+    if (fstat(file->fd, &info) == 0 && info.st_size == 0 && S_ISREG(info.st_mode))
+        unlink(file->path);
+    close(file->fd);
+    file->fd = -1;
+}

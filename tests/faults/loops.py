@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every call of a command failed in turn: the n-th allocation, open, write, short write or read, fsync, rename, read,
+close, mmap, fork, socket, opendir, mkdir and stat, with each error that Linux documents for it, once and from then on.
+
+    loops.py PROGRAM PRELOAD [--seed N] [--most N] [--case NAME ...] [--kind NAME ...] [--all] [--trace] [--json FILE]
+
+Of each command (cases.py) and kind the calls are counted, then n is drawn by the seed, at most --most of them; --all
+takes every n, every error, and both `once` and `from then on`. What must hold in each run:
+
+  * the exit status is that without the fault, or 6 for memory, or 5 for files; never a crash, never a hang;
+  * where it is that without the fault, standard output and every file are the same to the byte;
+  * where it is not, the files are those of before, to the byte, and no other is there; where the error stays (a full
+    disk does not let go of what a run began), what is left has the name of a leftover and the next run sweeps it;
+  * a message says what could not be done, to what file and why.
+"""
+import argparse
+import collections
+import concurrent.futures
+import errno
+import json
+import os
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+
+from cases import CASES, Room, without_times
+
+ERRORS = {
+    "memory": ["ENOMEM"],
+    "open": ["EACCES", "EMFILE", "EIO", "EINTR", "ENOSPC", "EDQUOT", "ENFILE", "EROFS"],
+    "write": ["ENOSPC", "EIO", "EDQUOT", "EINTR", "EFBIG"],
+    "short": ["ENOSPC"],
+    "fsync": ["EIO", "ENOSPC", "EDQUOT"],
+    "rename": ["ENOSPC", "EACCES", "EIO", "EDQUOT"],
+    "read": ["EIO", "EINTR"],
+    "close": ["EIO", "EINTR", "ENOSPC", "EDQUOT"],
+    "mmap": ["ENOMEM", "EAGAIN"],
+    "fork": ["EAGAIN", "ENOMEM"],
+    "socket": ["EMFILE", "ENOBUFS", "EACCES", "EADDRINUSE"],
+    "opendir": ["EMFILE", "EACCES", "EIO"],
+    "mkdir": ["ENOSPC", "EACCES", "EDQUOT"],
+    "stat": ["EACCES", "EIO"],
+}
+SECONDS = 120  # far above what any of these commands takes: beyond is a hang
+LEFTOVER = re.compile(r"\.tmp-\d+(-old)?$")
+
+
+class Program:
+    def __init__(self, program, preload):
+        self.program, self.preload = program, preload
+
+    def run(self, case, room, fault=None, trace=False):
+        """status (negative: signal; None: hang), standard output, messages, count of calls"""
+        report = room.path.parent / (room.path.name + ".count")
+        environment = {**os.environ, **case.environment, "OPENBLAS_NUM_THREADS": "1", "NO_COLOR": "1"}
+        if fault:
+            environment |= {"LD_PRELOAD": str(self.preload), "FW_FAULT_REPORT": str(report), **fault}
+        if trace:
+            environment["FW_FAULT_TRACE"] = "1"
+        with subprocess.Popen([self.program, *case.arguments(room)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, env=environment, cwd=room.path) as process:
+            try:
+                out, messages = process.communicate(timeout=SECONDS)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                return None, b"", "", 0
+        count = int(report.read_text().split()[1]) if report.exists() else 0
+        report.unlink(missing_ok=True)
+        return process.returncode, without_times(out), messages.decode(errors="replace"), count
+
+
+class Loop:
+    """one command: what it gives without a fault, and what it gives with one"""
+
+    def __init__(self, program, case, here):
+        self.program, self.case, self.here = program, case, here
+        self.first = case.prepare(program, here / case.name)
+        room = Room(self.first, here / (case.name + "-clean"))
+        self.status, self.out, self.said, _ = program.run(case, room)
+        self.before, self.after = self.first.state(), room.state()
+        if self.status != case.status:
+            raise SystemExit(f"{case.name}: without a fault the status is {self.status}: {self.said}")
+        room.remove()
+
+    def count(self, kind):
+        room = Room(self.first, self.here / f"{self.case.name}-count-{kind}")
+        count = self.program.run(self.case, room, {"FW_FAULT_KIND": kind})[3]
+        room.remove()
+        return count
+
+    def wrong(self, kind, error, ever, result, room):
+        """what is wrong with what a run gave, or None"""
+        status, out, said, _ = result
+        if status is None:
+            return f"did not end within {SECONDS} s"
+        if status < 0:
+            return f"ended by {signal.Signals(-status).name}"
+        state = room.state()
+        if status == self.status:
+            if out != self.out:
+                return "status as without the fault, another result on standard output"
+            state = self.swept(kind, ever, state)
+            return None if state == self.after else "status as without the fault, other files: " + differ(self.after, state)
+        if status != (6 if kind == "memory" else 5):
+            return f"status {status}: {brief(said)}"
+        reason = "out of memory" if kind == "memory" else os.strerror(getattr(errno, error))
+        if kind == "memory" and reason not in said or kind != "memory" and not re.search(r"error: .*\S", said):
+            return f"status {status} without a reason: {brief(said)!r}"
+        if kind not in ("memory", "short") and reason not in said and "[FW-D2" not in said:
+            return f"does not say {reason!r}: {brief(said)!r}"
+        state = self.swept(kind, ever, state)
+        if "could not be taken back" in said or "could not be taken away" in said:
+            return None if ever else "an error that came once was not made up for"
+        if state == self.before or state == self.after and "standard output" in said:
+            return None
+        return "files are not those of before: " + differ(self.before, state)
+
+    def swept(self, kind, ever, state):
+        """where the error stays, or hits the removal itself, leftovers are allowed that the next run sweeps: without them"""
+        if kind == "memory":
+            return state
+        return {n: h for n, h in state.items() if not LEFTOVER.search(n.split("/")[0]) and not LEFTOVER.search(n)}
+
+    def try_one(self, kind, n, error, ever, trace=False):
+        fault = {"FW_FAULT_KIND": kind, "FW_FAULT_AT": str(n), "FW_FAULT_EVER": str(int(ever)),
+                 "FW_FAULT_ERRNO": str(getattr(errno, error))}
+        room = Room(self.first, self.here / f"{self.case.name}-{kind}-{n}-{error}-{int(ever)}")
+        result = self.program.run(self.case, room, fault, trace)
+        what = self.wrong(kind, error, ever, result, room)
+        if not what and room.leftovers(LEFTOVER):
+            self.program.run(self.case, room)
+            if room.leftovers(LEFTOVER):
+                what = f"the next run does not sweep {room.leftovers(LEFTOVER)}"
+        room.remove()
+        return what, result
+
+
+def brief(said):
+    """what it says of errors, or its end"""
+    return " / ".join(line for line in said.splitlines() if "error:" in line)[:300] or said.strip()[-200:]
+
+
+def differ(wanted, found):
+    names = [f"{n} {'is missing' if n not in found else 'is new' if n not in wanted else 'differs'}"
+             for n in sorted(set(wanted) | set(found)) if wanted.get(n) != found.get(n)]
+    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+
+
+def draw(kind, count, most, rng, everything):
+    """(n, error, ever) to be tried"""
+    points = range(1, count + 1)
+    if everything:
+        return [(n, e, ever) for n in points for e in ERRORS[kind] for ever in (False, True)
+                if not (ever and e == "EINTR")]
+    if count > most:
+        points = sorted(rng.sample(points, most))
+    drawn = [(n, rng.choice(ERRORS[kind]), rng.random() < 0.5) for n in points]
+    return [(n, e, ever and e != "EINTR") for n, e, ever in drawn]  # interrupted again and again is no error of any file
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("preload", type=pathlib.Path)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--most", type=int, default=6, help="points of each command and kind")
+    parser.add_argument("--case", nargs="*")
+    parser.add_argument("--kind", nargs="*")
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--trace", action="store_true", help="for what is wrong, who called")
+    parser.add_argument("--at", type=int, help="only this n")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--json", type=pathlib.Path)
+    o = parser.parse_args()
+    program = Program(o.program.resolve(), o.preload.resolve())
+    counts, bad = collections.Counter(), []
+    points = {}
+    with tempfile.TemporaryDirectory() as here, concurrent.futures.ThreadPoolExecutor(o.jobs) as pool:
+        for case in CASES:
+            if o.case and case.name not in o.case:
+                continue
+            loop = Loop(program, case, pathlib.Path(here))
+            rng = random.Random(f"{o.seed} {case.name}")
+            tried = []
+            for kind in o.kind or ERRORS:
+                count = loop.count(kind)
+                points[case.name, kind] = count
+                tried += [(kind, *d) for d in draw(kind, count, o.most, rng, o.all) if o.at is None or d[0] == o.at]
+            for one, (what, result) in zip(tried, pool.map(lambda t: loop.try_one(*t, trace=o.trace), tried)):
+                kind, n, error, ever = one
+                counts[kind] += 1
+                if what:
+                    bad.append((case.name, *one, what))
+                    print(f"{case.name}: {kind} {n} of {points[case.name, kind]}, {error}{' and all later' if ever else ''}: "
+                          f"{what}", flush=True)
+                    if o.trace:
+                        print(result[2][-6000:], flush=True)
+            print(f"{case.name}: {len(tried)} runs, {sum(b[0] == case.name for b in bad)} wrong", flush=True)
+    print("runs by kind: " + ", ".join(f"{k} {n}" for k, n in counts.items()))
+    print(f"{sum(counts.values())} runs, {len(bad)} wrong")
+    if o.json:
+        o.json.write_text(json.dumps({"points": {f"{c} {k}": n for (c, k), n in points.items()}, "runs": counts,
+                                      "wrong": bad}, indent=1) + "\n")
+    return bool(bad)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
