@@ -173,16 +173,19 @@ typedef struct reader {
     fw_mask_rule *rule;
 } reader;
 
+static bool is_drawn(const fw_mask_layer *layer) {
+    return layer->id && !layer->documentation;
+}
+
 /* index of the layer with that id; -1: there is none, which is told */
 static int layer_named(reader *r, const fw_xml_attribute *a) {
     const fw_mask_table *t = r->table;
-    const char **names = fw_arena_array(r->r->arena, const char *, (size_t)t->nlayer);
     size_t n = 0;
-    for (int k = 0; names && k < t->nlayer; k++) {
-        if (!t->layer[k].id || t->layer[k].documentation) continue;
-        if (strcmp(t->layer[k].id, a->value) == 0) return k;
-        names[n++] = t->layer[k].id;
-    }
+    for (int k = 0; k < t->nlayer; k++)
+        if (is_drawn(&t->layer[k]) && strcmp(t->layer[k].id, a->value) == 0) return k;
+    const char **names = fw_arena_array(r->r->arena, const char *, (size_t)t->nlayer);
+    for (int k = 0; names && k < t->nlayer; k++)
+        if (is_drawn(&t->layer[k])) names[n++] = t->layer[k].id;
     const char *meant = names ? fw_did_you_mean(a->value, names, n) : NULL;
     fw_diag_error(r->r->diags, 135, a->place,
                   "%s=\"%s\" is not the id of a layer that is drawn%s%s%s", a->name, a->value,

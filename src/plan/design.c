@@ -244,8 +244,9 @@ int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argum
     bool whole = !d->plan->diags.failed;
     fw_status status = work(d, argument);
     uselocale(before);
-    /* a warning that found no room must not make a result look better than it is */
-    if (status == FW_OK && whole && d->plan->diags.failed) status = FW_NOMEM;
+    /* a warning that found no room must not make a result look better than it is, and an error that
+       found none is not the description's */
+    if (status != FW_CANCELLED && whole && d->plan->diags.failed) status = FW_NOMEM;
     return (int)status;
 }
 

@@ -37,9 +37,26 @@ extern void *__libc_calloc(size_t, size_t);
 extern void *__libc_realloc(void *, size_t);
 extern void *__libc_memalign(size_t, size_t);
 
-enum kind { NONE, MEMORY, OPEN, WRITE, SHORT, FSYNC, RENAME, READ, CLOSE, MMAP, FORK, SOCKET, OPENDIR, MKDIR, STAT };
-static const char *const name[] = {"none",  "memory", "open", "write",  "short",   "fsync", "rename", "read",
-                                   "close", "mmap",   "fork", "socket", "opendir", "mkdir", "stat"};
+enum kind {
+    NONE,
+    MEMORY,
+    OPEN,
+    WRITE,
+    SHORT,
+    FSYNC,
+    RENAME,
+    READ,
+    CLOSE,
+    MMAP,
+    FORK,
+    SOCKET,
+    OPENDIR,
+    MKDIR,
+    STAT
+};
+static const char *const name[] = {"none",  "memory", "open",    "write", "short",
+                                   "fsync", "rename", "read",    "close", "mmap",
+                                   "fork",  "socket", "opendir", "mkdir", "stat"};
 
 static enum kind wanted;
 static long at;
@@ -123,39 +140,39 @@ static void *next(const char *symbol) {
 }
 
 /* the pointer to the function below ours, looked up once */
-#define BELOW(result, symbol, arguments)                                                                              \
-    static result(*below) arguments;                                                                                  \
+#define BELOW(result, symbol, arguments)                                                           \
+    static result(*below) arguments;                                                               \
     if (!below) below = (result(*) arguments)next(symbol)
 
 static mode_t mode_of(int flags, va_list arguments) {
     return flags & (O_CREAT | O_TMPFILE) ? va_arg(arguments, mode_t) : 0;
 }
 
-#define OPENER(symbol)                                                                                                \
-    int symbol(const char *path, int flags, ...) {                                                                    \
-        va_list arguments;                                                                                            \
-        va_start(arguments, flags);                                                                                   \
-        mode_t mode = mode_of(flags, arguments);                                                                      \
-        va_end(arguments);                                                                                            \
-        return fault(OPEN) ? -1 : (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);                              \
+#define OPENER(symbol)                                                                             \
+    int symbol(const char *path, int flags, ...) {                                                 \
+        va_list arguments;                                                                         \
+        va_start(arguments, flags);                                                                \
+        mode_t mode = mode_of(flags, arguments);                                                   \
+        va_end(arguments);                                                                         \
+        return fault(OPEN) ? -1 : (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);           \
     }
-#define OPENER_AT(symbol)                                                                                             \
-    int symbol(int directory, const char *path, int flags, ...) {                                                     \
-        va_list arguments;                                                                                            \
-        va_start(arguments, flags);                                                                                   \
-        mode_t mode = mode_of(flags, arguments);                                                                      \
-        va_end(arguments);                                                                                            \
-        return fault(OPEN) ? -1 : (int)syscall(SYS_openat, directory, path, flags, mode);                             \
+#define OPENER_AT(symbol)                                                                          \
+    int symbol(int directory, const char *path, int flags, ...) {                                  \
+        va_list arguments;                                                                         \
+        va_start(arguments, flags);                                                                \
+        mode_t mode = mode_of(flags, arguments);                                                   \
+        va_end(arguments);                                                                         \
+        return fault(OPEN) ? -1 : (int)syscall(SYS_openat, directory, path, flags, mode);          \
     }
 OPENER(open)
 OPENER(open64)
 OPENER_AT(openat)
 OPENER_AT(openat64)
 
-#define FOPENER(symbol)                                                                                               \
-    FILE *symbol(const char *path, const char *mode) {                                                                \
-        BELOW(FILE *, #symbol, (const char *, const char *));                                                         \
-        return fault(OPEN) ? NULL : below(path, mode);                                                                \
+#define FOPENER(symbol)                                                                            \
+    FILE *symbol(const char *path, const char *mode) {                                             \
+        BELOW(FILE *, #symbol, (const char *, const char *));                                      \
+        return fault(OPEN) ? NULL : below(path, mode);                                             \
     }
 FOPENER(fopen)
 FOPENER(fopen64)
@@ -270,7 +287,8 @@ int fstat(int fd, struct stat *info) {
 /* ---- the rest ---- */
 
 void *mmap(void *address, size_t n, int protection, int flags, int fd, off_t offset) {
-    return fault(MMAP) ? MAP_FAILED : (void *)syscall(SYS_mmap, address, n, protection, flags, fd, offset);
+    return fault(MMAP) ? MAP_FAILED
+                       : (void *)syscall(SYS_mmap, address, n, protection, flags, fd, offset);
 }
 
 pid_t fork(void) {
@@ -343,10 +361,11 @@ static int counted_main(int argc, char **argv, char **environment) {
     return program_main(argc, argv, environment);
 }
 
-int __libc_start_main(int (*main_)(int, char **, char **), int argc, char **argv, int (*init)(int, char **, char **),
-                      void (*fini)(void), void (*loader)(void), void *stack) {
-    typedef int start(int (*)(int, char **, char **), int, char **, int (*)(int, char **, char **), void (*)(void),
-                      void (*)(void), void *);
+int __libc_start_main(int (*main_)(int, char **, char **), int argc, char **argv,
+                      int (*init)(int, char **, char **), void (*fini)(void), void (*loader)(void),
+                      void *stack) {
+    typedef int start(int (*)(int, char **, char **), int, char **, int (*)(int, char **, char **),
+                      void (*)(void), void (*)(void), void *);
     start *below = (start *)next("__libc_start_main");
     program_main = main_;
     return below(counted_main, argc, argv, init, fini, loader, stack);
