@@ -58,6 +58,13 @@ static const char *take_memory(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+static const char *take_time_limit(fw_cli_options *o, const char *v) {
+    double *x = &o->time_limit_s;
+    if (!fw_number_parse(v, strlen(v), x) || !(*x >= 0.001 && *x <= 1e7))
+        return "needs seconds between 0.001 and 1e7";
+    return NULL;
+}
+
 static const char *take_effects(fw_cli_options *o, const char *v) {
     o->design.effects = v;
     return *v ? NULL : "needs auto, all, none or a list of effects";
@@ -389,6 +396,11 @@ static const fw_cli_option_row table[] = {
      FW_OPT_PLAN, take_accuracy},
     {"memory", 0, "MIB", "most memory that the design may take, in MiB; default 512", FW_OPT_PLAN,
      take_memory},
+    {"time-limit", 0, "SECONDS",
+     "most time that the command may take; where it is over, nothing is written and the exit "
+     "status "
+     "is 6. Default: none",
+     FW_OPT_PLAN, take_time_limit},
     {"effects", 0, "WHICH",
      "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a "
      "list like inertia,gravity,joint-damping (without inertia: a quasi-static sequence of "

@@ -29,8 +29,8 @@ typedef struct fw_cli_options {
     int nlogged;
     int port; /* of serve; 0: a free one */
     bool no_browser, ipv6;
-    const char *settings; /* of tradeoff; NULL: all */
-    double budget_s;
+    const char *settings;          /* of tradeoff; NULL: all */
+    double budget_s, time_limit_s; /* the second 0: none */
     bool no_time;
     char **argv; /* as it was started, for tradeoff, which starts it again under callgrind */
     const fw_cancel *interrupted; /* set by SIGINT and SIGTERM: every design here stops then */

@@ -2,6 +2,7 @@
 #include "base/arena.h"
 #include "cli/session.h"
 #include "plan/design.h"
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,8 +102,19 @@ int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int s
                 error_was_said(design);
     int exit_status = status == FW_STATUS_OK ? result_if_ok : fw_status_exit((fw_status)status);
     int number = fw_cancel_requested(options->interrupted);
-    if (status == FW_STATUS_CANCELLED && number) exit_status = 128 + number;
-    if (status == FW_STATUS_NOMEM)
+    bool late = status == FW_STATUS_CANCELLED && number == SIGALRM;
+    if (late)
+        exit_status = fw_status_exit(FW_LIMIT);
+    else if (status == FW_STATUS_CANCELLED && number)
+        exit_status = 128 + number;
+    if (late)
+        fprintf(
+            stderr,
+            "flexwright: error: the time limit of %g s is over; nothing was written; allow more "
+            "with --time-limit, or ask for less (a lower --accuracy, one --flow, --advice none) "
+            "[FW-D460]\n",
+            options->time_limit_s);
+    else if (status == FW_STATUS_NOMEM)
         fprintf(stderr,
                 "flexwright: error: out of memory: a design may take %zu MiB; nothing was written; "
                 "allow more with --memory, or ask for less (fewer --samples, a lower --accuracy)\n",

@@ -360,6 +360,7 @@ fw_status fw_effects_modal_softening(fw_arena *arena, const fw_effects_modal *o,
         for (size_t i = 0; i < n; i++)
             size = fmax(size, fabs(shape[i]) / fw_effects_linear_unit(&o->linear, (int)i));
         double h = 1e-4 / size;
+        if (fw_arena_cancelled(arena)) return FW_CANCELLED; /* a shaking of many lines takes long */
         residual(o, &moved, shape, h, lambda, dead, work, one);
         residual(o, &moved, shape, -h, lambda, dead, work, two);
         for (size_t l = 0; l < m; l++) {

@@ -157,9 +157,12 @@ fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *w, cons
                                    size_t n, const char *version, fw_diags *diags,
                                    fw_serve_file_state *now) {
     fw_diags reading = fw_diags_new(arena);
-    if (fw_serve_file_watch_read(arena, w, &reading, now) == FW_OK &&
-        strcmp(now->version, version) != 0)
-        return FW_CANCELLED;
+    fw_status read = fw_serve_file_watch_read(arena, w, &reading, now);
+    if (read == FW_OK && strcmp(now->version, version) != 0) return FW_CANCELLED;
+    if (read != FW_OK && access(w->path, F_OK) == 0) { /* what stands there now was never seen */
+        fw_diags_take(diags, &reading);
+        return read;
+    }
     struct stat info;
     mode_t mode = stat(w->path, &info) == 0 ? info.st_mode & 0777 : 0666;
     mode_t before = umask(~mode & 0777);

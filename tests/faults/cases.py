@@ -43,6 +43,8 @@ class Case:
     def __init__(self, name, command, earlier=(), status=0, files=None):
         self.name, self.command, self.earlier, self.status, self.files = name, command, earlier, status, files or {}
         self.environment = {}
+        self.grows = name == "log"  # done twice it is another file
+        self.without = {"doctor": {"stat"}}.get(name, set())  # what cannot be looked at is not in PATH
 
     def arguments(self, room):
         return self.command

@@ -3,7 +3,8 @@
 """Every call of a command failed in turn: the n-th allocation, open, write, short write or read, fsync, rename, read,
 close, mmap, fork, socket, opendir, mkdir and stat, with each error that Linux documents for it, once and from then on.
 
-    loops.py PROGRAM PRELOAD [--seed N] [--most N] [--case NAME ...] [--kind NAME ...] [--all] [--trace] [--json FILE]
+    loops.py PROGRAM PRELOAD [--seed N] [--most N] [--case NAME ...] [--kind NAME ...] [--all] [--kill] [--trace]
+             [--json FILE]
 
 Of each command (cases.py) and kind the calls are counted, then n is drawn by the seed, at most --most of them; --all
 takes every n, every error, and both `once` and `from then on`. What must hold in each run:
@@ -13,6 +14,10 @@ takes every n, every error, and both `once` and `from then on`. What must hold i
   * where it is not, the files are those of before, to the byte, and no other is there; where the error stays (a full
     disk does not let go of what a run began), what is left has the name of a leftover and the next run sweeps it;
   * a message says what could not be done, to what file and why.
+
+With --kill the program is killed (SIGKILL) before the n-th call instead: every file is then the old one or the new one,
+of a directory with a manifest all of them the one or all the other; what else is there has the name of a leftover, and the
+next run gives what it always gives and sweeps it.
 """
 import argparse
 import collections
@@ -43,6 +48,7 @@ ERRORS = {
     "fork": ["EAGAIN", "ENOMEM"],
     "socket": ["EMFILE", "ENOBUFS", "EACCES", "EADDRINUSE"],
     "opendir": ["EMFILE", "EACCES", "EIO"],
+    "unlink": ["EACCES", "EIO"],
     "mkdir": ["ENOSPC", "EACCES", "EDQUOT"],
     "stat": ["EACCES", "EIO"],
 }
@@ -127,6 +133,31 @@ class Loop:
             return state
         return {n: h for n, h in state.items() if not LEFTOVER.search(n.split("/")[0]) and not LEFTOVER.search(n)}
 
+    def killed(self, kind, n):
+        """what is wrong after a kill before the n-th call, or None"""
+        room = Room(self.first, self.here / f"{self.case.name}-kill-{kind}-{n}")
+        fault = {"FW_FAULT_KIND": kind, "FW_FAULT_AT": str(n), "FW_FAULT_KILL": "1"}
+        result = self.program.run(self.case, room, fault)
+        state = {f: h for f, h in room.state().items() if not any(LEFTOVER.search(part) for part in f.split("/"))}
+        what = None
+        whole = any(f.endswith("manifest.json") for f in self.after)
+        if result[0] != -signal.SIGKILL:
+            what = f"was not killed: {result[0]}"
+        elif whole and state not in (self.before, self.after):
+            what = "neither the earlier nor the new: " + differ(self.before, state)
+        elif any(h not in (self.before.get(f), self.after.get(f)) for f, h in state.items()) or set(self.before) - set(state):
+            what = "torn: " + differ(self.before, state)
+        else:
+            status, out, said, _ = self.program.run(self.case, room)
+            if (status, out) != (self.status, self.out) and not self.case.grows:
+                what = f"the next run: status {status}: {brief(said)}"
+            elif self.case.grows and status != self.status:
+                what = f"the next run: status {status}: {brief(said)}"
+            elif room.state() != self.after and not self.case.grows:
+                what = "the next run leaves: " + differ(self.after, room.state())
+        room.remove()
+        return what, result
+
     def try_one(self, kind, n, error, ever, trace=False):
         fault = {"FW_FAULT_KIND": kind, "FW_FAULT_AT": str(n), "FW_FAULT_EVER": str(int(ever)),
                  "FW_FAULT_ERRNO": str(getattr(errno, error))}
@@ -173,6 +204,7 @@ def main():
     parser.add_argument("--case", nargs="*")
     parser.add_argument("--kind", nargs="*")
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--kill", action="store_true")
     parser.add_argument("--trace", action="store_true", help="for what is wrong, who called")
     parser.add_argument("--at", type=int, help="only this n")
     parser.add_argument("--jobs", type=int, default=2)
@@ -189,10 +221,18 @@ def main():
             rng = random.Random(f"{o.seed} {case.name}")
             tried = []
             for kind in o.kind or ERRORS:
+                if kind in case.without:
+                    continue
                 count = loop.count(kind)
                 points[case.name, kind] = count
                 tried += [(kind, *d) for d in draw(kind, count, o.most, rng, o.all) if o.at is None or d[0] == o.at]
-            for one, (what, result) in zip(tried, pool.map(lambda t: loop.try_one(*t, trace=o.trace), tried)):
+
+            def attempt(one):
+                return loop.killed(one[0], one[1]) if o.kill else loop.try_one(*one, trace=o.trace)
+
+            if o.kill:
+                tried = sorted({(kind, n, "KILL", False) for kind, n, _, _ in tried})
+            for one, (what, result) in zip(tried, pool.map(attempt, tried)):
                 kind, n, error, ever = one
                 counts[kind] += 1
                 if what:

@@ -2,7 +2,8 @@
 /* LD_PRELOAD library of the fault tests: counts one kind of call of a program from its main on, and makes the n-th of
    them fail. What it does is said by the environment:
 
-       FW_FAULT_KIND    memory, or open, write, short, fsync, rename, read, close, mmap, fork, socket, opendir, mkdir, stat
+       FW_FAULT_KIND    memory, or open, write, short, fsync, rename, read, close, mmap, fork, socket, opendir, mkdir,
+                        stat, unlink
        FW_FAULT_AT      n, from 1; 0 or absent: only count
        FW_FAULT_EVER    1: every later one fails, too
        FW_FAULT_ERRNO   number of the error (memory: always ENOMEM; short: a write of half the bytes, at least one, is done)
@@ -52,11 +53,12 @@ enum kind {
     SOCKET,
     OPENDIR,
     MKDIR,
-    STAT
+    STAT,
+    UNLINK
 };
 static const char *const name[] = {"none",  "memory", "open",    "write", "short",
                                    "fsync", "rename", "read",    "close", "mmap",
-                                   "fork",  "socket", "opendir", "mkdir", "stat"};
+                                   "fork",  "socket", "opendir", "mkdir", "stat", "unlink"};
 
 static enum kind wanted;
 static long at;
@@ -252,6 +254,18 @@ int link(const char *from, const char *to) {
 
 int mkdir(const char *path, mode_t mode) {
     return fault(MKDIR) ? -1 : (int)syscall(SYS_mkdir, path, mode);
+}
+
+int unlink(const char *path) {
+    return fault(UNLINK) ? -1 : (int)syscall(SYS_unlink, path);
+}
+
+int unlinkat(int directory, const char *path, int flags) {
+    return fault(UNLINK) ? -1 : (int)syscall(SYS_unlinkat, directory, path, flags);
+}
+
+int rmdir(const char *path) {
+    return fault(UNLINK) ? -1 : (int)syscall(SYS_rmdir, path);
 }
 
 DIR *opendir(const char *path) {
