@@ -264,6 +264,7 @@ typedef struct writer {
 static fw_status put(writer *w, const char *folder, const char *name, const char *ending,
                      const fw_text *text) {
     FW_TRY(fw_text_end(text));
+    if (fw_arena_cancelled(w->plan->arena)) return FW_CANCELLED;
     const char *path = fw_arena_printf(w->plan->arena, "%s%s%s", folder, name, ending);
     FW_NEED(path);
     FW_TRY(fw_output_write(w->output, path, text->data, text->length));

@@ -285,6 +285,7 @@ static fw_status frames(fw_statics_equilibrium *w, fw_statics_mode *mode) {
     FW_NEED(mode->frame = fw_arena_array(w->arena, double, FW_MODE_FRAMES *n));
     FW_NEED(u = fw_arena_array(w->arena, double, n));
     for (int i = 0; i < FW_MODE_FRAMES; i++) {
+        if (fw_arena_cancelled(w->arena)) return FW_CANCELLED;
         double phase = sin(2 * FW_PI * i / (FW_MODE_FRAMES - 1));
         if (i == FW_MODE_FRAMES - 1) phase = 0;
         for (size_t k = 0; k < n; k++)

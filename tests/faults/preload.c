@@ -13,12 +13,12 @@
 
    What happens before main (the loader, constructors of libraries) is neither counted nor failed: nothing of ours runs
    there. The allocator's own calls of mmap are not seen; its failure is what `memory` is. */
-#define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <malloc.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -56,9 +56,9 @@ enum kind {
     STAT,
     UNLINK
 };
-static const char *const name[] = {"none",  "memory", "open",    "write", "short",
-                                   "fsync", "rename", "read",    "close", "mmap",
-                                   "fork",  "socket", "opendir", "mkdir", "stat", "unlink"};
+static const char *const name[] = {"none",    "memory", "open",  "write", "short", "fsync",
+                                   "rename",  "read",   "close", "mmap",  "fork",  "socket",
+                                   "opendir", "mkdir",  "stat",  "unlink"};
 
 static enum kind wanted;
 static long at;
@@ -375,6 +375,9 @@ static int counted_main(int argc, char **argv, char **environment) {
     return program_main(argc, argv, environment);
 }
 
+int __libc_start_main(int (*main_)(int, char **, char **), int argc, char **argv,
+                      int (*init)(int, char **, char **), void (*fini)(void), void (*loader)(void),
+                      void *stack);
 int __libc_start_main(int (*main_)(int, char **, char **), int argc, char **argv,
                       int (*init)(int, char **, char **), void (*fini)(void), void (*loader)(void),
                       void *stack) {
