@@ -3,7 +3,7 @@
 """Every call of a command failed in turn: the n-th allocation, open, write, short write or read, fsync, rename, read,
 close, mmap, fork, socket, opendir, mkdir and stat, with each error that Linux documents for it, once and from then on.
 
-    loops.py PROGRAM PRELOAD [--seed N] [--most N] [--case NAME ...] [--kind NAME ...] [--all] [--kill] [--trace]
+    loops.py PROGRAM PRELOAD [--seed N] [--most N] [--runs N] [--case NAME ...] [--kind NAME ...] [--all] [--kill] [--trace]
              [--json FILE]
 
 Of each command (cases.py) and kind the calls are counted, then n is drawn by the seed, at most --most of them; --all
@@ -61,7 +61,7 @@ class Program:
         self.program, self.preload = program, preload
 
     def run(self, case, room, fault=None, trace=False):
-        """status (negative: signal; None: hang), standard output, messages, count of calls"""
+        """status (negative: signal; None: hang), standard output, messages, counts of calls"""
         report = room.path.parent / (room.path.name + ".count")
         environment = {**os.environ, **case.environment, "OPENBLAS_NUM_THREADS": "1", "NO_COLOR": "1"}
         if fault:
@@ -75,10 +75,10 @@ class Program:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.communicate()
-                return None, b"", "", 0
-        count = int(report.read_text().split()[1]) if report.exists() else 0
+                return None, b"", "", {}
+        counts = dict(line.split() for line in report.read_text().splitlines()) if report.exists() else {}
         report.unlink(missing_ok=True)
-        return process.returncode, without_times(out), messages.decode(errors="replace"), count
+        return process.returncode, without_times(out), messages.decode(errors="replace"), counts
 
 
 class Loop:
@@ -88,17 +88,12 @@ class Loop:
         self.program, self.case, self.here = program, case, here
         self.first = case.prepare(program, here / case.name)
         room = Room(self.first, here / (case.name + "-clean"))
-        self.status, self.out, self.said, _ = program.run(case, room)
+        self.status, self.out, self.said, counts = program.run(case, room, {"FW_FAULT_KIND": "none"})
+        self.counts = {kind: int(n) for kind, n in counts.items()}
         self.before, self.after = self.first.state(), room.state()
         if self.status != case.status:
             raise SystemExit(f"{case.name}: without a fault the status is {self.status}: {self.said}")
         room.remove()
-
-    def count(self, kind):
-        room = Room(self.first, self.here / f"{self.case.name}-count-{kind}")
-        count = self.program.run(self.case, room, {"FW_FAULT_KIND": kind})[3]
-        room.remove()
-        return count
 
     def wrong(self, kind, error, ever, result, room):
         """what is wrong with what a run gave, or None"""
@@ -201,6 +196,7 @@ def main():
     parser.add_argument("preload", type=pathlib.Path)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--most", type=int, default=6, help="points of each command and kind")
+    parser.add_argument("--runs", type=int, help="of these, at most so many of each command")
     parser.add_argument("--case", nargs="*")
     parser.add_argument("--kind", nargs="*")
     parser.add_argument("--all", action="store_true")
@@ -223,13 +219,15 @@ def main():
             for kind in o.kind or ERRORS:
                 if kind in case.without:
                     continue
-                count = loop.count(kind)
+                count = loop.counts[kind]
                 points[case.name, kind] = count
                 tried += [(kind, *d) for d in draw(kind, count, o.most, rng, o.all) if o.at is None or d[0] == o.at]
 
             def attempt(one):
                 return loop.killed(one[0], one[1]) if o.kill else loop.try_one(*one, trace=o.trace)
 
+            if o.runs and len(tried) > o.runs:
+                tried = sorted(rng.sample(tried, o.runs))
             if o.kill:
                 tried = sorted({(kind, n, "KILL", False) for kind, n, _, _ in tried})
             for one, (what, result) in zip(tried, pool.map(attempt, tried)):

@@ -7,7 +7,7 @@
        FW_FAULT_AT      n, from 1; 0 or absent: only count
        FW_FAULT_EVER    1: every later one fails, too
        FW_FAULT_ERRNO   number of the error (memory: always ENOMEM; short: a write of half the bytes, at least one, is done)
-       FW_FAULT_REPORT  file that gets "KIND COUNT\n" at the end, from the process that was started and no child of it
+       FW_FAULT_REPORT  file that gets a line "KIND COUNT" of every kind at the end, from the process that was started and no child of it
        FW_FAULT_TRACE   1: who made the call that failed, and who was active at SIGSEGV or SIGABRT, to standard error
        FW_FAULT_KILL    1: instead of failing, the call is preceded by kill -9
 
@@ -63,7 +63,7 @@ static const char *const name[] = {"none",    "memory", "open",  "write", "short
 static enum kind wanted;
 static long at;
 static int ever, error_number, trace, killing, running;
-static atomic_long count;
+static atomic_long counts[UNLINK + 1];
 static pid_t first;
 static char report[4096];
 
@@ -86,9 +86,9 @@ static void who(const char *what) {
 }
 
 static int fault(enum kind kind) {
-    if (!running || kind != wanted) return 0;
-    long n = atomic_fetch_add(&count, 1) + 1;
-    if (at == 0 || n < at || (n > at && !ever)) return 0;
+    if (!running) return 0;
+    long n = atomic_fetch_add(&counts[kind], 1) + 1;
+    if (kind != wanted || at == 0 || n < at || (n > at && !ever)) return 0;
     if (killing) {
         syscall(SYS_kill, getpid(), SIGKILL);
         return 0;
@@ -180,7 +180,7 @@ FOPENER(fopen)
 FOPENER(fopen64)
 
 static ssize_t half(int fd, const void *data, size_t n) {
-    if (wanted == SHORT && n > 1 && fault(SHORT)) n = (n + 1) / 2;
+    if (n > 1 && fault(SHORT)) n = (n + 1) / 2;
     return syscall(SYS_write, fd, data, n);
 }
 
@@ -206,12 +206,12 @@ int fflush(FILE *to) {
 }
 
 ssize_t read(int fd, void *data, size_t n) {
-    if (wanted == SHORT && n > 1 && fault(SHORT)) n = 1;
+    if (n > 1 && fault(SHORT)) n = 1;
     return fault(READ) ? -1 : syscall(SYS_read, fd, data, n);
 }
 
 ssize_t pread(int fd, void *data, size_t n, off_t offset) {
-    if (wanted == SHORT && n > 1 && fault(SHORT)) n = 1;
+    if (n > 1 && fault(SHORT)) n = 1;
     return fault(READ) ? -1 : syscall(SYS_pread64, fd, data, n, offset);
 }
 
@@ -331,11 +331,13 @@ int accept4(int fd, struct sockaddr *address, socklen_t *n, int flags) {
 static void tell(void) {
     running = 0;
     if (!report[0] || getpid() != first) return;
-    char line[64];
-    int n = snprintf(line, sizeof line, "%s %ld\n", name[wanted], atomic_load(&count));
     int fd = (int)syscall(SYS_openat, AT_FDCWD, report, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (fd < 0) return;
-    if (syscall(SYS_write, fd, line, (size_t)n) < 0) say("fault: no report\n");
+    for (size_t i = 1; i < sizeof name / sizeof name[0]; i++) {
+        char line[64];
+        int n = snprintf(line, sizeof line, "%s %ld\n", name[i], atomic_load(&counts[i]));
+        if (syscall(SYS_write, fd, line, (size_t)n) < 0) say("fault: no report\n");
+    }
     syscall(SYS_close, fd);
 }
 
