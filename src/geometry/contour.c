@@ -7,6 +7,9 @@ fw_geometry_outline fw_geometry_outline_start(fw_arena *arena, fw_geometry_vec2 
 }
 
 static void push(fw_geometry_outline *outline, fw_geometry_segment segment) {
+    outline->at =
+        segment
+            .b; /* also where there is no memory, which must not look like a flaw of the drawing */
     if (outline->failed) return;
     if (outline->count == outline->capacity) {
         int more = outline->capacity ? 2 * outline->capacity : 8;
@@ -20,7 +23,6 @@ static void push(fw_geometry_outline *outline, fw_geometry_segment segment) {
         outline->capacity = more;
     }
     outline->segment[outline->count++] = segment;
-    outline->at = segment.b;
 }
 
 /* a step shorter than the tolerance moves the last end instead of adding a sliver */
