@@ -166,6 +166,16 @@ static cairo_status_t collect(void *closure, const unsigned char *data, unsigned
     return out->failed ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
 }
 
+/* cairo 1.16 does not survive every allocation that fails in it (a stroke of many boxes ends in a
+   segmentation fault), so what a picture takes is asked for before: the surface, and room for paths,
+   scan lines and the compressor. Test: tests/faults/loops.py. */
+static bool room_for_picture(int width_px, double height_px) {
+    enum { BESIDES = 8 << 20 };
+    void *room = malloc(4 * (size_t)width_px * (size_t)height_px + BESIDES);
+    free(room);
+    return room != NULL;
+}
+
 fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict, int width_px, fw_text *out) {
     fw_report_marks marks;
@@ -173,6 +183,7 @@ fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const f
     FW_TRY(fw_report_marks_of(arena, device, layout, verdict, &marks));
     fw_report_view view = fw_report_device_view(device, layout, NULL, width_px);
     double px = width_px / 640.0;
+    if (!room_for_picture(width_px, view.height)) return FW_NOMEM;
     cairo_surface_t *surface =
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, (int)view.height);
     cairo_t *c = cairo_create(surface);

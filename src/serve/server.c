@@ -2,6 +2,7 @@
 /* The loop: sockets, workers, jobs, the file, and the signals that end it. */
 #include "serve/server.h"
 #include "base/arena.h"
+#include <errno.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -68,7 +69,11 @@ static fw_status prepare(fw_serve_server *server, fw_diags *diags) {
                                     &server->events, diags, &server->watch));
     FW_TRY(fw_serve_scratch_open(arena, diags, &server->scratch));
     FW_TRY(fw_serve_jobs_open(arena, server->scratch, &server->events, &server->jobs));
-    FW_TRY(fw_serve_pool_open(arena, server->options.data_directory, &server->pool));
+    fw_status status = fw_serve_pool_open(arena, server->options.data_directory, &server->pool);
+    if (status == FW_IO)
+        fw_diag_error(diags, 461, (fw_place){0}, "cannot start the processes that compute: %s",
+                      strerror(errno));
+    FW_TRY(status);
     if (!fw_serve_http_start(server, diags)) return FW_IO;
     return fw_serve_guard_new(&server->guard, server->port, server->options.ipv6) ? FW_OK : FW_IO;
 }

@@ -49,9 +49,11 @@ static bool start(const fw_serve_pool *pool, fw_serve_worker *w) {
         .channel = pair[1],
         .limits = {.memory_bytes = (uint64_t)MEMORY_MIB << 20, .file_bytes = 0, .files = 32}};
     pid_t pid = fw_serve_child_start(&plan);
+    int why = errno;
     close(pair[1]);
     if (pid < 0) {
         close(pair[0]);
+        errno = why;
         return false;
     }
     fcntl(pair[0], F_SETFL, O_NONBLOCK);

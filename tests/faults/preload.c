@@ -3,7 +3,7 @@
    them fail. What it does is said by the environment:
 
        FW_FAULT_KIND    memory, or open, write, short, fsync, rename, read, close, mmap, fork, socket, opendir, mkdir,
-                        stat, unlink
+                        stat, unlink, pictures (memory, asked for by what draws)
        FW_FAULT_AT      n, from 1; 0 or absent: only count
        FW_FAULT_EVER    1: every later one fails, too
        FW_FAULT_ERRNO   number of the error (memory: always ENOMEM; short: a write of half the bytes, at least one, is done)
@@ -18,10 +18,12 @@
 #include <errno.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <link.h>
 #include <malloc.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +56,8 @@ enum kind {
     OPENDIR,
     MKDIR,
     STAT,
-    UNLINK
+    UNLINK,
+    PICTURES
 };
 static const char *const name[] = {"none",    "memory", "open",  "write", "short", "fsync",
                                    "rename",  "read",   "close", "mmap",  "fork",  "socket",
@@ -63,7 +66,7 @@ static const char *const name[] = {"none",    "memory", "open",  "write", "short
 static enum kind wanted;
 static long at;
 static int ever, error_number, trace, killing, running;
-static atomic_long counts[UNLINK + 1];
+static atomic_long counts[PICTURES + 1];
 static pid_t first;
 static char report[4096];
 
@@ -94,7 +97,7 @@ static int fault(enum kind kind) {
         return 0;
     }
     if (trace && n == at) who("fault: this call fails\n");
-    errno = kind == MEMORY ? ENOMEM : error_number;
+    errno = kind == MEMORY || kind == PICTURES ? ENOMEM : error_number;
     return 1;
 }
 
@@ -106,21 +109,49 @@ static void crash(int number) {
 
 /* ---- memory ---- */
 
+/* What draws asks for memory that the program has made sure of before (report/png.c), and does not survive its lack:
+   a kind of its own, `pictures`, by who calls. */
+static struct { uintptr_t from, to; } drawing[16];
+static int parts;
+
+static int is_of_drawing(struct dl_phdr_info *library, size_t size, void *ignored) {
+    static const char *const names[] = {"libcairo", "libpixman", "libfreetype", "libfontconfig",
+                                        "libpng"};
+    (void)size, (void)ignored;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        for (int k = 0; strstr(library->dlpi_name, names[i]) && k < library->dlpi_phnum; k++) {
+            const ElfW(Phdr) *part = &library->dlpi_phdr[k];
+            if (part->p_type != PT_LOAD || !(part->p_flags & PF_X) || parts == 16) continue;
+            drawing[parts].from = library->dlpi_addr + part->p_vaddr;
+            drawing[parts].to = drawing[parts].from + part->p_memsz;
+            parts++;
+        }
+    return 0;
+}
+
+static enum kind asked_by(const void *caller) {
+    for (int i = 0; i < parts; i++)
+        if ((uintptr_t)caller >= drawing[i].from && (uintptr_t)caller < drawing[i].to)
+            return PICTURES;
+    return MEMORY;
+}
+#define LACKING() fault(asked_by(__builtin_return_address(0)))
+
 void *malloc(size_t n) {
-    return fault(MEMORY) ? NULL : __libc_malloc(n);
+    return LACKING() ? NULL : __libc_malloc(n);
 }
 
 void *calloc(size_t count_, size_t size) {
-    return fault(MEMORY) ? NULL : __libc_calloc(count_, size);
+    return LACKING() ? NULL : __libc_calloc(count_, size);
 }
 
 void *realloc(void *block, size_t n) {
-    return fault(MEMORY) ? NULL : __libc_realloc(block, n);
+    return LACKING() ? NULL : __libc_realloc(block, n);
 }
 
 int posix_memalign(void **block, size_t alignment, size_t n) {
     int kept = errno;
-    void *got = fault(MEMORY) ? NULL : __libc_memalign(alignment, n);
+    void *got = LACKING() ? NULL : __libc_memalign(alignment, n);
     errno = kept;
     if (!got) return ENOMEM;
     *block = got;
@@ -128,11 +159,11 @@ int posix_memalign(void **block, size_t alignment, size_t n) {
 }
 
 void *aligned_alloc(size_t alignment, size_t n) {
-    return fault(MEMORY) ? NULL : __libc_memalign(alignment, n);
+    return LACKING() ? NULL : __libc_memalign(alignment, n);
 }
 
 void *memalign(size_t alignment, size_t n) {
-    return fault(MEMORY) ? NULL : __libc_memalign(alignment, n);
+    return LACKING() ? NULL : __libc_memalign(alignment, n);
 }
 
 /* ---- files ---- */
@@ -372,6 +403,7 @@ static int (*program_main)(int, char **, char **);
 
 static int counted_main(int argc, char **argv, char **environment) {
     settings();
+    dl_iterate_phdr(is_of_drawing, NULL);
     atexit(tell);
     running = 1;
     return program_main(argc, argv, environment);
