@@ -4,6 +4,7 @@
    pixel. */
 #include "report/report_marks.h"
 #include "base/constants.h"
+#include <errno.h>
 #include <cairo.h>
 #include <math.h>
 #include <stdlib.h>
@@ -167,8 +168,9 @@ static cairo_status_t collect(void *closure, const unsigned char *data, unsigned
 }
 
 /* cairo 1.16 does not survive every allocation that fails in it (a stroke of many boxes ends in a
-   segmentation fault), so what a picture takes is asked for before: the surface, and room for paths,
-   scan lines and the compressor. Test: tests/faults/loops.py. */
+   segmentation fault, others in an abort), so what a picture takes is asked for before: the surface,
+   and room for paths, scan lines and the compressor. What it survives it does not always tell, and
+   leaves out of the picture; the allocator tells it in errno. Test: tests/faults/loops.py. */
 static bool room_for_picture(int width_px, double height_px) {
     enum { BESIDES = 8 << 20 };
     void *room = malloc(4 * (size_t)width_px * (size_t)height_px + BESIDES);
@@ -184,6 +186,7 @@ fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const f
     fw_report_view view = fw_report_device_view(device, layout, NULL, width_px);
     double px = width_px / 640.0;
     if (!room_for_picture(width_px, view.height)) return FW_NOMEM;
+    errno = 0;
     cairo_surface_t *surface =
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, (int)view.height);
     cairo_t *c = cairo_create(surface);
@@ -205,6 +208,6 @@ fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const f
     if (drawn == CAIRO_STATUS_SUCCESS)
         written = cairo_surface_write_to_png_stream(surface, collect, out);
     cairo_surface_destroy(surface);
-    if (written == CAIRO_STATUS_NO_MEMORY || out->failed) return FW_NOMEM;
+    if (errno == ENOMEM || written == CAIRO_STATUS_NO_MEMORY || out->failed) return FW_NOMEM;
     return written == CAIRO_STATUS_SUCCESS ? FW_OK : FW_INTERNAL;
 }

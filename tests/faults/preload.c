@@ -59,9 +59,9 @@ enum kind {
     UNLINK,
     PICTURES
 };
-static const char *const name[] = {"none",    "memory", "open",  "write", "short", "fsync",
-                                   "rename",  "read",   "close", "mmap",  "fork",  "socket",
-                                   "opendir", "mkdir",  "stat",  "unlink"};
+static const char *const name[] = {"none",    "memory", "open",  "write",  "short",   "fsync",
+                                   "rename",  "read",   "close", "mmap",   "fork",    "socket",
+                                   "opendir", "mkdir",  "stat",  "unlink", "pictures"};
 
 static enum kind wanted;
 static long at;
