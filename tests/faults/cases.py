@@ -95,7 +95,9 @@ CASES = [
     writer("statics", "--path"),
     writer("modes"),
     writer("assemble"),
-    writer("hinge", "-q"),
+    # an accuracy that is asked for starts another program
+    Case("hinge", ["hinge", "d.xml", "-o", "out", "-q"],
+         [["hinge", "d.xml", "-o", "out", "-q", "--level", "closed-form"]], files=D),
     Case("simulate", ["simulate", "d.xml", "--csv", "motion.csv", "--json"],
          [["simulate", "d.xml", "--csv", "motion.csv", "--samples", "11"]], files=D),
     Case("workspace", ["workspace", "d.xml", "-o", "out"], files=D),
