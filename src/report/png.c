@@ -171,11 +171,13 @@ static cairo_status_t collect(void *closure, const unsigned char *data, unsigned
    segmentation fault, others in an abort), so what a picture takes is asked for before: the surface,
    and room for paths, scan lines and the compressor. What it survives it does not always tell, and
    leaves out of the picture; the allocator tells it in errno. Test: tests/faults/loops.py. */
-static bool room_for_picture(int width_px, double height_px) {
+static fw_status room_for_picture(const fw_arena *arena, int width_px, double height_px) {
     enum { BESIDES = 8 << 20 };
-    void *room = malloc(4 * (size_t)width_px * (size_t)height_px + BESIDES);
-    free(room);
-    return room != NULL;
+    fw_arena *room = fw_arena_part(arena, 0);
+    FW_NEED(room);
+    void *block = fw_arena_raw(room, 4 * (size_t)width_px * (size_t)height_px + BESIDES);
+    fw_arena_free(room);
+    return block ? FW_OK : FW_NOMEM;
 }
 
 fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const fw_layout *layout,
@@ -185,7 +187,7 @@ fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const f
     FW_TRY(fw_report_marks_of(arena, device, layout, verdict, &marks));
     fw_report_view view = fw_report_device_view(device, layout, NULL, width_px);
     double px = width_px / 640.0;
-    if (!room_for_picture(width_px, view.height)) return FW_NOMEM;
+    FW_TRY(room_for_picture(arena, width_px, view.height));
     errno = 0;
     cairo_surface_t *surface =
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, (int)view.height);
