@@ -37,7 +37,9 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
                         char **data, size_t *n);
 
 /* where packs and layer tables are: the caller's directory ($FLEXWRIGHT_DATA) and no other when it
-   is given, else the installed one, else the source tree. A path of `name` that exists, or NULL. */
+   is given, else share/flexwright beside the program or library that asks, wherever its tree was moved
+   to, else the installed one, else the source tree. A path of `name` that exists, or NULL.
+   Test: tests/install/relocate.sh */
 fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, const char **path);
 
 /* A text file that only grows: it is locked from reading to writing, a line is written in one piece

@@ -545,6 +545,7 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
         return fw_diag_error(&plan->diags, 221, (fw_place){.file = file},
                              "is larger than %d bytes, the most that is read from one file",
                              MOST_BYTES);
+    if (!plan->directory) plan->directory = plan->options.directory;
     plan->source_file = file;
     plan->source = xml;
     plan->source_length = n;
