@@ -141,6 +141,10 @@ set_tests_properties(accept.masks accept.wafer accept.nets accept.random accept.
                      PROPERTIES SKIP_RETURN_CODE 77)
 if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
     fw_script_test(library.consumer COMMAND tests/consumer/run.sh ${PROJECT_BINARY_DIR} ${FW_PROGRAM})
+    # the package needs NumPy of the system's python3
+    fw_script_test(python.package COMMAND /usr/bin/python3 tests/python/test_package.py ${PROJECT_BINARY_DIR})
+    fw_script_test(python.docs COMMAND /usr/bin/python3 tests/python/test_docs.py ${PROJECT_BINARY_DIR})
+    fw_script_test(python.install COMMAND tests/python/install.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 endif()
 
 # `plan` of the gallery, once for those that look at what it gives
