@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the packs lie: beside the very program or library that asks, so that an installed tree can be moved. */
 #include "base/output.h"
+#include <dirent.h>
 #include <dlfcn.h>
 #include <limits.h>
 #include <link.h>
@@ -60,4 +61,28 @@ fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, 
     }
     *path = NULL;
     return FW_OK;
+}
+
+static int by_name(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+fw_status fw_data_names(fw_arena *arena, const char *override, const char *directory,
+                        const char *const **name, size_t *n) {
+    enum { MOST = 256 };
+    const char *path, **found = fw_arena_array(arena, const char *, MOST);
+    FW_NEED(found);
+    *name = found, *n = 0;
+    FW_TRY(fw_data_path(arena, override, directory, &path));
+    DIR *dir = path ? opendir(path) : NULL;
+    fw_status status = FW_OK;
+    for (struct dirent *e; dir && status == FW_OK && *n < MOST && (e = readdir(dir));) {
+        const size_t length = strlen(e->d_name);
+        if (length < 5 || strcmp(e->d_name + length - 4, ".xml") != 0) continue;
+        found[*n] = fw_arena_strndup(arena, e->d_name, length - 4);
+        status = found[(*n)++] ? FW_OK : FW_NOMEM;
+    }
+    if (dir) closedir(dir);
+    if (status == FW_OK && *n > 1) qsort(found, *n, sizeof *found, by_name);
+    return status;
 }

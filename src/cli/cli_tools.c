@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -126,7 +127,9 @@ int fw_cli_command_init(fw_cli_options *options) {
 
 int fw_cli_command_explain(fw_cli_options *options) {
     const char *code = options->device;
-    const char *digits = strncmp(code, "FW-D", 4) == 0 ? code + 4 : code;
+    const char *digits = code;
+    if (strncasecmp(digits, "FW-", 3) == 0) digits += 3;
+    if (*digits == 'D' || *digits == 'd') digits++;
     double number;
     const fw_diag_entry *entry = NULL;
     if (fw_number_parse(digits, strlen(digits), &number) && number >= 0 && number < 1000)
