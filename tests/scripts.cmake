@@ -144,6 +144,7 @@ if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
     # the package needs NumPy of the system's python3
     fw_script_test(python.package COMMAND /usr/bin/python3 tests/python/test_package.py ${PROJECT_BINARY_DIR})
     fw_script_test(python.docs COMMAND /usr/bin/python3 tests/python/test_docs.py ${PROJECT_BINARY_DIR})
+    fw_script_test(install.tree COMMAND ${Python3_EXECUTABLE} tests/install/test_install.py ${PROJECT_BINARY_DIR} TIMEOUT 600)
     fw_script_test(python.install COMMAND tests/python/install.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 endif()
 

@@ -141,8 +141,9 @@ enum { TOLD = 64 }; /* times in a scene at most that who listens is told */
 
 static void tell(const fw_dynamics_run *r, double before, double now) {
     const double end = fw_dynamics_end(&r->problem);
+    const double s = r->problem.model->scale.time_s;
     if (fw_arena_tells(r->problem.arena) && floor(TOLD * now / end) > floor(TOLD * before / end))
-        fw_arena_tell(r->problem.arena, "motion of a scene", now, end, "s");
+        fw_arena_tell(r->problem.arena, "motion of a scene", now * s, end * s, "s");
 }
 
 /* one step; where an event or a contact force near zero wants it shorter the next call makes it

@@ -373,6 +373,7 @@ class Working(unittest.TestCase):
         self.assertGreater(len({p.what for p in told}), 2)
         motion = [p for p in told if p.unit == "s"]
         self.assertTrue(all(0 < p.done <= p.of * (1 + 1e-12) for p in motion))
+        self.assertEqual({round(p.of, 9) for p in motion}, {0.01})  # both scenes last 10 ms
 
     def test_progress_may_end_it(self):
         class Enough(Exception):
