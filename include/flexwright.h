@@ -305,7 +305,9 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_TRADEOFF_JSON = 29, /* schema flexwright.tradeoff/1; tradeoff */
        FW_DOCUMENT_TRADEOFF_TEXT = 30, /* for a terminal; tradeoff */
        FW_DOCUMENT_TRADEOFF_CSV = 31,  /* the same numbers; tradeoff */
-       FW_DOCUMENT_TRADEOFF_SVG = 32   /* work-precision, model, masks; tradeoff */
+       FW_DOCUMENT_TRADEOFF_SVG = 32,  /* work-precision, model, masks; tradeoff */
+       /* all diagnostics so far, for editors: schema flexwright.diagnostics/1; nothing */
+       FW_DOCUMENT_DIAGNOSTICS_JSON = 33
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

@@ -60,6 +60,7 @@ fw_script_test(cli.third_flow COMMAND ${Python3_EXECUTABLE} tests/cli/test_third
 fw_script_test(cli.sections COMMAND ${Python3_EXECUTABLE} tests/cli/test_sections.py ${FW_PROGRAM})
 fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/cli/test_violations.py ${FW_PROGRAM})
 fw_script_test(cli.mask_certificate COMMAND ${Python3_EXECUTABLE} tests/cli/test_mask_certificate.py ${FW_PROGRAM})
+fw_script_test(cli.manners COMMAND ${Python3_EXECUTABLE} tests/cli/test_manners.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)
 # random devices before beams of their own: tests/judge/README.md says how to ask for many

@@ -38,6 +38,7 @@ DOCUMENTS = {
     "certificate_json": (26, "workspace"), "table_json": (27, ""), "preview_json": (28, ""),
     "tradeoff_json": (29, "tradeoff"), "tradeoff_text": (30, "tradeoff"),
     "tradeoff_csv": (31, "tradeoff"), "tradeoff_svg": (32, "tradeoff"),
+    "diagnostics_json": (33, ""),
 }
 
 

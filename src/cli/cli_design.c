@@ -12,13 +12,17 @@
 
 /* ---- verdict, masks and recipes: the exit status is the decision ---- */
 
+static int judge(fw_design *design, const fw_cli_options *options) {
+    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
+    return fw_design_judge(design);
+}
+
 int fw_cli_command_check(fw_cli_options *options) {
     int exit_status;
     fw_design *design = fw_cli_session_open(options, &exit_status);
     if (!design) return exit_status;
     int status = fw_cli_session_target(design, options->output);
-    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
-    if (status == FW_STATUS_OK) status = fw_design_judge(design);
+    if (status == FW_STATUS_OK) status = judge(design, options);
     if (status == FW_STATUS_OK && options->output)
         status = fw_design_write(design, options->output, FW_DESIGN_VERDICT);
     if (status == FW_STATUS_OK)
@@ -43,8 +47,7 @@ static int make(fw_design *design, const fw_cli_options *options, unsigned what,
                 const char *directory) {
     int status = fw_cli_session_target(design, directory);
     if (status != FW_STATUS_OK) return status;
-    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
-    status = fw_design_judge(design);
+    status = judge(design, options);
     if (status == FW_STATUS_GEOMETRY && what == FW_DESIGN_EVERYTHING)
         return show_marked(design, options, directory);
     if (status != FW_STATUS_OK) return status;

@@ -141,22 +141,36 @@ int fw_cli_command_explain(fw_cli_options *options) {
 
 /* ---- doctor ---- */
 
+/* a file of the data directory: 1 where it is missing */
+static int look_for(fw_arena *arena, const fw_cli_options *options, const char *directory,
+                    const char *name) {
+    const char *path = NULL, *file = fw_arena_printf(arena, "%s/%s.xml", directory, name);
+    if (!file || fw_data_path(arena, options->design.data_directory, file, &path) != FW_OK)
+        path = NULL;
+    printf("%-40s %s\n", file ? file : name, path ? path : "MISSING");
+    return !path;
+}
+
+/* what all flows share, and every flow with its layer table */
+static int look_for_packs(fw_arena *arena, const fw_cli_options *options) {
+    const char *const *name = NULL;
+    size_t n = 0;
+    int missing = look_for(arena, options, "processes", "base");
+    if (fw_data_names(arena, options->design.data_directory, "processes", &name, &n) != FW_OK)
+        n = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (strcmp(name[i], "base") == 0) continue;
+        missing += look_for(arena, options, "processes", name[i]);
+        missing += look_for(arena, options, "masks", name[i]);
+    }
+    return missing;
+}
+
 int fw_cli_command_doctor(fw_cli_options *options) {
-    static const char *const needed[] = {"processes/base.xml", "processes/al-masked-rie.xml",
-                                         "processes/copper-on-porous-silicon.xml",
-                                         "masks/al-masked-rie.xml",
-                                         "masks/copper-on-porous-silicon.xml"};
     fw_arena *arena = fw_arena_new(0);
     if (!arena) return fw_status_exit(FW_NOMEM);
     printf("flexwright %s\ncompiler %s\njansson %s\n", FW_VERSION, __VERSION__, JANSSON_VERSION);
-    int missing = 0;
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
-        const char *path = NULL;
-        if (fw_data_path(arena, options->design.data_directory, needed[i], &path) != FW_OK)
-            path = NULL;
-        printf("%-40s %s\n", needed[i], path ? path : "MISSING");
-        missing += !path;
-    }
+    const int missing = look_for_packs(arena, options);
     const char *solver = fw_continuum_program(arena, "ccx"); /* no part of what must be there */
     printf("%-40s %s\n", "ccx (continuum level of hinges)", solver ? solver : fw_continuum_install);
 #if defined(__x86_64__)
