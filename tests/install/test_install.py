@@ -79,6 +79,13 @@ class Tree(unittest.TestCase):
             if path.is_file() and not path.is_symlink():
                 self.assertNotIn(str(pathlib.Path(self.scratch.name, "first")).encode(), path.read_bytes(), path)
 
+    def test_catalogue(self):
+        data = self.prefix / "share/flexwright"
+        self.assertEqual((data / "device.rng").read_bytes(), (ROOT / "docs/reference/device.rng").read_bytes())
+        if shutil.which("xmlcatalog"):
+            found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:device:1").strip()
+            self.assertTrue(found.endswith("/device.rng"), found)
+
     def test_manual_pages(self):
         pages = self.prefix / "share/man/man1"
         main = (pages / "flexwright.1").read_text()
