@@ -212,7 +212,9 @@ class Device:
 
     def cancel(self) -> None:
         """All running questions of this device end soon with Cancelled; from any thread."""
-        for design in list(self._busy):
+        with self._lock:
+            busy = list(self._busy)
+        for design in busy:
             design.cancel()
 
     # ---- questions ----

@@ -52,10 +52,17 @@ def sweep(device: Union[Device, str, "os.PathLike[str]"], settings: Iterable[Set
     if options and base is device:
         base = base.with_(options=options)
 
+    working: Dict[int, Device] = {}
+
     def one(setting: Settings) -> Dict[str, Any]:
         row: Dict[str, Any] = dict(setting)
         try:
-            row.update(measure(base.with_(set=setting)))
+            device = base.with_(set=setting)
+            working[id(device)] = device
+            try:
+                row.update(measure(device))
+            finally:
+                del working[id(device)]
         except FlexwrightError as error:
             row["error"] = str(error)
         return row
@@ -64,11 +71,11 @@ def sweep(device: Union[Device, str, "os.PathLike[str]"], settings: Iterable[Set
         for setting in settings:
             yield one(setting)
         return
-    yield from _side_by_side(one, settings, jobs or os.cpu_count() or 1)
+    yield from _side_by_side(one, settings, jobs or os.cpu_count() or 1, working)
 
 
 def _side_by_side(one: Callable[[Settings], Dict[str, Any]], settings: Iterable[Settings],
-                  jobs: int) -> Iterator[Dict[str, Any]]:
+                  jobs: int, working: Mapping[int, Device]) -> Iterator[Dict[str, Any]]:
     coming = iter(settings)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         waiting: List["concurrent.futures.Future[Dict[str, Any]]"] = []
@@ -81,8 +88,10 @@ def _side_by_side(one: Callable[[Settings], Dict[str, Any]], settings: Iterable[
                     waiting.append(pool.submit(one, setting))
                 yield row
         finally:
-            for future in waiting:
+            for future in waiting:  # whoever asks has had enough, or pressed Ctrl-C
                 future.cancel()
+            for device in list(working.values()):
+                device.cancel()
 
 
 def columns(rows: Iterable[Mapping[str, Any]]) -> Dict[str, list]:

@@ -493,6 +493,29 @@ class Studies(unittest.TestCase):
         self.assertEqual(next(rows), {"arc": "230 deg", "u": 1})
         self.assertIn("FW-D025", next(rows)["error"])
 
+    def test_sweep_is_given_up(self):
+        slow = {"rtol": 1e-13, "samples": 500000, "integrator": "rk4"}
+        started = threading.Event()
+
+        def measure(device):
+            device.simulate(progress=lambda p: started.set(), **slow)
+            return {}
+
+        def settings():
+            yield {"arc": "230 deg"}
+            yield {"arc": "240 deg"}
+            started.wait(60)
+            raise KeyboardInterrupt  # as if it came while the others work
+
+        rows = flexwright.sweep(SIX_BAR, settings(), measure=measure, jobs=2)
+        with self.assertRaises(KeyboardInterrupt):
+            next(rows)
+
+    def test_advice(self):
+        v = flexwright.Device(SIX_BAR, set={"flexure[A]/@length": "75 um"}).check()
+        self.assertTrue(v.advice)
+        self.assertTrue(all(isinstance(a, str) and a for a in v.advice), v.advice)
+
     def test_objective_of_scipy(self):
         from scipy.optimize import brentq, minimize_scalar
         base = flexwright.Device(SIX_BAR)
