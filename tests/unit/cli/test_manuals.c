@@ -35,9 +35,9 @@ static void pages(void **state) {
         const char *page = text_of(arena, &own);
         assert_non_null(strstr(page, "\n.SH EXIT STATUS\n"));
         for (size_t k = 0; k < count; k++)
-            assert_int_equal(strstr(page, fw_arena_printf(arena, "\\fB\\-\\-%s\\fR",
-                                                          roff(arena, row[k].name))) != NULL,
-                             (row[k].group & command[i].options) != 0);
+            if (row[k].group & command[i].options)
+                assert_non_null(strstr(
+                    page, fw_arena_printf(arena, "\\fB\\-\\-%s\\fR", roff(arena, row[k].name))));
         for (const char *line = page; line; line = strchr(line + 1, '\n'))
             assert_true(line[1] != '\''); /* it would be a request */
     }
