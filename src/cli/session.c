@@ -154,7 +154,8 @@ static bool error_was_said(fw_design *design) {
 
 int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int status,
                          int result_if_ok) {
-    if (options->json && status != FW_STATUS_OK && status != FW_STATUS_NOMEM)
+    const bool ended = status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED;
+    if (options->json && status != FW_STATUS_OK && !ended)
         print(design, options, FW_DOCUMENT_DIAGNOSTICS_JSON, stdout); /* in place of the document */
     bool said = print(design, options, FW_DOCUMENT_DIAGNOSTICS_TEXT, stderr) == FW_STATUS_OK &&
                 error_was_said(design);
