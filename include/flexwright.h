@@ -25,6 +25,10 @@
    fw_library_version, fw_status_name, fw_design_options_init, fw_design_cancel and
    fw_design_cancel_clear may be called from any thread at any time.
 
+   Later versions add: functions, numbers at the end of an enum, fields at the end of a struct. A program
+   that was compiled with an earlier header of the same SONAME runs with a later library; never make an
+   array of fw_diagnostic or fw_array, whose size may grow.
+
    The library reads no environment variable, keeps no file open between calls, changes no locale of
    the caller and installs no signal handler. It turns off the error handler of GSL (which would end
    the process) for the whole process. */
@@ -128,8 +132,11 @@ typedef struct fw_design_options {
        which costs little, where recipes or the report are written. "all": bands after fw_design_judge in any case,
        some ten devices more a flow. "none" */
     const char *measurements;
-    const char *layers; /* file with the laboratory's own layer numbers and names, a line for each layer:
+    const char
+        *layers; /* file with the laboratory's own layer numbers and names, a line for each layer:
                            "structure 7/0 name POLY2"; default: those of the layer tables */
+    const char *directory; /* for fw_design_read_memory: where the drawings lie that the description
+                              names; default: none are opened */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -165,7 +172,7 @@ FW_API int fw_design_set(fw_design *design, const char *path, const char *value)
 FW_API int fw_design_read(fw_design *design, const char *path);
 
 /* The same from `n` bytes at `xml`; `name` stands for the file in diagnostics and in the manifest
-   (NULL: "memory"). */
+   (NULL: "memory"). Drawings that it names are looked for in options.directory. */
 FW_API int fw_design_read_memory(fw_design *design, const char *name, const void *xml, size_t n);
 
 /* Name of the device; NULL before it was read. */
@@ -298,7 +305,9 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_TRADEOFF_JSON = 29, /* schema flexwright.tradeoff/1; tradeoff */
        FW_DOCUMENT_TRADEOFF_TEXT = 30, /* for a terminal; tradeoff */
        FW_DOCUMENT_TRADEOFF_CSV = 31,  /* the same numbers; tradeoff */
-       FW_DOCUMENT_TRADEOFF_SVG = 32   /* work-precision, model, masks; tradeoff */
+       FW_DOCUMENT_TRADEOFF_SVG = 32,  /* work-precision, model, masks; tradeoff */
+       /* all diagnostics so far, for editors: schema flexwright.diagnostics/1; nothing */
+       FW_DOCUMENT_DIAGNOSTICS_JSON = 33
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text
@@ -349,6 +358,75 @@ FW_API void fw_design_cancel(fw_design *design);
 
 /* Takes the request back; call it before work after a cancel. Async-signal-safe. */
 FW_API void fw_design_cancel_clear(fw_design *design);
+
+/* ---- progress ---- */
+
+/* Called in the thread of the call that works: at most 64 times a motion, else once a step of the work.
+   what: what is being done ("judging the device as drawn"; static text). done of `of`: s of the scene,
+   flows, devices, as `unit` says; `of` 0: not known how many. Not 0 as the answer: as fw_design_cancel.
+   It must not call into the same design, but fw_design_cancel. */
+typedef int fw_progress_told(void *context, const char *what, double done, double of,
+                             const char *unit);
+
+/* told NULL: nobody is told (default). What is computed does not change by it, to the last bit. */
+FW_API int fw_design_progress(fw_design *design, fw_progress_told *told, void *context);
+
+/* ---- numbers ---- */
+
+enum {                       /* of which type the values of an array are */
+       FW_ARRAY_REAL = 0,    /* double; NaN: not known, or there is none */
+       FW_ARRAY_WHOLE = 1,   /* int32_t */
+       FW_ARRAY_TEXT = 2,    /* const char *, UTF-8; NULL: none */
+       FW_ARRAY_COMPLEX = 3, /* two doubles, real and imaginary part */
+       FW_ARRAY_TRUTH = 4    /* int32_t, 0 or 1; -1: not known */
+};
+
+/* A table of values in C order (the last index runs fastest), without gaps. It belongs to the design,
+   with all that it points to, and stays as it is until fw_design_free. */
+typedef struct fw_array {
+    const char *name;
+    /* SI: "rad", "m/s"; "1": a pure number; "": text. "m,m,rad": of the values along the last axis, one
+       each. "*": each has its own, in the array "unit", or NAME_unit beside NAME */
+    const char *unit;
+    const char *about;           /* a sentence */
+    int32_t type;                /* FW_ARRAY_... */
+    int32_t dimensions;          /* 1..3 */
+    size_t extent[3];            /* of each; 1 beyond them */
+    const void *data;            /* (extent[0] x extent[1] x extent[2]); not NULL */
+    const char *const *label[3]; /* (extent[i]) what an index stands for, ids of bodies or hinges;
+                                    NULL: nothing but its number */
+} fw_array;
+
+enum {                              /* sets of arrays; what must have been called */
+       FW_NUMBERS_PARAMETERS = 0,   /* a row per <parameter>; read */
+       FW_NUMBERS_SCENES = 1,       /* a row per <scene>; read */
+       FW_NUMBERS_HINGES = 2,       /* a row per hinge: worst of the flows; drawn, made; judge */
+       FW_NUMBERS_FLOW_HINGES = 3,  /* a row per flow and hinge; judge */
+       FW_NUMBERS_FLOWS = 4,        /* a row per flow; judge */
+       FW_NUMBERS_GOVERNING = 5,    /* what decides: as made, as drawn; judge */
+       FW_NUMBERS_CLEARANCES = 6,   /* a row per scene or required box, and flow; judge */
+       FW_NUMBERS_REQUIREMENTS = 7, /* a row per requirement, scene and flow; judge */
+       FW_NUMBERS_PROBES = 8,       /* a row per probe, scene and flow; judge */
+       FW_NUMBERS_MOTION = 9,       /* time, coordinates, angles, forces, probes by row; simulate */
+       FW_NUMBERS_PEAKS = 10,       /* a row per joint: its largest angle; simulate */
+       FW_NUMBERS_MOTION_PROBES = 11, /* a row per probe: its extremes; simulate */
+       FW_NUMBERS_MODES = 12,         /* frequencies, eigenvalues, shapes; modes */
+       FW_NUMBERS_STATICS = 13,       /* pose, angles, forces of the equilibrium; statics */
+       FW_NUMBERS_LOAD_PATH = 14, /* a row per equilibrium; statics, without options.path none */
+       FW_NUMBERS_ASSEMBLY = 15,  /* poses before and after, forces; assemble */
+       FW_NUMBERS_WORKSPACE = 16  /* a row per flow: volume, extents, limits; workspace */
+};
+
+/* How many arrays a set has; *count (may be NULL) is 0 on error. FW_STATUS_USAGE for an unknown set or one whose stage was not called,
+   FW_STATUS_NOMEM. The first call copies the values into tables, later ones cost nothing; those of a
+   motion of N rows and B bodies take 80 N B bytes and more. docs/c-api.md lists the arrays. */
+FW_API int fw_design_arrays(fw_design *design, int numbers, size_t *count);
+
+/* The i-th of them, or the one of that name; NULL: there is none, or what fw_design_arrays would
+   answer with another status than FW_STATUS_OK. Asked for again after a later stage it may be another
+   table; the former stays valid. */
+FW_API const fw_array *fw_design_array(fw_design *design, int numbers, size_t i);
+FW_API const fw_array *fw_design_array_named(fw_design *design, int numbers, const char *name);
 
 #ifdef __cplusplus
 }

@@ -60,6 +60,7 @@ fw_script_test(cli.third_flow COMMAND ${Python3_EXECUTABLE} tests/cli/test_third
 fw_script_test(cli.sections COMMAND ${Python3_EXECUTABLE} tests/cli/test_sections.py ${FW_PROGRAM})
 fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/cli/test_violations.py ${FW_PROGRAM})
 fw_script_test(cli.mask_certificate COMMAND ${Python3_EXECUTABLE} tests/cli/test_mask_certificate.py ${FW_PROGRAM})
+fw_script_test(cli.manners COMMAND ${Python3_EXECUTABLE} tests/cli/test_manners.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/faults/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)
 # random devices before beams of their own: tests/judge/README.md says how to ask for many
@@ -158,6 +159,11 @@ set_tests_properties(accept.masks accept.wafer accept.nets accept.random accept.
                      PROPERTIES SKIP_RETURN_CODE 77)
 if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
     fw_script_test(library.consumer COMMAND tests/consumer/run.sh ${PROJECT_BINARY_DIR} ${FW_PROGRAM})
+    # the package needs NumPy of the system's python3
+    fw_script_test(python.package COMMAND /usr/bin/python3 tests/python/test_package.py ${PROJECT_BINARY_DIR})
+    fw_script_test(python.docs COMMAND /usr/bin/python3 tests/python/test_docs.py ${PROJECT_BINARY_DIR})
+    fw_script_test(install.tree COMMAND ${Python3_EXECUTABLE} tests/install/test_install.py ${PROJECT_BINARY_DIR} TIMEOUT 600)
+    fw_script_test(python.install COMMAND tests/python/install.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 endif()
 
 # `plan` of the gallery, once for those that look at what it gives

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/arena.h"
+#include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -22,6 +23,7 @@ struct fw_arena {
     size_t cap, total, peak; /* bytes handed out, and the most ever */
     size_t held;             /* bytes asked of malloc */
     const fw_cancel *cancel;
+    const fw_progress *progress; /* NULL: nobody is told */
 };
 
 /* of the process, so that a test can fail the n-th of any arena; atomic since designs run in
@@ -66,8 +68,23 @@ const fw_cancel *fw_arena_request(const fw_arena *arena) {
 
 fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes) {
     fw_arena *arena = fw_arena_new(cap_bytes);
-    if (arena) arena->cancel = whole->cancel;
+    if (arena) arena->cancel = whole->cancel, arena->progress = whole->progress;
     return arena;
+}
+
+void fw_arena_tell_with(fw_arena *arena, const fw_progress *progress) {
+    arena->progress = progress;
+}
+
+bool fw_arena_tells(const fw_arena *arena) {
+    return arena->progress && arena->progress->told;
+}
+
+void fw_arena_tell(const fw_arena *arena, const char *what, double done, double of,
+                   const char *unit) {
+    const fw_progress *p = arena->progress;
+    if (!p || !p->told) return;
+    if (p->told(p->context, what, done, of, unit) != 0) fw_cancel_request(p->cancel, SIGINT);
 }
 
 bool fw_arena_cancelled(const fw_arena *arena) {

@@ -20,6 +20,14 @@ void fw_cancel_request(fw_cancel *cancel, int number); /* async-signal-safe */
 void fw_cancel_clear(fw_cancel *cancel);               /* not what stands above it */
 int fw_cancel_requested(const fw_cancel *cancel);      /* the number, or 0; NULL is never stopped */
 
+/* Who is told what the work is at, done of `of` (0: not known), each in `unit`. Texts live as long as
+   the arena. An answer that is not 0 asks to stop. */
+typedef struct fw_progress {
+    int (*told)(void *context, const char *what, double done, double of, const char *unit);
+    void *context;
+    fw_cancel *cancel; /* by which it is stopped then */
+} fw_progress;
+
 typedef struct fw_arena fw_arena;
 typedef struct fw_mark {
     void *chunk;
@@ -37,6 +45,11 @@ void fw_arena_stop_with(fw_arena *arena, const fw_cancel *cancel); /* NULL: neve
 fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes);  /* as fw_arena_new */
 const fw_cancel *fw_arena_request(const fw_arena *arena);          /* or NULL */
 bool fw_arena_cancelled(const fw_arena *arena);
+/* likewise of those who are told: parts of the arena that are made from then on tell them, too */
+void fw_arena_tell_with(fw_arena *arena, const fw_progress *progress); /* NULL: nobody */
+bool fw_arena_tells(const fw_arena *arena); /* is there anybody to compose a text for? */
+void fw_arena_tell(const fw_arena *arena, const char *what, double done, double of,
+                   const char *unit);
 
 /* count * size bytes, zeroed, aligned to 64; NULL on overflow, cap or failure. count 0 gives a
    valid pointer. */

@@ -76,17 +76,6 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
     return FW_OK;
 }
 
-fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, const char **path) {
-    const char *const root[] = {override, FW_INSTALL_DATA_DIR, FW_SOURCE_DATA_DIR};
-    bool given = override && override[0];
-    for (size_t i = given ? 0 : 1; i < (given ? 1 : sizeof root / sizeof root[0]); i++) {
-        FW_NEED(*path = fw_arena_printf(arena, "%s/%s", root[i], name));
-        if (access(*path, R_OK) == 0) return FW_OK;
-    }
-    *path = NULL;
-    return FW_OK;
-}
-
 static fw_status append_failed(const fw_append *file, int number, const char *what) {
     fw_place place = {file->path, 0, 0};
     fw_diag_error(file->diags, number, place, "%s: %s", what, strerror(errno));

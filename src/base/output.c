@@ -165,7 +165,8 @@ static fw_status check_target(fw_output *o) {
     return status;
 }
 
-fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_output **output) {
+/* not built yet, its target looked at */
+static fw_status begin(fw_arena *arena, const char *path, fw_diags *diags, fw_output **output) {
     size_t n = strlen(path);
     while (n > 1 && path[n - 1] == '/')
         n--;
@@ -173,7 +174,33 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
     FW_NEED(o);
     *o = (fw_output){.arena = arena, .diags = diags, .path = fw_arena_strndup(arena, path, n)};
     FW_NEED(o->path);
-    FW_TRY(check_target(o));
+    *output = o;
+    return check_target(o);
+}
+
+fw_status fw_output_check(fw_arena *arena, const char *path, fw_diags *diags) {
+    fw_output *o;
+    FW_TRY(begin(arena, path, diags, &o));
+    char *above = fw_arena_strdup(arena, o->path);
+    FW_NEED(above);
+    for (struct stat info;;) { /* what is there of the way to it: the last part must take files */
+        char *slash = strrchr(above, '/');
+        const char *at = !slash ? "." : slash == above ? "/" : above;
+        if (slash) *slash = '\0';
+        if (stat(at, &info) == 0) {
+            if (!S_ISDIR(info.st_mode))
+                errno = ENOTDIR;
+            else if (access(at, W_OK | X_OK) == 0)
+                return FW_OK;
+            return fw_output_failed(diags, at, "make a directory there");
+        }
+        if (!slash || slash == above) return fw_output_failed(diags, at, "make a directory there");
+    }
+}
+
+fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_output **output) {
+    fw_output *o;
+    FW_TRY(begin(arena, path, diags, &o));
     FW_TRY(make_parents(arena, o->path, diags));
     fw_output_remove_leftovers(arena, o->path);
     o->build = fw_arena_printf(arena, "%s.tmp-%ld", o->path, (long)getpid());

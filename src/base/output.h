@@ -16,6 +16,8 @@ typedef struct fw_output_file {
    unless it is empty or holds exactly the files of its manifest.json, unchanged: a person's notes
    and filled-in run sheets are never deleted. */
 fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_output **output);
+/* would that be refused? Says so as it would, and touches nothing: for those who work for long before. */
+fw_status fw_output_check(fw_arena *arena, const char *path, fw_diags *diags);
 /* one file below the directory; makes sub-directories. Errors name the file. */
 fw_status fw_output_write(fw_output *output, const char *name, const void *data, size_t n);
 const fw_output_file *fw_output_files(const fw_output *output, size_t *count); /* by name */
@@ -49,8 +51,14 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
                         char **data, size_t *n);
 
 /* where packs and layer tables are: the caller's directory ($FLEXWRIGHT_DATA) and no other when it
-   is given, else the installed one, else the source tree. A path of `name` that exists, or NULL. */
+   is given, else share/flexwright beside the program or library that asks, wherever its tree was moved
+   to, else the installed one, else the source tree. A path of `name` that exists, or NULL.
+   Test: tests/python/install.sh */
 fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, const char **path);
+/* names of the files NAME.xml of one directory there ("processes"), sorted, without the ending; none where it
+   cannot be read */
+fw_status fw_data_names(fw_arena *arena, const char *override, const char *directory,
+                        const char *const **name, size_t *n);
 
 /* A text file that only grows: it is locked from reading to writing, a line is written in one piece
    and synced, and when that fails the file is as it was. */

@@ -12,12 +12,17 @@
 
 /* ---- verdict, masks and recipes: the exit status is the decision ---- */
 
+static int judge(fw_design *design, const fw_cli_options *options) {
+    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
+    return fw_design_judge(design);
+}
+
 int fw_cli_command_check(fw_cli_options *options) {
     int exit_status;
     fw_design *design = fw_cli_session_open(options, &exit_status);
     if (!design) return exit_status;
-    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
-    int status = fw_design_judge(design);
+    int status = fw_cli_session_target(design, options->output);
+    if (status == FW_STATUS_OK) status = judge(design, options);
     if (status == FW_STATUS_OK && options->output)
         status = fw_design_write(design, options->output, FW_DESIGN_VERDICT);
     if (status == FW_STATUS_OK)
@@ -40,8 +45,9 @@ static int show_marked(fw_design *design, const fw_cli_options *options, const c
 
 static int make(fw_design *design, const fw_cli_options *options, unsigned what,
                 const char *directory) {
-    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
-    int status = fw_design_judge(design);
+    int status = fw_cli_session_target(design, directory);
+    if (status != FW_STATUS_OK) return status;
+    status = judge(design, options);
     if (status == FW_STATUS_GEOMETRY && what == FW_DESIGN_EVERYTHING)
         return show_marked(design, options, directory);
     if (status != FW_STATUS_OK) return status;
@@ -250,6 +256,7 @@ static fw_status compare(fw_plan *plan, const fw_cli_options *options) {
     const fw_study_tradeoff *t;
     fw_text json = fw_text_new(plan->arena), text = fw_text_new(plan->arena);
     if (options->settings) return fw_study_tradeoff_settings(plan, options->settings);
+    if (options->output) FW_TRY(fw_output_check(plan->arena, options->output, &plan->diags));
     fw_cli_session_stage(options, "running the scene by every method, integrator and tolerance");
     FW_TRY(fw_study_tradeoff_run(plan, &wanted, &t));
     if (options->json || options->output) FW_TRY(fw_study_tradeoff_json(t, &json));

@@ -3,7 +3,6 @@
 #include "cli/options.h"
 #include "cli/session.h"
 #include "serve/serve.h"
-#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -21,53 +20,19 @@ static void on_signal(int number) {
     fw_cancel_request(&interrupted, number);
 }
 
-/* every TICK_S, and at the end of what --time-limit allows */
-enum { TICK_S = 10 };
-static struct {
-    double limit_s; /* 0: none */
-    bool told;      /* somebody looks at standard error */
-    int passed_s;
-} clock_of_run;
-
-/* only what a handler may do: no stdio */
-static void tell_time(int seconds) {
-    char text[] = "flexwright: computing for ......... s; Ctrl-C ends it\n";
-    char *at = strrchr(text, '.');
-    for (; *at == '.'; at--, seconds /= 10)
-        *at = seconds > 0 ? (char)('0' + seconds % 10) : ' ';
-    ssize_t ignored = write(STDERR_FILENO, text, sizeof text - 1);
-    (void)ignored;
+/* the end of what --time-limit allows is a request to stop like another */
+static void on_alarm(int number) {
+    if (!fw_cancel_requested(&interrupted)) fw_cancel_request(&interrupted, number);
 }
 
-static void set_timer(void) {
-    double left = clock_of_run.limit_s - clock_of_run.passed_s, next = TICK_S;
-    if (clock_of_run.limit_s > 0 && left < next) next = left;
-    if (next < 1e-3) next = 1e-3; /* 0 would be never */
+static void start_clock(double limit_s) {
+    if (limit_s <= 0) return;
+    struct sigaction late = {.sa_handler = on_alarm, .sa_flags = SA_RESTART};
+    double whole = floor(limit_s), part = fmax(limit_s - whole, 1e-6); /* 0 would be never */
     struct itimerval in = {
-        .it_value = {.tv_sec = (time_t)next, .tv_usec = (suseconds_t)(1e6 * (next - floor(next)))}};
+        .it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)(1e6 * part)}};
+    sigaction(SIGALRM, &late, NULL);
     setitimer(ITIMER_REAL, &in, NULL);
-}
-
-static void on_tick(int number) {
-    int why = errno;
-    if (clock_of_run.limit_s > 0 && clock_of_run.limit_s - clock_of_run.passed_s < TICK_S) {
-        if (!fw_cancel_requested(&interrupted)) fw_cancel_request(&interrupted, number);
-    } else {
-        clock_of_run.passed_s += TICK_S;
-        if (clock_of_run.told) tell_time(clock_of_run.passed_s);
-        set_timer();
-    }
-    errno = why;
-}
-
-static void start_clock(const fw_cli_options *options, const fw_cli_command *command) {
-    clock_of_run.limit_s = options->time_limit_s;
-    clock_of_run.told = !options->quiet && !options->no_progress && isatty(STDERR_FILENO) &&
-                        (command->options & FW_OPT_PLAN);
-    if (clock_of_run.limit_s <= 0 && !clock_of_run.told) return;
-    struct sigaction tick = {.sa_handler = on_tick, .sa_flags = SA_RESTART};
-    sigaction(SIGALRM, &tick, NULL);
-    set_timer();
 }
 
 static void catch_signals(void) {
@@ -126,7 +91,7 @@ int fw_cli_run(int argc, char **argv) {
     else if (options.help)
         fw_cli_command_help(command), status = last_words(0);
     else
-        start_clock(&options, command), status = last_words(command->run(&options));
+        start_clock(options.time_limit_s), status = last_words(command->run(&options));
     fw_cli_options_free(&options);
     return status;
 }

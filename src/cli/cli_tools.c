@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -127,7 +128,9 @@ int fw_cli_command_init(fw_cli_options *options) {
 
 int fw_cli_command_explain(fw_cli_options *options) {
     const char *code = options->device;
-    const char *digits = strncmp(code, "FW-D", 4) == 0 ? code + 4 : code;
+    const char *digits = code;
+    if (strncasecmp(digits, "FW-", 3) == 0) digits += 3;
+    if (*digits == 'D' || *digits == 'd') digits++;
     double number;
     const fw_diag_entry *entry = NULL;
     if (fw_number_parse(digits, strlen(digits), &number) && number >= 0 && number < 1000)
@@ -139,18 +142,35 @@ int fw_cli_command_explain(fw_cli_options *options) {
 
 /* ---- doctor ---- */
 
-static fw_status examine(fw_arena *arena, const char *data_directory, int *missing) {
-    static const char *const needed[] = {"processes/base.xml", "processes/al-masked-rie.xml",
-                                         "processes/copper-on-porous-silicon.xml",
-                                         "masks/al-masked-rie.xml",
-                                         "masks/copper-on-porous-silicon.xml"};
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
-        const char *path;
-        FW_TRY(fw_data_path(arena, data_directory, needed[i], &path));
-        printf("%-40s %s\n", needed[i], path ? path : "MISSING");
-        *missing += !path;
+/* a file of the data directory; counts it where it is missing */
+static fw_status look_for(fw_arena *arena, const fw_cli_options *options, const char *directory,
+                          const char *name, int *missing) {
+    const char *path, *file = fw_arena_printf(arena, "%s/%s.xml", directory, name);
+    FW_NEED(file);
+    FW_TRY(fw_data_path(arena, options->design.data_directory, file, &path));
+    printf("%-40s %s\n", file, path ? path : "MISSING");
+    *missing += !path;
+    return FW_OK;
+}
+
+/* what all flows share, and every flow with its layer table */
+static fw_status look_for_packs(fw_arena *arena, const fw_cli_options *options, int *missing) {
+    const char *const *name = NULL;
+    size_t n = 0;
+    FW_TRY(look_for(arena, options, "processes", "base", missing));
+    fw_status status = fw_data_names(arena, options->design.data_directory, "processes", &name, &n);
+    if (status == FW_NOMEM) return status;
+    for (size_t i = 0; status == FW_OK && i < n; i++) {
+        if (strcmp(name[i], "base") == 0) continue;
+        FW_TRY(look_for(arena, options, "processes", name[i], missing));
+        FW_TRY(look_for(arena, options, "masks", name[i], missing));
     }
+    return FW_OK;
+}
+
+static fw_status examine(fw_arena *arena, const fw_cli_options *options, int *missing) {
     const char *solver; /* no part of what must be there */
+    FW_TRY(look_for_packs(arena, options, missing));
     FW_TRY(fw_continuum_program(arena, "ccx", &solver));
     printf("%-40s %s\n", "ccx (continuum level of hinges)", solver ? solver : fw_continuum_install);
     return FW_OK;
@@ -160,7 +180,7 @@ int fw_cli_command_doctor(fw_cli_options *options) {
     int missing = 0;
     printf("flexwright %s\ncompiler %s\njansson %s\n", FW_VERSION, __VERSION__, JANSSON_VERSION);
     fw_arena *arena = fw_arena_new(0);
-    fw_status status = arena ? examine(arena, options->design.data_directory, &missing) : FW_NOMEM;
+    fw_status status = arena ? examine(arena, options, &missing) : FW_NOMEM;
     fw_arena_free(arena);
     if (status != FW_OK) return fw_cli_session_no_memory();
 #if defined(__x86_64__)

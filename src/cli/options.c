@@ -387,7 +387,9 @@ static const char *take_settings(fw_cli_options *o, const char *v) {
 static const fw_cli_option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
-    {"json", 0, NULL, "one JSON document on standard output", FW_OPT_PLAN, take_json},
+    {"json", 0, NULL,
+     "one JSON document on standard output; where there is no result, the diagnostics", FW_OPT_PLAN,
+     take_json},
     {"set", 0, "PATH=VALUE",
      "override a parameter (arc=\"250 deg\") or an attribute (flexure[A]/@length=\"312 um\"); "
      "repeatable",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/arena.h"
+#include "base/output.h"
 #include "cli/session.h"
 #include "plan/design.h"
 #include <signal.h>
@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static int use_colour(const fw_cli_options *options, int fd) {
@@ -26,6 +27,47 @@ int fw_cli_session_no_memory(void) {
     return fw_status_exit(FW_NOMEM);
 }
 
+/* ---- progress on a terminal: a line that is written over, from the second on ---- */
+
+static double now_s(void) {
+    struct timespec t;
+    return clock_gettime(CLOCK_MONOTONIC, &t) == 0 ? (double)t.tv_sec + 1e-9 * (double)t.tv_nsec
+                                                   : 0.0;
+}
+
+static struct {
+    double start_s, said_s; /* 0: nothing was said yet */
+    const char *what;       /* of which the share below is */
+    double what_s;          /* when that began */
+} shown;
+
+static int show(void *context, const char *what, double done, double of, const char *unit) {
+    (void)context;
+    const double now = now_s();
+    if (shown.what != what) shown.what = what, shown.what_s = now;
+    if (now - shown.start_s < 1.0 || now - shown.said_s < 0.1) return 0;
+    shown.said_s = now;
+    fprintf(stderr, "\r\033[K%s", what);
+    if (of > 0) fprintf(stderr, ": %.3g of %.3g %s", done, of, unit);
+    const double left = of > 0 && done > 0 ? (now - shown.what_s) * (of / done - 1.0) : 0.0;
+    if (left >= 1.0 && now - shown.what_s >= 1.0) fprintf(stderr, ", about %.0f s left", left);
+    fflush(stderr);
+    return 0;
+}
+
+static void show_progress(fw_design *design, const fw_cli_options *options) {
+    const char *term = getenv("TERM");
+    if (options->no_progress || options->quiet || !isatty(STDERR_FILENO)) return;
+    if (!term || !*term || strcmp(term, "dumb") == 0) return;
+    shown.start_s = now_s();
+    fw_design_progress(design, show, NULL);
+}
+
+static void clear_progress(void) {
+    if (shown.said_s > 0) fputs("\r\033[K", stderr);
+    shown.said_s = 0;
+}
+
 fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status) {
     fw_design *design = fw_design_new(&options->design);
     if (!design) {
@@ -33,6 +75,7 @@ fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status) {
         return NULL;
     }
     fw_plan_design_cancel_with(design, options->interrupted);
+    show_progress(design, options);
     int status = FW_STATUS_OK;
     for (int i = 0; status == FW_STATUS_OK && i < options->nset; i++)
         status = fw_design_set(design, options->set[i].path, options->set[i].value);
@@ -45,12 +88,18 @@ fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status) {
     return design;
 }
 
+int fw_cli_session_target(fw_design *design, const char *directory) {
+    fw_plan *plan = fw_plan_design_plan(design);
+    return directory ? (int)fw_output_check(plan->arena, directory, &plan->diags) : FW_STATUS_OK;
+}
+
 static int print(fw_design *design, const fw_cli_options *options, int document, FILE *to) {
     const char *text;
     size_t n;
     int detail = options->quiet ? FW_DETAIL_QUIET : options->verbose ? FW_DETAIL_VERBOSE : 0;
     fw_design_text_style(design, detail, use_colour(options, fileno(to)));
     int status = fw_design_document(design, document, &text, &n);
+    clear_progress();
     if (status == FW_STATUS_OK) fwrite(text, 1, n, to);
     return status;
 }
@@ -98,6 +147,9 @@ static bool error_was_said(fw_design *design) {
 
 int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int status,
                          int result_if_ok) {
+    const bool ended = status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED;
+    if (options->json && status != FW_STATUS_OK && !ended)
+        print(design, options, FW_DOCUMENT_DIAGNOSTICS_JSON, stdout); /* in place of the document */
     bool said = print(design, options, FW_DOCUMENT_DIAGNOSTICS_TEXT, stderr) == FW_STATUS_OK &&
                 error_was_said(design);
     int exit_status = status == FW_STATUS_OK ? result_if_ok : fw_status_exit((fw_status)status);

@@ -20,6 +20,8 @@ int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int s
 int fw_cli_session_no_memory(void);
 /* a line on standard error with -v */
 void fw_cli_session_stage(const fw_cli_options *options, const char *stage);
+/* a directory of results that would be refused is refused before the work; NULL: none is written */
+int fw_cli_session_target(fw_design *design, const char *directory);
 /* a document (FW_DOCUMENT_...) on standard output; returns the library's status */
 int fw_cli_session_print(fw_design *design, const fw_cli_options *options, int document);
 

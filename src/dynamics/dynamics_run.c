@@ -137,6 +137,15 @@ static bool turned_too_far(const fw_dynamics_problem *problem, const fw_dynamics
     return false;
 }
 
+enum { TOLD = 64 }; /* times in a scene at most that who listens is told */
+
+static void tell(const fw_dynamics_run *r, double before, double now) {
+    const double end = fw_dynamics_end(&r->problem);
+    const double s = r->problem.model->scale.time_s;
+    if (fw_arena_tells(r->problem.arena) && floor(TOLD * now / end) > floor(TOLD * before / end))
+        fw_arena_tell(r->problem.arena, "motion of a scene", now * s, end * s, "s");
+}
+
 /* one step; where an event or a contact force near zero wants it shorter the next call makes it
    again */
 static fw_status advance(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_peaks *peaks,
@@ -163,7 +172,9 @@ fw_status fw_dynamics_run_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynam
     for (int piece = 0; piece < problem->npiece && !ended; piece++) {
         if (piece > 0) FW_TRY(next_piece(r, s, piece));
         while (s->t < problem->end[piece] && !ended) {
+            const double before = s->t;
             FW_TRY(advance(r, s, peaks, problem->end[piece]));
+            tell(r, before, s->t);
             ended = turned_too_far(problem, peaks);
         }
     }

@@ -155,7 +155,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
                            &o.independent,    &o.rates,        &o.accelerations, &o.corners,
                            &o.hinge_model,    &o.mask_formats, &o.mask_flatten,  &o.day,
                            &o.planning_times, &o.laboratory,   &o.cut,           &o.advice,
-                           &o.measurements,   &o.layers};
+                           &o.measurements,   &o.layers,       &o.directory};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -170,6 +170,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->mask_flatten = o.mask_flatten;
     p->laboratory = o.laboratory;
     p->layers = o.layers;
+    p->directory = o.directory;
     p->cut = o.cut;
     p->schedule = (fw_schedule_options){
         .wafers = o.wafers, .operators = o.operators, .day = o.day, .planned = o.planning_times};
@@ -218,6 +219,7 @@ fw_design *fw_design_new(const fw_design_options *options) {
     if (design) {
         *design = (fw_design){.plan = plan};
         fw_arena_stop_with(plan->arena, &design->cancel);
+        fw_arena_tell_with(plan->arena, &design->progress);
         if (fill(design, options) == FW_OK) return design;
     }
     fw_plan_free(plan);
@@ -253,6 +255,8 @@ int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argum
 void fw_plan_design_forget_documents(fw_design *d) {
     for (int i = 0; i < FW_DESIGN_DOCUMENTS; i++)
         d->document[i] = (fw_text){0};
+    for (int i = 0; i < FW_DESIGN_NUMBERS; i++)
+        d->numbers[i] = NULL;
 }
 
 /* CPU time */
@@ -527,6 +531,12 @@ void fw_design_cancel(fw_design *design) {
 
 void fw_design_cancel_clear(fw_design *design) {
     if (design) fw_cancel_clear(&design->cancel);
+}
+
+int fw_design_progress(fw_design *design, fw_progress_told *told, void *context) {
+    if (!design) return FW_STATUS_USAGE;
+    design->progress = (fw_progress){told, context, &design->cancel};
+    return FW_STATUS_OK;
 }
 
 void fw_plan_design_cancel_with(fw_design *design, const fw_cancel *above) {

@@ -34,13 +34,15 @@ enum { /* what was done with it */
        FW_DONE_WORKSPACE = 256,
        FW_DONE_TRADEOFF = 512
 };
-enum { FW_DESIGN_DOCUMENTS = FW_DOCUMENT_TRADEOFF_SVG + 1 };
+enum { FW_DESIGN_DOCUMENTS = FW_DOCUMENT_DIAGNOSTICS_JSON + 1 };
+enum { FW_DESIGN_NUMBERS = FW_NUMBERS_WORKSPACE + 1 };
 enum { FW_TRADEOFF_DOCUMENTS = FW_DOCUMENT_TRADEOFF_SVG - FW_DOCUMENT_TRADEOFF_JSON + 1 };
 struct fw_study_tradeoff;
 
 struct fw_design {
-    fw_plan *plan;    /* its arena holds this struct too */
-    fw_cancel cancel; /* of this design; its arenas carry it */
+    fw_plan *plan;        /* its arena holds this struct too */
+    fw_cancel cancel;     /* of this design; its arenas carry it */
+    fw_progress progress; /* likewise */
     locale_t locale;
     unsigned done;
     bool tried; /* a description was given, read or not */
@@ -61,9 +63,10 @@ struct fw_design {
     fw_status (*tradeoff_document[FW_TRADEOFF_DOCUMENTS])(const struct fw_study_tradeoff *t,
                                                           fw_text *out);
     fw_report_terminal_style style;
-    double read_s, judge_s, simulate_s;    /* CPU time of these stages */
-    fw_text document[FW_DESIGN_DOCUMENTS]; /* data NULL: not composed, or out of date */
-    fw_diagnostic *diagnostic;             /* (FW_DIAG_MOST) */
+    double read_s, judge_s, simulate_s;                /* CPU time of these stages */
+    fw_text document[FW_DESIGN_DOCUMENTS];             /* data NULL: not composed, or out of date */
+    struct fw_plan_arrays *numbers[FW_DESIGN_NUMBERS]; /* NULL: not composed, or out of date */
+    fw_diagnostic *diagnostic;                         /* (FW_DIAG_MOST) */
 };
 
 typedef struct fw_plan_bytes {

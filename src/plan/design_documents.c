@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The documents of the public library: one row each, composed when first asked for. */
+#include "base/json.h"
 #include "plan/design.h"
 #include "plan/stages.h"
 #include "report/report.h"
+#include <stdio.h>
 #include <string.h>
 
 static fw_status verdict_json(fw_design *d, fw_text *out) {
@@ -180,6 +182,31 @@ static fw_status diagnostics_text(fw_design *d, fw_text *out) {
     return fw_text_end(out);
 }
 
+static fw_status diagnostics_json(fw_design *d, fw_text *out) {
+    static const char *const severity[] = {
+        [FW_NOTE] = "note", [FW_WARNING] = "warning", [FW_ERROR] = "error"};
+    fw_json json = fw_json_new(out, FW_JSON_INDENTED);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.diagnostics/1");
+    fw_json_list(&json, "diagnostics");
+    for (size_t i = 0; i < d->plan->diags.count; i++) {
+        const fw_diag *item = &d->plan->diags.item[i];
+        char code[16];
+        snprintf(code, sizeof code, "FW-D%03d", item->number);
+        fw_json_object(&json, NULL);
+        fw_json_text(&json, "code", code);
+        fw_json_text(&json, "severity", severity[item->severity]);
+        fw_json_text(&json, "file", item->place.file);
+        fw_json_whole(&json, "line", item->place.line);
+        fw_json_whole(&json, "column", item->place.column);
+        fw_json_text(&json, "message", item->message);
+        fw_json_end(&json);
+    }
+    fw_json_end(&json);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
+}
+
 /* one row per document: what must be done before it, and who composes it */
 static const struct {
     unsigned needs;
@@ -197,6 +224,7 @@ static const struct {
     [FW_DOCUMENT_DEVICE_SVG] = {FW_DONE_JUDGED, device_svg},
     [FW_DOCUMENT_REPORT_HTML] = {FW_DONE_JUDGED, report_html},
     [FW_DOCUMENT_DIAGNOSTICS_TEXT] = {0, diagnostics_text},
+    [FW_DOCUMENT_DIAGNOSTICS_JSON] = {0, diagnostics_json},
     [FW_DOCUMENT_MODES_JSON] = {FW_DONE_MODES, modes_json},
     [FW_DOCUMENT_MODES_TEXT] = {FW_DONE_MODES, modes_text},
     [FW_DOCUMENT_MODES_SVG] = {FW_DONE_MODES, modes_svg},
@@ -242,7 +270,9 @@ int fw_design_document(fw_design *design, int document, const char **text, size_
         return (int)fw_plan_design_usage(design,
                                          "the stage that makes this document was not called");
     fw_text *have = &design->document[document];
-    if (!have->data || document == FW_DOCUMENT_DIAGNOSTICS_TEXT) { /* these come at any time */
+    const bool grows = document == FW_DOCUMENT_DIAGNOSTICS_TEXT ||
+                       document == FW_DOCUMENT_DIAGNOSTICS_JSON; /* these come at any time */
+    if (!have->data || grows) {
         int status = fw_plan_design_run(design, document_work, &document);
         if (status != FW_STATUS_OK) return status;
     }

@@ -202,6 +202,7 @@ fw_status fw_plan_masks(fw_plan *plan) {
             pf->mask_error = "the design is rejected";
             continue;
         }
+        fw_arena_tell(plan->arena, "drawing masks", i, plan->nflow, "flows");
         FW_TRY(build_mask(plan, pf, rejected));
         if (!pf->mask) continue;
         FW_TRY(fw_plan_cut(plan, pf));

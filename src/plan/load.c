@@ -460,11 +460,12 @@ static fw_status load_flows(fw_plan *plan) {
         FW_TRY(load_flow(plan, pf));
         FW_TRY(make_variant(plan, pf, &own));
     }
-    if (plan->nflow == 0)
-        return fw_diag_error(&plan->diags, 228, (fw_place){.file = d->file},
-                             "the device has no flow '%s': %s", plan->options.flow,
-                             flow_names(plan));
-    return FW_OK;
+    if (plan->nflow > 0) return FW_OK;
+    const char *meant;
+    FW_TRY(fw_plan_flow_meant(plan, plan->options.flow, &meant));
+    return fw_diag_error(&plan->diags, 228, (fw_place){.file = d->file},
+                         "the device has no flow '%s': %s%s", plan->options.flow, flow_names(plan),
+                         meant);
 }
 
 fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
@@ -527,11 +528,14 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
         FW_NEED(name);
         const char *path = name;
         if (*name) FW_TRY(fw_data_path(plan->arena, plan->options.data_directory, name, &path));
-        if (!path)
+        if (!path) {
+            const char *meant;
+            FW_TRY(fw_plan_pack_meant(plan, use->ref, &meant));
             status = fw_diag_error(&plan->diags, 224, use->place,
-                                   "there is no process pack %s: correct the name, or set "
+                                   "there is no process pack %s%s; correct the name, or set "
                                    "FLEXWRIGHT_DATA to the directory that holds it",
-                                   name);
+                                   name, meant);
+        }
         if (use->material && !fw_device_material_find(&plan->materials, use->material))
             status = fw_diag_error(&plan->diags, 225, use->material_place,
                                    "material '%s' is not in %s: %s", use->material, plan->base_file,
@@ -545,6 +549,7 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
         return fw_diag_error(&plan->diags, 221, (fw_place){.file = file},
                              "is larger than %d bytes, the most that is read from one file",
                              MOST_BYTES);
+    if (!plan->directory) plan->directory = plan->options.directory;
     plan->source_file = file;
     plan->source = xml;
     plan->source_length = n;

@@ -46,6 +46,7 @@ typedef struct fw_plan_options {
     const char *cut; /* of the sections: "x1,y1,x2,y2" or "flexure:ID"; NULL: the narrowest gap */
     fw_plan_measurements measurements;
     const char *layers; /* file of the laboratory's layer numbers (mask/layer_map.h); NULL: none */
+    const char *directory; /* of drawings, for fw_plan_load_memory; NULL: none are opened */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -130,7 +131,7 @@ void fw_plan_free(fw_plan *plan);                     /* NULL allowed */
 /* reads the device ("-": standard input), the drawings beside it and the packs it refers to */
 fw_status fw_plan_load(fw_plan *plan, const char *path);
 /* the same from n bytes that a NUL follows and that live as long as the plan; `file` names them.
-   No drawings are opened */
+   Drawings lie in options.directory */
 fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, size_t n);
 /* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows */
 fw_status fw_plan_judge(fw_plan *plan);

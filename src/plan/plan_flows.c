@@ -90,7 +90,10 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
     FW_TRY(fw_plan_count_dies(plan));
     for (int i = 0; i < plan->nflow; i++)
-        if (plan->flow[i].flow) FW_TRY(compute_flow(plan, &plan->flow[i], &plan->diags));
+        if (plan->flow[i].flow) {
+            fw_arena_tell(plan->arena, "computing the steps", i, plan->nflow, "flows");
+            FW_TRY(compute_flow(plan, &plan->flow[i], &plan->diags));
+        }
     return FW_OK;
 }
 

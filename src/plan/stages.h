@@ -20,6 +20,10 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
                                 fw_verdict_variant_verdict *v);
 /* the flow of a pack read once more, with the laboratory's values: to be changed by whoever asks */
 fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow);
+/* plan_names.c: " (did you mean 'X'?)" of the device's flows, or of all process packs (else which there
+   are); "": nothing is near */
+fw_status fw_plan_flow_meant(fw_plan *plan, const char *wrong, const char **words);
+fw_status fw_plan_pack_meant(fw_plan *plan, const char *wrong, const char **words);
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* (nlayer of its table) what layers with shrink or grow get at every edge, m; FW_INPUT (FW-D411): not a known length */
 fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double **bias_m);

@@ -225,6 +225,7 @@ static fw_status attempt(fw_study_problem *p, const char *method, const char *in
                          double rtol, double share, fw_study_tradeoff_point *point) {
     fw_study_tradeoff_setting s = {.method = method, .integrator = integrator, .rtol = rtol};
     double most = share * p->budget;
+    fw_arena_tell(p->arena, "trying methods and tolerances", 0, 0, "runs");
     s.most_steps = (long)fmax(200, most / fw_study_cost_step(p, method, integrator));
     return fw_study_problem_run(p, &s, point);
 }

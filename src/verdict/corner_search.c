@@ -273,6 +273,7 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     int point = fabricated->ncorner;
     if (point >= FW_MOST_POINTS) return FW_OK; /* never: there is room for all that is ever run */
     double *ln = s->ln + (size_t)point * (size_t)s->ncheck;
+    fw_arena_tell(s->arena, "judging what a flow makes of it", point, 0, "devices");
     fw_verdict_known known;
     if (known_device(s, x, &known)) {
         FW_TRY(take_known(s, &known, x, &fabricated->corner[point], ln));

@@ -254,6 +254,7 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look) {
     int n = trial->verdict->nvariant;
     fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);
+    fw_arena_tell(trial->arena, "looking for changes that would be accepted", 0, 0, "trials");
     fw_diags diags = fw_diags_new(scratch);
     const fw_layout *layout = NULL;
     const fw_verdict_options o = options_of(trial, look);

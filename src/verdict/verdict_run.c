@@ -83,6 +83,7 @@ static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layo
     for (int i = 0; i < verdict->nvariant; i++) {
         fw_verdict_variant_verdict *v = &verdict->variant[i];
         const fw_mechanism *m = NULL;
+        fw_arena_tell(arena, "judging the device as drawn", i, verdict->nvariant, "flows");
         FW_TRY(fw_mechanism_build(arena, device, layout, v->variant, diags, &m));
         if (m->nhinge == 0)
             return fw_diag_error(diags, 203,

@@ -421,7 +421,11 @@ static fw_status measured(search *s, fw_workspace_proof_effort effort, fw_worksp
     long next =
         FIRST_SUM; /* the same places in all runs, so that finer brackets lie in coarser ones */
     for (long done = 1; s->count > 0 && s->boxes + children <= effort.most; done++) {
-        if (done % 1024 == 0 && fw_arena_cancelled(s->arena)) return FW_CANCELLED;
+        if (done % 1024 == 0) {
+            fw_arena_tell(s->arena, "proving the reachable set", (double)s->boxes,
+                          (double)effort.most, "boxes");
+            if (fw_arena_cancelled(s->arena)) return FW_CANCELLED;
+        }
         FW_TRY(split(s));
         bool narrow = s->about.hi - s->about.lo <= 0.96 * effort.relative * s->about.lo;
         if (!narrow && s->boxes < next) continue;

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh BUILD PROGRAM: installs the build into a temporary prefix and builds consumer.c against that
 # tree alone, by pkg-config (C99, C17, C++17) and by find_package. Each must decide and write what the
-# program does, byte for byte.
+# program does, byte for byte. Then with the header of a former version against the present library, and
+# the small users of numbers in C and C++.
 set -eu
 build=$(cd "$1" && pwd)
 program=$(readlink -f "$2")
@@ -47,3 +48,40 @@ cp "$here/CMakeLists.txt" consumer.c found/
 cmake -S found -B found/build -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
 cmake --build found/build >/dev/null
 try find_package found/build/consumer
+
+# a program that was compiled before: its options are shorter, and nothing else has changed
+"$here/abi.py" "$here/former/flexwright.h" "$here/../../include/flexwright.h"
+# shellcheck disable=SC2046,SC2086
+cc -std=c17 $strict -I"$here/former" consumer.c -o former -L"$lib" -lflexwright
+try former ./former
+
+# numbers: what the program's JSON says
+"$program" check device.xml --json >verdict.json 2>/dev/null
+"$program" simulate device.xml --json >motion.json 2>/dev/null
+cp "$here/numbers.c" "$here/motion.cpp" .
+# shellcheck disable=SC2046,SC2086
+{
+    cc -std=c99 $strict numbers.c -o numbers $(pkg-config --cflags --libs flexwright)
+    c++ -std=c++17 $strict -x c++ numbers.c -x none -o numbers-cxx $(pkg-config --cflags --libs flexwright)
+    c++ -std=c++17 $strict motion.cpp -o motion $(pkg-config --cflags --libs flexwright)
+}
+./numbers device.xml "$data" >numbers.txt
+./numbers-cxx device.xml "$data" >numbers-cxx.txt
+cmp numbers.txt numbers-cxx.txt
+"$program" simulate device.xml --set 'arc=230 deg' --json >motion-230.json 2>/dev/null
+./motion device.xml "$data" >motion.txt
+python3 - <<'END'
+import json, re
+lines = open("numbers.txt").read().splitlines()
+for h in json.load(open("verdict.json"))["hinges"]:
+    want = (f"hinge {h['id']}: {100 * h['utilisation']:.1f} % as drawn, "
+            f"{100 * h['as_fabricated']['utilisation']:.1f} % as made")
+    assert want in lines, (want, lines)
+x, y, phi = json.load(open("motion.json"))["final"]["q"]["CD"]
+assert f"CD at 10 ms: x {1e6 * x:.3f} um, y {1e6 * y:.3f} um, phi {phi:.5f} rad (m,m,rad)" in lines, lines
+assert "told of progress: yes" in lines
+seen = dict(re.findall(r"hinge (\w+): (\S+) rad", open("motion.txt").read()))
+for p in json.load(open("motion-230.json"))["peaks"]:
+    assert abs(float(seen[p["hinge"]]) - abs(p["angle_rad"])) < 2e-3 * abs(p["angle_rad"]), (p, seen)
+END
+echo "numbers: $(head -1 numbers.txt)"

@@ -90,6 +90,16 @@ for section, command in RUNS:
         problems.append(f"{' '.join(command)} prints {document['schema']}")
     walk(document, section)
     ledger(document, " ".join(command))
+for command, status in ((["check", "tests/bad/flow-misspelt.xml"], 3), (["simulate", SIX, "--scene", "nix"], 3)):
+    done = subprocess.run([program, *command, "--json"], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    document = json.loads(done.stdout)
+    documents += 1
+    walk(document, "diagnostics")
+    for item in document["diagnostics"]:  # the same as on standard error
+        if done.returncode != status or f"{item['severity']}: {item['message']} [{item['code']}]" not in done.stderr:
+            problems.append(f"{' '.join(command)}: status {done.returncode}, {item}\n{done.stderr}")
+    if not any(item["severity"] == "error" for item in document["diagnostics"]):
+        problems.append(f"{' '.join(command)}: no error among its diagnostics")
 with tempfile.TemporaryDirectory() as here:
     log = ["log", SIX, "--flow", "copper-on-porous-silicon", "--run", f"{here}/run.log"]
     for words in ("C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; copper bright in the mould=yes",

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many settings of one description, their results as they come."""
+from __future__ import annotations
+
+import concurrent.futures
+import itertools
+import os
+from typing import (Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence,
+                    Union)
+
+from .device import Device, Value
+from .errors import FlexwrightError
+
+Settings = Mapping[str, Value]
+Measure = Callable[[Device], Mapping[str, Any]]
+
+
+def verdict_of(device: Device) -> Dict[str, Any]:
+    """What a sweep measures unless told otherwise: verdict, share used, utilisation of each hinge as
+    drawn, nearest clearance (m)."""
+    v = device.check(advice="none")
+    governing = v.governing
+    made = governing["made"] if governing["made"].what else governing["drawn"]
+    out: Dict[str, Any] = {"verdict": v.decision, "used": made.used, "used_low": made.used_low,
+                           "used_high": made.used_high, "governing": made.what}
+    out.update({f"utilisation.{id_}": float(u) for id_, u in v.utilisation.items()})
+    near = v.clearances.get("clearance", ())
+    out["clearance"] = float(min(near)) if len(near) else None
+    return out
+
+
+def grid(**values: Iterable[Value]) -> Iterator[Dict[str, Value]]:
+    """Every combination of the values, the last one running fastest."""
+    names = list(values)
+    for row in itertools.product(*values.values()):
+        yield dict(zip(names, row))
+
+
+def sweep(device: Union[Device, str, "os.PathLike[str]"], settings: Iterable[Settings], *,
+          measure: Measure = verdict_of, jobs: int = 1,
+          options: Optional[Mapping[str, Any]] = None) -> Iterator[Dict[str, Any]]:
+    """A dict for each of the settings, in their order, as soon as it is known: the settings, then what
+    was measured. A device that has no result gives "error" (its message) and nothing is raised.
+
+        rows = flexwright.sweep("stage.xml", flexwright.grid(arc=["220 deg", "230 deg"]))
+        frame = pandas.DataFrame(rows)
+
+    measure: from a Device to named numbers. jobs: threads that work side by side; 0: one for each
+    processor. Nothing is computed ahead of what is asked for but by as many as there are jobs.
+    """
+    base = device if isinstance(device, Device) else Device(device, options=options)
+    if options and base is device:
+        base = base.with_(options=options)
+
+    working: Dict[int, Device] = {}
+
+    def one(setting: Settings) -> Dict[str, Any]:
+        row: Dict[str, Any] = dict(setting)
+        try:
+            device = base.with_(set=setting)
+            working[id(device)] = device
+            try:
+                row.update(measure(device))
+            finally:
+                del working[id(device)]
+        except FlexwrightError as error:
+            row["error"] = str(error)
+        return row
+
+    if jobs == 1:
+        for setting in settings:
+            yield one(setting)
+        return
+    yield from _side_by_side(one, settings, jobs or os.cpu_count() or 1, working)
+
+
+def _side_by_side(one: Callable[[Settings], Dict[str, Any]], settings: Iterable[Settings],
+                  jobs: int, working: Mapping[int, Device]) -> Iterator[Dict[str, Any]]:
+    coming = iter(settings)
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        waiting: List["concurrent.futures.Future[Dict[str, Any]]"] = []
+        try:
+            for setting in itertools.islice(coming, 2 * jobs):
+                waiting.append(pool.submit(one, setting))
+            while waiting:
+                row = waiting.pop(0).result()
+                for setting in itertools.islice(coming, 1):
+                    waiting.append(pool.submit(one, setting))
+                yield row
+        finally:
+            for future in waiting:  # whoever asks has had enough, or pressed Ctrl-C
+                future.cancel()
+            for device in list(working.values()):
+                device.cancel()
+
+
+def columns(rows: Iterable[Mapping[str, Any]]) -> Dict[str, list]:
+    """Rows as columns, None where a row has no value: for plots and tables."""
+    taken: Sequence[Mapping[str, Any]] = list(rows)
+    names = dict.fromkeys(name for row in taken for name in row)
+    return {name: [row.get(name) for row in taken] for name in names}
