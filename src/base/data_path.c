@@ -3,6 +3,7 @@
 #include "base/output.h"
 #include <dirent.h>
 #include <dlfcn.h>
+#include <errno.h>
 #include <limits.h>
 #include <link.h>
 #include <stdlib.h>
@@ -75,13 +76,16 @@ fw_status fw_data_names(fw_arena *arena, const char *override, const char *direc
     *name = found, *n = 0;
     FW_TRY(fw_data_path(arena, override, directory, &path));
     DIR *dir = path ? opendir(path) : NULL;
+    if (path && !dir) return errno == ENOMEM ? FW_NOMEM : FW_IO;
     fw_status status = FW_OK;
+    errno = 0;
     for (struct dirent *e; dir && status == FW_OK && *n < MOST && (e = readdir(dir));) {
         const size_t length = strlen(e->d_name);
         if (length < 5 || strcmp(e->d_name + length - 4, ".xml") != 0) continue;
         found[*n] = fw_arena_strndup(arena, e->d_name, length - 4);
         status = found[(*n)++] ? FW_OK : FW_NOMEM;
     }
+    if (status == FW_OK && dir && errno != 0) status = FW_IO;
     if (dir) closedir(dir);
     if (status == FW_OK && *n > 1) qsort(found, *n, sizeof *found, by_name);
     return status;

@@ -160,6 +160,10 @@ static fw_status look_for_packs(fw_arena *arena, const fw_cli_options *options, 
     FW_TRY(look_for(arena, options, "processes", "base", missing));
     fw_status status = fw_data_names(arena, options->design.data_directory, "processes", &name, &n);
     if (status == FW_NOMEM) return status;
+    if (status != FW_OK) {
+        printf("%-40s %s\n", "processes/", "CANNOT BE LISTED");
+        ++*missing;
+    }
     for (size_t i = 0; status == FW_OK && i < n; i++) {
         if (strcmp(name[i], "base") == 0) continue;
         FW_TRY(look_for(arena, options, "processes", name[i], missing));
