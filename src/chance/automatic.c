@@ -13,6 +13,7 @@ enum { PILOT = 1000, COMMON = 10, TRIED = 1500, EFFECTIVE = 100, EXPLORED = 4 };
 #define OF_EXPLORED 0.35
 #define OF_POINTS   0.2
 #define SURE        0.999 /* level of the intervals that have to overlap */
+#define FLAT        0.01  /* upper end that subset simulation has to come below */
 
 static size_t part(const fw_chance_run *run, double share) {
     return (size_t)(share * (double)run->budget);
@@ -165,6 +166,12 @@ fw_status fw_chance_automatic(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_weighted w;
     FW_TRY(fw_chance_subset_new(run, &s));
     FW_TRY(subsets(run, part(run, OF_EXPLORED), EXPLORED, &s));
+    fw_chance_subset_result(&s, run->level, out);
+    if (s.stuck == s.repetitions && out->high > FLAT)
+        return counted(
+            run,
+            "the limit state shows no way towards a failure, so that failures can only be counted",
+            out);
     FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), s.failing, s.failed, &points));
     fw_chance_weighted_start(&points, &w);
     if (points.count)

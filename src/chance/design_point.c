@@ -172,6 +172,14 @@ fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, size_t starts
         FW_TRY(iterate(&s, &found));
         if (found) FW_TRY(keep(&s, out));
     }
+    size_t mirrored = out->count; /* what fails on one side may fail on the other, too */
+    for (size_t k = 0; k < mirrored && affordable(&s, n + STEPS + 1); k++) {
+        for (size_t i = 0; i < n; i++)
+            s.u[i] = -out->point[k].u[i];
+        bool found;
+        FW_TRY(iterate(&s, &found));
+        if (found) FW_TRY(keep(&s, out));
+    }
     qsort(out->point, out->count, sizeof *out->point, nearer);
     return FW_OK;
 }

@@ -9,7 +9,8 @@
 
 /* value (count) of the points u (count x dimensions, by rows), independent standard normal numbers: <= 0 fails, NaN could
    not be evaluated. `first` is the number of the first of them since the estimate began: the same options give the same
-   points under the same numbers. Another status than FW_OK ends the estimate. */
+   points under the same numbers. Another status than FW_OK ends the estimate. What g takes from the arena of the estimate
+   may be gone at the next call. */
 typedef fw_status fw_chance_function(void *context, size_t first, size_t count, const double *u,
                                      double *value);
 

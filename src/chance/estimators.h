@@ -9,14 +9,18 @@ fw_status fw_chance_quasi(fw_chance_run *run, fw_chance_estimate *out);
 
 /* ---- subset simulation ---- */
 
+enum { FW_CHANCE_LEVELS = 30 };
 typedef struct fw_chance_subset {
     size_t points; /* per level */
     size_t repetitions, capacity;
+    size_t stuck; /* repetitions that did not get down to a failure in a tenth of a level */
     double *low,
         *high; /* (repetitions) estimates, what was not evaluated counted as safe and as failed */
     size_t dearest; /* evaluations of the dearest repetition */
-    size_t failing, failing_most;
+    size_t failing;
     double *failed; /* (failing x dimensions) failing points of the last levels */
+    double step[FW_CHANCE_LEVELS + 1]; /* length of the chains' steps at each level */
+    int reached;                       /* the last level that has taught its own */
 } fw_chance_subset;
 
 fw_status fw_chance_subset_new(const fw_chance_run *run, fw_chance_subset *out);
