@@ -19,7 +19,7 @@ typedef struct fw_chance_model {
 
 typedef struct fw_chance_index_options {
     uint64_t seed;
-    size_t base;  /* N: evaluations are N (groups + 2); at least 16, best a power of two */
+    size_t base;  /* N at most, at least 128: evaluations are N (groups + 2), N = 16 2^k */
     size_t batch; /* points of a call of f at most; 0: 256 */
     double level; /* 0: 0.95 */
 } fw_chance_index_options;

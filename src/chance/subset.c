@@ -210,8 +210,8 @@ fw_status fw_chance_subset_repeat(fw_chance_run *run, size_t budget, size_t most
    be (Cox's method; U. Olsson, J. Stat. Educ. 13 (2005) 1). Where one of them is 0 there is no logarithm: the lower end is
    then 0, the upper Student's of the estimates themselves. Test: test_estimate.c */
 static fw_chance_mean result_of(size_t count, const double *estimate, double level) {
+    if (count < 2) return (fw_chance_mean){count ? estimate[0] : (double)NAN, (double)NAN, 0, 1};
     fw_chance_mean plain = fw_chance_mean_of(count, estimate, level);
-    if (count < 2) return (fw_chance_mean){estimate[0], (double)NAN, 0, 1};
     double n = (double)count, mean = 0, variance = 0;
     for (size_t i = 0; i < count; i++) {
         if (!(estimate[i] > 0))
