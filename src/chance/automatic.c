@@ -8,7 +8,7 @@
 
 /* Parts of a budget: points that decide whether a failure is common, and how many must fail for that; subset simulation
    that looks where failures are; gradients; a first part of importance sampling, and what it must be worth. */
-enum { PILOT = 1000, COMMON = 10, TRIED = 1500, EFFECTIVE = 100, EXPLORED = 4 };
+enum { PILOT = 1000, COMMON = 30, TRIED = 1500, EFFECTIVE = 100, EXPLORED = 4 };
 #define OF_PILOT    0.1
 #define OF_EXPLORED 0.35
 #define OF_POINTS   0.2
@@ -50,11 +50,12 @@ static fw_status weighted(fw_chance_run *run, size_t samples, fw_chance_weighted
 static const char *caution_of(fw_arena *arena, const fw_chance_weighted *w, double level) {
     char text[32];
     double unseen = -expm1(log(1 - level) / fmax(1, (double)w->own));
-    return fw_arena_printf(arena,
-                           "a failure far from all design points, which none of %zu points of the "
-                           "inputs' own distribution "
-                           "met, is not in the interval; it would be rarer than %s",
-                           w->own, fw_number_text(text, sizeof text, unseen, 2));
+    return fw_arena_printf(
+        arena,
+        "a failure, or a point without a value, far from all design points, which none of %zu "
+        "points "
+        "of the inputs' own distribution met, is not in the interval; it would be rarer than %s",
+        w->own, fw_number_text(text, sizeof text, unseen, 2));
 }
 
 static const char *const no_repetition =
@@ -74,7 +75,7 @@ fw_status fw_chance_around_points(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_points points;
     fw_chance_weighted w;
     FW_TRY(fw_chance_subset_new(run, &s));
-    FW_TRY(subsets(run, part(run, OF_EXPLORED), 1, &s));
+    FW_TRY(subsets(run, part(run, OF_EXPLORED), EXPLORED, &s));
     FW_TRY(fw_chance_points_find(run, part(run, 2 * OF_POINTS), s.failing, s.failed, &points));
     if (!points.count) return FW_SOLVER;
     fw_chance_weighted_start(&points, &w);
