@@ -31,15 +31,18 @@ static double middle(const fw_chance_estimate *e) {
 /* the estimate at the hunt's setting; the same seed everywhere, so that settings differ by what they do */
 static fw_status try_setting(hunt *h, const char **why) {
     fw_chance_estimate e;
+    fw_mark mark = fw_arena_mark(h->arena);
     h->unknowns->set(h->limit->context, h->setting);
     FW_TRY(fw_chance_estimate_run(h->arena, h->limit, h->options, &e, why));
     fw_chance_range *out = h->out;
     size_t bytes = h->unknowns->count * sizeof *h->setting;
-    if (!out->settings || middle(&e) < middle(&out->least)) {
+    bool least = !out->settings || middle(&e) < middle(&out->least);
+    bool most = !out->settings || middle(&e) > middle(&out->most);
+    if (least) {
         out->least = e;
         memcpy(out->least_at, h->setting, bytes);
     }
-    if (!out->settings || middle(&e) > middle(&out->most)) {
+    if (most) {
         out->most = e;
         memcpy(out->most_at, h->setting, bytes);
     }
@@ -47,6 +50,7 @@ static fw_status try_setting(hunt *h, const char **why) {
     out->high = out->settings ? fmax(out->high, e.high) : e.high;
     out->settings++;
     out->evaluations += e.evaluations;
+    if (!least && !most) fw_arena_rewind(h->arena, mark); /* its words and points are not wanted */
     return FW_OK;
 }
 

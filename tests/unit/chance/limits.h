@@ -5,7 +5,7 @@
 #include "chance/estimate.h"
 #include "chance/joint.h"
 #include "maths/cdf.h"
-#include "test.h"
+#include "chance_test.h"
 
 typedef struct limit_state {
     const char *name;
@@ -168,8 +168,7 @@ static inline fw_status limit_call(void *context, size_t first, size_t count, co
     return FW_OK;
 }
 
-static inline fw_chance_estimate limit_estimate(fw_arena *arena, limit_state *l,
-                                                fw_chance_options options) {
+static inline fw_chance_estimate limit_estimate(limit_state *l, fw_chance_options options) {
     fw_chance_limit limit = {l->dimensions, limit_call, l};
     fw_chance_estimate out;
     const char *why;
@@ -189,12 +188,12 @@ static inline void limit_coverage(limit_state *l, fw_chance_options options, int
     int held = 0;
     *width = 0;
     for (int seed = 1; seed <= seeds; seed++) {
-        fw_arena *arena = fw_arena_new(0);
+        fw_mark mark = fw_arena_mark(arena);
         options.seed = (uint64_t)seed;
-        fw_chance_estimate e = limit_estimate(arena, l, options);
+        fw_chance_estimate e = limit_estimate(l, options);
         held += e.low <= truth && truth <= e.high;
         *width += (e.high - e.low) / 2 / truth / seeds;
-        fw_arena_free(arena);
+        fw_arena_rewind(arena, mark);
     }
     if (getenv("FW_TEST_SHOW"))
         printf("%-20s %-12s held %d of %d, half width %.4f\n", l->name,

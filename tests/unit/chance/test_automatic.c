@@ -3,8 +3,6 @@
    inputs; what it says of its choice. FW_TEST_SHOW=1 prints what was held. */
 #include "limits.h"
 
-static fw_arena *arena;
-
 static fw_chance_joint joint_of(const fw_chance_variable *variable, double correlation) {
     fw_chance_joint joint;
     fw_chance_fault fault;
@@ -107,8 +105,7 @@ static void lognormal(void **state) {
 }
 
 static void chosen(size_t which, fw_chance_method method, const char *says) {
-    fw_chance_estimate e =
-        limit_estimate(arena, &limit_states[which], (fw_chance_options){.seed = 2});
+    fw_chance_estimate e = limit_estimate(&limit_states[which], (fw_chance_options){.seed = 2});
     assert_int_equal(e.method, method);
     assert_non_null(strstr(e.reason, says));
     assert_true((e.caution != NULL) == (method == FW_CHANCE_IMPORTANCE));
@@ -121,11 +118,11 @@ static void reasons(void **state) {
     chosen(9, FW_CHANCE_SUBSET, "uneven weights");
     chosen(10, FW_CHANCE_QUASI, "shows no way");
     limit_state many = {.name = "many", .dimensions = 400, .g = limit_linear, .b = 1};
-    fw_chance_estimate e = limit_estimate(arena, &many, (fw_chance_options){.seed = 2});
+    fw_chance_estimate e = limit_estimate(&many, (fw_chance_options){.seed = 2});
     assert_int_equal(e.method, FW_CHANCE_MONTE_CARLO);
     assert_non_null(strstr(e.reason, "Sobol' points do not"));
     assert_true(e.low < fw_maths_normal_cdf(-1) && fw_maths_normal_cdf(-1) < e.high);
-    e = limit_estimate(arena, &limit_states[2], (fw_chance_options){.seed = 2, .budget = 1000});
+    e = limit_estimate(&limit_states[2], (fw_chance_options){.seed = 2, .budget = 1000});
     assert_non_null(strstr(e.reason, "too small"));
     assert_true(e.low == 0 && e.high > 1e-4);
 }
@@ -133,22 +130,12 @@ static void reasons(void **state) {
 /* both branches' points are found, and the shares of two inputs that are unequal */
 static void points(void **state) {
     (void)state;
-    fw_chance_estimate e = limit_estimate(arena, &limit_states[8], (fw_chance_options){.seed = 2});
+    fw_chance_estimate e = limit_estimate(&limit_states[8], (fw_chance_options){.seed = 2});
     assert_int_equal(e.points, 2);
     assert_near(e.point[0].beta, 4, 0.01);
     assert_near(e.point[1].beta, 4.3, 0.01);
     assert_near(e.point[0].alpha[0], -1, 1e-3);
     assert_near(e.point[1].alpha[0], 1, 1e-3);
-}
-
-static int open_arena(void **state) {
-    (void)state;
-    return !(arena = fw_arena_new(0));
-}
-static int close_arena(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
 }
 
 int main(void) {

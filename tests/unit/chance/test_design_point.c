@@ -3,8 +3,6 @@
 #include "chance/estimators.h"
 #include "limits.h"
 
-static fw_arena *arena;
-
 static fw_chance_points find(limit_state *l, size_t budget, size_t starts, const double *start) {
     fw_chance_limit limit = {l->dimensions, limit_call, l};
     fw_chance_run run = {
@@ -91,16 +89,6 @@ static void none(void **state) {
     limit_state unknown = {.dimensions = 2, .g = limit_unknown, .b = 3};
     assert_int_equal(find(&unknown, 500, 1, start).count, 0);
     assert_int_equal(find(&unknown, 0, 1, start).count, 0);
-}
-
-static int open_arena(void **state) {
-    (void)state;
-    return !(arena = fw_arena_new(0));
-}
-static int close_arena(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
 }
 
 int main(void) {

@@ -2,9 +2,8 @@
 /* Each kind: there and back, moments by quadrature, what is refused. */
 #include "chance/distribution.h"
 #include "maths/cdf.h"
-#include "test.h"
+#include "chance_test.h"
 
-static fw_arena *arena;
 static const double table_x[] = {1, 2, 4, 4.5}, table_p[] = {0, 0.25, 0.5, 1};
 #define INFINITE ((double)INFINITY)
 static const fw_chance_distribution kinds[] = {
@@ -107,16 +106,6 @@ static void refused(void **state) {
         assert_int_equal(fw_chance_distribution_check(arena, &row[i].d, &why), FW_INPUT);
         assert_non_null(strstr(why, row[i].says));
     }
-}
-
-static int open_arena(void **state) {
-    (void)state;
-    return !(arena = fw_arena_new(0));
-}
-static int close_arena(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
 }
 
 int main(void) {

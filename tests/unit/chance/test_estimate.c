@@ -2,8 +2,6 @@
 /* Each method by itself: coverage of its intervals, what cannot be evaluated, repeatability, what is refused. */
 #include "limits.h"
 
-static fw_arena *arena;
-
 static int seeds_of(int quick) {
     return test_fewest(test_cases(1000, quick), 2);
 }
@@ -59,7 +57,7 @@ static void unbiased(void **state) {
             fw_mark mark = fw_arena_mark(arena);
             fw_chance_options o = {
                 .method = methods[k / 2], .seed = 5000 + (uint64_t)seed, .budget = 5000};
-            double share = limit_estimate(arena, l, o).probability_low / truth;
+            double share = limit_estimate(l, o).probability_low / truth;
             sum += share, square += share * share;
             fw_arena_rewind(arena, mark);
         }
@@ -73,17 +71,16 @@ static void repeatable(void **state) {
     (void)state;
     for (int method = FW_CHANCE_AUTO; method <= FW_CHANCE_SUBSET; method++) {
         fw_chance_options o = {.method = (fw_chance_method)method, .seed = 3, .budget = 4000};
-        fw_chance_estimate a = limit_estimate(arena, &limit_states[5], o);
+        fw_chance_estimate a = limit_estimate(&limit_states[5], o);
         o.batch = 7;
-        fw_chance_estimate b = limit_estimate(arena, &limit_states[5], o);
+        fw_chance_estimate b = limit_estimate(&limit_states[5], o);
         assert_true(a.low == b.low && a.high == b.high && a.probability_low == b.probability_low);
         assert_int_equal(a.evaluations, b.evaluations);
         o.seed = 4;
-        assert_true(limit_estimate(arena, &limit_states[5], o).probability_low !=
-                    a.probability_low);
+        assert_true(limit_estimate(&limit_states[5], o).probability_low != a.probability_low);
         assert_true(a.level == 0.95);
         o.level = 0.999;
-        fw_chance_estimate wide = limit_estimate(arena, &limit_states[5], o);
+        fw_chance_estimate wide = limit_estimate(&limit_states[5], o);
         assert_true(wide.level == 0.999 && wide.high - wide.low > a.high - a.low);
     }
 }
@@ -98,7 +95,7 @@ static double holes_beyond(const limit_state *l, const double *u) {
 
 static void check_holes(limit_state *l, fw_chance_method method, double low, double high) {
     fw_chance_estimate e =
-        limit_estimate(arena, l, (fw_chance_options){.method = method, .seed = 1, .level = 0.999});
+        limit_estimate(l, (fw_chance_options){.method = method, .seed = 1, .level = 0.999});
     if (getenv("FW_TEST_SHOW"))
         printf("%s %g: %g %g in %g %g\n", fw_chance_method_id(e.method), l->b, low, high, e.low,
                e.high);
@@ -135,11 +132,11 @@ static void nearly_certain(void **state) {
                      .reference = reference_linear};
     double rare = fw_maths_normal_cdf(-4);
     fw_chance_estimate e =
-        limit_estimate(arena, &l, (fw_chance_options){.method = FW_CHANCE_IMPORTANCE, .seed = 1});
+        limit_estimate(&l, (fw_chance_options){.method = FW_CHANCE_IMPORTANCE, .seed = 1});
     assert_relative(1 - e.probability_low, rare, 0.1);
     assert_true(1 - e.high <= rare && rare <= 1 - e.low && e.high - e.low < 0.2 * rare);
     assert_true(e.point[0].beta < -3.9);
-    e = limit_estimate(arena, &l, (fw_chance_options){.method = FW_CHANCE_AUTO, .seed = 1});
+    e = limit_estimate(&l, (fw_chance_options){.method = FW_CHANCE_AUTO, .seed = 1});
     assert_int_equal(e.method, FW_CHANCE_QUASI);
     assert_true(e.high == 1 && e.low > 0.999);
 }
@@ -203,16 +200,6 @@ static void names(void **state) {
     }
     fw_chance_method found;
     assert_int_equal(fw_chance_method_find("luck", &found), FW_INPUT);
-}
-
-static int open_arena(void **state) {
-    (void)state;
-    return !(arena = fw_arena_new(0));
-}
-static int close_arena(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
 }
 
 int main(void) {

@@ -3,9 +3,7 @@
 #include "chance/indices.h"
 #include "base/constants.h"
 #include "maths/cdf.h"
-#include "test.h"
-
-static fw_arena *arena;
+#include "chance_test.h"
 
 static fw_chance_indices run(const fw_chance_model *model, uint64_t seed, size_t base) {
     fw_chance_indices out;
@@ -167,16 +165,6 @@ static void refused(void **state) {
     model = (fw_chance_model){2, 2, holes, NULL, 0, NULL};
     assert_int_equal(fw_chance_indices_run(stopped, &model, &o, &out, &why), FW_CANCELLED);
     fw_arena_free(stopped);
-}
-
-static int open_arena(void **state) {
-    (void)state;
-    return !(arena = fw_arena_new(0));
-}
-static int close_arena(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
 }
 
 int main(void) {

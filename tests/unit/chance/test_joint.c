@@ -3,9 +3,7 @@
 #include "chance/joint.h"
 #include "base/constants.h"
 #include "maths/cdf.h"
-#include "test.h"
-
-static fw_arena *arena;
+#include "chance_test.h"
 
 static double nataf(const fw_chance_distribution *a, const fw_chance_distribution *b,
                     double value) {
@@ -200,16 +198,6 @@ static void refused(void **state) {
     assert_non_null(strstr(fault.why, "not finite"));
     assert_int_equal(fw_chance_joint_new(arena, 1, 0, NULL, 0, NULL, &j, &fault), FW_OK);
     assert_int_equal(j.dimensions, 0);
-}
-
-static int open_arena(void **state) {
-    (void)state;
-    return !(arena = fw_arena_new(0));
-}
-static int close_arena(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
 }
 
 int main(void) {

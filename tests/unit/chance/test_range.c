@@ -2,8 +2,6 @@
 /* Inputs of which only an interval is known: ranges of probabilities against closed forms. */
 #include "limits.h"
 
-static fw_arena *arena;
-
 /* a plane whose distance depends on two unknowns: at the ends most, or inside where `humped` */
 typedef struct unknown_limit {
     double z[2];
@@ -79,16 +77,6 @@ static void refused(void **state) {
     unknowns.count = 1, options.budget = 1;
     assert_int_equal(fw_chance_range_run(arena, &limit, &unknowns, &options, &out, &why), FW_INPUT);
     assert_non_null(strstr(why, "200 evaluations"));
-}
-
-static int open_arena(void **state) {
-    (void)state;
-    return !(arena = fw_arena_new(0));
-}
-static int close_arena(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
 }
 
 int main(void) {
