@@ -50,12 +50,11 @@ static fw_status weighted(fw_chance_run *run, size_t samples, fw_chance_weighted
 static const char *caution_of(fw_arena *arena, const fw_chance_weighted *w, double level) {
     char text[32];
     double unseen = -expm1(log(1 - level) / fmax(1, (double)w->own));
-    return fw_arena_printf(
-        arena,
-        "a failure, or a point without a value, far from all design points, which none of %zu "
-        "points "
-        "of the inputs' own distribution met, is not in the interval; it would be rarer than %s",
-        w->own, fw_number_text(text, sizeof text, unseen, 2));
+    return fw_arena_printf(arena,
+                           "a failure, or a point without a value, that is far from all design "
+                           "points and that none of %zu points of the inputs' own distribution "
+                           "met, is not in the interval; it would be rarer than %s",
+                           w->own, fw_number_text(text, sizeof text, unseen, 2));
 }
 
 static const char *const no_repetition =
@@ -117,22 +116,22 @@ static fw_status counted(fw_chance_run *run, const char *because, fw_chance_esti
     return status;
 }
 
-/* why a count is what is wanted, NULL: it is not */
-static const char *why_counted(fw_chance_run *run, const fw_chance_count *c) {
-    size_t safe = c->points - c->failed - c->unevaluated;
-    if (c->unevaluated >= COMMON)
-        return fw_arena_printf(run->arena,
-                               "%zu of the first %zu points could not be evaluated, which leaves "
-                               "more open than any other "
-                               "method would gain",
-                               c->unevaluated, c->points);
-    if (c->failed >= COMMON && safe >= COMMON)
-        return fw_arena_printf(
-            run->arena, "%zu of the first %zu points fail, which is often enough to count failures",
-            c->failed, c->points);
-    if (c->failed >= COMMON)
-        return fw_arena_printf(run->arena, "nearly all of the first %zu points fail", c->points);
-    return NULL;
+/* why a count is what is wanted; *because NULL: it is not */
+static fw_status why_counted(fw_chance_run *run, const fw_chance_count *c, const char **because) {
+    size_t safe = c->points - c->failed - c->unevaluated, met = c->failed;
+    const char *format = NULL;
+    if (c->unevaluated >= COMMON) {
+        format = "%zu of the first %zu points could not be evaluated, which leaves more open than "
+                 "any other method would gain";
+        met = c->unevaluated;
+    } else if (c->failed >= COMMON && safe >= COMMON) {
+        format = "%zu of the first %zu points fail, which is often enough to count failures";
+    } else if (c->failed >= COMMON) {
+        format = "%zu of the first %zu points fail, so that it is survival that is rare";
+    }
+    *because = NULL;
+    if (format) FW_NEED(*because = fw_arena_printf(run->arena, format, met, c->points));
+    return FW_OK;
 }
 
 /* why importance sampling is not to be trusted here, NULL: it is */
@@ -149,6 +148,45 @@ static const char *why_not_points(const fw_chance_points *points, const fw_chanc
     return NULL;
 }
 
+/* what was found of a rare failure before it is decided how to go on */
+typedef struct rare {
+    fw_chance_subset subset;
+    fw_chance_points points;
+    fw_chance_weighted weighted;
+    bool flat; /* nothing leads towards a failure */
+} rare;
+
+static fw_status explore(fw_chance_run *run, rare *r) {
+    fw_chance_estimate so_far;
+    FW_TRY(fw_chance_subset_new(run, &r->subset));
+    FW_TRY(subsets(run, part(run, OF_EXPLORED), EXPLORED, &r->subset));
+    fw_chance_subset_result(&r->subset, run->level, &so_far);
+    r->flat = r->subset.stuck == r->subset.repetitions && so_far.high > FLAT;
+    if (r->flat) return FW_OK;
+    FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), r->subset.failing, r->subset.failed,
+                                 &r->points));
+    fw_chance_weighted_start(&r->points, &r->weighted);
+    size_t tried = TRIED < part(run, OF_PILOT) ? TRIED : part(run, OF_PILOT);
+    return r->points.count ? weighted(run, tried, &r->weighted) : FW_OK;
+}
+
+/* the rest of the budget for the one or the other */
+static fw_status go_on(fw_chance_run *run, rare *r, bool around_points, fw_chance_estimate *out) {
+    out->points = r->points.count, out->point = r->points.point;
+    if (around_points) {
+        out->method = FW_CHANCE_IMPORTANCE;
+        FW_TRY(weighted(run, fw_chance_left(run), &r->weighted));
+        fw_chance_weighted_result(&r->weighted, run->level, out);
+        FW_NEED(out->caution = caution_of(run->arena, &r->weighted, run->level));
+        return FW_OK;
+    }
+    out->method = FW_CHANCE_SUBSET;
+    FW_TRY(subsets(run, fw_chance_left(run), SIZE_MAX, &r->subset));
+    fw_chance_subset_result(&r->subset, run->level, out);
+    if (r->subset.repetitions < 2) out->caution = no_repetition;
+    return FW_OK;
+}
+
 /* Decides by points of its own whether failures are common; if not, explores with subset simulation, looks for design
    points from the origin and from the failing points that it found, samples around these, and takes that unless it
    contradicts subset simulation or a few heavy weights decide. Nothing that decided is in the numbers that are reported,
@@ -159,40 +197,19 @@ fw_status fw_chance_automatic(fw_chance_run *run, fw_chance_estimate *out) {
     if (run->budget < SMALL_BUDGET)
         return counted(run, "the budget is too small for anything but counting", out);
     fw_chance_count count = {0};
+    const char *because;
+    rare r;
     FW_TRY(pilot(run, &count));
-    const char *because = why_counted(run, &count);
+    FW_TRY(why_counted(run, &count, &because));
     if (because) return counted(run, because, out);
-    fw_chance_subset s;
-    fw_chance_points points;
-    fw_chance_weighted w;
-    FW_TRY(fw_chance_subset_new(run, &s));
-    FW_TRY(subsets(run, part(run, OF_EXPLORED), EXPLORED, &s));
-    fw_chance_subset_result(&s, run->level, out);
-    if (s.stuck == s.repetitions && out->high > FLAT)
-        return counted(
-            run,
-            "the limit state shows no way towards a failure, so that failures can only be counted",
-            out);
-    FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), s.failing, s.failed, &points));
-    fw_chance_weighted_start(&points, &w);
-    if (points.count)
-        FW_TRY(weighted(run, TRIED < part(run, OF_PILOT) ? TRIED : part(run, OF_PILOT), &w));
-    const char *why_not = why_not_points(&points, &w, &s);
-    out->points = points.count, out->point = points.point;
-    out->method = why_not ? FW_CHANCE_SUBSET : FW_CHANCE_IMPORTANCE;
+    FW_TRY(explore(run, &r));
+    if (r.flat)
+        return counted(run, "the limit state shows no way towards a failure: there is but counting",
+                       out);
+    const char *why_not = why_not_points(&r.points, &r.weighted, &r.subset);
+    if (!why_not) because = "subset simulation agrees with what design points say";
     FW_NEED(out->reason = fw_arena_printf(
                 run->arena, "%zu of the first %zu points fail, which is too rare to count, and %s",
-                count.failed, count.points,
-                why_not ? why_not : "subset simulation agrees with what design points say"));
-    FW_TRY(why_not ? subsets(run, fw_chance_left(run), SIZE_MAX, &s)
-                   : weighted(run, fw_chance_left(run), &w));
-    if (why_not)
-        fw_chance_subset_result(&s, run->level, out);
-    else
-        fw_chance_weighted_result(&w, run->level, out);
-    if (!why_not)
-        FW_NEED(out->caution = caution_of(run->arena, &w, run->level));
-    else if (s.repetitions < 2)
-        out->caution = no_repetition;
-    return FW_OK;
+                count.failed, count.points, why_not ? why_not : because));
+    return go_on(run, &r, !why_not, out);
 }

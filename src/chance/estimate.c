@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "chance/estimate.h"
-#include "base/text.h"
 #include "chance/automatic.h"
 #include "chance/estimators.h"
-#include "chance/random.h"
-#include <math.h>
 #include <string.h>
 
 static const struct method {
