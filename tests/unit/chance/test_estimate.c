@@ -186,6 +186,30 @@ static void refused(void **state) {
     fw_arena_free(stopped);
 }
 
+/* every allocation fails once: the answer is that memory is short, or the same as ever */
+static void short_of_memory(void **state) {
+    (void)state;
+    for (int method = FW_CHANCE_AUTO; method <= FW_CHANCE_SUBSET; method++) {
+        limit_state *l = &limit_states[5];
+        fw_chance_options o = {.method = (fw_chance_method)method, .seed = 3, .budget = 3000};
+        fw_chance_limit limit = {l->dimensions, limit_call, l};
+        fw_chance_estimate want = limit_estimate(l, o), out;
+        const char *why;
+        fw_status status = FW_NOMEM;
+        for (long n = 1; status != FW_OK; n++) {
+            fw_mark mark = fw_arena_mark(arena);
+            l->next = 0;
+            fw_arena_fail_at(n, 0);
+            status = fw_chance_estimate_run(arena, &limit, &o, &out, &why);
+            fw_arena_fail_at(0, 0);
+            assert_true(status == FW_NOMEM ||
+                        (status == FW_OK && out.low == want.low && out.high == want.high));
+            if (status == FW_OK) assert_true(n > 2);
+            fw_arena_rewind(arena, mark);
+        }
+    }
+}
+
 static void names(void **state) {
     (void)state;
     for (int m = FW_CHANCE_AUTO; m <= FW_CHANCE_SUBSET; m++) {
@@ -205,6 +229,7 @@ int main(void) {
         cmocka_unit_test(importance),  cmocka_unit_test(subset),
         cmocka_unit_test(unbiased),    cmocka_unit_test(repeatable),
         cmocka_unit_test(holes),       cmocka_unit_test(nearly_certain),
-        cmocka_unit_test(refused),     cmocka_unit_test(names)};
+        cmocka_unit_test(refused),     cmocka_unit_test(short_of_memory),
+        cmocka_unit_test(names)};
     return cmocka_run_group_tests(tests, open_arena, close_arena);
 }
