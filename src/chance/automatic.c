@@ -8,7 +8,7 @@
 
 /* Parts of a budget: points that decide whether a failure is common, and how many must fail for that; subset simulation
    that looks where failures are; gradients; a first part of importance sampling, and what it must be worth. */
-enum { PILOT = 1000, COMMON = 30, TRIED = 1500, EFFECTIVE = 100, EXPLORED = 4 };
+enum { PILOT = 1000, COMMON = 30, TRIED = 1500, EFFECTIVE = 50, EXPLORED = 4, REPEATED = 8 };
 #define OF_PILOT    0.1
 #define OF_EXPLORED 0.35
 #define OF_POINTS   0.2
@@ -32,6 +32,14 @@ static void account(fw_chance_run *run, const fw_chance_run *part) {
 }
 
 enum { SEED_PILOT = 1000001, SEED_SUBSET, SEED_WEIGHTED, SEED_COUNT };
+
+static fw_status subsets_start(fw_chance_run *run, size_t budget, size_t wanted,
+                               fw_chance_subset *s) {
+    fw_chance_run of = part_of(run, SEED_SUBSET);
+    fw_status status = fw_chance_subset_start(&of, budget, wanted, s);
+    account(run, &of);
+    return status;
+}
 
 static fw_status subsets(fw_chance_run *run, size_t budget, size_t most, fw_chance_subset *s) {
     fw_chance_run of = part_of(run, SEED_SUBSET);
@@ -62,7 +70,7 @@ static const char *const no_repetition =
 
 fw_status fw_chance_in_subsets(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_subset s;
-    FW_TRY(fw_chance_subset_new(run, &s));
+    FW_TRY(subsets_start(run, fw_chance_left(run), REPEATED, &s));
     FW_TRY(subsets(run, fw_chance_left(run), SIZE_MAX, &s));
     fw_chance_subset_result(&s, run->level, out);
     if (s.repetitions < 2) out->caution = no_repetition;
@@ -73,8 +81,9 @@ fw_status fw_chance_around_points(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_subset s;
     fw_chance_points points;
     fw_chance_weighted w;
-    FW_TRY(fw_chance_subset_new(run, &s));
-    FW_TRY(subsets(run, part(run, OF_EXPLORED), EXPLORED, &s));
+    size_t start = run->used, budget = part(run, OF_EXPLORED);
+    FW_TRY(subsets_start(run, budget, EXPLORED, &s));
+    FW_TRY(subsets(run, budget - (run->used - start), EXPLORED, &s));
     FW_TRY(fw_chance_points_find(run, part(run, 2 * OF_POINTS), s.failing, s.failed, &points));
     if (!points.count) return FW_SOLVER;
     fw_chance_weighted_start(&points, &w);
@@ -158,8 +167,9 @@ typedef struct rare {
 
 static fw_status explore(fw_chance_run *run, rare *r) {
     fw_chance_estimate so_far;
-    FW_TRY(fw_chance_subset_new(run, &r->subset));
-    FW_TRY(subsets(run, part(run, OF_EXPLORED), EXPLORED, &r->subset));
+    size_t start = run->used, budget = part(run, OF_EXPLORED);
+    FW_TRY(subsets_start(run, budget, EXPLORED, &r->subset));
+    FW_TRY(subsets(run, budget - (run->used - start), EXPLORED, &r->subset));
     fw_chance_subset_result(&r->subset, run->level, &so_far);
     r->flat = r->subset.stuck == r->subset.repetitions && so_far.high > FLAT;
     if (r->flat) return FW_OK;

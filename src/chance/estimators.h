@@ -16,18 +16,20 @@ typedef struct fw_chance_subset {
     size_t stuck; /* repetitions that did not get down to a failure in a tenth of a level */
     double *low,
         *high; /* (repetitions) estimates, what was not evaluated counted as safe and as failed */
-    size_t dearest; /* evaluations of the dearest repetition */
+    size_t planned; /* evaluations of a repetition, with a level to spare */
     size_t failing;
     double *failed; /* (failing x dimensions) failing points of the last levels */
     double step[FW_CHANCE_LEVELS + 1]; /* length of the chains' steps at each level */
     int reached;                       /* the last level that has taught its own */
 } fw_chance_subset;
 
-fw_status fw_chance_subset_new(const fw_chance_run *run, fw_chance_subset *out);
-/* repeats while another repetition is sure to fit into `budget` evaluations, `most` times at most */
+/* a first repetition that is not counted, in half of `budget`, with which `wanted` others are planned for the rest */
+fw_status fw_chance_subset_start(fw_chance_run *run, size_t budget, size_t wanted,
+                                 fw_chance_subset *out);
+/* repetitions while what is planned for one fits into `budget`, `most` at most */
 fw_status fw_chance_subset_repeat(fw_chance_run *run, size_t budget, size_t most,
                                   fw_chance_subset *subset);
-/* at least one repetition; with one the interval is [0, 1] */
+/* with fewer than two repetitions the interval is [0, 1] */
 void fw_chance_subset_result(const fw_chance_subset *subset, double level, fw_chance_estimate *out);
 
 /* ---- design points ---- */
