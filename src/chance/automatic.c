@@ -166,13 +166,13 @@ typedef struct rare {
 } rare;
 
 static fw_status explore(fw_chance_run *run, rare *r) {
-    fw_chance_estimate so_far;
-    size_t start = run->used, budget = part(run, OF_EXPLORED);
-    FW_TRY(subsets_start(run, budget, EXPLORED, &r->subset));
-    FW_TRY(subsets(run, budget - (run->used - start), EXPLORED, &r->subset));
-    fw_chance_subset_result(&r->subset, run->level, &so_far);
-    r->flat = r->subset.stuck == r->subset.repetitions && so_far.high > FLAT;
+    size_t stop = run->used + part(run, OF_EXPLORED);
+    fw_chance_subset *s = &r->subset;
+    FW_TRY(subsets_start(run, part(run, OF_EXPLORED), EXPLORED, s));
+    FW_TRY(subsets(run, stop - run->used, 1, s));
+    r->flat = s->stuck == s->repetitions && !(s->repetitions && s->high[0] <= FLAT);
     if (r->flat) return FW_OK;
+    FW_TRY(subsets(run, stop - run->used, EXPLORED - 1, s));
     FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), r->subset.failing, r->subset.failed,
                                  &r->points));
     fw_chance_weighted_start(&r->points, &r->weighted);
