@@ -13,7 +13,6 @@ enum { PILOT = 1000, COMMON = 30, TRIED = 1500, EFFECTIVE = 50, EXPLORED = 4, RE
 #define OF_EXPLORED 0.35
 #define OF_POINTS   0.2
 #define SURE        0.999 /* level of the intervals that have to overlap */
-#define FLAT        0.01  /* upper end that subset simulation has to come below */
 
 static size_t part(const fw_chance_run *run, double share) {
     return (size_t)(share * (double)run->budget);
@@ -170,7 +169,7 @@ static fw_status explore(fw_chance_run *run, rare *r) {
     fw_chance_subset *s = &r->subset;
     FW_TRY(subsets_start(run, part(run, OF_EXPLORED), EXPLORED, s));
     FW_TRY(subsets(run, stop - run->used, 1, s));
-    r->flat = s->stuck == s->repetitions && !(s->repetitions && s->high[0] <= FLAT);
+    r->flat = s->stuck > 0;
     if (r->flat) return FW_OK;
     FW_TRY(subsets(run, stop - run->used, EXPLORED - 1, s));
     FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), r->subset.failing, r->subset.failed,

@@ -163,7 +163,7 @@ static fw_status repetition(fw_chance_run *run, size_t left, uint64_t seed, fw_c
         FW_TRY(next_level(run, &l, kept, s->step[k], &accepted));
         learn(s, k, accepted);
     }
-    s->stuck += !down;
+    s->stuck += !down && kept == l.points;
     s->high[s->repetitions] = product * (within ? (double)within / (double)l.points : 1);
     s->low[s->repetitions++] = product * (double)failed / (double)l.points;
     keep_failing(&l, within, s);
