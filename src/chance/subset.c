@@ -203,8 +203,8 @@ fw_status fw_chance_subset_start(fw_chance_run *run, size_t budget, size_t wante
    value of the lowest point that is not kept, until that fails; kept are a tenth of the points. The points that are not
    kept are drawn anew by Markov chains from the kept ones, with normal proposals correlated with their start. What cannot be
    evaluated counts as below every level. Output: one estimate a repetition, coefficient of variation some 0.4 for 1e-3, 0.7
-   for 1e-6 with 400 points. Error: too high by O(1/points), because points of one chain set the next level together: 4 %
-   for 1e-4, 7 % for 1e-6 with 400 points, a tenth of the interval; were the level set by a kept point, twice that. Cost: (1 +
+   for 1e-6 with 400 points. Error: too high by O(1/points), because points of one chain set the next level together: 1 %
+   for 1e-4, some 5 % for 1e-6 with 400 points, a tenth of the interval; were the level set by a kept point, 5 to 15 %. Cost: (1 +
    0.9 (levels - 1)) points, -log10 P levels. Range: any dimension. Source: S.-K. Au, J. L. Beck, Prob. Eng. Mech. 16
    (2001) 263; I. Papaioannou, W. Betz, K. Zwirglmaier, D. Straub, Prob. Eng. Mech. 41 (2015) 89 (proposals); F. Cerou,
    P. Del Moral, T. Furon, A. Guyader, Stat. Comput. 22 (2012) 795 (levels, bias). Test: test_estimate.c */

@@ -60,7 +60,7 @@ static double mean_of(fw_chance_method method, size_t state, size_t budget, doub
     return mean;
 }
 
-/* importance sampling is exact in the mean; subset simulation is too high by O(1/points), some 5 % with 400 points */
+/* importance sampling is exact in the mean; subset simulation may be too high by O(1/points), 10 % at most with 400 points */
 static void means(void **state) {
     (void)state;
     double error, mean = mean_of(FW_CHANCE_IMPORTANCE, 2, 5000, &error);
