@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The form: the tree of the text's elements, each with the attributes that the description table has
 // for it. It holds nothing: every change goes to the text, and the form is made from the text again.
-import { edit, hold, letGo } from "./design.js";
+import { edit, hold, isPresent, letGo } from "./design.js";
 import { button, h, setOptions } from "./dom.js";
 import { number, splitQuantity } from "./format.js";
 import { parse, walk } from "./model.js";
@@ -19,13 +19,18 @@ export class Form {
             h("section", { class: "card", "aria-label": "Parameters" }, h("h2", {}, "Parameters"), this.sliders),
             h("section", { class: "card", "aria-label": "Elements" }, h("h2", {}, "Description"), this.tree));
         on("text", () => this.update());
-        on("preview", () => this.#bounds());
+        on("belong", () => this.#bounds());
     }
 
     start(table) {
         this.elements = table.elements;
         this.rows = new Map(table.elements.toReversed().map((e) => [e.name, e])); // of several with one name the first
         this.update();
+    }
+
+    /** Name of the device, as the text has it. */
+    get name() {
+        return this.root?.attributes.get("name")?.value ?? "";
     }
 
     /** Elements of one name have a row for each parent; without a parent, or in another one, the first. */
@@ -90,6 +95,7 @@ export class Form {
             if (document.activeElement !== value) value.value = present;
             const b = bounds(name(), present, text("min"), text("max"));
             range.hidden = ends.hidden = !b;
+            holder.dataset.of = !b?.computed ? "nothing" : isPresent() ? "present" : "former";
             if (!b) return;
             unit = b.unit;
             range.min = b.min;
@@ -115,10 +121,17 @@ export class Form {
         const row = this.row(element.name, parent);
         const path = element.path;
         const body = h("div", { class: "element-body" });
+        const id = h("span", { class: "element-id" });
+        const note = h("span", { class: "element-note" });
+        const refresh = () => {
+            const now = this.places.get(path) ?? element;
+            id.textContent = title(now);
+            note.textContent = summary(now);
+        };
+        this.fields.set(`${path} summary`, { refresh });
+        refresh();
         const details = h("details", { class: "element", open: top || this.opened.has(path) },
-            h("summary", {}, h("span", { class: "element-name" }, element.name), h("span", { class: "element-id" }, title(element)),
-                h("span", { class: "element-note" }, summary(element))),
-            body);
+            h("summary", {}, h("span", { class: "element-name" }, element.name), id, note), body);
         let filled = false;
         const fillIt = () => {
             if (filled) return;
@@ -289,7 +302,8 @@ function bounds(name, present, min, max) {
     if (q && low && high && low.unit === high.unit && low.unit === q.unit) return finish(low.value, high.value, q.value, q.unit);
     const known = state.preview?.parameters?.find((p) => p.name === name);
     if (!known || known.minimum === null || known.maximum === null || known.minimum === undefined || known.maximum === undefined) return null;
-    return finish(known.minimum, known.maximum, known.value, known.unit);
+    const range = finish(known.minimum, known.maximum, known.value, known.unit);
+    return range && { ...range, computed: true };
 }
 
 function finish(min, max, value, unit) {

@@ -5,6 +5,8 @@ import { Accuracy } from "./accuracy.js";
 import { get, onConnection, openSession } from "./api.js";
 import { download } from "./archive.js";
 import { Assembly } from "./assembly.js";
+import { inputKey, settled } from "./belong.js";
+import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
 import { $, button, h, s } from "./dom.js";
 import { Editor } from "./editor.js";
@@ -38,7 +40,7 @@ function header() {
     parts.open.hidden = true;
     parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
     $("top").append(
-        h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }),
+        h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }), busySign(),
         parts.undo, parts.redo, parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
@@ -53,7 +55,8 @@ function headerState() {
     parts.save.disabled = state.file === null ? false : !changed || state.file.writable === false;
     parts.file.textContent = state.file === null ? "not a file" : `${state.file.name}${changed ? ", changed" : ""}`;
     parts.file.classList.toggle("changed", changed);
-    document.title = `${changed && state.file ? "• " : ""}${state.preview?.name ?? "Flexwright"} – Flexwright`;
+    parts.device.textContent = parts.form.name;
+    document.title = `${changed && state.file ? "• " : ""}${parts.form.name || "Flexwright"} – Flexwright`;
 }
 
 // ---- the three areas ----
@@ -77,7 +80,9 @@ function editArea() {
     useEditor(parts.editor);
     parts.form = new Form(form);
     parts.editTabs.select("form");
-    on("answer", () => parts.editor.mark(state.diagnostics.filter((d) => d.in_text !== false)));
+    on("answer", () => { // places in another text are none in this one
+        if (state.answered === inputKey()) parts.editor.mark(state.diagnostics.filter((d) => d.in_text !== false));
+    });
 }
 
 function views() {
@@ -153,10 +158,6 @@ async function start() {
     editArea();
     views();
     parts.verdict = new Verdict($("right"));
-    on("preview", (p) => {
-        parts.device.textContent = p.name;
-        headerState();
-    });
     on("file", headerState);
     on("notice", notice);
     onConnection(connection);
@@ -181,4 +182,4 @@ start().catch((error) => {
 });
 
 // for the tests of the page, which look and do not touch
-globalThis.flexwright = { state, parts, on };
+globalThis.flexwright = { state, parts, on, settled };

@@ -2,6 +2,7 @@
 // Masks: layers of the mask as it is written, the outlines as drawn, on the mask and as fabricated, a
 // ruler, and what breaks a rule as a list that goes to the place. All in micrometres of the drawing.
 import { get, request as fetchText } from "./api.js";
+import { Shown } from "./belong.js";
 import { button, h, s, select, setOptions } from "./dom.js";
 import { bytes, number } from "./format.js";
 import { fileOf, forceTick, hasFile, JobView } from "./jobs.js";
@@ -57,6 +58,8 @@ export class Masks {
             accept: (job) => Array.isArray(job.result?.masks), render: (job) => this.#take(job),
         });
         card.append(force.label);
+        this.job.also(this.stage, this.violations, this.layerList, this.files);
+        this.drawn = new Shown(this.stage);
     }
 
     shown(yes) {
@@ -75,6 +78,7 @@ export class Masks {
             const transform = `translate(${x * 1e6} ${y * 1e6}) rotate(${(phi * 180) / Math.PI})`;
             for (const d of [...b.outline, ...(b.islands ?? []), ...(b.frame ?? []), ...(b.tethers ?? [])]) paths.push(s("path", { d, transform }));
         }
+        this.drawn.take(state.previewOf);
         this.drawing.replaceChildren(...paths, ...p.flexures.map((f) => s("path", { d: f.path })));
         if (!this.box) this.#fitTo(p.box_um);
     }

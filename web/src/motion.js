@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The motion of one scene: the mechanism, its plots and the time that couples them; and how it is
 // computed, with what that costs.
+import { Shown } from "./belong.js";
 import { curve, dash } from "./colours.js";
 import { setOption } from "./design.js";
 import { button, h, s, select, setOptions } from "./dom.js";
@@ -37,6 +38,7 @@ export class Motion {
         this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt, scene: true });
         this.stage.append(colourLegend(), this.#zoomButtons());
         this.stats = h("div", { class: "run-stats" });
+        this.showing = [this.stage, this.player, this.plots, this.stats].map((element) => new Shown(element));
         this.#player();
         const seek = (t) => this.seek(t / 1e3, true);
         this.angles = new Plot(this.plots, { title: "Hinge angle / limit", unit: "%, over ms", onseek: seek });
@@ -109,7 +111,10 @@ export class Motion {
     show() {
         const p = state.preview;
         if (!p) return;
-        setOptions(this.scene, p.scenes.map((x) => [x.name, x.name]), p.motion?.scene ?? state.options.scene ?? "");
+        for (const shown of this.showing) shown.take(state.previewOf);
+        const scenes = p.scenes.map((x) => [x.name, x.name]);
+        const scene = state.options.scene ?? p.motion?.scene ?? ""; // chosen, and maybe none of the list
+        setOptions(this.scene, !scene || p.scenes.some((x) => x.name === scene) ? scenes : [...scenes, [scene, scene]], scene);
         this.player.hidden = this.plots.hidden = !p.motion;
         if (!p.motion) return this.#still(p);
         const first = this.t === undefined;

@@ -18,6 +18,7 @@ export class Recipe {
             accept: (job) => Boolean(job.result?.recipes ?? job.result?.steps), render: (job) => this.#take(job),
         });
         head.append(force.label);
+        this.job.also(this.body);
     }
 
     shown(yes) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
 // which effects were computed and why, what it cost.
-import { edit } from "./design.js";
+import { inputKey, Shown } from "./belong.js";
+import { askAgain, edit, isPresent } from "./design.js";
 import { announce, button, h, icon, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
@@ -25,56 +26,62 @@ export class Verdict {
             this.show();
         });
         this.required = h("section", { class: "card", "aria-labelledby": "h-required", hidden: true }, h("h2", { id: "h-required" }, "What it is for"));
+        this.old = h("div", { class: "old-note", id: "old-note", hidden: true });
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
         const full = h("div", { class: "full-check" });
-        holder.append(
-            this.banner, this.problems,
-            h("section", { class: "card", "aria-labelledby": "h-use" }, h("h2", { id: "h-use" }, "Utilisation of the elastic limit"), this.whose, this.bars),
-            this.required,
-            h("section", { class: "card", "aria-labelledby": "h-flows" }, h("h2", { id: "h-flows" }, "Flows"), this.flows),
-            h("section", { class: "card", "aria-labelledby": "h-full" }, h("h2", { id: "h-full" }, "As fabricated"), full),
-            h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
-            h("section", { class: "card", "aria-labelledby": "h-cost" }, h("h2", { id: "h-cost" }, "Cost of this answer"), this.cost), this.notes);
+        const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
+        const use = card("use", "Share of the limit that rules", this.whose, this.bars);
+        const cards = [use, this.required, card("flows", "Flows", this.flows)];
+        const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost)];
+        holder.append(this.old, this.banner, this.problems, ...cards, card("full", "As fabricated", full), ...last, this.notes);
+        this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
+        this.ofAnswer = [this.problems, this.notes].map((element) => new Shown(element));
         this.full = new JobView(full, {
             kind: "check", action: "Judge as fabricated", options: judging,
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
             auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, humble: true, // a long one is only made when it is asked for
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
+        this.ofFull = [this.banner, use].map((element) => new Shown(element, () => this.full.key));
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
-        on("text", () => this.#staleness());
-        on("preview", () => this.full.show(true));
+        on("belong", () => this.#staleness());
         on("hinge", () => this.#chosen());
         this.#wait();
     }
 
     #wait() {
-        this.banner.className = "banner";
-        delete this.banner.dataset.verdict;
+        this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
         if (state.preview?.status === "failed") return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, state.preview ? "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same." : "No verdict yet."));
     }
 
+    /** Colour of the banner, and its word for programs; null: there is no decision. */
+    #decided(decision) {
+        const colour = decision === "failed" ? "reject" : decision;
+        for (const name of Object.keys(WORDS)) this.banner.classList.toggle(name, name === colour);
+        if (decision) this.banner.dataset.verdict = decision;
+        else delete this.banner.dataset.verdict;
+    }
+
     /** The layout cannot be made: the picture has its marks. */
     #cannot() {
-        this.banner.className = "banner reject";
-        this.banner.dataset.verdict = "failed";
+        this.#decided("failed");
         const marks = state.preview.marks ?? [];
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon("cross"), h("strong", {}, "Cannot be made"), h("span", { class: "as-drawn" }, "no verdict without a layout")),
+            h("div", { class: "decision" }, icon("cross"), h("strong", {}, was(), "Cannot be made"), h("span", { class: "as-drawn" }, "no verdict without a layout")),
             ...marks.slice(0, MOST_LINES).map((m, i) => h("p", { class: "mark-line", title: m.text }, h("span", { class: "mark-number" }, String(i + 1)), ` ${m.label}`, m.code ? h("span", { class: "code" }, ` ${m.code}`) : null)),
-            marks.length > MOST_LINES ? h("p", {}, `and ${marks.length - MOST_LINES} more`) : "",
-            h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
+            marks.length > MOST_LINES ? h("p", {}, `and ${marks.length - MOST_LINES} more`) : "");
         this.last = "failed";
     }
 
     /** Mistakes stand on top; what is only to be known stands last. */
     #answer() {
+        for (const shown of this.ofAnswer) shown.take(state.answered);
         this.#staleness();
         const errors = state.diagnostics.filter((d) => d.severity === "error");
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
@@ -88,33 +95,41 @@ export class Verdict {
         this.said = said;
     }
 
+    /** Why what is shown is old, in words, as soon as it looks old. */
     #staleness() {
-        document.body.classList.toggle("stale", state.stale);
-        this.banner.classList.toggle("stale", state.stale);
-        const note = this.banner.querySelector(".stale-note");
-        if (note) note.hidden = !state.stale;
+        const key = inputKey();
+        const why = state.preview === null || isPresent() ? "" : state.cancelled === key ? "cancelled" : state.answered === key ? "none" : "late";
+        const said = this.banner.classList.contains("old") ? why : "";
+        if (said === this.why) return;
+        this.why = said;
+        this.old.hidden = said === "";
+        this.old.replaceChildren(...{
+            "": [], late: ["Grey: of the former input. The present one is being computed."],
+            none: ["Grey: of the last input that had an answer. The present one has none."],
+            cancelled: ["Grey: of the former input. Computing the present one was cancelled. ", button("Compute", { class: "small", id: "compute-again" }, askAgain)],
+        }[said]);
     }
 
     show() {
+        const full = this.#full();
+        for (const shown of this.ofPreview) shown.take(state.previewOf);
+        for (const shown of this.ofFull) shown.take(full ? this.full.of : null);
         const v = state.preview.verdict;
         if (!v) {
             this.#wait();
             this.#effects();
             return this.#cost();
         }
-        const full = this.#full();
         const top = full ?? v; // the same document: as it will be made, or a first look at the drawing
         const [word, sign] = WORDS[top.verdict] ?? WORDS.inconclusive;
         const lines = top.summary ?? [];
         const changed = this.last !== top.verdict;
         this.last = top.verdict;
-        this.banner.className = `banner ${top.verdict}`;
-        this.banner.dataset.verdict = top.verdict;
+        this.#decided(top.verdict);
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),
-            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "",
-            h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
+            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "");
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v);
@@ -254,6 +269,9 @@ export class Verdict {
         this.show();
     }
 }
+
+/** Before the word of a decision; seen when that is old. */
+const was = () => h("span", { class: "was" }, "Before: ");
 
 /** Of how it is computed, what a verdict depends on. */
 function judging() {
