@@ -7,6 +7,7 @@
 #include "report/figure.h"
 #include "report/json_parts.h"
 #include <math.h>
+#include <string.h>
 
 typedef struct frame { /* world -> local: turn by -phi about (x, y), then that point is the origin
                         */
@@ -287,8 +288,46 @@ static double limit_in(const fw_report_preview *in, int flow, int joint) {
     return (double)NAN;
 }
 
+/* the motion that is shown, as the verdict judged it; NULL: it did not */
+static const fw_verdict_variant_verdict *shown_verdict(const fw_report_preview *in, int *scene) {
+    const fw_mechanism_variant *shown = in->mechanism->variant;
+    *scene = FW_NONE;
+    for (int k = 0; in->scene && k < in->device->nscene; k++)
+        if (strcmp(in->device->scene[k].name, in->scene->name) == 0) *scene = k;
+    for (int i = 0; shown && in->verdict && *scene != FW_NONE && i < in->verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
+        if (v->variant && v->used && strcmp(v->variant->flow, shown->flow) == 0) return v;
+    }
+    return NULL;
+}
+
+/* What the verdict says that a hinge uses in the motion that is shown, by whatever limit rules there
+   (strain with the joint force, fatigue). The picture and the plot have one angle for the whole of
+   it: the one at which the peak of this motion would use all. */
+typedef struct rule {
+    double utilisation, limit_rad; /* NaN: nothing is known */
+    const char *criterion;         /* of the worst scene; NULL: none */
+} rule;
+
+static rule rule_of(const fw_report_preview *in, const fw_verdict_variant_verdict *v, int scene,
+                    int pin) {
+    rule r = {(double)NAN, fw_report_pin_limit(in->mechanism, pin), NULL};
+    for (int k = 0; v && in->motion && k < v->nhinge; k++) {
+        if (v->hinge[k].joint != pin) continue;
+        double used = v->used[(size_t)k * ((size_t)in->device->nscene + 1) + (size_t)scene];
+        double peak = fabs(in->motion->peak[pin].angle_rad);
+        if (!isfinite(used)) continue;
+        r.utilisation = used;
+        if (v->hinge[k].limit) r.criterion = v->hinge[k].limit->criterion;
+        if (used > 0.0 && peak > 0.0) r.limit_rad = peak / used;
+    }
+    return r;
+}
+
 static void pins(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
+    int scene;
+    const fw_verdict_variant_verdict *judged = shown_verdict(in, &scene);
     fw_json_list(out, "pins");
     for (int i = 0; i < m->npin; i++) {
         const fw_mechanism_pin *p = &m->pin[i];
@@ -308,8 +347,10 @@ static void pins(const fw_report_preview *in, fw_json *out) {
         for (int k = 0; k < in->nflow; k++)
             fw_json_number(out, NULL, limit_in(in, k, i), 7);
         fw_json_end(out);
-        /* in the flow of the motion */
-        fw_json_number(out, "shown_limit_rad", fw_report_pin_limit(m, i), 7);
+        rule shown = rule_of(in, judged, scene, i);
+        fw_json_number(out, "shown_limit_rad", shown.limit_rad, 7);
+        fw_json_number(out, "shown_utilisation", shown.utilisation, 7);
+        fw_json_text(out, "shown_criterion", shown.criterion);
         fw_json_end(out);
     }
     fw_json_end(out);

@@ -57,13 +57,14 @@ export async function serve(device, { port = 0 } = {}) {
 const wrongs = []; // what must not happen, of all pages
 
 /** Opens the page of a server and waits for its first answer. */
-export async function open(server, { width = 1440, height = 900, colorScheme = "light" } = {}) {
-    const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true });
+export async function open(server, { width = 1440, height = 900, colorScheme = "light", before, ...more } = {}) {
+    const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true, ...more });
     context.setDefaultTimeout(15000);
     await context.addInitScript(() => {
         globalThis.refused = [];
         document.addEventListener("securitypolicyviolation", (e) => globalThis.refused.push(`${e.violatedDirective} ${e.blockedURI} ${e.sourceFile}:${e.lineNumber}`));
     });
+    if (before) await context.addInitScript(before);
     const page = await context.newPage();
     page.expected = []; // errors that a test provokes
     page.on("console", (m) => {

@@ -104,6 +104,8 @@ export function begin(work) {
 export const underWay = () => [...working];
 
 /** Asks everything that may still change what is shown: each adds () => true while it has something to do. */
-const pending = new Set();
-export const mayChange = (f) => pending.add(f);
-export const settled = () => working.size === 0 && [...pending].every((f) => !f());
+const pending = [];
+export const mayChange = (busy, { job = false } = {}) => pending.push({ busy, job });
+
+/** Nothing changes any more by itself; jobs false: but for long work. */
+export const settled = (jobs = true) => working.size === 0 && pending.every((x) => (x.job && !jobs) || !x.busy());

@@ -120,7 +120,7 @@ export class JobView {
         this.wrong = new Shown(this.errors, () => this.key);
         this.#look();
         for (const event of ["text", "options", "change", "preview"]) on(event, () => this.#moved());
-        mayChange(() => this.control !== null || this.timer !== 0);
+        mayChange(() => this.control !== null || this.timer !== 0, { job: true });
     }
 
     /** Elements beside its own that show what the job gave. */

@@ -263,6 +263,6 @@ export function colourLegend() {
     const bar = h("span", { class: "ramp", "aria-hidden": "true" },
         Array.from({ length: steps }, (_, i) => h("i", { style: { background: scale(i / (steps - 1)) } })));
     return h("div", { class: "colour-legend" },
-        h("span", {}, "angle / limit"), h("span", {}, "0"), bar, h("span", {}, "100 %"),
+        h("span", {}, "share of the limit"), h("span", {}, "0"), bar, h("span", {}, "100 %"),
         h("span", { class: "over-key", "aria-hidden": "true" }), h("span", {}, "beyond"));
 }

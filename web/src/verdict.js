@@ -167,7 +167,7 @@ export class Verdict {
     /** Of every hinge as made. */
     #made() {
         const full = this.#full();
-        return full && { hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.map((x) => [x.id, x.as_fabricated?.utilisation])) };
+        return full && { hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.filter((x) => x.as_fabricated).map((x) => [x.id, x.as_fabricated])) };
     }
 
     #bars(v) {
@@ -176,13 +176,14 @@ export class Verdict {
         state.flow = this.whose.value;
         const own = v.flows.find((f) => f.id === state.flow);
         const list = own?.hinges ?? v.hinges;
-        const governing = own ? own.governing : (this.#full() ?? v).governing; // that of the banner
+        const top = this.#full() ?? v; // that of the banner
+        const governing = own ? top.flows.find((f) => f.id === own.id)?.governing : top.governing;
         if (!list.length) {
             this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
             return;
         }
-        const most = Math.max(1.25, ...list.map((x) => Math.min(x.utilisation ?? 0, 4)));
         const made = this.#made()?.hinges(state.flow);
+        const most = Math.max(1.25, ...list.map((x) => Math.min(Math.max(x.utilisation ?? 0, made?.get(x.id)?.utilisation ?? 0), 4)));
         const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id)));
         this.bars.replaceChildren(
             h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
@@ -205,6 +206,8 @@ export class Verdict {
             ["flow", hinge.flow],
             ["rules", hinge.criterion ?? "–"],
         ];
+        const made = this.#made()?.hinges(state.flow).get(hinge.id);
+        if (made) facts.push(["as made", `${percent(made.utilisation)}, ${made.corner}`]);
         this.bars.append(h("dl", { class: "facts-list bar-detail" }, facts.map(([k, x]) => [h("dt", {}, k), h("dd", {}, x)])));
     }
 
@@ -295,18 +298,20 @@ function asDrawn(g) {
 }
 
 function bar(hinge, most, governing, made) {
-    const use = hinge.utilisation ?? 0;
-    const [low, high] = hinge.utilisation_band ?? [use, use];
+    const rules = made ?? hinge; // as it will be made, where that is known: what the banner says
+    const use = rules.utilisation ?? 0;
+    const [low, high] = rules.utilisation_band ?? [use, use];
+    const drawn = made ? `, ${percent(hinge.utilisation)} as drawn` : "";
     const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
     return h("button", {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
-        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${made ? " as made" : ""}${drawn}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
     },
     h("span", { class: "bar-id" }, hinge.id),
     h("span", { class: "bar-track" },
         h("span", { class: "bar-fill", style: { width: x(use) } }),
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
-        made ? h("span", { class: "bar-made", title: `as fabricated: ${percent(made)}`, style: { left: x(made) } }) : null),
+        made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
     h("span", { class: "bar-value" }, percent(use, use < 0.1 ? 2 : 3)));
 }
 
