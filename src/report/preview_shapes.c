@@ -368,8 +368,38 @@ static void box_um(fw_json *out, const char *key, const fw_geometry_box *box) {
     fw_json_end(out);
 }
 
+/* where the corners of what is drawn of a body, and its pins, come to at so many instants */
+static void swept(const fw_report_preview *in, int body, fw_geometry_vec2 p, fw_geometry_box *box) {
+    enum { INSTANTS = 96 };
+    const fw_dynamics_motion *x = in->motion;
+    double end = x->t_s[x->nsample - 1];
+    for (int i = 0; i <= INSTANTS; i++) {
+        fw_geometry_vec2 q = fw_report_moved(in->mechanism, x, body, end * i / INSTANTS, p);
+        if (isfinite(q.x) && isfinite(q.y)) fw_report_box_add(box, q.x, q.y);
+    }
+}
+
+static void motion_box(const fw_report_preview *in, fw_geometry_box *box) {
+    const fw_mechanism *m = in->mechanism;
+    if (!in->motion || in->motion->nsample < 1) return;
+    for (int i = 0; fw_report_drawn(in->layout) && i < in->layout->npiece; i++) {
+        const fw_layout_piece *p = &in->layout->piece[i];
+        if (p->role != FW_ROLE_STRUCTURE || p->body < 0) continue;
+        fw_geometry_box b = fw_geometry_contour_box(&p->contour);
+        const fw_geometry_vec2 corner[4] = {{b.x0, b.y0}, {b.x1, b.y0}, {b.x1, b.y1}, {b.x0, b.y1}};
+        for (int k = 0; k < 4; k++)
+            swept(in, p->body, corner[k], box);
+    }
+    for (int i = 0; i < m->npin; i++) {
+        fw_geometry_vec2 p = fw_mechanism_pin_place(m, &m->pin[i], 0);
+        swept(in, m->pin[i].body_a, p, box);
+        swept(in, m->pin[i].body_b, p, box);
+    }
+}
+
 /* what a picture has to hold: everything drawn of bodies and ground but the frame; centres and
-   pins where nothing is drawn; springs. And a picture of the scene: its cables and electrodes */
+   pins where nothing is drawn; springs. And a picture of the scene: its cables and electrodes, and
+   wherever the motion takes the bodies */
 static void boxes(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
     fw_geometry_box box = fw_report_box_empty();
@@ -389,6 +419,7 @@ static void boxes(const fw_report_preview *in, fw_json *out) {
     fw_report_preview_attached_box(m, &box);
     box_um(out, "box_um", &box);
     fw_report_preview_scene_box(m, in->scene, &box);
+    motion_box(in, &box);
     box_um(out, "scene_box_um", &box);
 }
 

@@ -371,6 +371,7 @@ export async function step(page, server, d, { mend = false, whole = d.below(4) =
     const name = mend && d.below(4) ? "undo" : d.of(Object.keys(actions));
     await actions[name](page, d, settle, same);
     await settle();
+    assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {}, "a value is held that nobody holds");
     const basis = await same();
     const wrong = await page.evaluate(() => globalThis.driven.wrong);
     assert.deepEqual(wrong, [], "marked as present, and of another input");

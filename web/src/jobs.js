@@ -73,6 +73,12 @@ export function forget(job) {
 export const fileOf = (job, path) => `/api/jobs/${job.id}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
 export const hasFile = (job, path) => job.files?.some((f) => f.path === path) ?? false;
 
+/** Exit status of a command whose design is rejected. */
+export const REJECTED = 1;
+
+/** Why the present design is rejected, and what can be done all the same, in words. */
+export const rejection = () => `${isPresent() ? (state.summary ?? []).slice(0, 1).map((l) => `${l.label}: ${l.text}.`).join(" ") : ""} Tick "though it is rejected" to have it made all the same, marked so.`;
+
 /** "make it of a rejected design, too": {label, options()} of a job that makes masks or recipes. */
 export function forceTick(view) {
     const tick = h("input", { type: "checkbox" });

@@ -5,7 +5,7 @@ import { get, request as fetchText } from "./api.js";
 import { Shown } from "./belong.js";
 import { button, h, s, select, setOptions } from "./dom.js";
 import { bytes, number } from "./format.js";
-import { fileOf, forceTick, hasFile, JobView } from "./jobs.js";
+import { fileOf, forceTick, hasFile, JobView, REJECTED, rejection } from "./jobs.js";
 import { zoomButtons } from "./motion.js";
 import { on, state } from "./store.js";
 import { scaleBar, Viewport } from "./viewport.js";
@@ -108,7 +108,7 @@ export class Masks {
         if (job !== this.done) return;
         this.#layers(layers, coupons ?? mask);
         this.#outlines(outlines, mask);
-        this.#violations(this.cell.value ? [] : found);
+        this.#violations(this.cell.value ? [] : found, mask !== undefined || found.length > 0);
         this.#files(job, name, mask);
         const box = (coupons ?? mask)?.extent_um;
         this.box = box ?? null;
@@ -174,7 +174,8 @@ export class Masks {
         this.#visibility();
     }
 
-    #violations(list) {
+    /** checked: rules were looked at; else why not. */
+    #violations(list, checked) {
         this.violations.hidden = !this.done;
         this.marks.replaceChildren(...list.map((v, i) => s("g", { class: `mark ${v.severity}`, "data-i": i },
             s("rect", { x: v.box_um[0], y: v.box_um[1], width: v.box_um[2] - v.box_um[0], height: v.box_um[3] - v.box_um[1] }),
@@ -185,7 +186,12 @@ export class Masks {
             h("span", { class: "code" }, `${v.layer} · ${v.pieces.join(" and ")}`))));
         this.violations.replaceChildren(
             h("h2", {}, list.length ? `${list.length} ${list.length === 1 ? "place breaks" : "places break"} a rule` : "Design rules"),
-            list.length ? h("ul", { class: "diagnostics" }, items) : h("p", { class: "empty" }, "No rule is broken."));
+            list.length ? h("ul", { class: "diagnostics" }, items) : h("p", { class: "empty" }, checked ? "No rule is broken." : this.#unmade()));
+    }
+
+    /** Why there is no mask, and so nothing that rules could be checked on. */
+    #unmade() {
+        return this.done.exit_status === REJECTED ? `No mask was made, so no rule was checked: the design is rejected. ${rejection()}` : `No mask was made, so no rule was checked. ${this.done.messages?.[0] ?? ""}`;
     }
 
     #jump(v, i) {

@@ -16,6 +16,9 @@ const grown = ([x0, y0, x1, y1], share) => {
     return [x0 - dx, y0 - dy, x1 + dx, y1 + dy];
 };
 
+/** The box that is shown where it holds the new one and is hardly larger: a picture that is driven does not pulse. */
+const steady = (old, now) => (old[0] <= now[0] && old[1] <= now[1] && old[2] >= now[2] && old[3] >= now[3] && old[2] - old[0] <= 1.25 * (now[2] - now[0]) && old[3] - old[1] <= 1.25 * (now[3] - now[1]) ? old : now);
+
 /** Row of a motion, x, y, phi of body after body, as poses in the order of the preview's bodies. */
 export const posesOf = (preview, row) => preview.bodies.map((b, i) => (b.fixed ? REST : row.slice(3 * i, 3 * i + 3)));
 export const restOf = (preview) => preview.bodies.map((b) => b.rest ?? REST);
@@ -79,7 +82,7 @@ export class Mechanism {
         this.pose(q);
         const room = this.scene && preview.loads?.some((x) => x.kind === "tendon") ? 0.06 : 0; // for the arrows of cables
         const box = this.scene ? preview.scene_box_um : preview.box_um;
-        if (box) this.view.setBox(grown(box, Math.max(this.around, room)));
+        if (box) this.view.setBox(steady(this.view.box, grown(box, Math.max(this.around, room))));
     }
 
     #parts(preview) {

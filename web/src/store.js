@@ -14,6 +14,7 @@ export const state = {
     answered: null, // input of the last answer, good or not: that of the diagnostics
     cancelled: null, // input whose answer nobody waits for any more
     diagnostics: [],
+    summary: null, // first lines of the verdict that is shown
     hinge: null, // id of the hinge that is looked at
     flow: "", // whose utilisation is shown; "": the worst of all
     latency: [], // ms from a change to its picture, of the last ones

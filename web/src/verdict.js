@@ -116,13 +116,14 @@ export class Verdict {
         for (const shown of this.ofFull) shown.take(full ? this.full.of : null);
         const v = state.preview.verdict;
         if (!v) {
+            state.summary = null;
             this.#wait();
             this.#effects();
             return this.#cost();
         }
         const top = full ?? v; // the same document: as it will be made, or a first look at the drawing
         const [word, sign] = WORDS[top.verdict] ?? WORDS.inconclusive;
-        const lines = top.summary ?? [];
+        const lines = (state.summary = top.summary ?? []);
         const changed = this.last !== top.verdict;
         this.last = top.verdict;
         this.#decided(top.verdict);
@@ -217,12 +218,13 @@ export class Verdict {
             const name = flow.name ?? flow.id;
             const own = v.flows?.find((f) => f.id === name);
             const made = flow.manufacturable;
-            const word = made === true ? "can be made" : made === false ? "cannot be made" : "not guaranteed";
             const reasons = flow.reasons ?? [];
+            const word = made === true ? "can be made" : made === false ? "cannot be made" : reasons.length ? "not guaranteed" : "not looked at";
             return h("details", { class: `flow ${own?.verdict ?? ""}` },
                 h("summary", {}, h("span", { class: "flow-name" }, name), h("span", { class: `chip ${made === true ? "good" : made === false ? "bad" : "open"}` }, word)),
                 own?.governing ? h("p", {}, asDrawn(own.governing)) : null,
-                reasons.length ? h("ul", {}, reasons.map((r) => h("li", {}, r))) : h("p", {}, "Nothing speaks against it."));
+                reasons.length ? h("ul", {}, reasons.map((r) => h("li", {}, r)))
+                    : h("p", {}, made === true ? "Nothing speaks against it." : "Not computed here: the masks and the recipe say what the flow can make."));
         }));
     }
 
