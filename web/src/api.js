@@ -23,7 +23,7 @@ const listeners = new Set();
 export const onConnection = (f) => listeners.add(f);
 const tell = (error) => listeners.forEach((f) => f(error));
 
-export async function request(method, path, body, { signal, as = "json" } = {}) {
+export async function request(method, path, body, { signal, as = "json", quiet = false } = {}) {
     const headers = {};
     if (method !== "GET") headers["X-Flexwright-Token"] = token ?? "";
     if (body !== undefined) headers["Content-Type"] = "application/json";
@@ -51,7 +51,7 @@ export async function request(method, path, body, { signal, as = "json" } = {}) 
         if (error.lost) tell(error);
         throw error;
     }
-    tell(null);
+    if (!quiet) tell(null);
     if (as === "text") return response.text();
     if (response.status === 204) return null;
     return response.json();
@@ -62,8 +62,9 @@ export const post = (path, body, options) => request("POST", path, body, options
 export const remove = (path) => request("DELETE", path);
 
 export async function openSession() {
-    const session = await get("/api/session");
+    const session = await get("/api/session", { quiet: true });
     token = session.token;
+    tell(null); // whoever goes on now has the token
     return session;
 }
 

@@ -10,7 +10,7 @@ import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
 import { $, button, h, s } from "./dom.js";
 import { Editor } from "./editor.js";
-import { follow, openText, save, startFile } from "./file.js";
+import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
 import { heard } from "./jobs.js";
 import { Masks } from "./masks.js";
@@ -51,9 +51,10 @@ function headerState() {
     const [undos, redos] = parts.editor.depths;
     parts.undo.disabled = undos === 0;
     parts.redo.disabled = redos === 0;
-    const changed = state.file === null || state.text !== state.file.text;
-    parts.save.disabled = state.file === null ? false : !changed || state.file.writable === false;
-    parts.file.textContent = state.file === null ? "not a file" : `${state.file.name}${changed ? ", changed" : ""}`;
+    const changed = unsaved();
+    const gone = state.file?.gone !== undefined;
+    parts.save.disabled = state.file === null ? false : (!changed && !gone) || state.file.writable === false;
+    parts.file.textContent = state.file === null ? `not a file${changed ? ", changed" : ""}` : `${state.file.name}${gone ? ", not on disk" : changed ? ", changed" : ""}`;
     parts.file.classList.toggle("changed", changed);
     parts.device.textContent = parts.form.name;
     document.title = `${changed && state.file ? "• " : ""}${parts.form.name || "Flexwright"} – Flexwright`;
@@ -119,7 +120,7 @@ document.addEventListener("keydown", (e) => {
 });
 
 window.addEventListener("beforeunload", (e) => {
-    if (state.file && state.text !== state.file.text) e.preventDefault();
+    if (unsaved()) e.preventDefault();
 });
 
 document.addEventListener("jump", (e) => {
@@ -138,7 +139,7 @@ const MOST_WAIT_MS = 30000;
 function listen(wait = 1500) {
     const stream = new EventSource("/api/events");
     stream.addEventListener("open", () => (wait = 1500));
-    stream.addEventListener("file", () => follow(parts.editor));
+    stream.addEventListener("file", (e) => follow(parts.editor, JSON.parse(e.data)));
     stream.addEventListener("job", (e) => heard(JSON.parse(e.data)));
     stream.addEventListener("error", () => {
         if (stream.readyState !== EventSource.CLOSED) return;

@@ -6,7 +6,8 @@ export const state = {
     text: "",
     session: null, // flexwright.session/1
     table: null, // flexwright.table/1
-    file: null, // {name, version, text (as on disk), writable}
+    file: null, // {name, version, text (as on disk, but for line ends), eol, writable, gone: why it cannot be read}
+    base: "", // without a file: the text that was opened or downloaded last
     set: {}, // values of sliders that are held: not in the text yet
     options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
     preview: null, // last good flexwright.preview/1
