@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The form: the tree of the text's elements, each with the attributes that the description table has
 // for it. It holds nothing: every change goes to the text, and the form is made from the text again.
+import { adding, idsOf, mayAdd } from "./adding.js";
 import { edit, hold, isPresent, letGo } from "./design.js";
 import { button, h, setOptions } from "./dom.js";
 import { number, splitQuantity } from "./format.js";
@@ -191,7 +192,7 @@ export class Form {
         const list = h("datalist", { id });
         input.setAttribute("list", id);
         input.addEventListener("focus", () => {
-            const ids = [...walk(this.root)].filter((e) => e.id && this.row(e.name).id_space === attribute.refers_to).map((e) => e.id);
+            const ids = idsOf(this.root, (name, parent) => this.row(name, parent), attribute.refers_to);
             list.replaceChildren(...[...new Set([...ids, ...(attribute.ground ? ["ground"] : [])])].map((x) => h("option", { value: x })));
         });
         return list;
@@ -199,12 +200,12 @@ export class Form {
 
     #tools(element, row, top) {
         const add = h("select", { "aria-label": `Add an element to ${element.name}`, class: "add" });
-        const kinds = this.elements.filter((r) => mayStandIn(r, element.name) && !(r.once && element.children.some((c) => c.name === r.name)));
+        const kinds = this.kinds(element);
         setOptions(add, [["", "Add…"], ...kinds.map((r) => [r.name, r.name, r.sentence])], "");
         add.addEventListener("change", () => {
             const kind = kinds.find((r) => r.name === add.value);
             add.value = "";
-            if (kind) this.#add(element, kind);
+            if (kind) this.#add(this.places.get(element.path) ?? element, kind);
         });
         return h("div", { class: "element-tools" },
             kinds.length ? add : null,
@@ -215,11 +216,19 @@ export class Form {
             top ? null : button("Remove", { icon: "close", class: "quiet" }, () => edit([{ remove: element.path }], `${element.name} removed`)));
     }
 
+    /** Changes of the text that add it; for the tests, too. */
+    adding(element, kind) {
+        return adding(this.root, element, kind, (name, parent) => this.row(name, parent));
+    }
+
+    /** What may be added to an element of this name. */
+    kinds(element) {
+        return this.elements.filter((r) => mayStandIn(r, element.name) && mayAdd(this.root, element, r, (name, parent) => this.row(name, parent)));
+    }
+
     #add(element, kind) {
-        const attributes = {};
-        for (const a of kind.attributes) if (a.required) attributes[a.name] = a.name === kind.key ? freeId(this.root, kind) : starter(a);
         this.opened.add(element.path);
-        edit([{ add: element.path, element: kind.name, attributes }], `${kind.name} added`);
+        edit(this.adding(element, kind), `${kind.name} added`);
     }
 }
 
@@ -281,17 +290,6 @@ function title(element) {
 function summary(element) {
     const shown = [...element.attributes].filter(([name, a]) => a.value !== element.id && name !== "xmlns").slice(0, 4);
     return shown.map(([name, a]) => `${name} ${a.value}`).join(", ");
-}
-
-function freeId(root, kind) {
-    const taken = new Set([...walk(root)].map((e) => e.id));
-    for (let i = 1; ; i++) if (!taken.has(`${kind.name}-${i}`)) return `${kind.name}-${i}`;
-}
-
-function starter(a) {
-    if (a.choices?.length) return a.choices[0];
-    if (a.unit) return `0 ${a.unit}`;
-    return a.type === "number" ? "0" : "";
 }
 
 /** Range of a slider in the unit of the value; from the last preview where it knows it. */
