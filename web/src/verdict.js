@@ -177,13 +177,13 @@ export class Verdict {
         state.flow = this.whose.value;
         const own = v.flows.find((f) => f.id === state.flow);
         const list = own?.hinges ?? v.hinges;
-        const top = this.#full() ?? v; // that of the banner
-        const governing = own ? top.flows.find((f) => f.id === own.id)?.governing : top.governing;
         if (!list.length) {
             this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
             return;
         }
         const made = this.#made()?.hinges(state.flow);
+        const worst = made?.size ? [...made].reduce((a, b) => (b[1].utilisation > a[1].utilisation ? b : a)) : null;
+        const governing = !own ? (this.#full() ?? v).governing : worst ? { id: worst[0] } : own.governing; // all flows: that of the banner
         const most = Math.max(1.25, ...list.map((x) => Math.min(Math.max(x.utilisation ?? 0, made?.get(x.id)?.utilisation ?? 0), 4)));
         const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id)));
         this.bars.replaceChildren(
@@ -237,7 +237,7 @@ export class Verdict {
         this.ledger.replaceChildren(
             ...called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
                 h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
-                    h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "∞" : percent(e.bound, 2)),
+                    h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "no bound" : percent(e.bound, 2)),
                     h("span", { class: "state" }, e.active ? "computed" : "left out")),
                 h("p", {}, e.reason ?? ""))), last);
     }
