@@ -269,7 +269,7 @@ async function looksOld(page) {
         const parts = [...document.querySelectorAll("#banner, #right > .card[data-of='former'], #panel-motion [data-of='former']")].filter((e) => e.offsetParent !== null && e.dataset.of !== "nothing");
         return !document.querySelector("#busy").hidden && parts.length > 2 && parts.every((e) => e.classList.contains("old") && getComputedStyle(e.matches(".stage") ? e.querySelector("svg") : e).filter.includes("grayscale"));
     });
-    await page.waitForSelector("#old-note:visible");
+    await page.waitForSelector("#old-note > div:visible");
 }
 
 const OPTIONS = { method: ["", "minimal", "qr"], integrator: ["", "dopri5"], accuracy: ["", "1e-2", "1e-4"], effects: ["", "all", "none"], tolerance: ["", "1e-6", "1e-8"] };

@@ -50,7 +50,7 @@ describe("text and file", () => {
         await page.waitForSelector("#editor .cm-lint-marker-error");
         await page.waitForSelector("#editor .cm-lintRange-error");
         await page.waitForSelector("#banner.old");
-        assert.ok(await page.isVisible("#old-note"), "the old verdict is not told to be old");
+        assert.ok(await page.isVisible("#old-note > div"), "the old verdict is not told to be old");
         await page.click(".problems button.jump");
         const chosen = await page.evaluate(() => {
             const { state } = globalThis.flexwright.parts.editor.view;
@@ -60,7 +60,7 @@ describe("text and file", () => {
         await answered(page, () => page.keyboard.press("Control+z"));
         assert.equal(await text(page), good);
         await page.waitForSelector(".problems", { state: "hidden" });
-        assert.ok(!(await page.isVisible("#old-note")));
+        assert.ok(!(await page.isVisible("#old-note > div")));
         await answered(page, () => setText(page, ["</device>", "</devise>"]));
         await page.waitForSelector(".problems li.error");
         await page.waitForSelector('.slider[data-name="push"]', { state: "attached" }); // the form is still there

@@ -95,6 +95,28 @@ test("no shipped example opens with a mistake, and every motion stays in its pic
     await server.stop();
 });
 
+test("New…: every device to begin from is judged, has its picture, and is one undo away", async () => {
+    const server = await serve("reference-six-bar");
+    const page = await open(server);
+    const before = await page.evaluate(() => globalThis.flexwright.state.text);
+    await page.click("#new");
+    const names = await page.locator(".template strong").allTextContents();
+    assert.ok(names.length >= 9 && ["From nothing", "Six-bar", "Four-bar", "Stage", "Gripper"].every((n) => names.includes(n)), names.join());
+    await page.waitForFunction(() => [...document.querySelectorAll(".template img")].every((i) => i.naturalWidth > 100));
+    await page.keyboard.press("Escape");
+    for (const name of names) {
+        await page.click("#new");
+        await answered(page, () => page.locator(".template", { has: page.locator(`strong:text-is("${name}")`) }).click());
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.diagnostics.filter((d) => d.severity === "error").map((d) => d.message)), [], name);
+        assert.equal(await page.evaluate(() => globalThis.flexwright.state.preview.verdict.verdict), name === "Copper nodder" ? "reject" : "accept", name);
+        await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
+        assert.equal(await page.evaluate(() => globalThis.flexwright.state.text), before, name);
+    }
+    await close(page);
+    await server.stop();
+});
+
 describe("what is added", () => {
     // what needs a place that only a person knows; a third flow needs a scene of its own
     const NEEDS_A_PERSON = new Set(["mechanism>revolute", "mechanism>prismatic", "mechanism>weld", "body>outline", "body>lettering", "device>flow"]);

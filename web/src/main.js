@@ -20,6 +20,7 @@ import { connection, notice } from "./notices.js";
 import { Recipe } from "./recipe.js";
 import { emit, on, state } from "./store.js";
 import { makeTabs } from "./tabs.js";
+import { newDevice } from "./templates.js";
 import { startTheme, themeButton } from "./theme.js";
 import { Verdict } from "./verdict.js";
 import { Workspace } from "./workspace.js";
@@ -36,12 +37,13 @@ function header() {
     parts.file = h("span", { class: "file-state", id: "file-state" });
     parts.undo = button("Undo", { icon: "undo", hidden: true, id: "undo" }, () => parts.editor.undo());
     parts.redo = button("Redo", { icon: "redo", hidden: true, id: "redo" }, () => parts.editor.redo());
+    parts.fresh = button("New…", { icon: "plus", id: "new" }, () => newDevice(parts.editor));
     parts.open = button("Open", { icon: "open", id: "open" }, () => openText(parts.editor));
     parts.open.hidden = true;
     parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
     $("top").append(
         h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }), busySign(),
-        parts.undo, parts.redo, parts.open, parts.save,
+        parts.fresh, parts.undo, parts.redo, parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
         button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));

@@ -103,11 +103,11 @@ export class Verdict {
         if (said === this.why) return;
         this.why = said;
         this.old.hidden = said === "";
-        this.old.replaceChildren(...{
+        this.old.replaceChildren(h("div", {}, {
             "": [], late: ["Grey: of the former input. The present one is being computed."],
             none: ["Grey: of the last input that had an answer. The present one has none."],
             cancelled: ["Grey: of the former input. Computing the present one was cancelled. ", button("Compute", { class: "small", id: "compute-again" }, askAgain)],
-        }[said]);
+        }[said]));
     }
 
     show() {
