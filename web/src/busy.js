@@ -8,7 +8,7 @@ const TICK_MS = 100;
 
 export function busySign() {
     const words = h("span", {});
-    const box = h("div", { class: "busy", id: "busy", role: "status", hidden: true }, h("span", { class: "busy-dot", "aria-hidden": "true" }), words,
+    const box = h("div", { class: "busy-sign", id: "busy", role: "status", hidden: true }, h("span", { class: "busy-dot", "aria-hidden": "true" }), words,
         button("Cancel", { icon: "close", class: "small", id: "busy-cancel" }, () => {
             for (const work of underWay()) work.cancel?.();
         }));
