@@ -71,13 +71,19 @@ void fw_serve_draft_get(fw_serve_request *r, const char *path) {
 
 static void keep(fw_serve_request *r, const char *path, const json_t *draft) {
     fw_diags diags = fw_diags_new(r->arena);
-    char *text = json_dumps(draft, JSON_COMPACT | JSON_SORT_KEYS);
-    fw_status status = FW_NOMEM;
+    fw_text text = fw_text_new(r->arena);
+    fw_json json = fw_json_new(&text, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    text_or_null(&json, draft, "text");
+    text_or_null(&json, draft, "version");
+    fw_json_end(&json);
+    fw_status status = fw_json_finish(&json, "\n");
     mode_t before = umask(077);
-    if (text && make_directories(r->arena, path))
-        status = fw_output_single(r->arena, path, text, strlen(text), &diags);
+    if (status == FW_OK && make_directories(r->arena, path))
+        status = fw_output_single(r->arena, path, text.data, text.length, &diags);
+    else
+        status = FW_IO;
     umask(before);
-    free(text);
     static const char done[] = "{\"kept\": true}\n";
     if (status == FW_OK)
         fw_serve_reply_json(r, 200, done, sizeof done - 1);
