@@ -66,18 +66,21 @@ function look() {
         elements.add(shown.element);
     }
     while (left.size > LEFT_MOST) left.delete(left.keys().next().value);
-    for (const element of elements) next = Math.min(next, mark(element, time));
+    const here = inputKey(); // nothing is waited for any more: what is former now stays so
+    const over = state.answered === here || state.cancelled === here;
+    for (const element of elements) next = Math.min(next, mark(element, over ? Infinity : time));
     clearTimeout(timer);
     if (next < Infinity) timer = setTimeout(look, next);
     emit("belong");
 }
 
-/** An element with several results is as old as the oldest of them. Returns in how many ms it becomes old. */
+/** An element with several results is as old as the oldest of them, at this time. Returns in how many ms it becomes
+ *  old. */
 function mark(element, time) {
     const some = element.shown.filter((x) => x.of !== null);
     const former = some.filter((x) => x.former);
     element.dataset.of = former.length ? "former" : some.length ? "present" : "nothing";
-    const age = Math.max(...former.map((x) => time - (left.get(x.of) ?? -Infinity)), -Infinity);
+    const age = Math.max(...former.map((x) => time - (left.get(x.of) ?? 0)), -Infinity);
     const old = age >= OLD_MS;
     if (old !== element.classList.contains("old")) element.classList.toggle("old", old);
     return former.length && !old ? OLD_MS - age + 1 : Infinity;

@@ -85,6 +85,7 @@ const preview = newest(
         if (error.lost) return;
         wrong(input, [{ severity: "error", code: error.body?.error?.code ?? null, message: error.message, line: 0, column: 0 }]);
         emit("answer");
+        look();
     },
     {
         words: "Computing the motion and the verdict",
@@ -92,6 +93,7 @@ const preview = newest(
             if (why !== "cancelled" || input.key !== inputKey()) return;
             state.cancelled = input.key;
             emit("answer");
+            look();
         },
     });
 

@@ -57,7 +57,9 @@ export class Verdict {
         this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
         if (state.preview?.status === "failed") return this.#cannot();
-        this.banner.replaceChildren(h("p", { class: "empty" }, state.preview ? "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same." : "No verdict yet."));
+        this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
+            : (state.preview.diagnostics ?? []).some((d) => d.severity === "error") ? "Nothing is judged: the mistakes below stand in the way."
+                : "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same."));
     }
 
     /** Colour of the banner, and its word for programs; null: there is no decision. */
