@@ -288,6 +288,10 @@ static double limit_in(const fw_report_preview *in, int flow, int joint) {
     return (double)NAN;
 }
 
+static bool same_flow(const char *a, const char *b) { /* NULL: the description's own */
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
 /* the motion that is shown, as the verdict judged it; NULL: it did not */
 static const fw_verdict_variant_verdict *shown_verdict(const fw_report_preview *in, int *scene) {
     const fw_mechanism_variant *shown = in->mechanism->variant;
@@ -296,7 +300,7 @@ static const fw_verdict_variant_verdict *shown_verdict(const fw_report_preview *
         if (strcmp(in->device->scene[k].name, in->scene->name) == 0) *scene = k;
     for (int i = 0; shown && in->verdict && *scene != FW_NONE && i < in->verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
-        if (v->variant && v->used && strcmp(v->variant->flow, shown->flow) == 0) return v;
+        if (v->variant && v->used && same_flow(v->variant->flow, shown->flow)) return v;
     }
     return NULL;
 }
