@@ -78,7 +78,7 @@ export class Workspace {
                 h("div", { class: "row" }, h("label", { class: "option" }, h("span", {}, "body"), this.body), h("label", { class: "option" }, h("span", {}, "flow"), this.flow)),
                 h("div", { class: "pose-fields" }, box("x", "µm", "x_m", 1e6), box("y", "µm", "y_m", 1e6), box("φ", "°", "phi_rad", 180 / Math.PI)),
                 button("Back to rest", { class: "small" }, () => this.ask({ x_m: 0, y_m: 0, phi_rad: 0 })),
-                this.status, this.list),
+                this.status, this.list, h("p", { class: "doc" }, "By rotation alone; the verdict also counts the forces that hold a required pose.")),
             job);
         this.view = new JobView(job, {
             kind: "workspace", action: "Compute the reachable set", options: () => ({}),
