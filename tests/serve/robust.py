@@ -361,6 +361,46 @@ def abandoned(program, directory):
         assert took < 0.5 * 25 * one / 2  # two workers
 
 
+def cpu_of_children(server):
+    """processor seconds of all processes below the server"""
+    total = 0.0
+    for pid in processes(server.process.pid):
+        if pid != server.process.pid:
+            stat = pathlib.Path(f"/proc/{pid}/stat").read_text()
+            field = stat[stat.rindex(")") + 2:].split()
+            total += (int(field[11]) + int(field[12])) / os.sysconf("SC_CLK_TCK")
+    return total
+
+
+def given_up(program, directory):
+    """whose page went away stops computing: far less work than the whole, and the same processes go on"""
+    text = (ROOT / "docs/gallery/copper-nodder/device.xml").read_text()
+    body = json.dumps({"text": text, "options": {"detail": "full", "accuracy": 1e-5}}).encode()
+    with Server(program, directory) as server:
+        server.enter()
+        first = set(processes(server.process.pid))
+        begun = cpu_of_children(server)
+        assert server.ask("POST", "/api/preview", json.loads(body))[0] == 200
+        whole = cpu_of_children(server) - begun
+        begun = cpu_of_children(server)
+        asking = server.connect()
+        asking.sendall(f"POST /api/preview HTTP/1.1\r\nHost: {server.host}\r\nCookie: {server.cookie}\r\n"
+                       f"X-Flexwright-Token: {server.token}\r\nContent-Type: application/json\r\n"
+                       f"Content-Length: {len(body)}\r\n\r\n".encode() + body)
+        while cpu_of_children(server) - begun < 0.05:
+            time.sleep(0.005)
+        asking.close()
+        last, quiet = -1.0, 0
+        while quiet < 10:
+            time.sleep(0.1)
+            now = cpu_of_children(server)
+            last, quiet = now, quiet + 1 if now == last else 0
+        used = last - begun
+        print(f"  the whole takes {whole:.2f} s of CPU, given up {used:.2f} s", flush=True)
+        assert used < 0.6 * whole and set(processes(server.process.pid)) == first
+        assert server.ask("POST", "/api/preview", {"text": TEXT})[0] == 200
+
+
 def stopped(program, directory):
     """a worker that does not answer is ended after its time, and replaced"""
     with Server(program, directory) as server:
@@ -669,8 +709,8 @@ def started_wrongly(program, directory):
 
 
 WAITING = [half_open, drip_alone, stopped]  # these do little but wait: beside the others
-TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, file, lost_file, draft, words, entry, streams, signals, killed, six, browser,
-         started_wrongly]
+TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, given_up, file, lost_file, draft, words,
+         entry, streams, signals, killed, six, browser, started_wrongly]
 
 
 def run(test, program):
