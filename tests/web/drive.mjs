@@ -371,9 +371,17 @@ export const actions = {
 /** One action; whatever it was, afterwards the page shows what is true. Returns [action, what it is compared with].
  *  mend: the text has no answer, and mostly something is taken back. */
 export async function step(page, server, d, { mend = false, whole = d.below(4) === 0 } = {}) {
-    const settle = () => page.waitForFunction((all) => globalThis.flexwright.settled(all), whole, { timeout: 60000 });
+    let name = "";
+    const settle = () => page.waitForFunction((all) => globalThis.flexwright.settled(all), whole, { timeout: 240000 }).catch(async (error) => {
+        const { set, options, working, job } = await page.evaluate(() => {
+            const { state, parts } = globalThis.flexwright;
+            const { full } = parts.verdict;
+            return { set: state.set, options: state.options, working: document.querySelector("#busy").textContent, job: [full.working, full.timer, full.message.textContent] };
+        });
+        throw new Error(`${error.message} Not settled after ${name}: ${JSON.stringify({ whole, set, options, working, job })}`);
+    });
     const same = () => compare(page, server);
-    const name = mend && d.below(4) ? "undo" : d.of(Object.keys(actions));
+    name = mend && d.below(4) ? "undo" : d.of(Object.keys(actions));
     await actions[name](page, d, settle, same);
     await settle();
     assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {}, "a value is held that nobody holds");

@@ -17,7 +17,7 @@ const FIRST = ["reference-six-bar", "comb-stage"];
 const MORE = ["leaf-four-bar", "free-form-four-bar", "straight-stage", "four-tendons"];
 
 for (const device of STEPS ? [...FIRST, ...MORE] : FIRST)
-    test(`${device}, driven at random`, { timeout: STEPS ? Infinity : 240000 }, async (t) => {
+    test(`${device}, driven at random`, { timeout: STEPS ? Infinity : 600000 }, async (t) => {
         const server = await serve(device);
         const page = await open(server, { before: watcher });
         page.expected = [/Failed to load resource/]; // an option that a changed text does not know
