@@ -48,7 +48,9 @@ if(NOT FW_PAGE STREQUAL "OFF")
     if(libraries)
         file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/src/*
              ${PROJECT_SOURCE_DIR}/web/style/*)
-        list(APPEND page_sources ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/index.html
+        file(GLOB page_gallery CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/gallery/*/device.xml
+             ${PROJECT_SOURCE_DIR}/docs/gallery/*/device.svg)
+        list(APPEND page_sources ${page_gallery} ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/index.html
              ${PROJECT_SOURCE_DIR}/web/favicon.svg ${PROJECT_SOURCE_DIR}/web/package-lock.json)
         set(FW_PAGE_DIR ${page_build}/dist)
         set(FW_PAGE_DEPENDS ${FW_PAGE_DIR}/page.js)

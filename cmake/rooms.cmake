@@ -12,7 +12,7 @@ pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
 find_library(LAPACKE_LIBRARY lapacke REQUIRED)
 find_library(LAPACK_LIBRARY lapack REQUIRED)
 
-set(FW_ROOMS base maths geometry drawing quantity xml device flexure layout release wiring mechanism effects multibody assembly
+set(FW_ROOMS base maths geometry drawing quantity chance xml device flexure layout release wiring mechanism effects multibody assembly
              dynamics statics workspace clearance probe
              verdict continuum process measuring schedule mask wafer recipe report plan study serve cli)
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)

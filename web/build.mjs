@@ -25,7 +25,7 @@ const common = {
     outdir: out,
     logLevel: "warning",
     metafile: true,
-    loader: { ".xml": "text" },
+    loader: { ".xml": "text", ".svg": "text" },
 };
 const script = await build({ ...common, entryPoints: { page: "src/main.js" }, format: "esm" });
 const style = await build({ ...common, entryPoints: { page: "style/page.css" } });

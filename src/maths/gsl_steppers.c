@@ -19,6 +19,7 @@
    gsl-bsimp allocates: GSL's LU takes and returns one small block per factorisation. GSL does not
    check every allocation in the creation of bsimp and in that LU.
    Source: GSL reference manual, chapter Ordinary Differential Equations. Tests: test_ode_*.c */
+#include "maths/gsl_quiet.h"
 #include "maths/ode_steps.h"
 #include <float.h>
 #include <gsl/gsl_errno.h>
@@ -103,17 +104,6 @@ static void destroy(fw_maths_stepper *b) {
     s->gsl = s->inside = NULL;
 }
 
-static void set_handler_off(void) {
-    gsl_set_error_handler_off();
-}
-
-/* GSL answers by statuses from here on: its own handler of errors would end the process. It is one
-   for the process, and designs run in parallel: it is written once */
-static void quiet(void) {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, set_handler_off);
-}
-
 static fw_status create(fw_arena *arena, const fw_maths_ode *ode, const gsl_odeiv2_step_type *type,
                         fw_maths_stepper **out) {
     size_t n = (size_t)ode->n, width = (size_t)fw_maths_ode_padded(ode->n);
@@ -129,7 +119,7 @@ static fw_status create(fw_arena *arena, const fw_maths_ode *ode, const gsl_odei
     FW_NEED(s->node = fw_arena_array(arena, double, 2 * (PIECES + 1) * width));
     if (type == gsl_odeiv2_step_bsimp)
         FW_NEED(s->j = fw_arena_array(arena, double, n *(size_t)ode->controlled));
-    quiet();
+    fw_maths_gsl_quiet();
     s->history = type == gsl_odeiv2_step_msadams;
     s->extrapolates = type == gsl_odeiv2_step_bsimp;
     s->system = (gsl_odeiv2_system){function, jacobian, n, s};

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* a preview shows all of a motion */
-enum { WANTED = FW_WANTED_FIGURES | FW_WANTED_ENERGIES };
+enum { WANTED = FW_WANTED_FIGURES | FW_WANTED_ENERGIES, NO_MATERIAL = 225 /* FW-D225 */ };
 
 /* names and materials of the flows where nothing was judged */
 static fw_status flows_of(fw_plan *plan, bool judged, fw_report_preview *in) {
@@ -193,6 +193,17 @@ static void shorten(fw_plan *plan) {
     if (*samples > most) *samples = most;
 }
 
+/* what has no flexure has no limit: that it cannot be judged without a material is no mistake of a
+   description that moves */
+static void excuse(fw_plan *plan) {
+    for (size_t i = 0; plan->device->nflexure == 0 && i < plan->diags.count; i++) {
+        fw_diag *said = &plan->diags.item[i];
+        if (said->number != NO_MATERIAL || said->severity != FW_ERROR) continue;
+        said->severity = FW_NOTE;
+        plan->diags.errors--;
+    }
+}
+
 static fw_status look(fw_design *d, fw_plan_live_request *request, fw_text *out) {
     int status = fw_design_read_memory(d, "device.xml", request->text, request->length);
     if (status == FW_STATUS_USAGE && d->wrong_option)
@@ -205,6 +216,7 @@ static fw_status look(fw_design *d, fw_plan_live_request *request, fw_text *out)
         int moved = FW_STATUS_OK;
         if (scenes && !hopeless(status) && (request->full || status != FW_STATUS_OK))
             d->wanted |= WANTED, moved = fw_design_simulate(d);
+        if (scenes && status != FW_STATUS_OK && moved == FW_STATUS_OK) excuse(d->plan);
         if (hopeless(moved)) status = moved;
     }
     if (hopeless(status)) return (fw_status)status;

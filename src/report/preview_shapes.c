@@ -7,6 +7,7 @@
 #include "report/figure.h"
 #include "report/json_parts.h"
 #include <math.h>
+#include <string.h>
 
 typedef struct frame { /* world -> local: turn by -phi about (x, y), then that point is the origin
                         */
@@ -287,8 +288,50 @@ static double limit_in(const fw_report_preview *in, int flow, int joint) {
     return (double)NAN;
 }
 
+static bool same_flow(const char *a, const char *b) { /* NULL: the description's own */
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* the motion that is shown, as the verdict judged it; NULL: it did not */
+static const fw_verdict_variant_verdict *shown_verdict(const fw_report_preview *in, int *scene) {
+    const fw_mechanism_variant *shown = in->mechanism->variant;
+    *scene = FW_NONE;
+    for (int k = 0; in->scene && k < in->device->nscene; k++)
+        if (strcmp(in->device->scene[k].name, in->scene->name) == 0) *scene = k;
+    for (int i = 0; shown && in->verdict && *scene != FW_NONE && i < in->verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
+        if (v->variant && v->used && same_flow(v->variant->flow, shown->flow)) return v;
+    }
+    return NULL;
+}
+
+/* What the verdict says that a hinge uses in the motion that is shown, by whatever limit rules there
+   (strain with the joint force, fatigue). The picture and the plot have one angle for the whole of
+   it: the one at which the peak of this motion would use all. */
+typedef struct rule {
+    double utilisation, limit_rad; /* NaN: nothing is known */
+    const char *criterion;         /* of the worst scene; NULL: none */
+} rule;
+
+static rule rule_of(const fw_report_preview *in, const fw_verdict_variant_verdict *v, int scene,
+                    int pin) {
+    rule r = {(double)NAN, fw_report_pin_limit(in->mechanism, pin), NULL};
+    for (int k = 0; v && in->motion && k < v->nhinge; k++) {
+        if (v->hinge[k].joint != pin) continue;
+        double used = v->used[(size_t)k * ((size_t)in->device->nscene + 1) + (size_t)scene];
+        double peak = fabs(in->motion->peak[pin].angle_rad);
+        if (!isfinite(used)) continue;
+        r.utilisation = used;
+        if (v->hinge[k].limit) r.criterion = v->hinge[k].limit->criterion;
+        if (used > 0.0 && peak > 0.0) r.limit_rad = peak / used;
+    }
+    return r;
+}
+
 static void pins(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
+    int scene;
+    const fw_verdict_variant_verdict *judged = shown_verdict(in, &scene);
     fw_json_list(out, "pins");
     for (int i = 0; i < m->npin; i++) {
         const fw_mechanism_pin *p = &m->pin[i];
@@ -308,8 +351,10 @@ static void pins(const fw_report_preview *in, fw_json *out) {
         for (int k = 0; k < in->nflow; k++)
             fw_json_number(out, NULL, limit_in(in, k, i), 7);
         fw_json_end(out);
-        /* in the flow of the motion */
-        fw_json_number(out, "shown_limit_rad", fw_report_pin_limit(m, i), 7);
+        rule shown = rule_of(in, judged, scene, i);
+        fw_json_number(out, "shown_limit_rad", shown.limit_rad, 7);
+        fw_json_number(out, "shown_utilisation", shown.utilisation, 7);
+        fw_json_text(out, "shown_criterion", shown.criterion);
         fw_json_end(out);
     }
     fw_json_end(out);
@@ -327,8 +372,38 @@ static void box_um(fw_json *out, const char *key, const fw_geometry_box *box) {
     fw_json_end(out);
 }
 
+/* where the corners of what is drawn of a body, and its pins, come to at so many instants */
+static void swept(const fw_report_preview *in, int body, fw_geometry_vec2 p, fw_geometry_box *box) {
+    enum { INSTANTS = 96 };
+    const fw_dynamics_motion *x = in->motion;
+    double end = x->t_s[x->nsample - 1];
+    for (int i = 0; i <= INSTANTS; i++) {
+        fw_geometry_vec2 q = fw_report_moved(in->mechanism, x, body, end * i / INSTANTS, p);
+        if (isfinite(q.x) && isfinite(q.y)) fw_report_box_add(box, q.x, q.y);
+    }
+}
+
+static void motion_box(const fw_report_preview *in, fw_geometry_box *box) {
+    const fw_mechanism *m = in->mechanism;
+    if (!in->motion || in->motion->nsample < 1) return;
+    for (int i = 0; fw_report_drawn(in->layout) && i < in->layout->npiece; i++) {
+        const fw_layout_piece *p = &in->layout->piece[i];
+        if (p->role != FW_ROLE_STRUCTURE || p->body < 0) continue;
+        fw_geometry_box b = fw_geometry_contour_box(&p->contour);
+        const fw_geometry_vec2 corner[4] = {{b.x0, b.y0}, {b.x1, b.y0}, {b.x1, b.y1}, {b.x0, b.y1}};
+        for (int k = 0; k < 4; k++)
+            swept(in, p->body, corner[k], box);
+    }
+    for (int i = 0; i < m->npin; i++) {
+        fw_geometry_vec2 p = fw_mechanism_pin_place(m, &m->pin[i], 0);
+        swept(in, m->pin[i].body_a, p, box);
+        swept(in, m->pin[i].body_b, p, box);
+    }
+}
+
 /* what a picture has to hold: everything drawn of bodies and ground but the frame; centres and
-   pins where nothing is drawn; springs. And a picture of the scene: its cables and electrodes */
+   pins where nothing is drawn; springs. And a picture of the scene: its cables and electrodes, and
+   wherever the motion takes the bodies */
 static void boxes(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
     fw_geometry_box box = fw_report_box_empty();
@@ -348,6 +423,7 @@ static void boxes(const fw_report_preview *in, fw_json *out) {
     fw_report_preview_attached_box(m, &box);
     box_um(out, "box_um", &box);
     fw_report_preview_scene_box(m, in->scene, &box);
+    motion_box(in, &box);
     box_um(out, "scene_box_um", &box);
 }
 

@@ -38,6 +38,10 @@ static enum MHD_Result one_header(void *context, enum MHD_ValueKind kind, const 
     (void)kind;
     fw_serve_guard_facts *facts = context;
     facts->seen_bytes += strlen(name) + 2 + (value ? strlen(value) : 0) + 2;
+    /* of RFC 9110, 5.6.2: "Transfer-Encoding " is another header to us and may be none to others */
+    static const char token[] = "!#$%&'*+-.^_`|~0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                "abcdefghijklmnopqrstuvwxyz";
+    if (!name[0] || strspn(name, token) != strlen(name)) facts->odd_name = true;
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
         if (strcasecmp(name, headers[i].name) != 0) continue;
         const char **field = (const char **)(void *)((char *)facts + headers[i].offset);
@@ -111,7 +115,10 @@ static void admit(fw_serve_request *r, struct MHD_Connection *mhd, const char *p
     fw_serve_refusal refusal = fw_serve_guard_check(guard, &facts);
     r->reply.close = true; /* whatever comes behind a refused head is not looked at */
     if (refusal.status) {
-        fw_serve_reply_error(r, refusal.status, NULL, "%s", refusal.why);
+        if (fw_serve_guard_is_entry(&facts) || (strcmp(path, "/") == 0 && refusal.status == 401))
+            fw_serve_reply_refusal(r, refusal.status, refusal.why);
+        else
+            fw_serve_reply_error(r, refusal.status, NULL, "%s", refusal.why);
         return;
     }
     bool known;

@@ -186,8 +186,7 @@ static void reply_archive(fw_serve_request *r, const fw_serve_job *job) {
     r->reply.file = true;
     r->reply.fd = fd;
     r->reply.n = (size_t)info.st_size;
-    r->reply.disposition =
-        fw_arena_printf(r->arena, "attachment; filename=\"%s-%u.zip\"", job->kind, job->id);
+    r->reply.disposition = "attachment"; /* its name is the page's to give: that of the device */
 }
 
 static void answer_waiting(fw_serve_job *job) {

@@ -90,6 +90,25 @@ void fw_serve_reply_error(fw_serve_request *r, unsigned status, const char *code
     fw_serve_reply_document(r, status, &json, &text);
 }
 
+void fw_serve_reply_refusal(fw_serve_request *r, unsigned status, const char *why) {
+    const char *text = fw_arena_printf(
+        r->arena,
+        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Flexwright</title>"
+        "<meta name=\"viewport\" content=\"width=device-width\"><meta name=\"color-scheme\" "
+        "content=\"light dark\">\n<h1>Not opened</h1>\n<p>%s.</p>\n<p>If the page is open in this "
+        "browser already, <a href=\"/\">go on there</a>: what was not saved is kept. Otherwise end "
+        "flexwright serve with Ctrl-C, start it again and open the address that it prints.</p>\n",
+        why);
+    if (!text) {
+        fw_serve_reply_no_memory(r);
+        return;
+    }
+    r->reply.status = status;
+    r->reply.type = "text/html; charset=utf-8";
+    r->reply.data = text;
+    r->reply.n = strlen(text);
+}
+
 static struct MHD_Response *response_of(fw_serve_request *r) {
     fw_serve_reply *reply = &r->reply;
     if (reply->made) return reply->made;

@@ -84,6 +84,8 @@ void fw_serve_reply_document(fw_serve_request *request, unsigned status, fw_json
 /* {"error": {"message", "code"}}; code NULL or "FW-D286" */
 void fw_serve_reply_error(fw_serve_request *request, unsigned status, const char *code,
                           const char *format, ...) __attribute__((format(printf, 4, 5)));
+/* the same for a person who opened an address by hand; `why` is text of ours */
+void fw_serve_reply_refusal(fw_serve_request *request, unsigned status, const char *why);
 void fw_serve_reply_no_memory(fw_serve_request *request);
 /* hands request->reply over, with the headers that every answer has */
 enum MHD_Result fw_serve_reply_queue(fw_serve_request *request, struct MHD_Connection *mhd);

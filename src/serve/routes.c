@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can be asked for: a function for each and its row in the table at the end.
    docs/reference/serve.md says what goes in and out. */
+#include "serve/draft.h"
 #include "serve/server.h"
 #include <jansson.h>
 #include <stdlib.h>
@@ -137,6 +138,24 @@ static void post_file(fw_serve_request *r) {
     else
         save_file(r, json_string_value(text), json_string_length(text), json_string_value(version));
     json_decref(body);
+}
+
+/* ---- what nobody saved ---- */
+
+static const char *draft_path(fw_serve_request *r) {
+    return fw_serve_draft_path(r->arena, fw_serve_file_watch_path(r->server->watch));
+}
+
+static void get_draft(fw_serve_request *r) {
+    fw_serve_draft_get(r, draft_path(r));
+}
+
+static void post_draft(fw_serve_request *r) {
+    fw_serve_draft_post(r, draft_path(r));
+}
+
+static void delete_draft(fw_serve_request *r) {
+    fw_serve_draft_delete(r, draft_path(r));
 }
 
 static void get_events(fw_serve_request *r) {
@@ -308,6 +327,9 @@ static const fw_serve_route table[] = {
     {.method = "GET", .path = "/api/table", .handle = compute, .compute = FW_COMPUTE_TABLE},
     {.method = "GET", .path = "/api/file", .handle = get_file},
     {.method = "POST", .path = "/api/file", .handle = post_file},
+    {.method = "GET", .path = "/api/draft", .handle = get_draft},
+    {.method = "POST", .path = "/api/draft", .handle = post_draft},
+    {.method = "DELETE", .path = "/api/draft", .handle = delete_draft},
     {.method = "GET", .path = "/api/events", .handle = get_events},
     {.method = "POST", .path = "/api/preview", .handle = compute, .compute = FW_COMPUTE_PREVIEW},
     {.method = "POST", .path = "/api/pose", .handle = compute, .compute = FW_COMPUTE_POSE},

@@ -69,6 +69,7 @@ static fw_serve_refusal request_line(const fw_serve_guard_facts *f) {
     if (!plain_path(f->path)) REFUSE(400, "no such path");
     if (f->query && !fw_serve_guard_is_entry(f))
         REFUSE(400, "no address of this server takes a query (what stands behind ?)");
+    if (f->odd_name) REFUSE(400, "the name of a header holds a blank or another wrong sign");
     if (f->repeated) REFUSE(400, "a header that may be sent once was sent twice");
     /* the parser hands texts on that end at their first zero byte: what is behind one must not be
        there, so that what was checked is what was sent */

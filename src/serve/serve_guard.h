@@ -30,6 +30,7 @@ typedef struct fw_serve_guard_facts {
     const char *host, *origin, *fetch_site, *fetch_mode, *content_type, *content_length,
         *transfer_encoding, *cookie, *token;
     bool repeated;     /* one of these headers is there twice */
+    bool odd_name;     /* the name of a header holds what may not stand in one */
     const char *entry; /* value of ?token= */
     bool query;        /* there is a query */
     size_t head_bytes; /* of the whole head */

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "base/output.h"
 #include <errno.h>
+#include <stdio.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,8 +20,9 @@ struct fw_serve_file_watch {
     size_t most_bytes;
     fw_serve_events *events;
     int fd;
-    int64_t looked_ms;
-    char version[65]; /* of what was seen last; "": it could not be read */
+    int64_t looked_ms, lost_ms; /* lost: since when it cannot be read; 0: it can */
+    char version[65];           /* of what was seen last; "": it could not be read */
+    char why[200];              /* then */
 };
 
 static fw_status resolve(fw_arena *arena, fw_serve_file_watch *w, const char *path,
@@ -39,12 +41,33 @@ static fw_status resolve(fw_arena *arena, fw_serve_file_watch *w, const char *pa
     return FW_OK;
 }
 
+/* opening a pipe would wait for its other end, and the whole server with it */
+static int open_regular(const char *path, fw_diags *diags) {
+    int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    struct stat info;
+    if (fd < 0)
+        fw_diag_error(diags, 220, (fw_place){.file = path}, "cannot be read: %s", strerror(errno));
+    else if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
+        fw_diag_error(diags, 220, (fw_place){.file = path},
+                      "cannot be read: it is no ordinary file");
+        close(fd);
+        fd = -1;
+    }
+    return fd;
+}
+
 fw_status fw_serve_file_watch_read(fw_arena *arena, const fw_serve_file_watch *w, fw_diags *diags,
                                    fw_serve_file_state *now) {
     *now = (fw_serve_file_state){.writable =
                                      access(w->path, W_OK) == 0 && access(w->directory, W_OK) == 0};
     char *text;
-    FW_TRY(fw_input_read(arena, w->path, w->most_bytes, diags, &text, &now->n));
+    int fd = open_regular(w->path, diags);
+    if (fd < 0) return FW_IO;
+    const char *opened = fw_arena_printf(arena, "/proc/self/fd/%d", fd);
+    fw_status status =
+        opened ? fw_input_read(arena, opened, w->most_bytes, diags, &text, &now->n) : FW_NOMEM;
+    close(fd);
+    FW_TRY(status);
     now->text = text;
     fw_sha256(now->text, now->n, now->version);
     return FW_OK;
@@ -85,6 +108,10 @@ void fw_serve_file_watch_close(fw_serve_file_watch *w) {
     if (w && w->fd >= 0) close(w->fd);
 }
 
+const char *fw_serve_file_watch_path(const fw_serve_file_watch *w) {
+    return w ? w->path : NULL;
+}
+
 const char *fw_serve_file_watch_name(const fw_serve_file_watch *w) {
     return w ? w->name : NULL;
 }
@@ -113,19 +140,29 @@ static bool told(fw_serve_file_watch *w) {
     }
 }
 
-/* {"version": "..."} */
-static fw_status version_json(const char *version, fw_text *out) {
+/* {"version": "..."}, or {"version": null, "why": "..."} */
+static fw_status version_json(const fw_serve_file_watch *w, fw_text *out) {
     fw_json json = fw_json_new(out, FW_JSON_SPACED);
     fw_json_object(&json, NULL);
-    fw_json_text(&json, "version", version);
+    fw_json_text(&json, "version", w->version[0] ? w->version : NULL);
+    if (!w->version[0]) fw_json_text(&json, "why", w->why);
     fw_json_end(&json);
     return fw_json_finish(&json, "");
 }
 
 static void tell_all(fw_arena *arena, const fw_serve_file_watch *w) {
     fw_text text = fw_text_new(arena);
-    if (version_json(w->version, &text) == FW_OK)
-        fw_serve_events_send(w->events, "file", text.data);
+    if (version_json(w, &text) == FW_OK) fw_serve_events_send(w->events, "file", text.data);
+}
+
+/* a file that is gone for the moment is waited for: an editor may be putting a new one in place */
+static void lost(fw_arena *arena, fw_serve_file_watch *w, int64_t now_ms, const char *why) {
+    if (!w->lost_ms) w->lost_ms = now_ms;
+    if (!w->version[0] || now_ms - w->lost_ms < LOOK_MS) return;
+    w->version[0] = '\0';
+    snprintf(w->why, sizeof w->why, "%s", why);
+    fw_serve_reply_clean(w->why);
+    tell_all(arena, w);
 }
 
 void fw_serve_file_watch_run(fw_serve_file_watch *w) {
@@ -138,32 +175,38 @@ void fw_serve_file_watch_run(fw_serve_file_watch *w) {
     if (!arena) return;
     fw_diags diags = fw_diags_new(arena);
     fw_serve_file_state now;
-    /* a file that is gone for the moment is waited for */
-    if (fw_serve_file_watch_read(arena, w, &diags, &now) == FW_OK &&
-        strcmp(now.version, w->version) != 0) {
-        memcpy(w->version, now.version, sizeof w->version);
-        tell_all(arena, w);
+    if (fw_serve_file_watch_read(arena, w, &diags, &now) != FW_OK)
+        lost(arena, w, now_ms, diags.count ? diags.item[0].message : "out of memory");
+    else {
+        w->lost_ms = 0;
+        if (strcmp(now.version, w->version) != 0) {
+            memcpy(w->version, now.version, sizeof w->version);
+            tell_all(arena, w);
+        }
     }
     fw_arena_free(arena);
 }
 
 void fw_serve_file_watch_tell(const fw_serve_file_watch *w, fw_serve_stream *stream) {
-    if (!w || !w->version[0]) return;
+    if (!w) return;
     fw_text text = fw_text_new(stream->request->arena);
-    if (version_json(w->version, &text) == FW_OK) fw_serve_stream_send(stream, "file", text.data);
+    if (version_json(w, &text) == FW_OK) fw_serve_stream_send(stream, "file", text.data);
 }
 
 fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *w, const char *text,
                                    size_t n, const char *version, fw_diags *diags,
                                    fw_serve_file_state *now) {
     fw_diags reading = fw_diags_new(arena);
+    struct stat info;
     fw_status read = fw_serve_file_watch_read(arena, w, &reading, now);
     if (read == FW_OK && strcmp(now->version, version) != 0) return FW_CANCELLED;
-    if (read != FW_OK && access(w->path, F_OK) == 0) { /* what stands there now was never seen */
-        fw_diags_take(diags, &reading);
-        return read;
+    if (read != FW_OK && lstat(w->path, &info) == 0) {
+        fw_diag_error(
+            diags, 222, (fw_place){.file = w->path},
+            "%s is not what it was, and saving would replace it: it %s. Move it away first",
+            w->name, reading.count ? reading.item[0].message : "cannot be read");
+        return FW_IO;
     }
-    struct stat info;
     mode_t mode = stat(w->path, &info) == 0 ? info.st_mode & 0777 : 0666;
     mode_t before = umask(~mode & 0777);
     fw_status status = fw_output_single(arena, w->path, text, n, diags);

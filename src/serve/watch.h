@@ -15,9 +15,12 @@ fw_status fw_serve_file_watch_open(fw_arena *arena, const char *path, size_t mos
 void fw_serve_file_watch_close(fw_serve_file_watch *watch);
 /* without directories; NULL: no file */
 const char *fw_serve_file_watch_name(const fw_serve_file_watch *watch);
+/* whole; NULL: no file */
+const char *fw_serve_file_watch_path(const fw_serve_file_watch *watch);
 int fw_serve_file_watch_fd(const fw_serve_file_watch *watch); /* to be polled; -1: there is none */
 /* looks at the file when the system says that it changed, and every second in any case: tells the
-   pages when its content is another */
+   pages when its content is another, and when it could not be read for a second: gone, too large,
+   no file any more */
 void fw_serve_file_watch_run(fw_serve_file_watch *watch);
 /* tells one page which version was seen last: it may have missed a change */
 void fw_serve_file_watch_tell(const fw_serve_file_watch *watch, fw_serve_stream *stream);
@@ -32,7 +35,8 @@ typedef struct fw_serve_file_state {
 fw_status fw_serve_file_watch_read(fw_arena *arena, const fw_serve_file_watch *watch,
                                    fw_diags *diags, fw_serve_file_state *state);
 /* Saves n bytes, whole or not at all, with the permissions that the file has; state is then what
-   was saved. FW_CANCELLED: the file is not at `version` any more, state says what it is. */
+   was saved. FW_CANCELLED: the file is not at `version` any more, state says what it is. A file that
+   is gone is written anew; what is there and cannot be read is not replaced. */
 fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *watch, const char *text,
                                    size_t n, const char *version, fw_diags *diags,
                                    fw_serve_file_state *state);

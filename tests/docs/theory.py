@@ -26,6 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ROOT / "docs/theory"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import theory_chance  # noqa: E402
 import theory_effects  # noqa: E402
 import theory_fabrication  # noqa: E402
 import theory_flexures  # noqa: E402
@@ -92,7 +93,7 @@ def function_of(path):
 
 
 def functions(name):
-    for module in (theory_flexures, theory_motion, theory_fabrication, theory_effects):
+    for module in (theory_flexures, theory_motion, theory_fabrication, theory_effects, theory_chance):
         if hasattr(module, name):
             return getattr(module, name), getattr(module, name + "_program", None)
     return None, None

@@ -102,6 +102,10 @@ def cases(s, other_cookie):
     chunks = b"5\r\n{\"a\":\r\n0\r\n\r\n"
     yield "chunked", None, f"POST /api/jobs HTTP/1.1\r\n{''.join(write)}Transfer-Encoding: chunked\r\n\r\n".encode() + chunks
     yield "chunked and a length", None, post("/api/jobs", *write, "Transfer-Encoding: chunked\r\n", body=chunks)
+    yield "a blank behind the header's name", None, f"POST /api/jobs HTTP/1.1\r\n{''.join(write)}Transfer-Encoding : chunked\r\n\r\n".encode() + chunks
+    yield "a blank behind the header's name, and a length", None, post("/api/jobs", *write, "Transfer-Encoding : chunked\r\n", body=chunks)
+    yield "a blank behind a name that nobody knows", None, get("/api/session", *mine, "X-Y : z\r\n")
+    yield "a name with a sign that may not stand in it", None, get("/api/session", *mine, "X(Y): z\r\n")
     yield "Transfer-Encoding identity", None, post("/api/jobs", *write, "Transfer-Encoding: identity\r\n")
     yield "Transfer-Encoding xchunked", None, post("/api/jobs", *write, "Transfer-Encoding: xchunked\r\n")
     yield "chunk of 2^64", None, (f"POST /api/jobs HTTP/1.1\r\n{''.join(write)}Transfer-Encoding: chunked\r\n\r\n"

@@ -361,6 +361,46 @@ def abandoned(program, directory):
         assert took < 0.5 * 25 * one / 2  # two workers
 
 
+def cpu_of_children(server):
+    """processor seconds of all processes below the server"""
+    total = 0.0
+    for pid in processes(server.process.pid):
+        if pid != server.process.pid:
+            stat = pathlib.Path(f"/proc/{pid}/stat").read_text()
+            field = stat[stat.rindex(")") + 2:].split()
+            total += (int(field[11]) + int(field[12])) / os.sysconf("SC_CLK_TCK")
+    return total
+
+
+def given_up(program, directory):
+    """whose page went away stops computing: far less work than the whole, and the same processes go on"""
+    text = (ROOT / "docs/gallery/copper-nodder/device.xml").read_text()
+    body = json.dumps({"text": text, "options": {"detail": "full", "accuracy": 1e-5}}).encode()
+    with Server(program, directory) as server:
+        server.enter()
+        first = set(processes(server.process.pid))
+        begun = cpu_of_children(server)
+        assert server.ask("POST", "/api/preview", json.loads(body))[0] == 200
+        whole = cpu_of_children(server) - begun
+        begun = cpu_of_children(server)
+        asking = server.connect()
+        asking.sendall(f"POST /api/preview HTTP/1.1\r\nHost: {server.host}\r\nCookie: {server.cookie}\r\n"
+                       f"X-Flexwright-Token: {server.token}\r\nContent-Type: application/json\r\n"
+                       f"Content-Length: {len(body)}\r\n\r\n".encode() + body)
+        while cpu_of_children(server) - begun < 0.05:
+            time.sleep(0.005)
+        asking.close()
+        last, quiet = -1.0, 0
+        while quiet < 10:
+            time.sleep(0.1)
+            now = cpu_of_children(server)
+            last, quiet = now, quiet + 1 if now == last else 0
+        used = last - begun
+        print(f"  the whole takes {whole:.2f} s of CPU, given up {used:.2f} s", flush=True)
+        assert used < 0.6 * whole and set(processes(server.process.pid)) == first
+        assert server.ask("POST", "/api/preview", {"text": TEXT})[0] == 200
+
+
 def stopped(program, directory):
     """a worker that does not answer is ended after its time, and replaced"""
     with Server(program, directory) as server:
@@ -414,6 +454,8 @@ def file(program, directory):
         assert server.ask("GET", "/api/file")[0] == 422
         there.write_bytes(b"x" * (2 << 20))
         assert server.ask("GET", "/api/file")[0] == 404
+        status, _, data = server.ask("POST", "/api/file", {"text": "lost", "version": third})
+        assert status == 500 and b"larger than" in data and there.stat().st_size == 2 << 20, data
         for wrong in ({}, {"text": 1, "version": ""}, {"text": ""}, []):
             assert server.ask("POST", "/api/file", wrong)[0] == 400, wrong
         events.close()
@@ -422,6 +464,66 @@ def file(program, directory):
         server.enter()
         assert server.ask("GET", "/api/file")[0] == 404
         assert server.ask("POST", "/api/file", {"text": "", "version": ""})[0] == 404
+
+
+def lost_file(program, directory):
+    """a file that goes away, or becomes a pipe, is told; nothing hangs, and what cannot be read is not replaced"""
+    there = pathlib.Path(directory, "device.xml")
+    there.write_text(TEXT)
+    with Server(program, directory, device="device.xml") as server:
+        server.enter()
+        events = server.events()
+        first = server.json("GET", "/api/file")
+        there.unlink()
+        events.until(r'event: file\ndata: {"version": null, "why": "cannot be read: No such file', timeout=5)
+        os.mkfifo(there)
+        began = time.monotonic()
+        status, _, data = server.ask("GET", "/api/file")
+        assert status == 404 and b"no ordinary file" in data and time.monotonic() - began < 5
+        status, _, data = server.ask("POST", "/api/file", {"text": "lost", "version": first["version"]})
+        assert status == 500 and b"Move it away" in data and there.is_fifo()
+        assert server.ask("POST", "/api/preview", {"text": TEXT})[0] == 200
+        there.unlink()
+        again = server.json("POST", "/api/file", {"text": TEXT, "version": first["version"]})  # written anew
+        assert there.read_text() == TEXT and again["version"] == first["version"]
+        events.until(r'event: file\ndata: {"version": "%s"}' % first["version"], timeout=5)
+        events.close()
+    pathlib.Path(directory, "pipe.xml").unlink(missing_ok=True)
+    os.mkfifo(pathlib.Path(directory, "pipe.xml"))
+    done = subprocess.run([program, "serve", "--no-browser", "pipe.xml"], cwd=directory, capture_output=True, timeout=20)
+    assert done.returncode != 0 and b"cannot be read" in done.stderr, done
+
+
+def draft(program, directory):
+    """a text that nobody saved outlives the server, whatever port the next one has; for nobody but the user"""
+    pathlib.Path(directory, "device.xml").write_text(TEXT)
+    state = {"XDG_STATE_HOME": str(pathlib.Path(directory, "state"))}
+    text = TEXT + "<!-- not saved: é -->\r\n"
+    with Server(program, directory, device="device.xml", environment=state) as server:
+        server.enter()
+        assert server.json("GET", "/api/draft") == {"schema": "flexwright.draft/1", "text": None, "version": None}
+        for wrong in ({}, {"text": 1, "version": ""}, {"text": ""}, {"text": "", "version": "", "path": "/"}, []):
+            assert server.ask("POST", "/api/draft", wrong)[0] == 400, wrong
+        assert server.json("POST", "/api/draft", {"text": text, "version": "v"}) == {"kept": True}
+    kept = [p for p in pathlib.Path(directory, "state").rglob("*") if p.is_file()]
+    assert len(kept) == 1 and kept[0].stat().st_mode & 0o777 == 0o600 and kept[0].parent.stat().st_mode & 0o777 == 0o700
+    with Server(program, directory, environment=state) as server:  # of no file: another draft
+        server.enter()
+        assert server.json("GET", "/api/draft")["text"] is None
+    with Server(program, directory, device="device.xml", environment=state) as server:
+        server.enter()
+        assert server.json("GET", "/api/draft")["text"] == text
+        assert server.json("DELETE", "/api/draft") == {"kept": False} and not kept[0].exists()
+        kept[0].write_text("nonsense")
+        assert server.json("GET", "/api/draft")["text"] is None
+        kept[0].unlink()
+        kept[0].parent.rmdir()
+        kept[0].parent.write_text("in the way")
+        assert server.ask("POST", "/api/draft", {"text": text, "version": "v"})[0] == 503
+    with Server(program, directory, device="device.xml", environment={"XDG_STATE_HOME": "", "HOME": ""}) as server:
+        server.enter()
+        assert server.json("GET", "/api/draft")["text"] is None
+        assert server.ask("POST", "/api/draft", {"text": text, "version": "v"})[0] == 503
 
 
 def words(program, directory):
@@ -466,7 +568,8 @@ def entry(program, directory):
         assert status == 304 and not data and again["etag"] == headers["etag"]
         assert server.ask("GET", "/api/session")[1]["cache-control"] == "no-store"
         assert server.ask("GET", "/", headers={"Sec-Fetch-Site": "cross-site"})[0] == 403
-        assert server.ask("GET", f"/?token={server.entry}")[0] == 403
+        status, headers, data = server.ask("GET", f"/?token={server.entry}")  # by hand, a second time: in words
+        assert status == 403 and headers["content-type"].startswith("text/html") and b"used already" in data
 
 
 def streams(program, directory):
@@ -606,8 +709,8 @@ def started_wrongly(program, directory):
 
 
 WAITING = [half_open, drip_alone, stopped]  # these do little but wait: beside the others
-TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, file, words, entry, streams, signals, killed, six, browser,
-         started_wrongly]
+TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, given_up, file, lost_file, draft, words,
+         entry, streams, signals, killed, six, browser, started_wrongly]
 
 
 def run(test, program):

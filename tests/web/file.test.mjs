@@ -2,7 +2,7 @@
 // The text and its file: mistakes, another editor, saving, a server that ends.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, statSync, unlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { answered, close, finish, open, program, ready, serve, setText, text, verdict, view } from "./helper.mjs";
@@ -49,7 +49,8 @@ describe("text and file", () => {
         assert.match(await page.textContent(".problems"), /leef|leaf/);
         await page.waitForSelector("#editor .cm-lint-marker-error");
         await page.waitForSelector("#editor .cm-lintRange-error");
-        assert.ok(await page.isVisible(".stale-note"), "the old verdict is not told to be old");
+        await page.waitForSelector("#banner.old");
+        assert.ok(await page.isVisible("#old-note > div"), "the old verdict is not told to be old");
         await page.click(".problems button.jump");
         const chosen = await page.evaluate(() => {
             const { state } = globalThis.flexwright.parts.editor.view;
@@ -59,7 +60,7 @@ describe("text and file", () => {
         await answered(page, () => page.keyboard.press("Control+z"));
         assert.equal(await text(page), good);
         await page.waitForSelector(".problems", { state: "hidden" });
-        assert.ok(!(await page.isVisible(".stale-note")));
+        assert.ok(!(await page.isVisible("#old-note > div")));
         await answered(page, () => setText(page, ["</device>", "</devise>"]));
         await page.waitForSelector(".problems li.error");
         await page.waitForSelector('.slider[data-name="push"]', { state: "attached" }); // the form is still there
@@ -129,6 +130,137 @@ describe("text and file", () => {
         await verdict(page, "accept");
         page.expected = [];
     });
+});
+
+describe("nothing that somebody wrote is lost", () => {
+    let server, page;
+    before(async () => {
+        server = await serve("straight-stage");
+        page = await open(server);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+    const mine = (words) => page.evaluate((w) => globalThis.flexwright.parts.editor.replace(`${globalThis.flexwright.state.text}<!-- ${w} -->\n`), words);
+    const saved = () => page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
+
+    test("while nobody has answered a conflict, Save writes nothing and shows both sides", async () => {
+        await mine("mine");
+        const [here, theirs] = [await text(page), `${readFileSync(server.file, "utf8")}<!-- theirs -->\n`];
+        writeFileSync(server.file, theirs);
+        await page.waitForSelector('button:has-text("Keep mine")');
+        await page.keyboard.press("Control+s");
+        await page.waitForSelector("dialog .diff");
+        assert.match(await page.textContent("dialog .diff"), /<!-- mine -->.*<!-- theirs -->/s);
+        assert.equal(readFileSync(server.file, "utf8"), theirs);
+        await page.click('dialog button:has-text("Later")');
+        assert.equal(await text(page), here);
+        await page.keyboard.press("Control+s");
+        await page.click("dialog .keep-mine");
+        await page.waitForSelector("dialog", { state: "detached" });
+        assert.equal(readFileSync(server.file, "utf8"), theirs);
+        await page.keyboard.press("Control+s"); // now that it was said, mine is written
+        await saved();
+        assert.equal(readFileSync(server.file, "utf8"), here);
+    });
+
+    test("a saving that another one overtook shows both, too; taking the file's is one undo away", async () => {
+        await mine("second");
+        const here = await text(page);
+        const theirs = readFileSync(server.file, "utf8").replace("<!-- mine -->", "<!-- other -->");
+        page.expected = [/409/];
+        await page.route("**/api/file", async (r) => { // just before it arrives
+            if (r.request().method() === "POST") writeFileSync(server.file, theirs);
+            await r.continue();
+        });
+        await page.keyboard.press("Control+s");
+        await page.waitForSelector("dialog .diff");
+        await page.unroute("**/api/file");
+        await page.click("dialog .take-theirs");
+        assert.equal(await text(page), theirs);
+        await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
+        assert.equal(await text(page), here);
+        await page.evaluate(() => globalThis.flexwright.parts.editor.redo());
+        page.expected = [];
+    });
+
+    test("line ends of the file stay, whatever is edited", async () => {
+        const crlf = readFileSync(server.file, "utf8").replaceAll("\n", "\r\n");
+        writeFileSync(server.file, crlf);
+        await page.waitForFunction(() => globalThis.flexwright.state.file.eol === "\r\n");
+        await answered(page, () => mine("and more"));
+        await page.keyboard.press("Control+s");
+        await saved();
+        assert.equal(readFileSync(server.file, "utf8"), `${crlf}<!-- and more -->\r\n`);
+    });
+
+    test("a file that is deleted is told, its text stays, and Save writes it anew; what cannot be read is not replaced", async () => {
+        page.expected = [/404|500/];
+        unlinkSync(server.file);
+        await page.waitForSelector('.notice:has-text("cannot be read: No such file")');
+        assert.match(await page.textContent("#file-state"), /not on disk/);
+        await page.click("#save");
+        await saved();
+        assert.ok(readFileSync(server.file, "utf8").length > 100);
+        writeFileSync(server.file, "x".repeat(2 << 20));
+        await page.waitForSelector('.notice:has-text("is larger than")');
+        await page.click("#save");
+        await page.waitForSelector('.notice.bad:has-text("Not saved")');
+        assert.equal(statSync(server.file).size, 2 << 20);
+        unlinkSync(server.file);
+        await page.click("#save");
+        await saved();
+        page.expected = [];
+    });
+
+    test("what was not saved outlives the page and the server, on another port, too", async () => {
+        await mine("of yesterday");
+        const here = await text(page);
+        await page.waitForResponse((r) => r.url().endsWith("/api/draft") && r.request().method() === "POST");
+        await page.context().close();
+        await server.halt();
+        await server.restart(0);
+        page = await open(server);
+        await page.waitForSelector('.notice:has-text("were not saved are back")');
+        assert.equal(await text(page), here);
+        await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 600)));
+        await page.context().close(); // and where the file has changed meanwhile, both are shown
+        await server.halt();
+        const theirs = `${readFileSync(server.file, "utf8")}<!-- of this morning -->\r\n`;
+        writeFileSync(server.file, theirs);
+        await server.restart(0);
+        page = await open(server);
+        await page.click('.notice button:has-text("Show both")');
+        assert.match(await page.textContent("dialog .diff"), /of yesterday.*of this morning/s);
+        await page.click("dialog .take-theirs");
+        assert.equal(await text(page), theirs.replaceAll("\r\n", "\n"));
+    });
+});
+
+test("without a file: what is not saved survives a reload, and opening another text asks", async () => {
+    const server = await serve(null);
+    const page = await open(server);
+    const begun = await text(page);
+    const changed = `${begun}<!-- mine -->\n`;
+    await page.evaluate((t) => globalThis.flexwright.parts.editor.replace(t), changed);
+    page.on("dialog", (d) => d.accept());
+    await page.reload();
+    await ready(page);
+    await page.waitForSelector('.notice:has-text("were not saved are back")');
+    assert.equal(await text(page), changed);
+    const pick = async () => {
+        const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#open")]);
+        await chooser.setFiles({ name: "other.xml", mimeType: "application/xml", buffer: Buffer.from(begun.replace("name=", "\r\nname=")) });
+    };
+    await pick();
+    await page.click("dialog .dialog-foot .cancel");
+    assert.equal(await text(page), changed);
+    await pick();
+    await page.click("dialog .drop");
+    assert.equal(await text(page), begun.replace("name=", "\nname="));
+    await close(page);
+    await server.stop();
 });
 
 test("without a file: the starter of `flexwright init`, judged, to be changed and downloaded", async () => {

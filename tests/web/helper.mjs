@@ -31,7 +31,9 @@ export async function serve(device, { port = 0 } = {}) {
     if (device) copyFileSync(join(source, "docs/gallery", device, "device.xml"), file);
     const server = { directory, file, foreign: [] };
     const start = (at) => new Promise((resolve, reject) => {
-        const child = spawn(program, ["serve", ...(device ? [file] : []), "--no-browser", ...(at ? ["--port", String(at)] : [])], { cwd: source, stdio: ["ignore", "pipe", "pipe"] });
+        const child = spawn(program, ["serve", ...(device ? [file] : []), "--no-browser", ...(at ? ["--port", String(at)] : [])], {
+            cwd: source, stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_STATE_HOME: join(directory, "state") },
+        });
         server.child = child;
         let said = "";
         child.stdout.on("data", (d) => {
@@ -46,7 +48,7 @@ export async function serve(device, { port = 0 } = {}) {
         server.child.on("exit", resolve);
         server.child.kill("SIGTERM");
     });
-    server.restart = () => start(server.port);
+    server.restart = (at = server.port) => start(at);
     server.stop = async () => {
         if (server.child.exitCode === null && server.child.signalCode === null) await server.halt();
         rmSync(directory, { recursive: true, force: true });
@@ -57,13 +59,14 @@ export async function serve(device, { port = 0 } = {}) {
 const wrongs = []; // what must not happen, of all pages
 
 /** Opens the page of a server and waits for its first answer. */
-export async function open(server, { width = 1440, height = 900, colorScheme = "light" } = {}) {
-    const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true });
+export async function open(server, { width = 1440, height = 900, colorScheme = "light", before, ...more } = {}) {
+    const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true, ...more });
     context.setDefaultTimeout(15000);
     await context.addInitScript(() => {
         globalThis.refused = [];
         document.addEventListener("securitypolicyviolation", (e) => globalThis.refused.push(`${e.violatedDirective} ${e.blockedURI} ${e.sourceFile}:${e.lineNumber}`));
     });
+    if (before) await context.addInitScript(before);
     const page = await context.newPage();
     page.expected = []; // errors that a test provokes
     page.on("console", (m) => {

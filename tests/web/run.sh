@@ -19,5 +19,9 @@ if ! cmp -s "$here/package-lock.json" "$place/done.json"; then
 fi
 export FW_PROGRAM="$program" FW_SOURCE="${here%/tests/web}" FW_WEB_LIBRARIES="$place" FW_CHROMIUM="$chromium"
 export FLEXWRIGHT_DATA="$FW_SOURCE"
-[ -z "${3:-}" ] || exec "$node" "$here/$3"
-exec "$node" --test "$here"/page.test.mjs "$here"/file.test.mjs "$here"/looks.test.mjs "$here"/attached.test.mjs "$here"/probes.test.mjs "$here"/marked.test.mjs
+case "${3:-}" in
+"") ;;
+*.test.mjs) exec "$node" --test "$here/$3" ;;
+*) exec "$node" "$here/$3" ;;
+esac
+exec "$node" --test "$here"/page.test.mjs "$here"/file.test.mjs "$here"/looks.test.mjs "$here"/attached.test.mjs "$here"/probes.test.mjs "$here"/marked.test.mjs "$here"/true.test.mjs "$here"/drive.test.mjs

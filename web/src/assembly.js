@@ -18,6 +18,7 @@ export class Assembly extends Split {
             kind: "assemble", action: "Assemble", auto: true, options: () => (state.options.scene ? { scene: state.options.scene } : {}),
             intro: "Takes the poses of the bodies as a guess and closes all joints.", render: (job, into) => this.#show(job.result, into),
         });
+        this.view.also(this.stage);
     }
 
     #show(result, into) {

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Colours that people with any colour vision tell apart.
 //
-// Utilisation: cividis, which rises evenly in lightness from blue to yellow for normal and for
-// red-green-blind vision (J. R. Nunez, C. R. Anderton, R. S. Renslow, "Optimizing colormaps with
-// consideration for color vision deficiency to enable accurate interpretation of scientific data",
-// PLoS ONE 13, e0199239, 2018); nine of its points, between them linear. Above the limit a hinge is
-// hatched and its number is in bold: colour never says anything alone.
+// Utilisation: viridis, which rises evenly in lightness from violet over green to yellow for normal and for
+// red-green-blind vision, and is nowhere the grey of a body (N. J. Smith, S. van der Walt, matplotlib 1.5, 2015,
+// CC0); nine of its points, between them linear. Above the limit a hinge is hatched and its number is in bold: colour never says anything alone.
 // Curves: Okabe and Ito's eight colours (jfly.uni-koeln.de/color, 2008) with eight dash patterns.
-const CIVIDIS = [
-    [0, 34, 78], [23, 51, 112], [63, 72, 108], [89, 93, 109], [112, 113, 115],
-    [138, 134, 120], [166, 157, 117], [198, 183, 104], [254, 232, 56],
+const VIRIDIS = [
+    [68, 1, 84], [71, 45, 123], [59, 82, 139], [44, 114, 142], [33, 144, 140],
+    [39, 173, 129], [93, 200, 99], [170, 220, 50], [253, 231, 37],
 ];
 
 /** 0..1 -> css colour */
 export function scale(share) {
-    const x = Math.min(Math.max(share, 0), 1) * (CIVIDIS.length - 1);
-    const i = Math.min(Math.floor(x), CIVIDIS.length - 2);
-    const mix = CIVIDIS[i].map((c, j) => Math.round(c + (CIVIDIS[i + 1][j] - c) * (x - i)));
+    const x = Math.min(Math.max(share, 0), 1) * (VIRIDIS.length - 1);
+    const i = Math.min(Math.floor(x), VIRIDIS.length - 2);
+    const mix = VIRIDIS[i].map((c, j) => Math.round(c + (VIRIDIS[i + 1][j] - c) * (x - i)));
     return `rgb(${mix.join(" ")})`;
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The design: text of the editor, changes to it by way of the server, previews of it.
-import { latest, post } from "./api.js";
+import { newest, post } from "./api.js";
+import { begin, inputKey, look, mayChange } from "./belong.js";
 import { announce } from "./dom.js";
 import { emit, on, state } from "./store.js";
 
+const TYPING_MS = 90; // that nothing is typed before an answer is asked for
+
 let editor = null;
+let editing = 0; // changes that are on their way
 let changes = Promise.resolve(); // one after the other: each needs the text that the last one made
 
 export function useEditor(e) {
@@ -13,7 +17,9 @@ export function useEditor(e) {
 
 /** changes: [{path, value}] as /api/edit takes them; one step of the history. */
 export function edit(list, words) {
+    editing++;
     changes = changes.then(async () => {
+        const end = begin({ words: "Changing the text" });
         try {
             let before, answer;
             do { // again, where somebody has typed meanwhile
@@ -26,6 +32,9 @@ export function edit(list, words) {
             } else refuse(answer.diagnostics?.[0]?.message ?? "the change cannot be made");
         } catch (error) {
             if (!error.lost) refuse(error.message);
+        } finally {
+            editing--;
+            end();
         }
     });
     return changes;
@@ -44,6 +53,7 @@ export function hold(name, value) {
 
 export async function letGo(name, value) {
     await edit([{ path: name, value }]);
+    if (state.set[name] !== value) return; // it is held again
     delete state.set[name];
     emit("change");
 }
@@ -62,49 +72,73 @@ export const setOption = (name, value) => setOptionsTogether({ [name]: value });
 /** What a job or a preview of the present state is asked with. */
 export function request() {
     const options = { ...state.options };
-    for (const name of ["rtol", "accuracy"]) if (options[name] !== undefined) options[name] = Number(options[name]);
+    for (const name of OPTIONS_AS_NUMBERS) if (options[name] !== undefined) options[name] = Number(options[name]);
     return { text: state.text, set: { ...state.set }, options };
 }
 
-const ask = latest(
-    ({ body }) => post("/api/preview", body),
-    (answer, input) => take(answer, input),
-    (error) => {
+const OPTIONS_AS_NUMBERS = ["rtol", "accuracy"];
+
+const preview = newest(
+    ({ body }, signal) => post("/api/preview", body, { signal }),
+    take,
+    (error, input) => {
         if (error.lost) return;
-        state.stale = state.preview !== null;
-        state.diagnostics = [{ severity: "error", code: error.body?.error?.code ?? null, message: error.message, line: 0, column: 0 }];
+        wrong(input, [{ severity: "error", code: error.body?.error?.code ?? null, message: error.message, line: 0, column: 0 }]);
         emit("answer");
+        look();
     },
-);
+    {
+        words: "Computing the motion and the verdict",
+        given: (input, why) => {
+            if (why !== "cancelled" || input.key !== inputKey()) return;
+            state.cancelled = input.key;
+            emit("answer");
+            look();
+        },
+    });
+
+/** No good answer: what is shown stays, and is of the former input. */
+function wrong(input, diagnostics) {
+    state.diagnostics = diagnostics;
+    state.answered = input.key;
+    state.cancelled = null;
+}
 
 function take(answer, input) {
-    state.diagnostics = answer.diagnostics ?? [];
+    const diagnostics = answer.diagnostics ?? [];
     const shown = answer.marks?.length > 0 && answer.bodies?.length > 0; // a layout that cannot be made
     const good = answer.status === "ok" || (answer.status === "failed" && shown);
+    if (!good && !diagnostics.length) diagnostics.push({ severity: "error", code: null, message: answer.message ?? "this design cannot be computed", line: 0, column: 0 });
+    wrong(input, diagnostics);
     if (good) {
         state.preview = answer;
-        state.stale = false;
-        state.previewText = input.body.text;
+        state.previewOf = input.key;
         emit("preview", answer);
         requestAnimationFrame(() => setTimeout(() => {
             state.latency.push(performance.now() - input.since);
             if (state.latency.length > 400) state.latency.shift();
         }));
-    } else {
-        state.stale = true;
-        if (!state.diagnostics.length) state.diagnostics = [{ severity: "error", code: null, message: answer.message ?? "this design cannot be computed", line: 0, column: 0 }];
     }
     emit("answer", answer);
+    look();
 }
+
+/** A good answer to the present input is shown. */
+export const isPresent = () => state.preview !== null && state.previewOf === inputKey();
+
+export const askAgain = () => emit("change");
 
 export function startPreviews() {
     let timer = 0;
     on("change", () => {
         clearTimeout(timer);
-        ask({ body: request(), since: performance.now() });
+        timer = 0;
+        state.cancelled = null;
+        preview.ask({ body: request(), key: inputKey(), since: performance.now() });
     });
     on("text", () => {
         clearTimeout(timer); // somebody may be typing
-        timer = setTimeout(() => emit("change"), 90);
+        timer = setTimeout(() => emit("change"), TYPING_MS);
     });
+    mayChange(() => timer !== 0 || editing > 0 || preview.busy);
 }

@@ -2,7 +2,7 @@
 // The XML text: the only state of the design. Its history is undo and redo for the form and the
 // sliders too. It lives in a shadow root, where its style sheets are adopted ones, which a strict
 // content security policy allows.
-import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory, redo, redoDepth, undo, undoDepth } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, isolateHistory, redo, redoDepth, undo, undoDepth } from "@codemirror/commands";
 import { xml } from "@codemirror/lang-xml";
 import { bracketMatching, foldGutter, foldKeymap, HighlightStyle, indentOnInput, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
@@ -60,7 +60,7 @@ export class Editor {
             bracketMatching(), EditorView.lineWrapping, highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), lintGutter(),
             xml({ autoCloseTags: true }), syntaxHighlighting(colours), look, EditorState.tabSize.of(2),
             EditorView.contentAttributes.of({ "aria-label": "XML text of the device" }),
-            keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...foldKeymap, indentWithTab]),
+            keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...foldKeymap]), // Tab leaves the editor, as everywhere; Ctrl ] and Ctrl [ indent
             EditorView.updateListener.of((update) => {
                 if (update.docChanged && !this.quiet) this.onchange(this.text);
             }),

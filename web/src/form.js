@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The form: the tree of the text's elements, each with the attributes that the description table has
 // for it. It holds nothing: every change goes to the text, and the form is made from the text again.
-import { edit, hold, letGo } from "./design.js";
+import { adding, idsOf, mayAdd } from "./adding.js";
+import { edit, hold, isPresent, letGo } from "./design.js";
 import { button, h, setOptions } from "./dom.js";
 import { number, splitQuantity } from "./format.js";
 import { parse, walk } from "./model.js";
@@ -19,13 +20,18 @@ export class Form {
             h("section", { class: "card", "aria-label": "Parameters" }, h("h2", {}, "Parameters"), this.sliders),
             h("section", { class: "card", "aria-label": "Elements" }, h("h2", {}, "Description"), this.tree));
         on("text", () => this.update());
-        on("preview", () => this.#bounds());
+        on("belong", () => this.#bounds());
     }
 
     start(table) {
         this.elements = table.elements;
         this.rows = new Map(table.elements.toReversed().map((e) => [e.name, e])); // of several with one name the first
         this.update();
+    }
+
+    /** Name of the device, as the text has it. */
+    get name() {
+        return this.root?.attributes.get("name")?.value ?? "";
     }
 
     /** Elements of one name have a row for each parent; without a parent, or in another one, the first. */
@@ -90,6 +96,7 @@ export class Form {
             if (document.activeElement !== value) value.value = present;
             const b = bounds(name(), present, text("min"), text("max"));
             range.hidden = ends.hidden = !b;
+            holder.dataset.of = !b?.computed ? "nothing" : isPresent() ? "present" : "former";
             if (!b) return;
             unit = b.unit;
             range.min = b.min;
@@ -115,10 +122,17 @@ export class Form {
         const row = this.row(element.name, parent);
         const path = element.path;
         const body = h("div", { class: "element-body" });
+        const id = h("span", { class: "element-id" });
+        const note = h("span", { class: "element-note" });
+        const refresh = () => {
+            const now = this.places.get(path) ?? element;
+            id.textContent = title(now);
+            note.textContent = summary(now);
+        };
+        this.fields.set(`${path} summary`, { refresh });
+        refresh();
         const details = h("details", { class: "element", open: top || this.opened.has(path) },
-            h("summary", {}, h("span", { class: "element-name" }, element.name), h("span", { class: "element-id" }, title(element)),
-                h("span", { class: "element-note" }, summary(element))),
-            body);
+            h("summary", {}, h("span", { class: "element-name" }, element.name), id, note), body);
         let filled = false;
         const fillIt = () => {
             if (filled) return;
@@ -178,7 +192,7 @@ export class Form {
         const list = h("datalist", { id });
         input.setAttribute("list", id);
         input.addEventListener("focus", () => {
-            const ids = [...walk(this.root)].filter((e) => e.id && this.row(e.name).id_space === attribute.refers_to).map((e) => e.id);
+            const ids = idsOf(this.root, (name, parent) => this.row(name, parent), attribute.refers_to);
             list.replaceChildren(...[...new Set([...ids, ...(attribute.ground ? ["ground"] : [])])].map((x) => h("option", { value: x })));
         });
         return list;
@@ -186,12 +200,12 @@ export class Form {
 
     #tools(element, row, top) {
         const add = h("select", { "aria-label": `Add an element to ${element.name}`, class: "add" });
-        const kinds = this.elements.filter((r) => mayStandIn(r, element.name) && !(r.once && element.children.some((c) => c.name === r.name)));
+        const kinds = this.kinds(element);
         setOptions(add, [["", "Add…"], ...kinds.map((r) => [r.name, r.name, r.sentence])], "");
         add.addEventListener("change", () => {
             const kind = kinds.find((r) => r.name === add.value);
             add.value = "";
-            if (kind) this.#add(element, kind);
+            if (kind) this.#add(this.places.get(element.path) ?? element, kind);
         });
         return h("div", { class: "element-tools" },
             kinds.length ? add : null,
@@ -202,11 +216,19 @@ export class Form {
             top ? null : button("Remove", { icon: "close", class: "quiet" }, () => edit([{ remove: element.path }], `${element.name} removed`)));
     }
 
+    /** Changes of the text that add it; for the tests, too. */
+    adding(element, kind) {
+        return adding(this.root, element, kind, (name, parent) => this.row(name, parent));
+    }
+
+    /** What may be added to an element of this name. */
+    kinds(element) {
+        return this.elements.filter((r) => mayStandIn(r, element.name) && mayAdd(this.root, element, r, (name, parent) => this.row(name, parent)));
+    }
+
     #add(element, kind) {
-        const attributes = {};
-        for (const a of kind.attributes) if (a.required) attributes[a.name] = a.name === kind.key ? freeId(this.root, kind) : starter(a);
         this.opened.add(element.path);
-        edit([{ add: element.path, element: kind.name, attributes }], `${kind.name} added`);
+        edit(this.adding(element, kind), `${kind.name} added`);
     }
 }
 
@@ -270,17 +292,6 @@ function summary(element) {
     return shown.map(([name, a]) => `${name} ${a.value}`).join(", ");
 }
 
-function freeId(root, kind) {
-    const taken = new Set([...walk(root)].map((e) => e.id));
-    for (let i = 1; ; i++) if (!taken.has(`${kind.name}-${i}`)) return `${kind.name}-${i}`;
-}
-
-function starter(a) {
-    if (a.choices?.length) return a.choices[0];
-    if (a.unit) return `0 ${a.unit}`;
-    return a.type === "number" ? "0" : "";
-}
-
 /** Range of a slider in the unit of the value; from the last preview where it knows it. */
 function bounds(name, present, min, max) {
     const q = splitQuantity(present);
@@ -289,7 +300,8 @@ function bounds(name, present, min, max) {
     if (q && low && high && low.unit === high.unit && low.unit === q.unit) return finish(low.value, high.value, q.value, q.unit);
     const known = state.preview?.parameters?.find((p) => p.name === name);
     if (!known || known.minimum === null || known.maximum === null || known.minimum === undefined || known.maximum === undefined) return null;
-    return finish(known.minimum, known.maximum, known.value, known.unit);
+    const range = finish(known.minimum, known.maximum, known.value, known.unit);
+    return range && { ...range, computed: true };
 }
 
 function finish(min, max, value, unit) {

@@ -33,10 +33,13 @@ export function si(x, unit, digits = 3) {
 export const degrees = (rad, digits = 3) => `${number((rad * 180) / Math.PI, digits)}°`;
 export const micrometres = (m, digits = 4) => `${number(m * 1e6, digits)} µm`;
 
-/** A share as a percentage: 0.579 -> "57.9 %" */
+const MOST_PERCENT = 10; // beyond it a share is told as a multiple
+
+/** A share as a percentage: 0.579 -> "57.9 %", 8700 -> "8700 ×" */
 export function percent(x, digits = 3) {
     if (x === null || x === undefined) return "\u2013";
-    if (!Number.isFinite(x)) return "\u221e";
+    if (!Number.isFinite(x)) return "without bound";
+    if (Math.abs(x) >= MOST_PERCENT) return `${number(x, digits)} ×`;
     return `${number(x * 100, digits)} %`;
 }
 

@@ -3,6 +3,8 @@
 // that is filled by a job: it says what is missing, shows progress, keeps the last good result while
 // the next one is made, and marks it when the text has moved on.
 import { get, onConnection, post, remove } from "./api.js";
+import { inputKey, mayChange, Shown } from "./belong.js";
+import { isPresent } from "./design.js";
 import { announce, button, h } from "./dom.js";
 import { duration } from "./format.js";
 import { emit, on, state } from "./store.js";
@@ -71,6 +73,12 @@ export function forget(job) {
 export const fileOf = (job, path) => `/api/jobs/${job.id}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
 export const hasFile = (job, path) => job.files?.some((f) => f.path === path) ?? false;
 
+/** Exit status of a command whose design is rejected. */
+export const REJECTED = 1;
+
+/** Why the present design is rejected, and what can be done all the same, in words. */
+export const rejection = () => `${isPresent() ? (state.summary ?? []).slice(0, 1).map((l) => `${l.label}: ${l.text}.`).join(" ") : ""} Tick "though it is rejected" to have it made all the same, marked so.`;
+
 /** "make it of a rejected design, too": {label, options()} of a job that makes masks or recipes. */
 export function forceTick(view) {
     const tick = h("input", { type: "checkbox" });
@@ -101,8 +109,9 @@ export class JobView {
         this.humble = humble;
         this.shown = false;
         this.job = null;
-        this.forText = null;
+        this.of = null; // input of the job whose result is shown
         this.control = null;
+        this.timer = 0;
         this.message = h("span", { class: "job-message" });
         this.start = button(action, { icon: "target", class: "primary" }, () => this.run());
         this.cancel = button("Cancel", { icon: "close", hidden: false, class: "cancel" }, () => this.control?.abort());
@@ -112,9 +121,17 @@ export class JobView {
         this.errors = h("div", { class: "job-errors", role: "status" });
         this.content = h("div", { class: "job-content" });
         holder.append(this.bar, this.errors, this.intro, this.content);
+        this.showing = [];
+        this.also(this.content);
+        this.wrong = new Shown(this.errors, () => this.key);
         this.#look();
-        on("text", () => this.#moved());
-        on("options", () => this.#moved());
+        for (const event of ["text", "options", "change", "preview"]) on(event, () => this.#moved());
+        mayChange(() => this.control !== null || this.timer !== 0, { job: true });
+    }
+
+    /** Elements beside its own that show what the job gave. */
+    also(...elements) {
+        this.showing.push(...elements.map((element) => new Shown(element, () => this.key)));
     }
 
     /** Shown or hidden with its tab. */
@@ -123,20 +140,25 @@ export class JobView {
         if (shown) this.#moved();
     }
 
-    get #key() {
-        return JSON.stringify([state.text, this.options()]);
+    /** What its result depends on, as it is now. */
+    get key() {
+        return inputKey(this.options());
     }
     get stale() {
-        return this.job !== null && this.forText !== this.#key;
+        return this.job !== null && this.of !== this.key;
     }
 
     #moved() {
         this.#look();
         const auto = typeof this.auto === "function" ? this.auto() : this.auto;
-        if (!auto || !this.shown || this.#key === this.forText || this.#key === this.tried) return;
+        const key = this.key;
+        if (this.control && this.byItself && key !== this.tried) this.control.abort(); // nobody waits for it any more
         clearTimeout(this.timer);
+        this.timer = 0;
+        if (!auto || !this.shown || key === this.of || key === this.tried || !isPresent()) return;
         this.timer = setTimeout(() => {
-            if (this.shown && this.#key !== this.forText && !state.stale) this.run(true);
+            this.timer = 0;
+            this.run(true);
         }, this.quiet);
     }
 
@@ -152,8 +174,9 @@ export class JobView {
         this.byItself = byItself;
         if (!this.humble) giveWay();
         const control = (this.control = new AbortController());
-        const key = (this.tried = this.#key);
+        const key = (this.tried = this.key);
         this.errors.replaceChildren();
+        this.wrong.take(null);
         this.working = { state: "queued", seconds: 0 };
         this.#look();
         const begun = performance.now();
@@ -163,7 +186,7 @@ export class JobView {
             if (control !== this.control) return forget(job);
             await this.#ended(job, key);
         } catch (error) {
-            if (control === this.control) this.#failed([error.message]);
+            if (control === this.control) this.#failed([error.message], key);
         } finally {
             clearInterval(clock);
             if (control === this.control) {
@@ -180,27 +203,30 @@ export class JobView {
             this.tried = null; // it comes again when the others are done
             return;
         }
+        if (job.state === "cancelled" && this.byItself && key !== this.key) return; // the input moved on
         if (job.state === "cancelled") {
-            this.#failed(["cancelled"]);
+            this.#failed(["cancelled"], key);
             announce(`${this.action}: cancelled`);
             return;
         }
         const good = job.state === "done" && (this.accept ? this.accept(job) : job.result !== null);
         if (!good) {
-            this.#failed(job.messages?.length ? job.messages : [`ended with status ${job.exit_status ?? "?"}`]);
+            this.#failed(job.messages?.length ? job.messages : [`ended with status ${job.exit_status ?? "?"}`], key);
             return forget(job);
         }
         forget(this.job);
         this.job = job;
-        this.forText = key;
+        this.of = key;
         this.content.hidden = false;
         await this.render(job, this.content);
+        for (const shown of this.showing) shown.take(key);
         announce(`${this.action}: done in ${duration(job.seconds)}`);
     }
 
-    #failed(messages) {
+    #failed(messages, of) {
         const said = messages.filter((m) => !/^\s*\d*\s*\|/.test(m)); // without the lines of the text below a message
         this.errors.replaceChildren(h("ul", { class: "messages" }, said.map((m) => h("li", {}, m))));
+        this.wrong.take(of);
     }
 
     #look(ms = 0) {
@@ -209,14 +235,13 @@ export class JobView {
         this.start.classList.toggle("primary", this.job === null || this.stale);
         this.progress.hidden = this.cancel.hidden = !busy;
         this.intro.hidden = this.job !== null || busy;
-        this.content.classList.toggle("stale", this.stale);
         this.bar.classList.toggle("busy", busy);
         if (busy) {
             const j = this.working;
             const seconds = Math.max(j.seconds ?? 0, ms / 1000);
             this.message.textContent = `${j.stage ?? (j.state === "queued" ? "waiting" : "working")} · ${seconds.toFixed(1)} s`;
         } else if (this.job) {
-            this.message.textContent = this.stale ? "the description has changed since" : `computed in ${duration(this.job.seconds)}`;
+            this.message.textContent = this.stale ? "of the former input: something has changed since" : `computed in ${duration(this.job.seconds)}`;
         } else this.message.textContent = "";
     }
 }

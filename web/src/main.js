@@ -5,10 +5,12 @@ import { Accuracy } from "./accuracy.js";
 import { get, onConnection, openSession } from "./api.js";
 import { download } from "./archive.js";
 import { Assembly } from "./assembly.js";
+import { inputKey, settled } from "./belong.js";
+import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
 import { $, button, h, s } from "./dom.js";
 import { Editor } from "./editor.js";
-import { follow, openText, save, startFile } from "./file.js";
+import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
 import { heard } from "./jobs.js";
 import { Masks } from "./masks.js";
@@ -18,6 +20,7 @@ import { connection, notice } from "./notices.js";
 import { Recipe } from "./recipe.js";
 import { emit, on, state } from "./store.js";
 import { makeTabs } from "./tabs.js";
+import { newDevice } from "./templates.js";
 import { startTheme, themeButton } from "./theme.js";
 import { Verdict } from "./verdict.js";
 import { Workspace } from "./workspace.js";
@@ -34,12 +37,13 @@ function header() {
     parts.file = h("span", { class: "file-state", id: "file-state" });
     parts.undo = button("Undo", { icon: "undo", hidden: true, id: "undo" }, () => parts.editor.undo());
     parts.redo = button("Redo", { icon: "redo", hidden: true, id: "redo" }, () => parts.editor.redo());
+    parts.fresh = button("New…", { icon: "plus", id: "new" }, () => newDevice(parts.editor));
     parts.open = button("Open", { icon: "open", id: "open" }, () => openText(parts.editor));
     parts.open.hidden = true;
     parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
     $("top").append(
-        h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }),
-        parts.undo, parts.redo, parts.open, parts.save,
+        h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }), busySign(),
+        parts.fresh, parts.undo, parts.redo, parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
         button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
@@ -49,11 +53,13 @@ function headerState() {
     const [undos, redos] = parts.editor.depths;
     parts.undo.disabled = undos === 0;
     parts.redo.disabled = redos === 0;
-    const changed = state.file === null || state.text !== state.file.text;
-    parts.save.disabled = state.file === null ? false : !changed || state.file.writable === false;
-    parts.file.textContent = state.file === null ? "not a file" : `${state.file.name}${changed ? ", changed" : ""}`;
+    const changed = unsaved();
+    const gone = state.file?.gone !== undefined;
+    parts.save.disabled = state.file === null ? false : (!changed && !gone) || state.file.writable === false;
+    parts.file.textContent = state.file === null ? `not a file${changed ? ", changed" : ""}` : `${state.file.name}${gone ? ", not on disk" : changed ? ", changed" : ""}`;
     parts.file.classList.toggle("changed", changed);
-    document.title = `${changed && state.file ? "• " : ""}${state.preview?.name ?? "Flexwright"} – Flexwright`;
+    parts.device.textContent = parts.form.name;
+    document.title = `${changed && state.file ? "• " : ""}${parts.form.name || "Flexwright"} – Flexwright`;
 }
 
 // ---- the three areas ----
@@ -77,7 +83,9 @@ function editArea() {
     useEditor(parts.editor);
     parts.form = new Form(form);
     parts.editTabs.select("form");
-    on("answer", () => parts.editor.mark(state.diagnostics.filter((d) => d.in_text !== false)));
+    on("answer", () => { // places in another text are none in this one
+        if (state.answered === inputKey()) parts.editor.mark(state.diagnostics.filter((d) => d.in_text !== false));
+    });
 }
 
 function views() {
@@ -114,7 +122,7 @@ document.addEventListener("keydown", (e) => {
 });
 
 window.addEventListener("beforeunload", (e) => {
-    if (state.file && state.text !== state.file.text) e.preventDefault();
+    if (unsaved()) e.preventDefault();
 });
 
 document.addEventListener("jump", (e) => {
@@ -133,7 +141,7 @@ const MOST_WAIT_MS = 30000;
 function listen(wait = 1500) {
     const stream = new EventSource("/api/events");
     stream.addEventListener("open", () => (wait = 1500));
-    stream.addEventListener("file", () => follow(parts.editor));
+    stream.addEventListener("file", (e) => follow(parts.editor, JSON.parse(e.data)));
     stream.addEventListener("job", (e) => heard(JSON.parse(e.data)));
     stream.addEventListener("error", () => {
         if (stream.readyState !== EventSource.CLOSED) return;
@@ -153,10 +161,6 @@ async function start() {
     editArea();
     views();
     parts.verdict = new Verdict($("right"));
-    on("preview", (p) => {
-        parts.device.textContent = p.name;
-        headerState();
-    });
     on("file", headerState);
     on("notice", notice);
     onConnection(connection);
@@ -181,4 +185,4 @@ start().catch((error) => {
 });
 
 // for the tests of the page, which look and do not touch
-globalThis.flexwright = { state, parts, on };
+globalThis.flexwright = { state, parts, on, settled };

@@ -2,9 +2,10 @@
 // Masks: layers of the mask as it is written, the outlines as drawn, on the mask and as fabricated, a
 // ruler, and what breaks a rule as a list that goes to the place. All in micrometres of the drawing.
 import { get, request as fetchText } from "./api.js";
+import { Shown } from "./belong.js";
 import { button, h, s, select, setOptions } from "./dom.js";
 import { bytes, number } from "./format.js";
-import { fileOf, forceTick, hasFile, JobView } from "./jobs.js";
+import { fileOf, forceTick, hasFile, JobView, REJECTED, rejection } from "./jobs.js";
 import { zoomButtons } from "./motion.js";
 import { on, state } from "./store.js";
 import { scaleBar, Viewport } from "./viewport.js";
@@ -57,6 +58,8 @@ export class Masks {
             accept: (job) => Array.isArray(job.result?.masks), render: (job) => this.#take(job),
         });
         card.append(force.label);
+        this.job.also(this.stage, this.violations, this.layerList, this.files);
+        this.drawn = new Shown(this.stage);
     }
 
     shown(yes) {
@@ -75,6 +78,7 @@ export class Masks {
             const transform = `translate(${x * 1e6} ${y * 1e6}) rotate(${(phi * 180) / Math.PI})`;
             for (const d of [...b.outline, ...(b.islands ?? []), ...(b.frame ?? []), ...(b.tethers ?? [])]) paths.push(s("path", { d, transform }));
         }
+        this.drawn.take(state.previewOf);
         this.drawing.replaceChildren(...paths, ...p.flexures.map((f) => s("path", { d: f.path })));
         if (!this.box) this.#fitTo(p.box_um);
     }
@@ -104,7 +108,7 @@ export class Masks {
         if (job !== this.done) return;
         this.#layers(layers, coupons ?? mask);
         this.#outlines(outlines, mask);
-        this.#violations(this.cell.value ? [] : found);
+        this.#violations(this.cell.value ? [] : found, mask !== undefined || found.length > 0);
         this.#files(job, name, mask);
         const box = (coupons ?? mask)?.extent_um;
         this.box = box ?? null;
@@ -170,7 +174,8 @@ export class Masks {
         this.#visibility();
     }
 
-    #violations(list) {
+    /** checked: rules were looked at; else why not. */
+    #violations(list, checked) {
         this.violations.hidden = !this.done;
         this.marks.replaceChildren(...list.map((v, i) => s("g", { class: `mark ${v.severity}`, "data-i": i },
             s("rect", { x: v.box_um[0], y: v.box_um[1], width: v.box_um[2] - v.box_um[0], height: v.box_um[3] - v.box_um[1] }),
@@ -181,7 +186,12 @@ export class Masks {
             h("span", { class: "code" }, `${v.layer} · ${v.pieces.join(" and ")}`))));
         this.violations.replaceChildren(
             h("h2", {}, list.length ? `${list.length} ${list.length === 1 ? "place breaks" : "places break"} a rule` : "Design rules"),
-            list.length ? h("ul", { class: "diagnostics" }, items) : h("p", { class: "empty" }, "No rule is broken."));
+            list.length ? h("ul", { class: "diagnostics" }, items) : h("p", { class: "empty" }, checked ? "No rule is broken." : this.#unmade()));
+    }
+
+    /** Why there is no mask, and so nothing that rules could be checked on. */
+    #unmade() {
+        return this.done.exit_status === REJECTED ? `No mask was made, so no rule was checked: the design is rejected. ${rejection()}` : `No mask was made, so no rule was checked. ${this.done.messages?.[0] ?? ""}`;
     }
 
     #jump(v, i) {

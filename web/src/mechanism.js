@@ -16,9 +16,21 @@ const grown = ([x0, y0, x1, y1], share) => {
     return [x0 - dx, y0 - dy, x1 + dx, y1 + dy];
 };
 
+/** The box that is shown where it holds the new one and is hardly larger: a picture that is driven does not pulse. */
+const steady = (old, now) => (old[0] <= now[0] && old[1] <= now[1] && old[2] >= now[2] && old[3] >= now[3] && old[2] - old[0] <= 1.25 * (now[2] - now[0]) && old[3] - old[1] <= 1.25 * (now[3] - now[1]) ? old : now);
+
 /** Row of a motion, x, y, phi of body after body, as poses in the order of the preview's bodies. */
 export const posesOf = (preview, row) => preview.bodies.map((b, i) => (b.fixed ? REST : row.slice(3 * i, 3 * i + 3)));
 export const restOf = (preview) => preview.bodies.map((b) => b.rest ?? REST);
+
+const FAR_PIXELS = 60; // most that a hinge's number stands off its edge for its size
+
+/** Half the larger side of an outline's points. */
+function halfSize(d) {
+    const points = [...d.matchAll(/(-?[\d.]+(?:e-?\d+)?) (-?[\d.]+(?:e-?\d+)?)(?=[A-Za-z]|$)/g)].map((m) => [Number(m[1]), Number(m[2])]);
+    const side = (i) => Math.max(...points.map((p) => p[i])) - Math.min(...points.map((p) => p[i]));
+    return points.length ? Math.max(side(0), side(1)) / 2 : 0;
+}
 
 const lineOf = (text) => (text ? text.slice(1).split("L").map((p) => p.split(" ").map(Number)) : null);
 
@@ -79,7 +91,7 @@ export class Mechanism {
         this.pose(q);
         const room = this.scene && preview.loads?.some((x) => x.kind === "tendon") ? 0.06 : 0; // for the arrows of cables
         const box = this.scene ? preview.scene_box_um : preview.box_um;
-        if (box) this.view.setBox(grown(box, Math.max(this.around, room)));
+        if (box) this.view.setBox(steady(this.view.box, grown(box, Math.max(this.around, room))));
     }
 
     #parts(preview) {
@@ -131,7 +143,9 @@ export class Mechanism {
             const g = s("g", { class: "hinge-tag", "data-id": pin.id }, back, text);
             g.addEventListener("click", () => this.onhinge?.(pin.id));
             this.labels.append(g);
-            return { id: pin.id, body: index.get(pin.a) ?? index.get(pin.b) ?? ground, at: pin.at_um, g, text, back, share: null, key: null };
+            const own = preview.flexures.find((f) => f.id === pin.id);
+            const size = own ? halfSize(own.path) : 0; // um: the number stands beside what it is about
+            return { id: pin.id, body: index.get(pin.a) ?? index.get(pin.b) ?? ground, at: pin.at_um, size, width: 0, g, text, back, share: null, key: null };
         });
     }
 
@@ -179,7 +193,7 @@ export class Mechanism {
             if (text !== pin.key) {
                 pin.key = text;
                 pin.text.textContent = text;
-                const width = 12 + text.length * 6.6;
+                const width = (pin.width = 12 + text.length * 6.6);
                 pin.back.setAttribute("width", width);
                 pin.back.setAttribute("x", -width / 2);
                 pin.back.setAttribute("y", -13);
@@ -211,8 +225,9 @@ export class Mechanism {
             const dx = x - centre[0];
             const dy = y - centre[1];
             const far = Math.hypot(dx, dy) || 1; // beside the hinge, towards the middle of the picture
-            const out = Math.min(38, 12 + 90 * this.view.k);
-            pin.g.setAttribute("transform", `translate(${(x - (dx / far) * out * 1.5).toFixed(1)} ${(y - (dy / far) * out + 4).toFixed(1)})`);
+            const [ux, uy] = [dx / far, dy / far];
+            const out = Math.min(pin.size * this.view.k, FAR_PIXELS) + (Math.abs(ux) * pin.width) / 2 + Math.abs(uy) * 9 + 3;
+            pin.g.setAttribute("transform", `translate(${(x - ux * out).toFixed(1)} ${(y - uy * out + 4).toFixed(1)})`);
         }
         const taken = []; // numbers of one place stand beside each other
         for (const x of this.marked ?? []) {
@@ -263,6 +278,6 @@ export function colourLegend() {
     const bar = h("span", { class: "ramp", "aria-hidden": "true" },
         Array.from({ length: steps }, (_, i) => h("i", { style: { background: scale(i / (steps - 1)) } })));
     return h("div", { class: "colour-legend" },
-        h("span", {}, "angle / limit"), h("span", {}, "0"), bar, h("span", {}, "100 %"),
+        h("span", {}, "share of the limit"), h("span", {}, "0"), bar, h("span", {}, "100 %"),
         h("span", { class: "over-key", "aria-hidden": "true" }), h("span", {}, "beyond"));
 }

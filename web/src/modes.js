@@ -19,6 +19,7 @@ export class Modes extends Split {
             kind: "modes", action: "Compute the modes", auto: true, options: () => ({ at: this.at.value, ...(state.options.scene ? { scene: state.options.scene } : {}) }),
             intro: "Natural frequencies, damping and shapes of small motions.", render: (job, into) => this.#list(job, into),
         });
+        this.view.also(this.stage);
         this.chosen = 0;
         this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     }

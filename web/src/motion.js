@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The motion of one scene: the mechanism, its plots and the time that couples them; and how it is
 // computed, with what that costs.
+import { Shown } from "./belong.js";
 import { curve, dash } from "./colours.js";
 import { setOption } from "./design.js";
 import { button, h, s, select, setOptions } from "./dom.js";
@@ -15,11 +16,8 @@ const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // what
 /** What --accuracy is offered beside 1e-3, which it is by itself. */
 export const ACCURACIES = ["1e-2", "1e-4", "1e-5"];
 
-/** Limit of a pin in the flow of the motion, rad, or null. */
-export function limitOf(preview, pin, flow) {
-    const i = preview.flows.findIndex((f) => f.name === flow);
-    return pin.shown_limit_rad ?? pin.limit_rad?.[Math.max(i, 0)] ?? null;
-}
+/** The angle of a pin at which it uses all of the limit that rules in this motion, rad, or null. */
+const limitOf = (pin) => pin.shown_limit_rad ?? null;
 
 /** Options of a <select> from a list of the table: [value, text, sentence]. */
 const optionNames = (list) => (list ?? []).map((o) => (typeof o === "string" ? [o, o] : [o.name, o.name, o.sentence]));
@@ -37,9 +35,10 @@ export class Motion {
         this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt, scene: true });
         this.stage.append(colourLegend(), this.#zoomButtons());
         this.stats = h("div", { class: "run-stats" });
+        this.showing = [this.stage, this.player, this.plots, this.stats].map((element) => new Shown(element));
         this.#player();
         const seek = (t) => this.seek(t / 1e3, true);
-        this.angles = new Plot(this.plots, { title: "Hinge angle / limit", unit: "%, over ms", onseek: seek });
+        this.angles = new Plot(this.plots, { title: "Share of the limit", unit: "%, over ms", onseek: seek });
         this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek });
         this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek });
         this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek });
@@ -109,15 +108,19 @@ export class Motion {
     show() {
         const p = state.preview;
         if (!p) return;
-        setOptions(this.scene, p.scenes.map((x) => [x.name, x.name]), p.motion?.scene ?? state.options.scene ?? "");
+        for (const shown of this.showing) shown.take(state.previewOf);
+        const scenes = p.scenes.map((x) => [x.name, x.name]);
+        const scene = state.options.scene ?? p.motion?.scene ?? ""; // chosen, and maybe none of the list
+        setOptions(this.scene, !scene || p.scenes.some((x) => x.name === scene) ? scenes : [...scenes, [scene, scene]], scene);
         this.player.hidden = this.plots.hidden = !p.motion;
         if (!p.motion) return this.#still(p);
         const first = this.t === undefined;
         const share = this.t ? this.time / this.#end() : 0;
         this.t = p.motion.t_s;
         this.time = first ? peakTime(p) : share * this.#end();
-        this.flow = p.motion.flow ?? p.scenes.find((x) => x.name === p.motion.scene)?.flow ?? p.flows[0]?.name;
-        this.limits = p.pins.map((pin) => limitOf(p, pin, this.flow));
+        this.limits = p.pins.map(limitOf);
+        const rules = [...new Set(p.pins.map((pin) => pin.shown_criterion).filter(Boolean))];
+        this.rule = rules.length === 1 ? `${rules[0]} limit` : "limit";
         this.mechanism.show(p);
         this.mechanism.setLoads(loadsOf(p));
         this.#plotAll();
@@ -158,10 +161,10 @@ export class Motion {
             const factor = inDegrees ? 180 / Math.PI : this.limits[i] ? 100 / this.limits[i] : NaN;
             return { name: pin.id, key: i, values: m.angle_rad.map((row) => (Number.isFinite(factor) && row[i] !== null ? row[i] * factor : null)) };
         });
-        let marks = [{ y: 100, text: "limit" }, { y: -100 }];
+        let marks = [{ y: 100, text: this.rule }, { y: -100 }];
         if (inDegrees) marks = p.pins.flatMap((pin, i) => (this.limits[i] && (chosen === null || chosen === pin.id) ? [1, -1].map((f) => ({ y: (f * this.limits[i] * 180) / Math.PI, curve: i })) : []));
         const most = Math.max(...m.angle_rad.map((row) => Math.max(...row.map((a, i) => (this.limits[i] ? Math.abs(a) / this.limits[i] : 0)))));
-        this.angles.heading.firstChild.textContent = inDegrees ? "Hinge angle" : "Hinge angle / limit";
+        this.angles.heading.firstChild.textContent = inDegrees ? "Hinge angle" : "Share of the limit";
         this.angles.heading.children[1].textContent = inDegrees ? "degrees, over ms" : "%, over ms";
         this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
         const energies = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work", "work_J"]].filter(([, k]) => m.energy?.[k]);
@@ -269,7 +272,7 @@ export class Motion {
 
 /** When the first of the largest angles is there: what a first look should show. */
 function peakTime(p) {
-    const peaks = p.motion.peaks.map((x, i) => ({ ...x, share: Math.abs(x.angle_rad) / (limitOf(p, p.pins[i], p.motion.flow) ?? Infinity) }));
+    const peaks = p.motion.peaks.map((x, i) => ({ ...x, share: Math.abs(x.angle_rad) / (limitOf(p.pins[i]) ?? Infinity) }));
     return peaks.reduce((a, b) => (b.share > (a?.share ?? 0) ? b : a), null)?.t_s ?? 0;
 }
 

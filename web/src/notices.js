@@ -14,14 +14,15 @@ function strip(kind, content, actions = []) {
     return box;
 }
 
-/** {kind: "info" | "warn" | "bad", text, actions: [[label, function]], stay} */
-export function notice({ kind = "info", text, actions = [], stay = false }) {
+/** {kind: "info" | "warn" | "bad", text, actions: [[label, function, {stay: it does not end the notice}]], stay,
+ *  dismiss: may go without an answer} */
+export function notice({ kind = "info", text, actions = [], stay = false, dismiss = true }) {
     const box = strip(kind, text, [
-        ...actions.map(([label, act]) => button(label, { class: "small" }, () => {
-            box.remove();
+        ...actions.map(([label, act, how]) => button(label, { class: "small" }, () => {
+            if (!how?.stay) box.remove();
             act();
         })),
-        button("Dismiss", { icon: "close", hidden: true, class: "quiet" }, () => box.remove()),
+        dismiss ? button("Dismiss", { icon: "close", hidden: true, class: "quiet" }, () => box.remove()) : null,
     ]);
     if (!stay && !actions.length) setTimeout(() => box.remove(), SHOWN_MS);
     return box;

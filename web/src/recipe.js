@@ -3,7 +3,7 @@
 import { get, request as fetchText } from "./api.js";
 import { h, icon, select, setOptions } from "./dom.js";
 import { duration, number } from "./format.js";
-import { fileOf, forceTick, hasFile, JobView } from "./jobs.js";
+import { fileOf, forceTick, hasFile, JobView, REJECTED, rejection } from "./jobs.js";
 
 export class Recipe {
     constructor(holder) {
@@ -18,6 +18,7 @@ export class Recipe {
             accept: (job) => Boolean(job.result?.recipes ?? job.result?.steps), render: (job) => this.#take(job),
         });
         head.append(force.label);
+        this.job.also(this.body);
     }
 
     shown(yes) {
@@ -26,9 +27,17 @@ export class Recipe {
 
     async #take(job) {
         this.done = job;
-        this.recipes = job.result.recipes ?? [job.result];
+        this.recipes = (job.result.recipes ?? [job.result]).filter((r) => r.flow !== null);
+        if (!this.recipes.length) return this.#none(job);
         setOptions(this.flow, this.recipes.map((r) => [r.flow, r.flow]), this.flow.value || this.recipes[0]?.flow);
         await this.#draw();
+    }
+
+    /** Nothing was made, and why. */
+    #none(job) {
+        setOptions(this.flow, [], "");
+        const why = job.exit_status === REJECTED ? `No recipe: the design is rejected. ${rejection()}` : `No recipe. ${(job.messages ?? []).join(" ")}`;
+        this.body.replaceChildren(h("p", { class: "empty" }, why));
     }
 
     async #draw() {

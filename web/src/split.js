@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A tab with the mechanism on one side and what is computed about it on the other.
+import { Shown } from "./belong.js";
 import { h } from "./dom.js";
 import { Mechanism } from "./mechanism.js";
 import { zoomButtons } from "./motion.js";
@@ -14,14 +15,20 @@ export class Split {
         this.mechanism = new Mechanism(this.stage, picture);
         this.stage.append(zoomButtons(() => this.mechanism.view));
         this.visible = false;
-        on("preview", (p) => this.visible && this.mechanism.show(p));
+        this.drawn = new Shown(this.stage);
+        on("preview", () => this.visible && this.#show());
+    }
+
+    #show() {
+        this.mechanism.show(state.preview);
+        this.drawn.take(state.previewOf);
     }
 
     shown(yes) {
         this.visible = yes;
         this.view.show(yes);
         if (!yes) return;
-        if (state.preview) this.mechanism.show(state.preview);
+        if (state.preview) this.#show();
         this.draw();
     }
 }

@@ -6,12 +6,16 @@ export const state = {
     text: "",
     session: null, // flexwright.session/1
     table: null, // flexwright.table/1
-    file: null, // {name, version, text (as on disk), writable}
+    file: null, // {name, version, text (as on disk, but for line ends), eol, writable, gone: why it cannot be read}
+    base: "", // without a file: the text that was opened or downloaded last
     set: {}, // values of sliders that are held: not in the text yet
     options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
     preview: null, // last good flexwright.preview/1
-    stale: false, // the text has moved on and has no good answer
+    previewOf: null, // its input (belong.js)
+    answered: null, // input of the last answer, good or not: that of the diagnostics
+    cancelled: null, // input whose answer nobody waits for any more
     diagnostics: [],
+    summary: null, // first lines of the verdict that is shown
     hinge: null, // id of the hinge that is looked at
     flow: "", // whose utilisation is shown; "": the worst of all
     latency: [], // ms from a change to its picture, of the last ones
@@ -21,8 +25,9 @@ const bus = new EventTarget();
 export const on = (name, f) => bus.addEventListener(name, (e) => f(e.detail));
 export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { detail }));
 
-/** Names of events: "text" (editor's text changed), "change" (ask for a preview), "preview" (a good answer),
- *  "answer" (any answer), "hinge" (looked at), "jobs" (any job), "theme". */
+/** Names of events: "text" (editor's text changed), "change" (ask for a preview), "options" (how it is
+ *  computed), "preview" (a good answer), "answer" (any answer), "belong" (what is shown was marked anew), "working"
+ *  (what is on its way), "hinge" (looked at), "jobs" (any job), "theme". */
 export function lookAt(hinge) {
     state.hinge = state.hinge === hinge ? null : hinge;
     emit("hinge", state.hinge);

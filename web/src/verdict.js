@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
 // which effects were computed and why, what it cost.
-import { edit } from "./design.js";
+import { inputKey, Shown } from "./belong.js";
+import { askAgain, edit, isPresent } from "./design.js";
 import { announce, button, h, icon, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
@@ -25,56 +26,64 @@ export class Verdict {
             this.show();
         });
         this.required = h("section", { class: "card", "aria-labelledby": "h-required", hidden: true }, h("h2", { id: "h-required" }, "What it is for"));
+        this.old = h("div", { class: "old-note", id: "old-note", hidden: true });
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
         const full = h("div", { class: "full-check" });
-        holder.append(
-            this.banner, this.problems,
-            h("section", { class: "card", "aria-labelledby": "h-use" }, h("h2", { id: "h-use" }, "Utilisation of the elastic limit"), this.whose, this.bars),
-            this.required,
-            h("section", { class: "card", "aria-labelledby": "h-flows" }, h("h2", { id: "h-flows" }, "Flows"), this.flows),
-            h("section", { class: "card", "aria-labelledby": "h-full" }, h("h2", { id: "h-full" }, "As fabricated"), full),
-            h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
-            h("section", { class: "card", "aria-labelledby": "h-cost" }, h("h2", { id: "h-cost" }, "Cost of this answer"), this.cost), this.notes);
+        const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
+        const use = card("use", "Share of the limit that rules", this.whose, this.bars);
+        const cards = [use, this.required, card("flows", "Flows", this.flows)];
+        const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost)];
+        holder.append(this.old, this.banner, this.problems, ...cards, card("full", "As fabricated", full), ...last, this.notes);
+        this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
+        this.ofAnswer = [this.problems, this.notes].map((element) => new Shown(element));
         this.full = new JobView(full, {
             kind: "check", action: "Judge as fabricated", options: judging,
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
             auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, humble: true, // a long one is only made when it is asked for
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
+        this.ofFull = [this.banner, use].map((element) => new Shown(element, () => this.full.key));
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
-        on("text", () => this.#staleness());
-        on("preview", () => this.full.show(true));
+        on("belong", () => this.#staleness());
         on("hinge", () => this.#chosen());
         this.#wait();
     }
 
     #wait() {
-        this.banner.className = "banner";
-        delete this.banner.dataset.verdict;
+        this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
         if (state.preview?.status === "failed") return this.#cannot();
-        this.banner.replaceChildren(h("p", { class: "empty" }, state.preview ? "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same." : "No verdict yet."));
+        this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
+            : (state.preview.diagnostics ?? []).some((d) => d.severity === "error") ? "Nothing is judged: the mistakes below stand in the way."
+                : "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same."));
+    }
+
+    /** Colour of the banner, and its word for programs; null: there is no decision. */
+    #decided(decision) {
+        const colour = decision === "failed" ? "reject" : decision;
+        for (const name of Object.keys(WORDS)) this.banner.classList.toggle(name, name === colour);
+        if (decision) this.banner.dataset.verdict = decision;
+        else delete this.banner.dataset.verdict;
     }
 
     /** The layout cannot be made: the picture has its marks. */
     #cannot() {
-        this.banner.className = "banner reject";
-        this.banner.dataset.verdict = "failed";
+        this.#decided("failed");
         const marks = state.preview.marks ?? [];
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon("cross"), h("strong", {}, "Cannot be made"), h("span", { class: "as-drawn" }, "no verdict without a layout")),
+            h("div", { class: "decision" }, icon("cross"), h("strong", {}, was(), "Cannot be made"), h("span", { class: "as-drawn" }, "no verdict without a layout")),
             ...marks.slice(0, MOST_LINES).map((m, i) => h("p", { class: "mark-line", title: m.text }, h("span", { class: "mark-number" }, String(i + 1)), ` ${m.label}`, m.code ? h("span", { class: "code" }, ` ${m.code}`) : null)),
-            marks.length > MOST_LINES ? h("p", {}, `and ${marks.length - MOST_LINES} more`) : "",
-            h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
+            marks.length > MOST_LINES ? h("p", {}, `and ${marks.length - MOST_LINES} more`) : "");
         this.last = "failed";
     }
 
     /** Mistakes stand on top; what is only to be known stands last. */
     #answer() {
+        for (const shown of this.ofAnswer) shown.take(state.answered);
         this.#staleness();
         const errors = state.diagnostics.filter((d) => d.severity === "error");
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
@@ -88,33 +97,42 @@ export class Verdict {
         this.said = said;
     }
 
+    /** Why what is shown is old, in words, as soon as it looks old. */
     #staleness() {
-        document.body.classList.toggle("stale", state.stale);
-        this.banner.classList.toggle("stale", state.stale);
-        const note = this.banner.querySelector(".stale-note");
-        if (note) note.hidden = !state.stale;
+        const key = inputKey();
+        const why = state.preview === null || isPresent() ? "" : state.cancelled === key ? "cancelled" : state.answered === key ? "none" : "late";
+        const said = this.banner.classList.contains("old") ? why : "";
+        if (said === this.why) return;
+        this.why = said;
+        this.old.hidden = said === "";
+        this.old.replaceChildren(h("div", {}, {
+            "": [], late: ["Grey: of the former input. The present one is being computed."],
+            none: ["Grey: of the last input that had an answer. The present one has none."],
+            cancelled: ["Grey: of the former input. Computing the present one was cancelled. ", button("Compute", { class: "small", id: "compute-again" }, askAgain)],
+        }[said]));
     }
 
     show() {
+        const full = this.#full();
+        for (const shown of this.ofPreview) shown.take(state.previewOf);
+        for (const shown of this.ofFull) shown.take(full ? this.full.of : null);
         const v = state.preview.verdict;
         if (!v) {
+            state.summary = null;
             this.#wait();
             this.#effects();
             return this.#cost();
         }
-        const full = this.#full();
         const top = full ?? v; // the same document: as it will be made, or a first look at the drawing
         const [word, sign] = WORDS[top.verdict] ?? WORDS.inconclusive;
-        const lines = top.summary ?? [];
+        const lines = (state.summary = top.summary ?? []);
         const changed = this.last !== top.verdict;
         this.last = top.verdict;
-        this.banner.className = `banner ${top.verdict}`;
-        this.banner.dataset.verdict = top.verdict;
+        this.#decided(top.verdict);
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),
-            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "",
-            h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
+            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "");
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v);
@@ -152,7 +170,7 @@ export class Verdict {
     /** Of every hinge as made. */
     #made() {
         const full = this.#full();
-        return full && { hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.map((x) => [x.id, x.as_fabricated?.utilisation])) };
+        return full && { hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.filter((x) => x.as_fabricated).map((x) => [x.id, x.as_fabricated])) };
     }
 
     #bars(v) {
@@ -161,13 +179,14 @@ export class Verdict {
         state.flow = this.whose.value;
         const own = v.flows.find((f) => f.id === state.flow);
         const list = own?.hinges ?? v.hinges;
-        const governing = own ? own.governing : (this.#full() ?? v).governing; // that of the banner
         if (!list.length) {
             this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
             return;
         }
-        const most = Math.max(1.25, ...list.map((x) => Math.min(x.utilisation ?? 0, 4)));
         const made = this.#made()?.hinges(state.flow);
+        const worst = made?.size ? [...made].reduce((a, b) => (b[1].utilisation > a[1].utilisation ? b : a)) : null;
+        const governing = !own ? (this.#full() ?? v).governing : worst ? { id: worst[0] } : own.governing; // all flows: that of the banner
+        const most = Math.max(1.25, ...list.map((x) => Math.min(Math.max(x.utilisation ?? 0, made?.get(x.id)?.utilisation ?? 0), 4)));
         const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id)));
         this.bars.replaceChildren(
             h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
@@ -190,6 +209,8 @@ export class Verdict {
             ["flow", hinge.flow],
             ["rules", hinge.criterion ?? "–"],
         ];
+        const made = this.#made()?.hinges(state.flow).get(hinge.id);
+        if (made) facts.push(["as made", `${percent(made.utilisation)}, ${made.corner}`]);
         this.bars.append(h("dl", { class: "facts-list bar-detail" }, facts.map(([k, x]) => [h("dt", {}, k), h("dd", {}, x)])));
     }
 
@@ -199,12 +220,13 @@ export class Verdict {
             const name = flow.name ?? flow.id;
             const own = v.flows?.find((f) => f.id === name);
             const made = flow.manufacturable;
-            const word = made === true ? "can be made" : made === false ? "cannot be made" : "not guaranteed";
             const reasons = flow.reasons ?? [];
+            const word = made === true ? "can be made" : made === false ? "cannot be made" : reasons.length ? "not guaranteed" : "not looked at";
             return h("details", { class: `flow ${own?.verdict ?? ""}` },
                 h("summary", {}, h("span", { class: "flow-name" }, name), h("span", { class: `chip ${made === true ? "good" : made === false ? "bad" : "open"}` }, word)),
                 own?.governing ? h("p", {}, asDrawn(own.governing)) : null,
-                reasons.length ? h("ul", {}, reasons.map((r) => h("li", {}, r))) : h("p", {}, "Nothing speaks against it."));
+                reasons.length ? h("ul", {}, reasons.map((r) => h("li", {}, r)))
+                    : h("p", {}, made === true ? "Nothing speaks against it." : "Not computed here: the masks and the recipe say what the flow can make."));
         }));
     }
 
@@ -217,7 +239,7 @@ export class Verdict {
         this.ledger.replaceChildren(
             ...called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
                 h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
-                    h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "∞" : percent(e.bound, 2)),
+                    h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "no bound" : percent(e.bound, 2)),
                     h("span", { class: "state" }, e.active ? "computed" : "left out")),
                 h("p", {}, e.reason ?? ""))), last);
     }
@@ -255,6 +277,9 @@ export class Verdict {
     }
 }
 
+/** Before the word of a decision; seen when that is old. */
+const was = () => h("span", { class: "was" }, "Before: ");
+
 /** Of how it is computed, what a verdict depends on. */
 function judging() {
     const { accuracy, effects, hinge_model } = state.options;
@@ -277,18 +302,20 @@ function asDrawn(g) {
 }
 
 function bar(hinge, most, governing, made) {
-    const use = hinge.utilisation ?? 0;
-    const [low, high] = hinge.utilisation_band ?? [use, use];
+    const rules = made ?? hinge; // as it will be made, where that is known: what the banner says
+    const use = rules.utilisation ?? 0;
+    const [low, high] = rules.utilisation_band ?? [use, use];
+    const drawn = made ? `, ${percent(hinge.utilisation)} as drawn` : "";
     const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
     return h("button", {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
-        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${made ? " as made" : ""}${drawn}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
     },
     h("span", { class: "bar-id" }, hinge.id),
     h("span", { class: "bar-track" },
         h("span", { class: "bar-fill", style: { width: x(use) } }),
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
-        made ? h("span", { class: "bar-made", title: `as fabricated: ${percent(made)}`, style: { left: x(made) } }) : null),
+        made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
     h("span", { class: "bar-value" }, percent(use, use < 0.1 ? 2 : 3)));
 }
 

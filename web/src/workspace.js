@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The workspace by hand: the platform is dragged, the server answers with the pose of the whole
 // mechanism and what every hinge then needs of its limit. The certified set is a job.
-import { latest, post } from "./api.js";
+import { newest, post } from "./api.js";
+import { inputKey, look, mayChange, Shown } from "./belong.js";
 import { scale } from "./colours.js";
 import { request } from "./design.js";
 import { announce, button, h, s, select, setOptions } from "./dom.js";
@@ -45,9 +46,13 @@ export class Workspace {
             e.stopPropagation();
             this.ask({ ...this.at, phi_rad: this.at.phi_rad - Math.sign(e.deltaY) * 0.005 });
         }, { passive: false });
-        this.send = latest((body) => post("/api/pose", body), (answer) => this.#answer(answer), (error) => {
-            if (!error.lost) this.status.textContent = error.message;
-        });
+        this.send = newest(({ body }, signal) => post("/api/pose", body, { signal }), (answer, input) => this.#answer(answer, input), (error, { key }) => {
+            if (!error.lost) this.#refused(error.message, key);
+        }, { words: "Computing the pose" });
+        mayChange(() => this.send.busy);
+        const pose = () => this.#input();
+        this.showing = [this.stage, this.status, this.list].map((element) => new Shown(element, pose));
+        this.drawn = new Shown(this.stage);
         on("preview", () => this.visible && this.show());
         on("hinge", () => this.#colour());
     }
@@ -73,7 +78,7 @@ export class Workspace {
                 h("div", { class: "row" }, h("label", { class: "option" }, h("span", {}, "body"), this.body), h("label", { class: "option" }, h("span", {}, "flow"), this.flow)),
                 h("div", { class: "pose-fields" }, box("x", "µm", "x_m", 1e6), box("y", "µm", "y_m", 1e6), box("φ", "°", "phi_rad", 180 / Math.PI)),
                 button("Back to rest", { class: "small" }, () => this.ask({ x_m: 0, y_m: 0, phi_rad: 0 })),
-                this.status, this.list),
+                this.status, this.list, h("p", { class: "doc" }, "By rotation alone; the verdict also counts the forces that hold a required pose.")),
             job);
         this.view = new JobView(job, {
             kind: "workspace", action: "Compute the reachable set", options: () => ({}),
@@ -95,8 +100,14 @@ export class Workspace {
         const bodies = p.bodies.filter((b) => !b.fixed);
         setOptions(this.body, bodies.map((b) => [b.id, b.platform ? `${b.id}, platform` : b.id]), this.body.value || (bodies.find((b) => b.platform) ?? bodies[0])?.id);
         this.mechanism.show(p);
+        this.drawn.take(state.previewOf);
         this.#required();
         this.ask(this.at);
+    }
+
+    /** What a pose depends on. */
+    #input() {
+        return inputKey({ ...state.options, flow: this.flow.value, body: this.body.value, at: this.at });
     }
 
     ask(at) {
@@ -105,20 +116,32 @@ export class Workspace {
         this.y_m.value = round(at.y_m * 1e6, 2);
         this.phi_rad.value = round((at.phi_rad * 180) / Math.PI, 3);
         if (this.stage.offsetParent === null) return; // not on the screen
-        this.send({ ...request(), flow: this.flow.value || undefined, body: this.body.value || undefined, platform: at, q: this.last });
+        look();
+        const body = { ...request(), flow: this.flow.value || undefined, body: this.body.value || undefined, platform: at, q: this.last };
+        this.send.ask({ body, key: this.#input(), of: inputKey() });
     }
 
-    #answer(answer) {
-        this.answer = answer;
-        if (answer.status && answer.status !== "ok") {
-            this.status.textContent = answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "no pose for this device";
-            this.status.className = "pose-status bad";
-            return;
-        }
+    /** No pose: what is shown is of the last one. */
+    #refused(message, key) {
+        this.status.textContent = message;
+        this.#good(false);
+        this.showing[1].take(key);
+    }
+
+    #good(good) {
+        this.status.classList.toggle("good", good);
+        this.status.classList.toggle("bad", !good);
+    }
+
+    #answer(answer, { key, of }) {
+        if (of !== state.previewOf) return; // the picture is of another input; its preview asks again
+        if (answer.status && answer.status !== "ok") return this.#refused(answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "no pose for this device", key);
+        const present = key === this.#input();
         const first = this.platform !== answer.body;
         this.platform = answer.body;
         this.last = answer.how === "assembly" ? answer.q : undefined;
-        this.body.value = answer.body;
+        if (present) this.body.value = answer.body; // what was chosen, or the platform where nothing was
+        for (const shown of this.showing) shown.take(present ? this.#input() : key);
         this.mechanism.pose(posesOf(state.preview, answer.q));
         if (first) this.#required();
         const flow = answer.flows.find((f) => f.name === answer.flow) ?? answer.flows[0];
@@ -130,7 +153,7 @@ export class Workspace {
             : flow.governing === null ? "No hinge of this device has a limit."
             : use > 1 ? `Hinge ${flow.governing} would be beyond its limit: ${fixed(use * 100, 1)} %.` : `Within the limits; hinge ${flow.governing} governs with ${fixed(use * 100, 1)} %.`;
         if (this.status.textContent !== words) this.status.textContent = words;
-        this.status.className = `pose-status ${!answer.reachable || use > 1 ? "bad" : "good"}`;
+        this.#good(answer.reachable && use <= 1);
         this.handle.setAttribute("aria-valuetext", `x ${micrometres(this.at.x_m)}, y ${micrometres(this.at.y_m)}, turned by ${degrees(this.at.phi_rad)}; ${words}`);
         this.list.replaceChildren(...flow.hinges.map((x) => h("div", { class: `pose-hinge${x.utilisation > 1 ? " over" : ""}` },
             h("span", { class: "bar-id" }, x.id),

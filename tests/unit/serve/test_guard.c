@@ -108,6 +108,7 @@ static void every_single_change_is_refused(void **state) {
     ONE(writing, f.content_length = "9999999999", 400);
     ONE(writing, f.content_length = "", 400);
     ONE(writing, f.transfer_encoding = "chunked", 411);
+    ONE(writing, f.odd_name = true, 400);
     ONE(writing, f.transfer_encoding = "identity", 411);
     ONE(reading, f.content_length = "1", 400);
 }

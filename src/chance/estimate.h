@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The probability that a limit state is not above zero, with an interval, from few evaluations. */
+#ifndef FW_CHANCE_ESTIMATE_H
+#define FW_CHANCE_ESTIMATE_H
+#include "base/arena.h"
+#include "base/status.h"
+#include <stddef.h>
+#include <stdint.h>
+
+/* value (count) of the points u (count x dimensions, by rows), independent standard normal numbers: <= 0 fails, NaN could
+   not be evaluated. `first` is the number of the first of them since the estimate began: the same options give the same
+   points under the same numbers. Another status than FW_OK ends the estimate. What g takes from the arena of the estimate
+   may be gone at the next call. */
+typedef fw_status fw_chance_function(void *context, size_t first, size_t count, const double *u,
+                                     double *value);
+
+typedef struct fw_chance_limit {
+    size_t dimensions; /* at least 1 */
+    fw_chance_function *g;
+    void *context;
+} fw_chance_limit;
+
+/* method, its name in files, its name in sentences */
+#define FW_CHANCE_METHODS(X)                                                                       \
+    X(AUTO, "auto", "automatic choice")                                                            \
+    X(MONTE_CARLO, "monte-carlo", "plain Monte Carlo")                                             \
+    X(QUASI, "quasi", "randomised quasi-Monte Carlo")                                              \
+    X(IMPORTANCE, "importance", "importance sampling around design points")                        \
+    X(SUBSET, "subset", "subset simulation")
+typedef enum fw_chance_method {
+#define FW_CHANCE_ENUM(name, id, text) FW_CHANCE_##name,
+    FW_CHANCE_METHODS(FW_CHANCE_ENUM)
+#undef FW_CHANCE_ENUM
+} fw_chance_method;
+
+const char *fw_chance_method_id(fw_chance_method method);
+const char *fw_chance_method_text(fw_chance_method method);
+fw_status fw_chance_method_find(const char *id,
+                                fw_chance_method *method); /* FW_INPUT: none of them */
+
+typedef struct fw_chance_options {
+    fw_chance_method method;
+    uint64_t seed;
+    size_t budget; /* evaluations at most; at least FW_CHANCE_BUDGET_LEAST */
+    size_t batch;  /* points of a call of g at most; 0: FW_CHANCE_BATCH */
+    double level;  /* of the interval, 0 < level < 1; 0: 0.95 */
+} fw_chance_options;
+enum { FW_CHANCE_BUDGET_LEAST = 200, FW_CHANCE_BUDGET_USUAL = 20000, FW_CHANCE_BATCH = 256 };
+
+/* u = -beta alpha, alpha the unit gradient of g in the linear approximation; alpha^2 are the shares of the inputs */
+typedef struct fw_chance_design_point {
+    double beta;   /* distance from the origin, negative where the origin fails */
+    double *u;     /* (dimensions) */
+    double *alpha; /* (dimensions) */
+} fw_chance_design_point;
+
+typedef struct fw_chance_estimate {
+    fw_chance_method method; /* the one that gave the numbers */
+    const char *reason;      /* one sentence: why this method */
+    const char *caution;     /* one sentence on what the interval does not hold, or NULL */
+    /* What could not be evaluated counted as safe, and as failed; equal where all was evaluated */
+    double probability_low, probability_high;
+    double low, high, level; /* the interval of the probability, over both ways of counting */
+    double standard_error;   /* of the estimate; NaN where it is not known (no failure seen) */
+    size_t evaluations;      /* all, pilots and gradients included */
+    size_t unevaluated;      /* NaN among them */
+    size_t points;
+    const fw_chance_design_point
+        *point; /* (points), nearest first; none where they were not looked for */
+} fw_chance_estimate;
+
+/* FW_INPUT: options out of range (*why, of the arena, says which). FW_LIMIT: quasi beyond FW_CHANCE_SOBOL_MOST
+   dimensions. FW_SOLVER: importance, and no design point was found. FW_CANCELLED as the arena says. */
+fw_status fw_chance_estimate_run(fw_arena *arena, const fw_chance_limit *limit,
+                                 const fw_chance_options *options, fw_chance_estimate *out,
+                                 const char **why);
+
+/* ---- inputs of which only an interval is known: a range of probabilities ---- */
+
+/* sets the unknown inputs (count) that the following calls of g use */
+typedef void fw_chance_set(void *context, const double *unknown);
+
+typedef enum fw_chance_search {
+    FW_CHANCE_ENDS,  /* all corners: exact where the probability is monotone in each unknown */
+    FW_CHANCE_INSIDE /* corners, then a pattern search inside from the best of them */
+} fw_chance_search;
+
+typedef struct fw_chance_unknowns {
+    size_t count; /* at most 10 */
+    const double *low, *high;
+    fw_chance_set *set;
+    fw_chance_search search;
+} fw_chance_unknowns;
+
+typedef struct fw_chance_range {
+    fw_chance_estimate least,
+        most;                     /* of the settings with the least and the greatest probability */
+    double *least_at, *most_at;   /* (count) */
+    double low, high;             /* from the lower end of the one to the upper end of the other */
+    size_t settings, evaluations; /* tried; in all */
+} fw_chance_range;
+
+/* options->budget is for each setting */
+fw_status fw_chance_range_run(fw_arena *arena, const fw_chance_limit *limit,
+                              const fw_chance_unknowns *unknowns, const fw_chance_options *options,
+                              fw_chance_range *out, const char **why);
+
+#endif

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All inputs that scatter, together: correlations, what differs from lot to lot, wafer to wafer, die to die and hinge to
+   hinge, and trends over a wafer; as a map from independent standard normal numbers u to values. */
+#ifndef FW_CHANCE_JOINT_H
+#define FW_CHANCE_JOINT_H
+#include "chance/distribution.h"
+#include <stdint.h>
+
+/* a variable takes a new value with each ... */
+typedef enum fw_chance_level {
+    FW_CHANCE_LOT,
+    FW_CHANCE_WAFER,
+    FW_CHANCE_DIE,
+    FW_CHANCE_HINGE
+} fw_chance_level;
+
+/* added to the value: radial (r^2/R^2 - 1/2) + (along_x x + along_y y)/R, in the unit of the variable. Its mean over the
+   wafer is 0. radius_m 0: none. */
+typedef struct fw_chance_trend {
+    double radius_m; /* R: where the wafer's edge is */
+    double radial;   /* edge less centre */
+    double along_x, along_y;
+} fw_chance_trend;
+
+typedef struct fw_chance_variable {
+    const char *name; /* for messages */
+    fw_chance_distribution distribution;
+    fw_chance_level level;
+    fw_chance_trend trend;
+} fw_chance_variable;
+
+/* of two variables of one level, as Pearson's coefficient of their values, -1 < value < 1 */
+typedef struct fw_chance_correlation {
+    size_t a, b; /* indices of variables */
+    double value;
+} fw_chance_correlation;
+
+typedef struct fw_chance_place { /* where a die is */
+    uint32_t lot, wafer, die;
+    double x_m, y_m; /* from the wafer's centre */
+} fw_chance_place;
+
+/* what is wrong: the index of the variable or correlation, else SIZE_MAX */
+typedef struct fw_chance_fault {
+    const char *why;
+    size_t variable, correlation;
+} fw_chance_fault;
+
+typedef struct fw_chance_joint {
+    size_t variables, hinges;
+    const fw_chance_variable *variable; /* (variables) */
+    size_t values;                /* per die: one per variable, of the level hinge one per hinge */
+    size_t *value_first;          /* (variables) where the values of a variable begin */
+    size_t dimensions;            /* independent standard normal numbers per die */
+    size_t *u_first;              /* (variables) where those of a variable begin; SIZE_MAX: none */
+    size_t *u_variable, *u_hinge; /* (dimensions) whose it is; hinge 0 below the level hinge */
+    size_t unknowns;              /* intervals */
+    size_t *unknown;              /* (unknowns) their variables */
+    double *factor; /* (variables x variables) lower L, L L^T the correlation in normal space */
+} fw_chance_joint;
+
+/* FW_INPUT: *fault says what. The variables must live as long as the joint; pairs without a row are independent. */
+fw_status fw_chance_joint_new(fw_arena *arena, size_t hinges, size_t variables,
+                              const fw_chance_variable *variable, size_t correlations,
+                              const fw_chance_correlation *correlation, fw_chance_joint *out,
+                              fw_chance_fault *fault);
+
+/* u (dimensions) of a die: each number a function of the seed, its dimension and the indices its level names */
+void fw_chance_joint_draw(const fw_chance_joint *joint, uint64_t seed, const fw_chance_place *place,
+                          double *u);
+
+/* x (values). unknown (unknowns): the values of the intervals, NULL for their middles. place NULL: no trends. */
+void fw_chance_joint_map(const fw_chance_joint *joint, const double *u, const double *unknown,
+                         const fw_chance_place *place, double *x);
+
+/* The correlation in normal space whose values are correlated by `value` (Nataf). FW_INPUT: out of reach for these two;
+   *low and *high are then the ends of what is within. */
+fw_status fw_chance_joint_normal(fw_arena *arena, const fw_chance_distribution *a,
+                                 const fw_chance_distribution *b, double value, double *normal,
+                                 double *low, double *high);
+
+#endif

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The automatic choice with 2e4 evaluations: probabilities from 1e-6 to 10 %, 2 to 20 dimensions, correlated and lognormal
+   inputs; what it says of its choice. FW_TEST_SHOW=1 prints what was held. */
+#include "limits.h"
+
+static fw_chance_joint joint_of(const fw_chance_variable *variable, double correlation) {
+    fw_chance_joint joint;
+    fw_chance_fault fault;
+    fw_chance_correlation row = {0, 1, correlation};
+    assert_int_equal(fw_chance_joint_new(arena, 1, 2, variable, 1, &row, &joint, &fault), FW_OK);
+    return joint;
+}
+
+/* normal, mean 10 and 20, sd 1 and 3, correlated: x + y stays below b */
+static const fw_chance_variable normals[] = {
+    {.name = "x",
+     .level = FW_CHANCE_DIE,
+     .distribution = {.kind = FW_CHANCE_NORMAL, .mean = 10, .sd = 1}},
+    {.name = "y",
+     .level = FW_CHANCE_DIE,
+     .distribution = {.kind = FW_CHANCE_NORMAL, .mean = 20, .sd = 3}}};
+static double limit_sum(const limit_state *l, const double *u) {
+    double x[2];
+    fw_chance_joint_map(l->joint, u, NULL, NULL, x);
+    return l->b - x[0] - x[1];
+}
+
+/* lognormal, correlated: the product stays below b, the quotient above */
+static const fw_chance_variable lognormals[] = {
+    {.name = "x",
+     .level = FW_CHANCE_DIE,
+     .distribution = {.kind = FW_CHANCE_LOGNORMAL, .mean = 2, .sd = 0.6}},
+    {.name = "y",
+     .level = FW_CHANCE_DIE,
+     .distribution = {.kind = FW_CHANCE_LOGNORMAL, .mean = 5, .sd = 1}}};
+static double limit_product(const limit_state *l, const double *u) {
+    double x[2];
+    fw_chance_joint_map(l->joint, u, NULL, NULL, x);
+    return l->b - x[0] * x[1];
+}
+static double limit_quotient(const limit_state *l, const double *u) {
+    double x[2];
+    fw_chance_joint_map(l->joint, u, NULL, NULL, x);
+    return x[0] / x[1] - l->b;
+}
+
+/* ln(x y), or ln(x/y) with sign -1, is normal: the covariance of the logarithms is ln(1 + rho v w) */
+static double lognormal_truth(double rho, double sign, double b) {
+    double v = 0.3, w = 0.2, s = log1p(v * v), t = log1p(w * w);
+    double mean = log(2) - s / 2 + sign * (log(5) - t / 2),
+           sd = sqrt(s + t + sign * 2 * log1p(rho * v * w));
+    return fw_maths_normal_cdf(sign * (mean - log(b)) / sd);
+}
+
+static void covered(limit_state *l, int quick) {
+    double width;
+    limit_coverage(l, (fw_chance_options){.method = FW_CHANCE_AUTO},
+                   test_fewest(test_cases(1000, quick), 1), &width);
+    bool hard = l->g == limit_flat ||
+                l->g == limit_sphere; /* nothing but counting, or subset simulation, is left */
+    assert_true(width < (hard ? 8 : 0.06)); /* half width of the truth, with 2e4 evaluations */
+}
+
+static void closed_forms(void **state) {
+    (void)state;
+    for (size_t i = 0; i < LIMIT_STATES; i++)
+        if (limit_states[i].dimensions < 100)
+            covered(&limit_states[i], limit_states[i].dimensions < 20 ? 12 : 3);
+}
+
+static void correlated(void **state) {
+    (void)state;
+    fw_chance_joint joint = joint_of(normals, 0.6);
+    double sd = sqrt(1 + 9 + 2 * 0.6 * 3);
+    for (double beta = 2; beta < 4.6; beta += 1.25) {
+        limit_state l = {.name = "correlated",
+                         .dimensions = 2,
+                         .g = limit_sum,
+                         .b = 30 + beta * sd,
+                         .joint = &joint,
+                         .truth = fw_maths_normal_cdf(-beta)};
+        covered(&l, 8);
+    }
+}
+
+static void lognormal(void **state) {
+    (void)state;
+    fw_chance_joint joint = joint_of(lognormals, -0.4);
+    limit_state product = {.name = "lognormal product",
+                           .dimensions = 2,
+                           .g = limit_product,
+                           .b = 30,
+                           .joint = &joint,
+                           .truth = lognormal_truth(-0.4, 1, 30)};
+    limit_state quotient = {.name = "lognormal quotient",
+                            .dimensions = 2,
+                            .g = limit_quotient,
+                            .b = 0.09,
+                            .joint = &joint,
+                            .truth = lognormal_truth(-0.4, -1, 0.09)};
+    assert_true(product.truth > 1e-6 && product.truth < 1e-3 && quotient.truth > 1e-6 &&
+                quotient.truth < 1e-3);
+    covered(&product, 8);
+    covered(&quotient, 8);
+}
+
+static void chosen(size_t which, fw_chance_method method, const char *says) {
+    fw_chance_estimate e = limit_estimate(&limit_states[which], (fw_chance_options){.seed = 2});
+    assert_int_equal(e.method, method);
+    assert_non_null(strstr(e.reason, says));
+    assert_true((e.caution != NULL) == (method == FW_CHANCE_IMPORTANCE));
+}
+
+static void reasons(void **state) {
+    (void)state;
+    chosen(0, FW_CHANCE_IMPORTANCE, "subset simulation agrees");
+    chosen(1, FW_CHANCE_QUASI, "often enough to count");
+    chosen(9, FW_CHANCE_SUBSET, "uneven weights");
+    chosen(10, FW_CHANCE_QUASI, "shows no way");
+    limit_state many = {.name = "many", .dimensions = 400, .g = limit_linear, .b = 1};
+    fw_chance_estimate e = limit_estimate(&many, (fw_chance_options){.seed = 2});
+    assert_int_equal(e.method, FW_CHANCE_MONTE_CARLO);
+    assert_non_null(strstr(e.reason, "Sobol' points do not"));
+    assert_true(e.low < fw_maths_normal_cdf(-1) && fw_maths_normal_cdf(-1) < e.high);
+    e = limit_estimate(&limit_states[2], (fw_chance_options){.seed = 2, .budget = 1000});
+    assert_non_null(strstr(e.reason, "too small"));
+    assert_true(e.low == 0 && e.high > 1e-4);
+}
+
+/* both branches' points are found, and the shares of two inputs that are unequal */
+static void points(void **state) {
+    (void)state;
+    fw_chance_estimate e = limit_estimate(&limit_states[8], (fw_chance_options){.seed = 2});
+    assert_int_equal(e.points, 2);
+    assert_near(e.point[0].beta, 4, 0.01);
+    assert_near(e.point[1].beta, 4.3, 0.01);
+    assert_near(e.point[0].alpha[0], -1, 1e-3);
+    assert_near(e.point[1].alpha[0], 1, 1e-3);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(closed_forms), cmocka_unit_test(correlated),
+                                       cmocka_unit_test(lognormal), cmocka_unit_test(reasons),
+                                       cmocka_unit_test(points)};
+    return cmocka_run_group_tests(tests, open_arena, close_arena);
+}

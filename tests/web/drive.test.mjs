@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Random edits, held sliders, options and slow answers: after each all that is shown is what a fresh answer says of
+// the text in the editor, and before that nothing of a former input looks current.
+//
+// FW_DRIVE_STEPS and FW_DRIVE_SEED: more steps on every device, another course. `tests/web/run.sh PROGRAM BUILD
+// drive.test.mjs` runs this alone; with FW_DRIVE_STEPS=1000 on six devices.
+import { after, test } from "node:test";
+import { dice, step, watcher } from "./drive.mjs";
+import { close, finish, open, serve } from "./helper.mjs";
+
+after(finish);
+
+const STEPS = Number(process.env.FW_DRIVE_STEPS ?? 0);
+const FEW = 24; // on each device where nobody asks for more
+const SEED = Number(process.env.FW_DRIVE_SEED ?? 1);
+const FIRST = ["reference-six-bar", "comb-stage"];
+const MORE = ["leaf-four-bar", "free-form-four-bar", "straight-stage", "four-tendons"];
+
+for (const device of STEPS ? [...FIRST, ...MORE] : FIRST)
+    test(`${device}, driven at random`, { timeout: STEPS ? Infinity : 600000 }, async (t) => {
+        const server = await serve(device);
+        const page = await open(server, { before: watcher });
+        page.expected = [/Failed to load resource/]; // an option that a changed text does not know
+        const d = dice(SEED);
+        const done = {};
+        let mend = false;
+        try {
+            for (let i = 0; i < (STEPS || FEW); i++) {
+                let told;
+                try {
+                    told = await step(page, server, d, { mend });
+                } catch (error) {
+                    error.message = `step ${i + 1} of seed ${SEED}: ${error.message}`;
+                    throw error;
+                }
+                mend = [null, "none", "failed"].includes(told[1]);
+                for (const x of told) done[x] = (done[x] ?? 0) + 1;
+            }
+            t.diagnostic(`${JSON.stringify(done)}, ${await page.evaluate(() => globalThis.driven.frames)} frames looked at`);
+        } finally {
+            await close(page);
+            await server.stop();
+        }
+    });

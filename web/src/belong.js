@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is shown and which input it belongs to. The input is the whole of it: the text, values that are held by a
+// slider, and the options. Every part of the page that shows a result says of which input it is (`take`); whatever
+// is not of the present input is marked, by this file alone: `data-of` is "present", "former" or "nothing" at once,
+// and what has been former for OLD_MS is visibly old (class "old": grey, with words). While somebody moves a slider
+// answers come faster than that, and nothing flickers.
+import { emit, on, state } from "./store.js";
+
+export const OLD_MS = 150;
+const LEFT_MOST = 64; // inputs of which it is remembered when they were left
+
+const ordered = (object) => Object.entries(object).sort(([a], [b]) => (a < b ? -1 : a > b ? 1 : 0));
+
+// Texts have numbers, so that keys are short; the same text has the same one while it is among the last TEXTS_MOST.
+const TEXTS_MOST = 32;
+const texts = new Map();
+let count = 0;
+
+function numberOf(text) {
+    const n = texts.get(text) ?? ++count;
+    texts.delete(text); // to the end of the list
+    texts.set(text, n);
+    if (texts.size > TEXTS_MOST) texts.delete(texts.keys().next().value);
+    return n;
+}
+
+/** The present input, or of which parts of the state a result depends: with other options, of a job. */
+export const inputKey = (options = state.options) => JSON.stringify([numberOf(state.text), ordered(state.set), ordered(options)]);
+
+const left = new Map(); // key -> when it stopped being the present one
+const all = new Set();
+let timer = 0;
+
+/** One result in one element. present(): the key that a result of now would have. */
+export class Shown {
+    constructor(element, present = inputKey) {
+        Object.assign(this, { element, present, of: null });
+        element.shown = [...(element.shown ?? []), this];
+        element.dataset.of = "nothing";
+        all.add(this);
+    }
+
+    /** What is shown from now on is of this input; null: nothing is shown. */
+    take(of) {
+        this.of = of;
+        look();
+    }
+
+    get former() {
+        return this.of !== null && this.of !== this.now;
+    }
+}
+
+/** Marks every part anew; whoever changes the input or shows a result calls it, before anything else happens. */
+function look() {
+    const time = performance.now();
+    let next = Infinity;
+    const elements = new Set();
+    for (const shown of all) {
+        const now = shown.present();
+        if (shown.now !== undefined && shown.now !== now) {
+            left.delete(shown.now); // to the end of the list
+            left.set(shown.now, time);
+        }
+        shown.now = now;
+        elements.add(shown.element);
+    }
+    while (left.size > LEFT_MOST) left.delete(left.keys().next().value);
+    const here = inputKey(); // nothing is waited for any more: what is former now stays so
+    const over = state.answered === here || state.cancelled === here;
+    for (const element of elements) next = Math.min(next, mark(element, over ? Infinity : time));
+    clearTimeout(timer);
+    if (next < Infinity) timer = setTimeout(look, next);
+    emit("belong");
+}
+
+/** An element with several results is as old as the oldest of them, at this time. Returns in how many ms it becomes
+ *  old. */
+function mark(element, time) {
+    const some = element.shown.filter((x) => x.of !== null);
+    const former = some.filter((x) => x.former);
+    element.dataset.of = former.length ? "former" : some.length ? "present" : "nothing";
+    const age = Math.max(...former.map((x) => time - (left.get(x.of) ?? 0)), -Infinity);
+    const old = age >= OLD_MS;
+    if (old !== element.classList.contains("old")) element.classList.toggle("old", old);
+    return former.length && !old ? OLD_MS - age + 1 : Infinity;
+}
+
+for (const event of ["text", "change", "options"]) on(event, look);
+export { look };
+
+// ---- what is on its way, with a sign and a way to end it ----
+
+const working = new Set();
+
+/** Work that somebody waits for: {words, cancel()}; returns the function that ends the sign. */
+export function begin(work) {
+    const item = { since: performance.now(), ...work };
+    working.add(item);
+    emit("working");
+    return () => {
+        working.delete(item);
+        emit("working");
+    };
+}
+
+export const underWay = () => [...working];
+
+/** Asks everything that may still change what is shown: each adds () => true while it has something to do. */
+const pending = [];
+export const mayChange = (busy, { job = false } = {}) => pending.push({ busy, job });
+
+/** Nothing changes any more by itself; jobs false: but for long work. */
+export const settled = (jobs = true) => working.size === 0 && pending.every((x) => (x.job && !jobs) || !x.busy());
