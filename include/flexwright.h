@@ -428,6 +428,26 @@ FW_API int fw_design_arrays(fw_design *design, int numbers, size_t *count);
 FW_API const fw_array *fw_design_array(fw_design *design, int numbers, size_t i);
 FW_API const fw_array *fw_design_array_named(fw_design *design, int numbers, const char *name);
 
+/* ---- studies ---- */
+
+typedef struct fw_study_settings { /* zero or NULL in a field means its default */
+    size_t size;                   /* sizeof (fw_study_settings) */
+    const char *study;             /* which <study> of a device file; NULL: the only one */
+    const char *directory;         /* of the samples (study.sqlite) and the results; needed */
+    int32_t jobs;                  /* threads, 1..256; 0: one for each processor */
+    int32_t shard, shards;         /* every shards-th sample from the shard-th on; 0, 0: all */
+    int32_t resume;                /* not 0: go on with the samples that are there */
+} fw_study_settings;
+
+/* Runs a study: `file` is a device file with a <study>, or a study file. Every device has the options of
+   this design and the settings of fw_design_set, and the study's own behind them; the design itself need not
+   be read, and is not changed but for its diagnostics. Samples are kept as they come, so that a cancelled study
+   can go on (resume). *json (may be NULL): schema flexwright.study/1, of the design; NULL for a shard.
+   fw_design_progress is told of devices. FW_STATUS_INPUT, FW_STATUS_IO, FW_STATUS_CANCELLED,
+   FW_STATUS_NOMEM, FW_STATUS_USAGE. Cost: that of the devices. */
+FW_API int fw_design_study(fw_design *design, const char *file, const fw_study_settings *settings,
+                           const char **json, size_t *length);
+
 #ifdef __cplusplus
 }
 #endif

@@ -92,6 +92,8 @@ bool fw_cli_parse(const fw_cli_command *command, int argc, char **argv, fw_cli_o
             only_names = true;
         else if (!only_names && argument[0] == '-' && argument[1]) {
             if (!one_option(command, argc, argv, &i, o)) return false;
+        } else if (o->device && (command->options & FW_OPT_STUDY) && o->nmore < FW_MOST_NAMES) {
+            o->more[o->nmore++] = argument;
         } else if (o->device) {
             fw_cli_usage("%s takes one %s, got '%s' and '%s'", command->name,
                          command->argument ? command->argument : "argument", o->device, argument);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/options.h"
 #include "cli/options_log.h"
+#include "cli/options_masks.h"
+#include "cli/options_study.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
 #include "plan/ladder.h"
@@ -134,48 +136,11 @@ static const char *take_force(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
-static const char *take_tolerance(fw_cli_options *o, const char *v) {
-    double nm;
-    if (!fw_number_parse(v, strlen(v), &nm) || !(nm >= 0.36 && nm <= 1000.0))
-        return "needs nanometres from 0.36 (below, rounding to the 1 nm grid would bend arcs the "
-               "wrong way) to 1000, both included";
-    o->design.mask_tolerance_m = nm * 1e-9;
-    return NULL;
-}
-
 /* what a value is wrong for: "needs {names}" */
 static const char *needs(const char *(*of)(void)) {
     static char text[640];
     snprintf(text, sizeof text, "needs %s", of());
     return text;
-}
-
-static const char *take_mask_format(fw_cli_options *o, const char *v) {
-    unsigned set;
-    o->design.mask_formats = v;
-    return fw_mask_formats(v, &set) ? NULL : needs(fw_cli_mask_format_names);
-}
-
-static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
-    fw_geometry_flattening kind;
-    o->design.mask_flatten = v;
-    return *v && fw_mask_flattening_named(v, &kind) ? NULL : "needs inside or equal-area";
-}
-
-static const char *take_layers(fw_cli_options *o, const char *v) {
-    o->design.layers = v;
-    return *v ? NULL : "needs the name of a file";
-}
-
-static const char *take_mask_vertices(fw_cli_options *o, const char *v) {
-    static const char *const word[] = {"199", "4094", "8190"};
-    static const int32_t most[] = {199, 4094, 8190};
-    for (int i = 0; i < 3; i++)
-        if (strcmp(v, word[i]) == 0) {
-            o->design.mask_vertices = most[i];
-            return NULL;
-        }
-    return "needs 199, 4094 or 8190";
 }
 
 /* ---- of recipe and plan: the schedule ---- */
@@ -390,6 +355,22 @@ static const fw_cli_option_row table[] = {
     {"json", 0, NULL,
      "one JSON document on standard output; where there is no result, the diagnostics", FW_OPT_PLAN,
      take_json},
+    {"study", 0, "NAME", "which <study> of the device file; default the only one", FW_OPT_STUDY,
+     fw_cli_take_study},
+    {"output", 'o', "DIR",
+     "directory of the samples (study.sqlite) and the results; default out/DEVICE-STUDY",
+     FW_OPT_STUDY, take_output},
+    {"plan", 0, NULL, "say what would be run, how many devices and how long, and stop",
+     FW_OPT_STUDY, fw_cli_take_plan_only},
+    {"jobs", 0, "N",
+     "threads, 1 to 256; default one for each processor. The results are the same for any number",
+     FW_OPT_STUDY, fw_cli_take_jobs},
+    {"shard", 0, "I/N",
+     "only every N-th sample from the I-th on, for a machine of its own; study merge puts the N "
+     "directories together",
+     FW_OPT_STUDY, fw_cli_take_shard},
+    {"resume", 0, NULL, "go on with the samples that are in the directory", FW_OPT_STUDY,
+     fw_cli_take_resume},
     {"set", 0, "PATH=VALUE",
      "override a parameter (arc=\"250 deg\") or an attribute (flexure[A]/@length=\"312 um\"); "
      "repeatable",
@@ -433,25 +414,25 @@ static const fw_cli_option_row table[] = {
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM",
      "largest distance between an arc and its polygon, in nm, from 0.36 to 1000; default 5",
-     FW_OPT_FABRICATE, take_tolerance},
+     FW_OPT_FABRICATE, fw_cli_take_tolerance},
     {"mask-flatten", 0, "HOW",
      "arcs as polygons: inside (default; vertices on the arc) or equal-area (chords that enclose "
      "the area of the arc)",
-     FW_OPT_FABRICATE, take_mask_flatten},
+     FW_OPT_FABRICATE, fw_cli_take_mask_flatten},
     {"mask-format", 0, "LIST", "{names} (GDSII is always written)", FW_OPT_FABRICATE,
-     take_mask_format},
+     fw_cli_take_mask_format},
     {"mask-vertices", 0, "N",
      "most vertices of one GDSII boundary: 199, 4094 or 8190; default 4094; larger outlines are "
      "cut "
      "at vertices",
-     FW_OPT_FABRICATE, take_mask_vertices},
+     FW_OPT_FABRICATE, fw_cli_take_mask_vertices},
     {"layers", 0, "FILE",
      "the laboratory's own layer numbers, 0 to 65535, and names, a line for each layer: "
      "\"structure 7/0 "
      "name POLY2\"; LAYER is an id or a role of the layer table, lines below \"flow NAME\" are for "
      "that "
      "flow, # begins a remark",
-     FW_OPT_FABRICATE, take_layers},
+     FW_OPT_FABRICATE, fw_cli_take_layers},
     {"wafers", 0, "N", "wafers of the schedule, 1 to 50; default 1", FW_OPT_SCHEDULE, take_wafers},
     {"operators", 0, "K", "people who stand at the machines, 1 to 50; default 1", FW_OPT_SCHEDULE,
      take_operators},

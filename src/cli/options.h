@@ -9,7 +9,7 @@
 #include <flexwright.h>
 #include <stdbool.h>
 
-enum { FW_MOST_SETS = 64 };
+enum { FW_MOST_SETS = 64, FW_MOST_NAMES = 1024 };
 
 typedef struct fw_cli_options {
     fw_design_options design;
@@ -27,6 +27,11 @@ typedef struct fw_cli_options {
         const char *before, *words; /* "set ", "power=251 W" */
     } logged[FW_MOST_SETS];
     int nlogged;
+    /* of study */
+    const char *study;               /* NULL: the only one */
+    const char *more[FW_MOST_NAMES]; /* (nmore) names behind the first */
+    int nmore, jobs, shard, shards;
+    bool resume, plan_only;
     int port; /* of serve; 0: a free one */
     bool no_browser, ipv6;
     const char *settings;          /* of tradeoff; NULL: all */
@@ -63,7 +68,8 @@ enum { /* option groups */
        FW_OPT_LOG = 2048,
        FW_OPT_TRADEOFF = 4096,
        FW_OPT_SERVE = 8192,
-       FW_OPT_VERDICT = 16384
+       FW_OPT_VERDICT = 16384,
+       FW_OPT_STUDY = 32768
 };
 
 /* the program with its arguments: the exit status of the contract */

@@ -8,6 +8,7 @@
 #define FW_DEVICE_DEVICE_H
 #include "base/diag.h"
 #include "device/device_probe.h"
+#include "device/device_study.h"
 #include "device/material.h"
 #include "geometry/strip.h"
 #include "quantity/quantity_law.h"
@@ -433,6 +434,8 @@ typedef struct fw_device {
     fw_device_probe *probe;             /* (nprobe) those of the file, then implied ones */
     fw_device_requirement *requirement; /* (nrequirement) */
     int nprobe, nrequirement;
+    fw_device_study *study; /* (nstudy) */
+    int nstudy;
     const char *material_ref; /* NULL only where nothing needs one: no flexures, all masses given */
     fw_place material_place;
     /* overrides of <material>; unknown = take the pack's value */
@@ -471,6 +474,10 @@ fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, siz
 fw_status fw_device_read_with(fw_arena *arena, const char *file, const char *xml, size_t n,
                               const fw_device_set *set, int nset, const fw_device_files *files,
                               fw_diags *diags, const fw_device **device);
+
+/* A study in a file of its own, checked like a device file; *study->device names the device. */
+fw_status fw_device_study_read(fw_arena *arena, const char *file, const char *xml, size_t n,
+                               fw_diags *diags, const fw_device_study **study);
 
 /* a scene or workspace that asks for a flow (NULL: any) holds in this one (NULL: none) */
 bool fw_device_in_flow(const char *asked, const char *flow);

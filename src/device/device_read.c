@@ -33,6 +33,7 @@ static fw_status build(fw_device_reader *r) {
         FW_TRY(fw_device_close_rounded(r)); /* else places may be missing */
     FW_TRY(fw_device_build_scenes(r));
     FW_TRY(fw_device_build_probes(r));
+    FW_TRY(fw_device_build_studies(r));
     check_material(r);
     return FW_OK;
 }

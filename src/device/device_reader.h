@@ -42,6 +42,7 @@ fw_status fw_device_expand_six_bar(fw_device_reader *r); /* bodies 0..4 and join
 fw_status fw_device_build_mechanism(fw_device_reader *r);
 fw_status fw_device_build_scenes(fw_device_reader *r);
 fw_status fw_device_build_probes(fw_device_reader *r); /* when all that they name is there */
+fw_status fw_device_build_studies(fw_device_reader *r);
 /* close.c: poses whose joints are open by what rounded numbers leave (FW-D132) */
 fw_status fw_device_close_rounded(fw_device_reader *r);
 

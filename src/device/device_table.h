@@ -21,13 +21,26 @@ typedef enum fw_device_space { /* ids are unique within one of these */
                                FW_SPACE_COMB,
                                FW_SPACE_CONTACT,
                                FW_SPACE_PROBE,
+                               FW_SPACE_STUDY,
                                FW_SPACE_COUNT
 } fw_device_space;
 
 /* each ends with a row without a name */
 extern const fw_xml_element_row fw_device_table_mechanism[], fw_device_table_shapes[],
-    fw_device_table_scene[], fw_device_table_effects[], fw_device_table_probe[];
-extern const fw_xml_table fw_device_table;
+    fw_device_table_scene[], fw_device_table_effects[], fw_device_table_probe[],
+    fw_device_table_study[];
+extern const fw_xml_table fw_device_table, fw_device_study_table;
+
+/* the words of a study's attributes, each in the order of its enum, NULL behind the last */
+typedef struct fw_device_study_words {
+    const char *const *kind, *const *points, *const *judge, *const *spread, *const *take,
+        *const *goal;
+} fw_device_study_words;
+extern const fw_device_study_words fw_device_study_words_of;
+
+/* numbers of the mistakes of device and study files */
+#define FW_DEVICE_TABLE_NUMBERS \
+    {.root = 15, .element = 40, .misplaced = 41, .attribute = 42, .missing = 43, .name = 44, .twice = 45, .range = 47, .word = 48, .form = 48, .text = 49, .once = 51, .most = 66, .whole = 96}
 
 /* What the rows of the table are written with: dimensions, ranges with their reasons, and the
    attributes that several elements share. Included by table_*.c only. */

@@ -28,6 +28,7 @@ static size_t count_of(const fw_device *d, fw_device_space space) {
     case FW_SPACE_TENDON:
     case FW_SPACE_COMB:
     case FW_SPACE_CONTACT:
+    case FW_SPACE_STUDY:
     case FW_SPACE_COUNT:
         break;
     }

@@ -295,10 +295,11 @@ static const fw_xml_element_row *const parts[] = {own,
                                                   fw_device_table_scene,
                                                   fw_device_table_effects,
                                                   fw_device_table_probe,
+                                                  fw_device_table_study,
                                                   NULL};
 static const char *const spaces[FW_SPACE_COUNT] = {
     "name",   "parameter", "flow",   "flexure",    "body",    "joint", "spring",
-    "driver", "scene",     "tendon", "comb-drive", "contact", "probe"};
+    "driver", "scene",     "tendon", "comb-drive", "contact", "probe", "study"};
 
 const fw_xml_table fw_device_table = {.file = "device file",
                                       .root = "device",
@@ -309,17 +310,4 @@ const fw_xml_table fw_device_table = {.file = "device file",
                                       .space = spaces,
                                       .nspace = FW_SPACE_COUNT,
                                       .names = FW_SPACE_PARAMETER,
-                                      .numbers = {.root = 15,
-                                                  .element = 40,
-                                                  .misplaced = 41,
-                                                  .attribute = 42,
-                                                  .missing = 43,
-                                                  .name = 44,
-                                                  .twice = 45,
-                                                  .range = 47,
-                                                  .word = 48,
-                                                  .form = 48,
-                                                  .text = 49,
-                                                  .once = 51,
-                                                  .most = 66,
-                                                  .whole = 96}};
+                                      .numbers = FW_DEVICE_TABLE_NUMBERS};

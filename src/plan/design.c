@@ -159,6 +159,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
+    d->given = o;
+    d->given.size = sizeof o;
     fw_plan_options *p = &d->plan->options;
     fw_dynamics_motion_options *m = &p->verdict.motion;
     p->data_directory = o.data_directory;

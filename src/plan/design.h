@@ -49,6 +49,7 @@ struct fw_design {
     fw_device_set *set;
     int set_capacity;
     const char *wrong_option; /* a sentence, or NULL */
+    fw_design_options given;  /* its options, with strings of its own: for other designs like it */
     unsigned wanted;          /* FW_WANTED_..., of a motion: what is asked for with it */
     unsigned known;           /* and what is */
     const fw_dynamics_motion *motion;

@@ -331,6 +331,21 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
                                   const fw_verdict_variant_verdict *v,
                                   const fw_verdict_fabrication_input *input, int ninput, int hinge,
                                   fw_verdict_ranges *out);
+typedef struct fw_verdict_made { /* one device that a flow may make */
+    double ln;       /* logarithm of the largest share of a limit that any check uses; above 0 is too much; NaN: it
+                        could not be run */
+    double up, down; /* how far the band of the hinge that governs reaches, as logarithms, both >= 0 */
+    int hinge;       /* that governs, of v; FW_NONE: none */
+    fw_verdict_decision decision;
+    const char *why; /* what speaks against it beside its hinges, or NULL */
+} fw_verdict_made;
+/* The device at a point x (ninput, SI) of what the flow may make, after fw_verdict_variant with the same device,
+   layout and options; v is left alone, so that several threads may ask at once, each with an arena of
+   its own. Error: that of a first look (fw_verdict_first_accuracy) at least. Cost: that of a corner.
+   Test: tests/unit/study/test_made_at.c */
+fw_status fw_verdict_made_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
+                             const double *x, fw_verdict_made *out);
 /* the worst of a requirement over the corners that were run; NULL: none was */
 const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
                                                           int k, int *corner);

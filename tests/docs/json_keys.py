@@ -3,6 +3,7 @@
 """docs/reference/json.md explains every key that the program prints, in the section of its document; and what the
 ledger's numbers are said to be holds: a fraction, null for what is not bounded, 0 for what is not called for."""
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -19,6 +20,9 @@ BY_ID = {"q", "com", "v", "a", "before", "after", "shape", "damped_shape", "velo
          "driver_N_or_Nm", "limit_rad", "boundary_share", "dq"}
 SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model": "Hinge model", "measurements": "measurements",
           "wiring": "wiring"}
+# pictures of docs/studies.md, drawn by its studies
+PICTURES = {"width-and-arc": {"map-used.svg": "study-map.svg"},
+            "which-matters": {"tornado-C.svg": "study-tornado.svg"}}
 problems, seen, documents = [], {}, 0
 
 SIX = "docs/gallery/reference-six-bar/device.xml"
@@ -124,6 +128,21 @@ with tempfile.TemporaryDirectory() as here:
     subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,
                    timeout=240)
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")
+
+    for name in ("width-and-arc", "worst-load", "widest-hinge", "how-many-survive", "which-matters"):
+        done = subprocess.run([program, "study", f"docs/studies/{name}.xml", "-q", "-o", f"{here}/{name}", "--flow", "al-masked-rie"],
+                              cwd=ROOT, capture_output=True, text=True, timeout=900)
+        if done.returncode:
+            problems.append(f"docs/studies/{name}.xml: status {done.returncode}\n{done.stderr}")
+            continue
+        walk(json.loads((pathlib.Path(here) / name / "study.json").read_text()), "study")
+        for picture in PICTURES.get(name, {}):
+            drawn = (pathlib.Path(here) / name / "pictures" / picture).read_bytes()
+            kept = ROOT / "docs/pictures" / PICTURES[name][picture]
+            if os.environ.get("FW_UPDATE"):
+                kept.write_bytes(drawn)
+            elif not kept.exists() or kept.read_bytes() != drawn:
+                problems.append(f"docs/pictures/{kept.name} is not what docs/studies/{name}.xml draws; FW_UPDATE=1 renews it")
 
 # documents of the page, and requests as they are explained
 live = pathlib.Path(sys.argv[2]).resolve()

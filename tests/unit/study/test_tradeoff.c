@@ -176,7 +176,7 @@ static void library(void **state) {
                          FW_STATUS_OK);
         assert_int_equal(strncmp(text, begins[i], strlen(begins[i])), 0);
     }
-    assert_int_equal(fw_design_document(d, FW_DOCUMENT_TRADEOFF_SVG + 1, &text, NULL),
+    assert_int_equal(fw_design_document(d, FW_DOCUMENT_DIAGNOSTICS_JSON + 1, &text, NULL),
                      FW_STATUS_USAGE);
     fw_design_free(d);
 }

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `flexwright study`: many devices of one description. */
+#include "cli/session.h"
+#include "plan/design.h"
+#include "study/study.h"
+#include "study/study_merge.h"
+#include "study/study_store.h"
+#include "study/study_write.h"
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void progress(void *context, long done, long all, double seconds) {
+    double *last = context;
+    if (done > 0 && done < all && seconds - *last < 0.5) return;
+    *last = seconds;
+    double rate = seconds > 0 ? (double)done / seconds : 0;
+    if (all > 0 && rate > 0)
+        fprintf(stderr, "\r%ld of %ld devices, %.3g a second, %.0f s left \033[K", done, all, rate,
+                (double)(all - done) / rate);
+    else
+        fprintf(stderr, "\r%ld devices \033[K", done);
+    fflush(stderr);
+}
+
+static fw_status print(fw_study *study, fw_status (*compose)(const fw_study *study, fw_text *out)) {
+    fw_text text = fw_text_new(study->arena);
+    FW_TRY(compose(study, &text));
+    fputs(text.data, stdout);
+    return FW_OK;
+}
+
+/* out/DEVICE-STUDY; `out` is made, as plan does */
+static fw_status settle_output(fw_study *study) {
+    if (study->options.output) return FW_OK;
+    FW_NEED(study->options.output =
+                fw_arena_printf(study->arena, "out/%s-%s", study->device_name, study->asked->name));
+    mkdir("out", 0777); /* what is wrong with it, the store will say */
+    return FW_OK;
+}
+
+static fw_status run(fw_study *study, const fw_cli_options *options) {
+    if (options->plan_only) return print(study, fw_study_plan_text);
+    FW_TRY(settle_output(study));
+    if (options->verbose && !options->quiet) {
+        fw_text text = fw_text_new(study->arena);
+        FW_TRY(fw_study_plan_text(study, &text));
+        fputs(text.data, stderr);
+    }
+    fw_status status = strcmp(options->device, "merge") == 0
+                           ? fw_study_merge(study, options->more, options->nmore)
+                           : fw_study_run(study);
+    if (study->options.progress) fputs("\r\033[K", stderr);
+    FW_TRY(status);
+    if (options->shards > 0) {
+        if (!options->quiet)
+            printf("shard %d of %d: %ld samples in %s/; flexwright study merge puts all shards "
+                   "together\n",
+                   options->shard, options->shards, fw_study_store_count(study->store),
+                   study->options.output);
+        return FW_OK;
+    }
+    FW_TRY(fw_study_write(study));
+    if (options->json) return print(study, fw_study_json);
+    if (options->quiet) return FW_OK;
+    FW_TRY(print(study, fw_study_text));
+    printf("results: %s/\n", study->options.output);
+    return FW_OK;
+}
+
+/* every diagnostic, on standard error */
+static void say(const fw_study *study, const fw_cli_options *options) {
+    fw_text text = fw_text_new(study->arena);
+    (void)options;
+    fw_diags_print(&study->diags, &text, study->options.file, study->source, study->source_length,
+                   0);
+    if (!text.failed && text.length) fputs(text.data, stderr);
+}
+
+static int finish(fw_study *study, const fw_cli_options *options, fw_status status) {
+    int number = fw_cancel_requested(options->interrupted);
+    say(study, options);
+    int exit_status = status == FW_OK ? (options->plan_only ? 0 : fw_study_decision(study))
+                                      : fw_status_exit(status);
+    if (status == FW_CANCELLED && number) {
+        bool late = number == SIGALRM;
+        exit_status = late ? fw_status_exit(FW_LIMIT) : 128 + number;
+        if (study->options.output && study->store)
+            fprintf(stderr, "flexwright: %s; what is done is in %s, and --resume goes on%s\n",
+                    late ? "error: the time limit is over" : "stopped", study->options.output,
+                    late ? " [FW-D460]" : "");
+    } else if (status != FW_OK && study->diags.errors == 0) {
+        fprintf(stderr, "flexwright: error: %s\n", fw_status_text(status));
+    }
+    fw_study_free(study);
+    return exit_status;
+}
+
+int fw_cli_command_study(fw_cli_options *options) {
+    double last = 0;
+    bool merging = strcmp(options->device, "merge") == 0;
+    if (merging && (options->nmore == 0 || !options->output))
+        return fw_cli_usage("study merge needs the directories of all shards and -o DIR");
+    if (!merging && options->nmore > 0)
+        return fw_cli_usage("study takes one FILE, got '%s' and '%s'", options->device,
+                            options->more[0]);
+    fw_study_options o = {.design = options->design,
+                          .set = options->set,
+                          .nset = options->nset,
+                          .file = options->device,
+                          .study = options->study,
+                          .output = options->output,
+                          .jobs = options->jobs,
+                          .shard = options->shard,
+                          .shards = options->shards,
+                          .resume = options->resume,
+                          .cancel = options->interrupted};
+    if (!options->no_progress && !options->quiet && isatty(2))
+        o.progress = progress, o.progress_context = &last;
+    fw_study *study;
+    fw_status status =
+        merging ? fw_study_open_merge(&o, options->more[0], &study) : fw_study_open(&o, &study);
+    if (!study) return fw_cli_session_no_memory();
+    if (status == FW_OK) status = run(study, options);
+    return finish(study, options, status);
+}

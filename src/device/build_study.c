@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* <study> with its inputs and responses: of a device file, and of a file of its own. */
+#include "device/device_reader.h"
+#include "base/text.h"
+#include <math.h>
+#include <string.h>
+
+/* place of a word in its list; the first where it is absent or was reported */
+static int word_of(const fw_xml_record *record, const char *name, const char *const *words,
+                   int absent) {
+    const char *given = fw_xml_text_of(record, name);
+    for (int i = 0; given && words[i]; i++)
+        if (strcmp(words[i], given) == 0) return i;
+    return absent;
+}
+
+/* a value of any dimension, or of *dimension where `known`; NaN: absent or reported */
+static fw_status value_of(fw_xml_reader *r, const fw_xml_record *record, const char *name,
+                          bool *known, fw_quantity_dimension *dimension, double *value) {
+    const fw_xml_cell *cell = fw_xml_cell_of(record, name);
+    fw_quantity_dimension found;
+    bool ok = false;
+    *value = (double)NAN;
+    if (!cell->given) return FW_OK;
+    FW_TRY(fw_xml_attribute_evaluate(r, cell->given, name, *known ? dimension : NULL, &found, value,
+                                     &ok));
+    if (!ok) *value = (double)NAN;
+    if (ok && !*known) *dimension = found, *known = true;
+    return FW_OK;
+}
+
+/* the unit that a value is written with ("10 um"); NULL: it is an expression, or has none */
+static const char *unit_written(fw_arena *arena, const fw_xml_record *record, const char *name) {
+    const fw_xml_cell *cell = fw_xml_cell_of(record, name);
+    const char *text = cell->given ? cell->given->value : "";
+    size_t n = strcspn(text, " \t");
+    double number;
+    fw_quantity_unit unit;
+    if (!fw_number_parse(text, n, &number)) return NULL;
+    const char *rest = text + n + strspn(text + n, " \t");
+    size_t length = strlen(rest);
+    while (length > 0 && (rest[length - 1] == ' ' || rest[length - 1] == '\t'))
+        length--;
+    if (length > 0 && !fw_quantity_unit_parse(rest, length, &unit, NULL, NULL)) return NULL;
+    return fw_arena_strndup(arena, rest, length);
+}
+
+/* the first of `names` that is written with a unit decides; "" for pure numbers. A dimension that no
+   unit was written with is asked for one. */
+static fw_status unit_of(fw_xml_reader *r, const fw_xml_record *record, const char *const *names,
+                         fw_quantity_dimension dimension, const char **unit) {
+    static const fw_quantity_dimension pure = {0};
+    char label[FW_LABEL];
+    const char *first = NULL;
+    *unit = "";
+    for (int i = 0; names[i]; i++) {
+        const char *written = unit_written(r->arena, record, names[i]);
+        if (!first && fw_xml_given(record, names[i])) first = names[i];
+        if (written && (*written || fw_quantity_dimension_equal(dimension, pure))) {
+            *unit = written;
+            return FW_OK;
+        }
+    }
+    if (fw_quantity_dimension_equal(dimension, pure)) return FW_OK;
+    return fw_diag_error(r->diags, 490, fw_xml_place_of(record, first ? first : "what"),
+                         "%s: write one of its ends as a number with a unit (\"10 um\"): the "
+                         "values of the study are written in it",
+                         fw_xml_label(record, label)) == FW_NOMEM
+               ? FW_NOMEM
+               : FW_OK;
+}
+
+/* "8 um; 10 um" into its parts */
+static fw_status split(fw_arena *arena, const char *text, const char ***part, int *n) {
+    size_t most = 1;
+    for (const char *at = text; *at; at++)
+        most += *at == ';';
+    *n = 0;
+    FW_NEED(*part = fw_arena_array(arena, const char *, most));
+    while (*text) {
+        text += strspn(text, " \t\n");
+        size_t length = strcspn(text, ";"), kept = length;
+        while (kept > 0 && strchr(" \t\n", text[kept - 1]))
+            kept--;
+        if (kept > 0) FW_NEED((*part)[(*n)++] = fw_arena_strndup(arena, text, kept));
+        text += length + (text[length] == ';');
+    }
+    return FW_OK;
+}
+
+static void wrong(fw_xml_reader *r, const fw_xml_record *record, const char *at, const char *what) {
+    char label[FW_LABEL];
+    fw_diag_error(r->diags, 490, at ? fw_xml_place_of(record, at) : record->element->place,
+                  "%s: %s", fw_xml_label(record, label), what);
+}
+
+static void check_range(fw_xml_reader *r, const fw_xml_record *record, const fw_device_vary *v) {
+    bool from = fw_xml_given(record, "from"), to = fw_xml_given(record, "to");
+    if (v->ntext > 0 && (from || to || fw_xml_given(record, "steps")))
+        wrong(r, record, "values",
+              "values are listed, and from, to and steps say others; keep one");
+    else if (v->ntext == 0 && !(from && to))
+        wrong(r, record, NULL, "needs from=\"...\" and to=\"...\", or values=\"...\"");
+    else if (v->from >= v->to)
+        wrong(r, record, "from", "from must be below to; exchange or correct them");
+    else if (v->logarithmic && !(v->from > 0))
+        wrong(r, record, "scale", "equal ratios need values above 0; make the scale linear");
+}
+
+static fw_status build_vary(fw_xml_reader *r, const fw_xml_record *record, fw_device_study *s) {
+    static const char *const ends[] = {"from", "to", NULL};
+    fw_device_vary v = {
+        .what = fw_xml_text_of(record, "what"),
+        .unit = "",
+        .logarithmic =
+            word_of(record, "scale", (const char *const[]){"linear", "logarithmic", NULL}, 0) == 1,
+        .steps = (int)fw_xml_number_or(record, "steps", 11),
+        .place = record->element->place};
+    bool known = false;
+    size_t before = r->diags->errors;
+    const char *values = fw_xml_text_of(record, "values");
+    FW_TRY(value_of(r, record, "from", &known, &v.dimension, &v.from));
+    FW_TRY(value_of(r, record, "to", &known, &v.dimension, &v.to));
+    if (values) FW_TRY(split(r->arena, values, &v.text, &v.ntext));
+    if (values && v.ntext == 0) wrong(r, record, "values", "no value is listed");
+    if (r->diags->errors == before) check_range(r, record, &v);
+    if (r->diags->errors == before && v.ntext == 0)
+        FW_TRY(unit_of(r, record, ends, v.dimension, &v.unit));
+    if (v.what) s->vary[s->nvary++] = v;
+    return FW_OK;
+}
+
+/* which of mean, sd, from and to a spread is stated by */
+static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
+                         const fw_device_uncertain *u) {
+    static const char *const name[] = {"mean", "sd", "from", "to"};
+    static const unsigned needs[] = {[FW_SPREAD_NORMAL] = 3,
+                                     [FW_SPREAD_LOGNORMAL] = 3,
+                                     [FW_SPREAD_UNIFORM] = 12,
+                                     [FW_SPREAD_TRUNCATED] = 15,
+                                     [FW_SPREAD_INTERVAL] = 12};
+    char label[FW_LABEL];
+    for (int i = 0; i < 4; i++) {
+        bool given = fw_xml_given(record, name[i]), needed = needs[u->spread] >> i & 1u;
+        if (given == needed) continue;
+        fw_diag_error(
+            r->diags, 491, given ? fw_xml_place_of(record, name[i]) : record->element->place,
+            needed ? "%s: spread=\"%s\" needs %s=\"...\""
+                   : "%s: spread=\"%s\" has no %s; remove it, or name another spread",
+            fw_xml_label(record, label), fw_device_study_words_of.spread[u->spread], name[i]);
+        return;
+    }
+    if (u->sd <= 0)
+        fw_diag_error(r->diags, 491, fw_xml_place_of(record, "sd"),
+                      "%s: a spread must be above 0; what has none is no uncertainty",
+                      fw_xml_label(record, label));
+    else if (u->from >= u->to)
+        fw_diag_error(r->diags, 491, fw_xml_place_of(record, "from"),
+                      "%s: from must be below to; exchange or correct them",
+                      fw_xml_label(record, label));
+    else if (u->spread == FW_SPREAD_LOGNORMAL && u->mean <= 0)
+        fw_diag_error(r->diags, 491, fw_xml_place_of(record, "mean"),
+                      "%s: a lognormal spread is of values above 0", fw_xml_label(record, label));
+}
+
+static fw_status build_uncertain(fw_xml_reader *r, const fw_xml_record *record,
+                                 fw_device_study *s) {
+    static const char *const parts[] = {"mean", "from", "to", "sd", NULL};
+    fw_device_uncertain u = {
+        .what = fw_xml_text_of(record, "what"),
+        .unit = "",
+        .spread = (fw_device_spread)word_of(record, "spread", fw_device_study_words_of.spread, 0),
+        .place = record->element->place};
+    bool known = false;
+    size_t before = r->diags->errors;
+    FW_TRY(value_of(r, record, "mean", &known, &u.dimension, &u.mean));
+    FW_TRY(value_of(r, record, "from", &known, &u.dimension, &u.from));
+    FW_TRY(value_of(r, record, "to", &known, &u.dimension, &u.to));
+    FW_TRY(value_of(r, record, "sd", &known, &u.dimension, &u.sd));
+    if (r->diags->errors == before) check_spread(r, record, &u);
+    if (r->diags->errors == before) FW_TRY(unit_of(r, record, parts, u.dimension, &u.unit));
+    if (u.what) s->uncertain[s->nuncertain++] = u;
+    return FW_OK;
+}
+
+static fw_status build_respond(fw_xml_reader *r, const fw_xml_record *record, fw_device_study *s) {
+    const fw_device_study_words *words = &fw_device_study_words_of;
+    fw_device_respond q = {
+        .name = fw_xml_text_of(record, "name"),
+        .value = fw_xml_text_of(record, "value"),
+        .take = (fw_device_respond_take)word_of(record, "take", words->take, FW_TAKE_ONE),
+        .goal = (fw_device_respond_goal)word_of(record, "goal", words->goal, FW_GOAL_NONE),
+        .place = record->element->place};
+    bool known = false;
+    fw_quantity_dimension dimension;
+    FW_TRY(value_of(r, record, "min", &known, &dimension, &q.min));
+    FW_TRY(value_of(r, record, "max", &known, &dimension, &q.max));
+    if (q.min > q.max) wrong(r, record, "min", "min is above max; exchange them");
+    for (int i = 0; q.name && i < s->nrespond; i++)
+        if (strcmp(s->respond[i].name, q.name) == 0)
+            wrong(r, record, "name", "another response of this study has the name; rename one");
+    if (q.name && q.value) s->respond[s->nrespond++] = q;
+    return FW_OK;
+}
+
+/* an input that is chosen twice, or chosen and left to chance, has two values */
+static void check_inputs(fw_xml_reader *r, const fw_device_study *s) {
+    for (int i = 0; i < s->nvary + s->nuncertain; i++) {
+        const char *what = i < s->nvary ? s->vary[i].what : s->uncertain[i - s->nvary].what;
+        fw_place place = i < s->nvary ? s->vary[i].place : s->uncertain[i - s->nvary].place;
+        for (int k = 0; k < i; k++) {
+            const char *other = k < s->nvary ? s->vary[k].what : s->uncertain[k - s->nvary].what;
+            if (strcmp(what, other) != 0) continue;
+            fw_diag_error(r->diags, 490, place,
+                          "study '%s': '%.80s' has two rows; an input is chosen or left to chance, "
+                          "once",
+                          s->name ? s->name : "", what);
+            return;
+        }
+    }
+}
+
+/* what a kind needs to have anything to do */
+static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_device_study *s) {
+    int goals = 0;
+    for (int i = 0; i < s->nrespond; i++)
+        goals += s->respond[i].goal != FW_GOAL_NONE;
+    const char *what = NULL;
+    switch (s->kind) {
+    case FW_STUDY_IS_sweep:
+        if (s->nvary == 0) what = "a sweep needs at least one <vary>";
+        break;
+    case FW_STUDY_IS_yield:
+        break;
+    case FW_STUDY_IS_size:
+        if (s->nvary == 0) what = "a size needs at least one <vary>: what may be chosen";
+        if (goals == 0)
+            what = "a size needs goal=\"minimise\" or \"maximise\" at one <respond>, or at two";
+        if (goals > 2) what = "more than two goals; leave the others as limits";
+        break;
+    case FW_STUDY_IS_sensitivity:
+    case FW_STUDY_IS_worst_case:
+        if (s->nvary == 0)
+            what = "needs at least one <vary> with from and to: the range of an input";
+        break;
+    case FW_STUDY_KINDS:
+        break;
+    }
+    if (!what && s->kind != FW_STUDY_IS_size && goals > 0)
+        what = "a goal belongs to kind=\"size\"; remove it";
+    if (!what && s->kind != FW_STUDY_IS_yield && s->nrespond == 0)
+        what = "nothing is asked; add <respond name=\"...\" value=\"governing.utilisation\"/>";
+    if (!what && s->kind != FW_STUDY_IS_size && fw_xml_given(record, "yield"))
+        what = "a wanted yield belongs to kind=\"size\"; remove it";
+    if (what) wrong(r, record, NULL, what);
+}
+
+/* of one record of a <study>; parent >= 0: its children are those that name it */
+static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
+    const fw_xml_record *record = &r->record[at];
+    const fw_device_study_words *words = &fw_device_study_words_of;
+    size_t before = r->diags->errors;
+    *s = (fw_device_study){
+        .name = fw_xml_text_of(record, "name"),
+        .kind = (fw_device_study_kind)word_of(record, "kind", words->kind, 0),
+        .points = (fw_device_study_points)word_of(record, "points", words->points, FW_POINTS_GRID),
+        .judge = (fw_device_study_judge)word_of(record, "as", words->judge, FW_JUDGE_MADE),
+        .samples = (int)fw_xml_number_or(record, "samples", 0),
+        .seed = (long)fw_xml_number_or(record, "seed", 1),
+        .yield = fw_xml_number_of(record, "yield"),
+        .error = fw_xml_number_of(record, "error"),
+        .confidence = fw_xml_number_or(record, "confidence", 0.95),
+        .place = record->element->place};
+    size_t varied = (size_t)fw_xml_children(record, "vary"),
+           uncertain = (size_t)fw_xml_children(record, "uncertain"),
+           responses = (size_t)fw_xml_children(record, "respond");
+    FW_NEED(s->vary = fw_arena_array(r->arena, fw_device_vary, varied));
+    FW_NEED(s->uncertain = fw_arena_array(r->arena, fw_device_uncertain, uncertain));
+    FW_NEED(s->respond = fw_arena_array(r->arena, fw_device_respond, responses));
+    for (const fw_xml_record *c = record->first_child; c; c = c->next) {
+        if (fw_xml_is(c, "vary")) FW_TRY(build_vary(r, c, s));
+        if (fw_xml_is(c, "uncertain")) FW_TRY(build_uncertain(r, c, s));
+        if (fw_xml_is(c, "respond")) FW_TRY(build_respond(r, c, s));
+    }
+    check_inputs(r, s);
+    if (r->diags->errors == before && !fw_xml_failed(record, "kind")) check_kind(r, record, s);
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_device_build_studies(fw_device_reader *r) {
+    fw_device *d = r->device;
+    size_t n = (size_t)fw_xml_count(&r->xml, "study");
+    if (n == 0) return FW_OK;
+    FW_NEED(d->study = fw_arena_array(r->arena, fw_device_study, n));
+    for (int i = 0; i < r->xml.nrecord; i++)
+        if (fw_xml_is(&r->xml.record[i], "study"))
+            FW_TRY(build_study(&r->xml, i, &d->study[d->nstudy++]));
+    return FW_OK;
+}
+
+fw_status fw_device_study_read(fw_arena *arena, const char *file, const char *xml, size_t n,
+                               fw_diags *diags, const fw_device_study **study) {
+    fw_xml_reader r;
+    size_t before = diags->errors;
+    *study = NULL;
+    FW_TRY(fw_xml_table_read(arena, &fw_device_study_table, file, xml, n, diags, &r));
+    fw_device_study *s = fw_arena_one(arena, fw_device_study);
+    FW_NEED(s);
+    FW_TRY(build_study(&r, 0, s));
+    s->device = fw_xml_text_of(&r.record[0], "device");
+    if (diags->errors > before) return FW_INPUT;
+    *study = s;
+    return FW_OK;
+}

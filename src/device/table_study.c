@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows of the table: studies, in a device file and in a file of their own. */
+#include "device/device.h"
+#include "device/device_table.h"
+
+#define FW_STUDY(name, word, sentence) word,
+static const char *const kinds[] = {
+#include "device/studies.def"
+    NULL};
+#undef FW_STUDY
+#define FW_STUDY(name, word, sentence) "; " word ": " sentence
+static const char kinds_are[] =
+#include "device/studies.def"
+    ".";
+#undef FW_STUDY
+static const char *const points[] = {[FW_POINTS_GRID] = "grid",
+                                     [FW_POINTS_LIST] = "list",
+                                     [FW_POINTS_SOBOL] = "sobol",
+                                     [FW_POINTS_SOBOL + 1] = NULL};
+static const char *const judged[] = {
+    [FW_JUDGE_DRAWN] = "drawn", [FW_JUDGE_MADE] = "made", [FW_JUDGE_MADE + 1] = NULL};
+static const char *const spreads[] = {
+    [FW_SPREAD_NORMAL] = "normal",     [FW_SPREAD_LOGNORMAL] = "lognormal",
+    [FW_SPREAD_UNIFORM] = "uniform",   [FW_SPREAD_TRUNCATED] = "truncated",
+    [FW_SPREAD_INTERVAL] = "interval", [FW_SPREAD_INTERVAL + 1] = NULL};
+static const char *const takes[] = {[FW_TAKE_ONE] = "one",
+                                    [FW_TAKE_LARGEST] = "largest",
+                                    [FW_TAKE_LEAST] = "least",
+                                    [FW_TAKE_SUM] = "sum",
+                                    [FW_TAKE_SUM + 1] = NULL};
+static const char *const goals[] = {[FW_GOAL_NONE] = "none",
+                                    [FW_GOAL_MINIMISE] = "minimise",
+                                    [FW_GOAL_MAXIMISE] = "maximise",
+                                    [FW_GOAL_MAXIMISE + 1] = NULL};
+static const char *const scales[] = {"linear", "logarithmic", NULL};
+
+const char *fw_device_study_kind_text(fw_device_study_kind kind) {
+    return kinds[kind];
+}
+
+const char *fw_device_study_points_text(fw_device_study_points kind) {
+    return points[kind];
+}
+
+const char *fw_device_study_judge_text(fw_device_study_judge judge) {
+    return judged[judge];
+}
+
+const fw_device_study_words fw_device_study_words_of = {kinds,   points, judged,
+                                                        spreads, takes,  goals};
+
+/* what both rows of <study> have */
+#define STUDY_ROWS                                                                                 \
+    {"name", ID, REQUIRED, .sentence = "Name of the study; it names outputs."},                    \
+        {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = kinds, .sentence = kinds_are + 2},       \
+        {"points", .kind = FW_KIND_WORD, .words = points, .fallback = "grid",                      \
+         .sentence = "Of a sweep: every combination of the values; the values of all inputs side " \
+                     "by side, as many as each has; or a Sobol' sequence over the ranges."},       \
+        {"as", .kind = FW_KIND_WORD, .words = judged, .fallback = "made",                          \
+         .sentence = "How each device is judged: as drawn, or also as its flows make it."},        \
+        {"samples",                                                                                \
+         D_PURE,                                                                                   \
+         WHOLE,                                                                                    \
+         RANGE(1, 1e7, "more than ten million devices are several studies"),                       \
+         .fallback = "as many as the kind asks for",                                               \
+         .sentence = "Devices of a Sobol' sequence or of indices; most of them of a yield or a "   \
+                     "size."},                                                                     \
+        {"seed",          D_PURE,                                                                  \
+         WHOLE,           RANGE(0, 2147483647, "seeds have 31 bits"),                              \
+         .fallback = "1", .sentence = "Of random numbers: the same seed gives the same study."},   \
+        {"yield", D_PURE, ABOVE(0, 1, "a yield is a share"),                                       \
+         .sentence = "Of a size: the share of devices that must hold every limit."},               \
+        {"error", D_PURE, ABOVE(0, 0.5, "a yield is a share"), .fallback = "0.001",                \
+         .sentence = "Of a yield: half the width of its confidence interval at which it ends."},   \
+    {                                                                                              \
+        "confidence", D_PURE, ABOVE(0.5, 0.999999, "of an interval"),                              \
+            .fallback = "0.95", .sentence = "How often intervals hold the truth."                  \
+    }
+
+static const fw_xml_attribute_row study_rows[] = {STUDY_ROWS};
+static const fw_xml_attribute_row file_rows[] = {
+    STUDY_ROWS,
+    {"device", TEXT, REQUIRED, .sentence = "The device file, beside this one or below it."},
+};
+static const fw_xml_attribute_row vary_rows[] = {
+    {"what", TEXT, REQUIRED, .sentence = "A parameter or a path, as --set takes it."},
+    {"from", .kind = FW_KIND_ANY, .sentence = "Least value. With to, or else values."},
+    {"to", .kind = FW_KIND_ANY, .sentence = "Largest value."},
+    {"steps", D_PURE, WHOLE, RANGE(2, 100000, "one step is no sweep"), .fallback = "11",
+     .sentence = "How many values of a grid or list, both ends among them."},
+    {"scale", .kind = FW_KIND_WORD, .words = scales, .fallback = "linear",
+     .sentence = "logarithmic: equal ratios, not differences, between the values."},
+    {"values", TEXT, .sentence = "Values as --set takes them, with ; between: \"8 um; 10 um\"."},
+};
+static const fw_xml_attribute_row uncertain_rows[] = {
+    {"what", TEXT, REQUIRED, .sentence = "A parameter or a path, as --set takes it."},
+    {"spread", .kind = FW_KIND_WORD, .words = spreads, .fallback = "normal",
+     .sentence = "normal and lognormal: mean and sd; uniform: from and to; truncated: all four; "
+                 "interval: nothing is known but from and to, and the yield is then a range."},
+    {"mean", .kind = FW_KIND_ANY, .sentence = "Mean of the values."},
+    {"sd", .kind = FW_KIND_ANY, .sentence = "Standard deviation of the values."},
+    {"from", .kind = FW_KIND_ANY, .sentence = "Least value."},
+    {"to", .kind = FW_KIND_ANY, .sentence = "Largest value."},
+};
+static const fw_xml_attribute_row respond_rows[] = {
+    {"name", ID, REQUIRED, .sentence = "Name of the column."},
+    {"value", TEXT, REQUIRED,
+     .sentence = "Where the number stands in a document of --json, by its keys: "
+                 "governing.utilisation, hinges[C].utilisation, requirements[stroke].value, "
+                 "modes:modes[0].frequency_Hz; [*] stands for all. The document before the colon "
+                 "is one of verdict (without one), simulate, statics, modes, workspace, masks, "
+                 "recipes. true and accept count 1; false, inconclusive and reject 0."},
+    {"take", .kind = FW_KIND_WORD, .words = takes, .fallback = "one",
+     .sentence = "Of several values: the largest, the least, their sum."},
+    {"min", .kind = FW_KIND_ANY, .fallback = "no limit", .sentence = "At least this."},
+    {"max", .kind = FW_KIND_ANY, .fallback = "no limit", .sentence = "At most this."},
+    {"goal", .kind = FW_KIND_WORD, .words = goals, .fallback = "none",
+     .sentence = "Of a size: what is wanted of it. Two goals give a Pareto front."},
+};
+
+#define INPUTS                                                                                     \
+    {"vary", "study", .most = 200, ROWS(vary_rows),                                                \
+     .sentence = "An input that the study chooses."},                                              \
+        {"uncertain", "study", .most = 200, ROWS(uncertain_rows),                                  \
+         .sentence = "An input that differs from device to device, beside what the flow may make " \
+                     "of it."},                                                                    \
+        {"respond", "study", .most = 1000, ROWS(respond_rows),                                     \
+         .sentence = "A number that is looked at."},
+
+const fw_xml_element_row fw_device_table_study[] = {
+    {"study", "device", "name", FW_SPACE_STUDY, .most = 100, ROWS(study_rows),
+     .sentence = "What is asked of many devices of this description: flexwright study."},
+    INPUTS{0},
+};
+
+static const fw_xml_element_row alone[] = {
+    {"study", "", "name", ROWS(file_rows), .once = true,
+     .sentence = "A study in a file of its own; xmlns=\"urn:flexwright:study:1\"."},
+    INPUTS{0},
+};
+static const fw_xml_element_row *const parts[] = {alone, NULL};
+static const char *const spaces[] = {"name"};
+
+const fw_xml_table fw_device_study_table = {.file = "study file",
+                                            .root = "study",
+                                            .urn = "urn:flexwright:study:1",
+                                            .head = "name=\"...\" kind=\"...\" device=\"...\"",
+                                            .source = "src/device/table_study.c",
+                                            .part = parts,
+                                            .space = spaces,
+                                            .nspace = 1,
+                                            .numbers = FW_DEVICE_TABLE_NUMBERS};

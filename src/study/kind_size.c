@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sizing: the values with which a response is least or largest while every limit holds and check accepts
+   the device; of two responses the Pareto front.
+
+   The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of
+   them, apart from each other, local searches (study_search.c). What is returned is a device that was
+   judged as its texts say. Of two goals each is sought alone, then the first with the second held at nine levels
+   between (epsilon constraints; Haimes, Lasdon, Wismer 1971), and the front is what nothing that was judged beats. Nothing is
+   proved: a better one may be where nobody looked. Test: tests/cli/test_study.py */
+#include "chance/sobol.h"
+#include "study/study_parts.h"
+#include "study/study_result.h"
+#include <math.h>
+#include <string.h>
+
+enum {
+    STARTS = 3,        /* of local searches, a goal each */
+    LEVELS = 9,        /* of the second goal */
+    DIGITS = 5,        /* of what is tried: more no mask resolves */
+    FRONT_MOST = 200,  /* devices of a front */
+    LISTS_MOST = 1000, /* combinations of listed values */
+    PART = 1000000     /* numbers of samples of one search begin at a multiple of it */
+};
+
+typedef struct goal {
+    int response;
+    double sign; /* 1: minimise, -1: maximise */
+} goal;
+
+typedef struct sizing {
+    fw_study *study;
+    fw_study_result *result;
+    goal goal[2];
+    int ngoal;
+    fw_chance_sobol sobol;
+    long first_n;          /* samples of the first look */
+    long lists;            /* combinations of listed values */
+    fw_study_sample *kept; /* (nkept) of the first look, the best first */
+    double *f, *c;
+    int nkept;
+} sizing;
+
+/* ---- what is small, and what must not be above 0 ---- */
+
+static double goal_of(const fw_study_sample *sample, const goal *g) {
+    return g->sign * sample->response[g->response];
+}
+
+/* above 0: a limit of a response is missed, or check does not accept */
+static double constraint_of(const fw_study *study, const fw_study_sample *sample) {
+    double limits = fw_study_excess(study, sample);
+    if (!sample->run || isnan(limits) || isnan(sample->used)) return (double)NAN;
+    return fmax(limits, log(fmax(sample->used, 1e-6)));
+}
+
+typedef struct aim { /* of one search */
+    const sizing *s;
+    const goal *goal;
+    const goal *held; /* NULL: none */
+    double level;     /* of the one held */
+    double scale;
+} aim;
+
+static double objective(const void *context, const fw_study_sample *sample) {
+    const aim *a = context;
+    return goal_of(sample, a->goal);
+}
+
+static double constraint(const void *context, const fw_study_sample *sample) {
+    const aim *a = context;
+    double c = constraint_of(a->s->study, sample);
+    if (!a->held || isnan(c)) return c;
+    return fmax(c, (goal_of(sample, a->held) - a->level) / a->scale);
+}
+
+/* ---- the first look ---- */
+
+static fw_status listed_texts(const fw_study *study, long combination, fw_study_sample *sample) {
+    for (int k = study->nvary; k-- > 0;) {
+        const fw_study_input *in = &study->input[k];
+        if (in->ntext == 0) continue;
+        FW_TRY(fw_study_input_step(in, (int)(combination % in->ntext), sample->text[k],
+                                   &sample->value[k]));
+        combination /= in->ntext;
+    }
+    return FW_OK;
+}
+
+/* sample 0: as it stands where that is within the ranges, else their middles */
+static fw_status fill(void *context, long k, fw_study_sample *sample, bool *wanted) {
+    sizing *s = context;
+    const fw_study *study = s->study;
+    long point = k / s->lists;
+    *wanted = true;
+    sample->i = k;
+    FW_TRY(listed_texts(study, k % s->lists, sample));
+    for (int v = 0; v < study->nvary; v++) {
+        const fw_study_input *in = &study->input[v];
+        if (in->ntext > 0) continue;
+        bool now = point == 0 && in->now >= in->from && in->now <= in->to;
+        if (now)
+            FW_TRY(fw_study_input_write(in, in->now, 12, sample->text[v], &sample->value[v]));
+        else
+            FW_TRY(fw_study_input_at(
+                in,
+                point == 0 ? 0.5
+                           : fw_chance_sobol_uniform(&s->sobol, (uint64_t)point - 1, (size_t)v),
+                DIGITS, sample->text[v], &sample->value[v]));
+    }
+    return FW_OK;
+}
+
+static void copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
+    to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
+    memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
+    memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
+    memcpy(to->response, from->response, (size_t)study->nresponse * sizeof *to->response);
+}
+
+static fw_status take(void *context, const fw_study_sample *sample) {
+    sizing *s = context;
+    /* rows of the store have no texts of ranged values: written again from their number */
+    bool wanted;
+    fw_study_sample *to = &s->kept[s->nkept++];
+    copy(s->study, sample, to);
+    return fill(s, sample->i, to, &wanted);
+}
+
+/* ---- what is found ---- */
+
+static fw_status keep_found(fw_study *study, const fw_study_sample *sample, double excess,
+                            fw_study_found *found) {
+    fw_study_sample own;
+    FW_TRY(fw_study_sample_new(study->arena, study, &own));
+    copy(study, sample, &own);
+    *found = (fw_study_found){.text = own.text,
+                              .value = own.value,
+                              .response = own.response,
+                              .excess = excess,
+                              .decision = own.decision,
+                              .yield = (double)NAN,
+                              .i = own.i};
+    return FW_OK;
+}
+
+static double shares_apart(const fw_study *study, const fw_study_sample *a,
+                           const fw_study_sample *b) {
+    double most = 0;
+    for (int k = 0; k < study->nvary; k++) {
+        const fw_study_input *in = &study->input[k];
+        if (in->ntext > 0)
+            most = strcmp(a->text[k], b->text[k]) != 0 ? 1 : most;
+        else
+            most = fmax(most, fabs(a->value[k] - b->value[k]) / (in->to - in->from));
+    }
+    return most;
+}
+
+static double share_of(const fw_study_input *in, double value) {
+    double share = in->logarithmic ? log(value / in->from) / log(in->to / in->from)
+                                   : (value - in->from) / (in->to - in->from);
+    return fmin(fmax(share, 0), 1);
+}
+
+/* starts of searches for an aim: the best of what was judged, each a tenth of a range from the others */
+static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n, int most,
+                        long *first) {
+    const fw_study *study = s->study;
+    const fw_study_sample *chosen[STARTS];
+    *n = 0;
+    while (*n < STARTS) {
+        const fw_study_sample *best = NULL;
+        double f = (double)NAN, c = (double)NAN;
+        for (int i = 0; i < s->nkept; i++) {
+            const fw_study_sample *k = &s->kept[i];
+            bool apart = k->run;
+            for (int j = 0; j < *n && apart; j++)
+                apart = shares_apart(study, k, chosen[j]) > 0.1;
+            if (!apart) continue;
+            double fk = objective(a, k), ck = isnan(fk) ? (double)NAN : constraint(a, k);
+            if (!best || fw_study_search_better(fk, ck, f, c)) best = k, f = fk, c = ck;
+        }
+        if (!best) break;
+        chosen[*n] = best;
+        fw_study_search *one = &search[(*n)++];
+        *one = (fw_study_search){.objective = objective,
+                                 .constraint = constraint,
+                                 .context = a,
+                                 .from = best,
+                                 .most = most,
+                                 .digits = DIGITS,
+                                 .first = *first};
+        *first += PART;
+        FW_NEED(one->start = fw_arena_array(study->arena, double, (size_t)study->nvary + 1));
+        int at = 0;
+        for (int k = 0; k < study->nvary; k++)
+            if (study->input[k].ntext == 0)
+                one->start[at++] = share_of(&study->input[k], best->value[k]);
+    }
+    return FW_OK;
+}
+
+/* searches for one aim; all that they found joins what was judged */
+static fw_status seek(sizing *s, aim *a, int most, long *first) {
+    fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, STARTS);
+    int n;
+    FW_NEED(search);
+    FW_TRY(starts(s, a, search, &n, most, first));
+    FW_TRY(fw_study_search_run(s->study, search, n));
+    for (int i = 0; i < n; i++)
+        if (search[i].used > 0 && search[i].best.run) s->kept[s->nkept++] = search[i].best;
+    return FW_OK;
+}
+
+/* the best for a goal; -1: nothing was run */
+static int best_of(const sizing *s, const goal *g) {
+    aim a = {.s = s, .goal = g};
+    int best = FW_NONE;
+    for (int i = 0; i < s->nkept; i++) {
+        if (!s->kept[i].run) continue;
+        if (best == FW_NONE ||
+            fw_study_search_better(objective(&a, &s->kept[i]), constraint(&a, &s->kept[i]),
+                                   objective(&a, &s->kept[best]), constraint(&a, &s->kept[best])))
+            best = i;
+    }
+    return best;
+}
+
+/* devices that hold every limit and that no other one beats in both goals, by the first */
+static fw_status front(sizing *s) {
+    const fw_study *study = s->study;
+    fw_study_result *r = s->result;
+    FW_NEED(r->found = fw_arena_array(study->arena, fw_study_found, FRONT_MOST));
+    double after = -HUGE_VAL;
+    while (r->nfound < FRONT_MOST) {
+        int next = FW_NONE;
+        for (int i = 0; i < s->nkept; i++) {
+            const fw_study_sample *k = &s->kept[i];
+            double c = constraint_of(study, k), f0 = goal_of(k, &s->goal[0]);
+            bool beaten = !(c <= 0) || !(f0 > after);
+            for (int j = 0; j < s->nkept && !beaten; j++) {
+                const fw_study_sample *o = &s->kept[j];
+                double d0 = goal_of(o, &s->goal[0]) - f0,
+                       d1 = goal_of(o, &s->goal[1]) - goal_of(k, &s->goal[1]);
+                beaten = constraint_of(study, o) <= 0 && d0 <= 0 && d1 <= 0 && (d0 < 0 || d1 < 0);
+            }
+            if (!beaten && (next == FW_NONE || f0 < goal_of(&s->kept[next], &s->goal[0]))) next = i;
+        }
+        if (next == FW_NONE) break;
+        after = goal_of(&s->kept[next], &s->goal[0]);
+        FW_TRY(keep_found(s->study, &s->kept[next], constraint_of(study, &s->kept[next]),
+                          &r->found[r->nfound++]));
+    }
+    return FW_OK;
+}
+
+static fw_status finish(sizing *s) {
+    fw_study_result *r = s->result;
+    int best = best_of(s, &s->goal[0]);
+    if (best == FW_NONE) return FW_OK;
+    double c = constraint_of(s->study, &s->kept[best]);
+    if (!(c <= 0)) return keep_found(s->study, &s->kept[best], c, &r->nearest);
+    if (s->ngoal == 2) return front(s);
+    FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
+    r->nfound = 1;
+    return keep_found(s->study, &s->kept[best], c, r->found);
+}
+
+static fw_status two_goals(sizing *s, int most, long *first) {
+    const goal *a = &s->goal[0], *b = &s->goal[1];
+    int low = best_of(s, b), high = best_of(s, a);
+    if (low == FW_NONE || high == FW_NONE) return FW_OK;
+    double from = goal_of(&s->kept[low], b), to = goal_of(&s->kept[high], b);
+    if (!(to > from)) return FW_OK; /* one device is best for both */
+    for (int k = 1; k <= LEVELS; k++) {
+        aim *held = fw_arena_one(s->study->arena, aim);
+        FW_NEED(held);
+        *held = (aim){.s = s, .goal = a, .held = b, .scale = to - from};
+        held->level = from + (to - from) * k / (LEVELS + 1.0);
+        FW_TRY(seek(s, held, most, first));
+    }
+    return FW_OK;
+}
+
+/* combinations of listed values; FW_INPUT: too many */
+static fw_status count_lists(sizing *s) {
+    s->lists = 1;
+    for (int k = 0; k < s->study->nvary; k++) {
+        if (s->study->input[k].ntext > 0) s->lists *= s->study->input[k].ntext;
+        if (s->lists > LISTS_MOST)
+            return fw_diag_error(&s->study->diags, 490, s->study->input[k].place,
+                                 "more than %d combinations of listed values; each is tried, so "
+                                 "list fewer, or give ranges",
+                                 (int)LISTS_MOST);
+    }
+    return FW_OK;
+}
+
+static fw_status prepare(sizing *s, int *most) {
+    fw_study *study = s->study;
+    int n = 0;
+    for (int k = 0; k < study->nresponse; k++) {
+        fw_device_respond_goal g = study->response[k].asked->goal;
+        if (g != FW_GOAL_NONE) s->goal[s->ngoal++] = (goal){k, g == FW_GOAL_MINIMISE ? 1 : -1};
+    }
+    for (int k = 0; k < study->nvary; k++)
+        n += study->input[k].ntext == 0;
+    FW_TRY(count_lists(s));
+    long points = n == 0 ? 1 : 1 + 4 * n;
+    s->first_n = points * s->lists;
+    int searches = s->ngoal == 2 ? (2 + LEVELS) * STARTS : STARTS;
+    long budget =
+        study->asked->samples > 0 ? study->asked->samples : s->first_n + 25L * (n + 1) * searches;
+    if (s->first_n > budget) s->first_n = budget;
+    *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
+    study->samples = budget;
+    size_t room = (size_t)s->first_n + (size_t)searches;
+    FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, room));
+    for (long i = 0; i < s->first_n; i++)
+        FW_TRY(fw_study_sample_new(study->arena, study, &s->kept[i]));
+    return fw_chance_sobol_new(study->arena, (size_t)study->nvary, (uint64_t)study->asked->seed,
+                               &s->sobol);
+}
+
+fw_status fw_study_kind_size(fw_study *study, fw_study_result *result) {
+    sizing s = {.study = study, .result = result};
+    int most;
+    long first = PART;
+    FW_TRY(prepare(&s, &most));
+    const fw_study_work work = {.n = s.first_n, .fill = fill, .take = take, .context = &s};
+    FW_TRY(fw_study_pool_run(study, &work));
+    fw_study_sort_samples(s.kept, s.nkept); /* they came in any order */
+    for (int g = 0; g < s.ngoal && most > 0; g++) {
+        aim *a = fw_arena_one(study->arena, aim);
+        FW_NEED(a);
+        *a = (aim){.s = &s, .goal = &s.goal[g]};
+        FW_TRY(seek(&s, a, most, &first));
+    }
+    if (s.ngoal == 2 && most > 0) FW_TRY(two_goals(&s, most, &first));
+    FW_NEED(result->how = fw_arena_printf(study->arena,
+                                          "%ld devices over the ranges, then local searches "
+                                          "(COBYLA) from the best of them, at most %d "
+                                          "devices each; a better one may be where none was tried",
+                                          s.first_n, most));
+    return finish(&s);
+}

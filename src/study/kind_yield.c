@@ -1,0 +1,495 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Yield: the share of devices that hold every limit that check looks at (hinges, requirements, clearances,
+   pull-in), of each flow.
+
+   A device is a point u of independent standard normal numbers: one for every input of the flow (edges,
+   etch, thickness, modulus, as the pack states them) and for every <uncertain>. Its limit state is g = -ln of
+   the largest share of a limit that it uses; g <= 0 fails. The probability is estimated by src/chance (which
+   method, and why, is in the result). What the model itself may be off by is no chance: the band of the hinge that governs the
+   nominal device moves the limit up and down, and the yield is a range from the one to the other. An
+   input that a pack does not know (an assumed range) and spread="interval" make a range as well.
+   Theory: docs/theory/chance.md. Test: tests/cli/test_study.py */
+#include "chance/estimate.h"
+#include "chance/joint.h"
+#include "plan/design.h"
+#include "plan/stages.h"
+#include "study/study_parts.h"
+#include "study/study_result.h"
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+enum { PART = 100000000, MOST_CACHED = 1 << 20 };
+
+typedef struct cached {
+    long i; /* number of its sample; -1: free */
+    double ln;
+} cached;
+
+typedef struct yielding {
+    fw_study *study;
+    int flow;        /* of the plan */
+    int ninput;      /* of the flow */
+    int first_input; /* column of its first one */
+    fw_chance_joint joint;
+    const double *unknown; /* values of what is not known; NULL: middles */
+    double *middle;
+    double shift;   /* added to ln: what the model may be off by */
+    long evaluated; /* devices of this flow so far */
+    long base;      /* number of its first sample */
+    /* devices by their values (open addressing): methods ask for the same ones again */
+    double *key;   /* (room x values) */
+    cached *value; /* (room) */
+    size_t room, filled;
+    fw_arena
+        *chance; /* of the estimators, which give back what they took: nothing of ours is in it */
+} yielding;
+
+/* ---- one batch of devices, in threads ---- */
+
+typedef struct batch {
+    yielding *y;
+    size_t n, next;
+    const double *x;       /* (n x values) */
+    fw_verdict_made *made; /* (n) */
+    bool *wanted;          /* (n) not known from before */
+    pthread_mutex_t lock;
+    fw_status status;
+} batch;
+
+static double draw_of_input(const yielding *y, const double *x, int k) {
+    return x[y->joint.value_first[k]];
+}
+
+/* with settings of <uncertain>: the description read again and judged as drawn, then as made */
+static fw_status judge_restated(const yielding *y, fw_arena *arena, const double *x,
+                                fw_verdict_made *made) {
+    const fw_study *study = y->study;
+    const fw_plan *plan = study->plan;
+    int n = study->asked->nuncertain;
+    fw_device_set *set = fw_arena_array(arena, fw_device_set, (size_t)n);
+    fw_verdict_variant_verdict *variant =
+        fw_arena_array(arena, fw_verdict_variant_verdict, (size_t)plan->nflow);
+    const fw_device *device;
+    const fw_layout *layout = NULL;
+    fw_diags diags = fw_diags_new(arena);
+    FW_NEED(set && variant ? set : NULL);
+    for (int k = 0; k < n; k++) {
+        char *text = fw_arena_array(arena, char, FW_STUDY_TEXT);
+        double shown;
+        FW_NEED(text);
+        FW_TRY(fw_study_input_write(&study->input[study->nvary + k],
+                                    draw_of_input(y, x, y->ninput + k), 12, text, &shown));
+        set[k] = (fw_device_set){study->input[study->nvary + k].what, text};
+    }
+    *made = (fw_verdict_made){.ln = (double)NAN, .hinge = FW_NONE};
+    fw_status status = fw_plan_restated(plan, arena, set, n, &device, variant);
+    fw_verdict verdict = {.nvariant = plan->nflow, .variant = variant};
+    fw_verdict_options options = plan->options.verdict;
+    options.corners = FW_CORNERS_NONE;
+    options.with_advice = false;
+    options.at_a_glance = true;
+    if (status == FW_OK)
+        status = fw_verdict_run(arena, device, &options, &diags, &verdict, &layout);
+    if (status == FW_OK)
+        status = fw_verdict_made_at(arena, device, layout, &options, &variant[y->flow], x, made);
+    if (status == FW_NOMEM || status == FW_CANCELLED || status == FW_OK) return status;
+    made->ln = (double)NAN;
+    return FW_OK;
+}
+
+static fw_status judge_one(const yielding *y, const double *x, fw_verdict_made *made) {
+    const fw_plan *plan = y->study->plan;
+    double point[FW_FABRICATION_INPUTS];
+    for (int k = 0; k < y->ninput; k++)
+        point[k] = draw_of_input(y, x, k);
+    fw_arena *arena = fw_arena_part(plan->arena, 0);
+    FW_NEED(arena);
+    fw_arena_stop_with(arena, y->study->options.cancel);
+    fw_status status;
+    if (y->study->asked->nuncertain > 0)
+        status = judge_restated(y, arena, x, made);
+    else
+        status = fw_verdict_made_at(arena, plan->device, plan->layout, &plan->options.verdict,
+                                    &plan->verdict.variant[y->flow], point, made);
+    made->why = NULL; /* of this arena */
+    fw_arena_free(arena);
+    return status;
+}
+
+static void work_through(batch *b) {
+    for (;;) {
+        pthread_mutex_lock(&b->lock);
+        while (b->next < b->n && !b->wanted[b->next])
+            b->next++;
+        bool over = b->next >= b->n || b->status != FW_OK;
+        size_t k = over ? 0 : b->next++;
+        pthread_mutex_unlock(&b->lock);
+        if (over) return;
+        fw_status status = judge_one(b->y, b->x + k * b->y->joint.values, &b->made[k]);
+        if (status == FW_OK) continue;
+        pthread_mutex_lock(&b->lock);
+        if (b->status == FW_OK) b->status = status;
+        pthread_mutex_unlock(&b->lock);
+    }
+}
+
+/* in the "C" locale, as all work is */
+static void *worker(void *argument) {
+    batch *b = argument;
+    locale_t before = uselocale(b->y->study->design->locale);
+    work_through(b);
+    uselocale(before);
+    return NULL;
+}
+
+static fw_status run_batch(batch *b) {
+    pthread_t thread[FW_STUDY_JOBS_MOST];
+    int jobs = fw_study_jobs(b->y->study), running = 0;
+    pthread_mutex_init(&b->lock, NULL);
+    for (; jobs > 1 && running < jobs; running++)
+        if (pthread_create(&thread[running], NULL, worker, b) != 0) break;
+    if (running == 0) worker(b);
+    for (int i = 0; i < running; i++)
+        pthread_join(thread[i], NULL);
+    pthread_mutex_destroy(&b->lock);
+    return b->status;
+}
+
+/* ---- devices that were judged before ---- */
+
+static size_t slot_of(const yielding *y, const double *x) {
+    size_t n = y->joint.values * sizeof *x, at = 0;
+    uint64_t hash = 14695981039346656037u; /* FNV-1a */
+    for (const unsigned char *byte = (const unsigned char *)x; at < n; at++)
+        hash = (hash ^ byte[at]) * 1099511628211u;
+    size_t k = (size_t)(hash ^ (hash >> 29)) & (y->room - 1);
+    while (y->value[k].i >= 0 && memcmp(y->key + k * y->joint.values, x, n) != 0)
+        k = (k + 1) & (y->room - 1);
+    return k;
+}
+
+static fw_status make_room(yielding *y, size_t more) {
+    if (2 * (y->filled + more) < y->room) return FW_OK;
+    yielding was = *y;
+    size_t values = y->joint.values;
+    y->room = y->room ? y->room : 256;
+    while (2 * (y->filled + more) >= y->room)
+        y->room *= 2;
+    FW_NEED(y->key = fw_arena_array(y->study->arena, double, y->room *values));
+    FW_NEED(y->value = fw_arena_array(y->study->arena, cached, y->room));
+    for (size_t k = 0; k < y->room; k++)
+        y->value[k].i = -1;
+    for (size_t k = 0; k < was.room; k++) {
+        if (was.value[k].i < 0) continue;
+        size_t to = slot_of(y, was.key + k * values);
+        memcpy(y->key + to * values, was.key + k * values, values * sizeof *y->key);
+        y->value[to] = was.value[k];
+    }
+    return FW_OK;
+}
+
+/* ---- the limit state ---- */
+
+static void fill_sample(const yielding *y, const double *x, const cached *c,
+                        fw_study_sample *sample) {
+    const fw_study *study = y->study;
+    for (int k = 0; k < study->ninput; k++)
+        sample->value[k] = (double)NAN, sample->text[k][0] = '\0';
+    for (int k = 0; k < y->ninput; k++)
+        sample->value[y->first_input + k] = draw_of_input(y, x, k);
+    for (int k = 0; k < study->asked->nuncertain; k++)
+        sample->value[study->nvary + k] = draw_of_input(y, x, y->ninput + k);
+    for (int k = 0; k < study->nresponse; k++)
+        sample->response[k] = (double)NAN;
+    sample->i = c->i;
+    sample->run = !isnan(c->ln);
+    sample->used = exp(c->ln);
+    sample->decision = !sample->run ? -1 : c->ln > 0 ? 1 : 0;
+    if (!sample->run)
+        memcpy(sample->why, "it could not be judged", sizeof "it could not be judged");
+}
+
+/* what the store has of these devices is not judged again */
+static fw_status from_store(yielding *y, batch *b, fw_study_sample *sample, long first) {
+    for (size_t k = 0; y->study->store && k < b->n; k++) {
+        bool there;
+        if (!b->wanted[k]) continue;
+        FW_TRY(fw_study_store_get(y->study->store, first + (long)k, sample, &there));
+        if (!there) continue;
+        b->wanted[k] = false;
+        b->made[k] = (fw_verdict_made){.ln = sample->run ? log(sample->used) : (double)NAN,
+                                       .hinge = FW_NONE};
+    }
+    return FW_OK;
+}
+
+static fw_status judge_new(yielding *y, fw_arena *scratch, size_t n, const double *x) {
+    batch b = {.y = y, .n = n, .x = x};
+    fw_study_sample sample;
+    long first = y->base + y->evaluated;
+    size_t values = y->joint.values;
+    FW_NEED(b.made = fw_arena_array(scratch, fw_verdict_made, n));
+    FW_NEED(b.wanted = fw_arena_array(scratch, bool, n));
+    bool *stored = fw_arena_array(scratch, bool, n);
+    FW_NEED(stored);
+    FW_TRY(fw_study_sample_new(scratch, y->study, &sample));
+    for (size_t k = 0; k < n; k++)
+        b.wanted[k] = true;
+    FW_TRY(from_store(y, &b, &sample, first));
+    for (size_t k = 0; k < n; k++)
+        stored[k] = !b.wanted[k];
+    FW_TRY(run_batch(&b));
+    for (size_t k = 0; k < n; k++) {
+        cached c = {first + (long)k, b.made[k].ln};
+        size_t to = slot_of(y, x + k * values);
+        if (y->value[to].i < 0) y->filled++;
+        memcpy(y->key + to * values, x + k * values, values * sizeof *x);
+        y->value[to] = c;
+        if (stored[k]) continue;
+        fill_sample(y, x + k * values, &c, &sample);
+        FW_TRY(fw_study_keep(y->study, &sample));
+    }
+    y->evaluated += (long)n;
+    const fw_study_options *o = &y->study->options;
+    if (o->progress) o->progress(o->progress_context, y->evaluated, 0, 0);
+    return FW_OK;
+}
+
+static fw_status limit_with(yielding *y, fw_arena *scratch, size_t count, const double *u,
+                            double *value) {
+    size_t values = y->joint.values, n = 0;
+    double *x = fw_arena_array(scratch, double, count *values);
+    double *fresh = fw_arena_array(scratch, double, count *values);
+    FW_NEED(x && fresh ? x : NULL);
+    FW_TRY(make_room(y, count));
+    for (size_t k = 0; k < count; k++) {
+        fw_chance_joint_map(&y->joint, u + k * y->joint.dimensions,
+                            y->unknown ? y->unknown : y->middle, NULL, x + k * values);
+        if (y->value[slot_of(y, x + k * values)].i >= 0) continue;
+        memcpy(fresh + n++ * values, x + k * values, values * sizeof *x);
+    }
+    if (n > 0) FW_TRY(judge_new(y, scratch, n, fresh));
+    for (size_t k = 0; k < count; k++)
+        value[k] = -(y->value[slot_of(y, x + k * values)].ln + y->shift);
+    return FW_OK;
+}
+
+static fw_status limit(void *context, size_t first, size_t count, const double *u, double *value) {
+    yielding *y = context;
+    fw_arena *scratch = fw_arena_part(y->study->arena, 0);
+    (void)first;
+    FW_NEED(scratch);
+    fw_status status = fw_cancel_requested(y->study->options.cancel)
+                           ? FW_CANCELLED
+                           : limit_with(y, scratch, count, u, value);
+    fw_arena_free(scratch);
+    return status;
+}
+
+static void set_unknown(void *context, const double *unknown) {
+    ((yielding *)context)->unknown = unknown;
+}
+
+/* ---- how the inputs scatter ---- */
+
+/* an input of a flow: what its pack states, else a range of which nothing but the ends is known */
+static fw_chance_distribution of_input(const fw_verdict_fabrication_input *in) {
+    if (!(in->high > in->low))
+        return (fw_chance_distribution){.kind = FW_CHANCE_CONSTANT, .mean = in->nominal};
+    if (in->unknown)
+        return (fw_chance_distribution){
+            .kind = FW_CHANCE_INTERVAL, .low = in->low, .high = in->high};
+    if (in->q.interval || !(in->sigma > 0))
+        return (fw_chance_distribution){
+            .kind = FW_CHANCE_UNIFORM, .low = in->low, .high = in->high};
+    return (fw_chance_distribution){.kind = FW_CHANCE_NORMAL, .mean = in->nominal, .sd = in->sigma};
+}
+
+static fw_chance_distribution of_uncertain(const fw_device_uncertain *u) {
+    static const fw_chance_kind kind[] = {[FW_SPREAD_NORMAL] = FW_CHANCE_NORMAL,
+                                          [FW_SPREAD_LOGNORMAL] = FW_CHANCE_LOGNORMAL,
+                                          [FW_SPREAD_UNIFORM] = FW_CHANCE_UNIFORM,
+                                          [FW_SPREAD_TRUNCATED] = FW_CHANCE_TRUNCATED,
+                                          [FW_SPREAD_INTERVAL] = FW_CHANCE_INTERVAL};
+    return (fw_chance_distribution){
+        .kind = kind[u->spread], .mean = u->mean, .sd = u->sd, .low = u->from, .high = u->to};
+}
+
+static fw_status build_joint(yielding *y, const fw_verdict_variant_verdict *v) {
+    fw_study *study = y->study;
+    size_t n = (size_t)(v->ninput + study->asked->nuncertain);
+    fw_chance_variable *variable = fw_arena_array(study->arena, fw_chance_variable, n);
+    fw_chance_fault fault = {0};
+    FW_NEED(variable);
+    for (int k = 0; k < v->ninput; k++)
+        variable[k] = (fw_chance_variable){.name = v->input[k].name,
+                                           .distribution = of_input(&v->input[k]),
+                                           .level = FW_CHANCE_DIE};
+    for (int k = 0; k < study->asked->nuncertain; k++)
+        variable[v->ninput + k] =
+            (fw_chance_variable){.name = study->asked->uncertain[k].what,
+                                 .distribution = of_uncertain(&study->asked->uncertain[k]),
+                                 .level = FW_CHANCE_DIE};
+    fw_status status =
+        fw_chance_joint_new(study->arena, 1, n, variable, 0, NULL, &y->joint, &fault);
+    if (status == FW_INPUT)
+        return fw_diag_error(&study->diags, 491,
+                             fault.variable >= (size_t)v->ninput && fault.variable < n
+                                 ? study->asked->uncertain[fault.variable - (size_t)v->ninput].place
+                                 : study->asked->place,
+                             "study '%s': %s", study->asked->name, fault.why ? fault.why : "?");
+    FW_TRY(status);
+    FW_NEED(y->middle = fw_arena_array(study->arena, double, y->joint.unknowns + 1));
+    for (size_t k = 0; k < y->joint.unknowns; k++) {
+        const fw_chance_distribution *d = &variable[y->joint.unknown[k]].distribution;
+        y->middle[k] = 0.5 * (d->low + d->high);
+    }
+    return FW_OK;
+}
+
+/* ---- the estimate ---- */
+
+typedef struct bounds {
+    fw_chance_estimate estimate; /* of the one with most failures */
+    double low, high;            /* interval of the probability of failing */
+    double probability;          /* by its middle reading */
+} bounds;
+
+static fw_status estimate(yielding *y, bounds *out) {
+    fw_study *study = y->study;
+    const fw_chance_limit of = {.dimensions = y->joint.dimensions, .g = limit, .context = y};
+    const fw_chance_options o = {.method = FW_CHANCE_AUTO,
+                                 .seed = (uint64_t)study->asked->seed,
+                                 .budget = study->asked->samples > 0 ? (size_t)study->asked->samples
+                                                                     : 4000,
+                                 .level = study->asked->confidence};
+    const char *why = NULL;
+    fw_status status;
+    if (y->joint.unknowns == 0) {
+        y->unknown = NULL;
+        status = fw_chance_estimate_run(y->chance, &of, &o, &out->estimate, &why);
+        out->low = out->estimate.low, out->high = out->estimate.high;
+        out->probability = 0.5 * (out->estimate.probability_low + out->estimate.probability_high);
+    } else {
+        double *low = fw_arena_array(study->arena, double, y->joint.unknowns),
+               *high = fw_arena_array(study->arena, double, y->joint.unknowns);
+        FW_NEED(low && high ? low : NULL);
+        for (size_t k = 0; k < y->joint.unknowns; k++) {
+            const fw_chance_distribution *d = &y->joint.variable[y->joint.unknown[k]].distribution;
+            low[k] = d->low, high[k] = d->high;
+        }
+        const fw_chance_unknowns unknowns = {.count = y->joint.unknowns,
+                                             .low = low,
+                                             .high = high,
+                                             .set = set_unknown,
+                                             .search = FW_CHANCE_ENDS};
+        fw_chance_range range;
+        status = fw_chance_range_run(y->chance, &of, &unknowns, &o, &range, &why);
+        y->unknown = NULL;
+        if (status == FW_OK) {
+            out->estimate = range.most;
+            out->low = range.low, out->high = range.high;
+            out->probability = 0.5 * (range.least.probability_low + range.most.probability_high);
+        }
+    }
+    if (status == FW_INPUT)
+        return fw_diag_error(&study->diags, 490, study->asked->place, "study '%s': %s",
+                             study->asked->name, why ? why : "its estimate could not be begun");
+    return status;
+}
+
+static fw_status describe(yielding *y, const fw_verdict_variant_verdict *v, const bounds *b,
+                          fw_study_flow_yield *out) {
+    fw_study *study = y->study;
+    size_t n = y->joint.values;
+    const char **name = fw_arena_array(study->arena, const char *, n),
+               **unit = fw_arena_array(study->arena, const char *, n);
+    FW_NEED(name && unit ? name : NULL);
+    for (int k = 0; k < v->ninput; k++)
+        name[k] = v->input[k].name, unit[k] = v->input[k].q.unit ? v->input[k].q.unit : "1";
+    for (int k = 0; k < study->asked->nuncertain; k++) {
+        name[v->ninput + k] = study->asked->uncertain[k].what;
+        unit[v->ninput + k] = study->asked->uncertain[k].unit;
+    }
+    out->ninput = (int)n, out->input = name, out->unit = unit;
+    if (b->estimate.points == 0) return FW_OK;
+    const fw_chance_design_point *p = &b->estimate.point[0];
+    double *share = fw_arena_array(study->arena, double, n),
+           *at = fw_arena_array(study->arena, double, n);
+    FW_NEED(share && at ? at : NULL);
+    fw_chance_joint_map(&y->joint, p->u, y->middle, NULL, at);
+    for (size_t d = 0; d < y->joint.dimensions; d++)
+        share[y->joint.u_variable[d]] += p->alpha[d] * p->alpha[d];
+    out->beta = p->beta, out->share = share, out->at = at;
+    return FW_OK;
+}
+
+/* what the model may be off by is that of the hinge that governs the nominal device */
+static fw_status judge_nominal(const yielding *y, const fw_verdict_variant_verdict *v,
+                               fw_verdict_made *made) {
+    double x[FW_FABRICATION_INPUTS];
+    const fw_plan *plan = y->study->plan;
+    for (int k = 0; k < v->ninput; k++)
+        x[k] = v->input[k].nominal;
+    return fw_verdict_made_at(plan->arena, plan->device, plan->layout, &plan->options.verdict, v, x,
+                              made);
+}
+
+static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
+                              fw_study_flow_yield *out) {
+    fw_arena *arena = y->study->arena;
+    bounds plain, worst, best;
+    fw_verdict_made nominal;
+    FW_TRY(judge_nominal(y, v, &nominal));
+    FW_TRY(estimate(y, &plain));
+    FW_TRY(describe(y, v, &plain, out));
+    out->sampled_low = 1 - plain.high, out->sampled_high = 1 - plain.low;
+    out->value = 1 - plain.probability;
+    out->method = fw_chance_method_text(plain.estimate.method);
+    FW_NEED(out->reason = fw_arena_strdup(arena, plain.estimate.reason));
+    if (plain.estimate.caution)
+        FW_NEED(out->caution = fw_arena_strdup(arena, plain.estimate.caution));
+    out->unevaluated = (long)plain.estimate.unevaluated;
+    const double up = nominal.up, down = isfinite(nominal.down) ? nominal.down : 0;
+    y->shift = up;
+    FW_TRY(estimate(y, &worst));
+    y->shift = -down;
+    FW_TRY(estimate(y, &best));
+    out->low = 1 - fmax(worst.high, plain.high), out->high = 1 - fmin(best.low, plain.low);
+    out->band = exp(up + down);
+    out->evaluations = y->evaluated;
+    return FW_OK;
+}
+
+static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_flow_yield *out) {
+    const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[flow];
+    yielding y = {.study = study,
+                  .flow = flow,
+                  .ninput = v->ninput,
+                  .first_input = first_input,
+                  .base = (long)flow * PART};
+    *out = (fw_study_flow_yield){.flow = v->variant->flow, .beta = (double)NAN};
+    FW_TRY(build_joint(&y, v));
+    if (y.joint.dimensions == 0)
+        return fw_diag_error(&study->diags, 491, study->asked->place,
+                             "study '%s': nothing differs from device to device%s%s; add an "
+                             "<uncertain>",
+                             study->asked->name, v->variant->flow ? " in flow " : "",
+                             v->variant->flow ? v->variant->flow : "");
+    FW_NEED(y.chance = fw_arena_part(study->arena, 0));
+    fw_status status = estimate_all(&y, v, out);
+    fw_arena_free(y.chance);
+    return status;
+}
+
+fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
+    int flows = study->plan->nflow, column = study->asked->nvary + study->asked->nuncertain;
+    FW_NEED(result->yield = fw_arena_array(study->arena, fw_study_flow_yield, (size_t)flows));
+    for (int i = 0; i < flows; i++) {
+        const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[i];
+        FW_TRY(yield_of(study, i, column, &result->yield[result->nyield++]));
+        column += v->ninput;
+    }
+    return FW_OK;
+}

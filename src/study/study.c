@@ -1,0 +1,504 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study from its file to its result. */
+#include "study/study.h"
+#include "base/output.h"
+#include "plan/design.h"
+#include "plan/stages.h"
+#include "study/study_parts.h"
+#include "study/study_result.h"
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+enum { FILE_MOST = 8 << 20 };
+
+/* ---- which study, of which device ---- */
+
+static bool is_study_file(const char *xml, size_t n) {
+    const char *root = n > 0 ? strstr(xml, "urn:flexwright:study:") : NULL;
+    return root != NULL;
+}
+
+/* path of a file that another one names beside it */
+static const char *beside(fw_arena *arena, const char *file, const char *name) {
+    const char *slash = strrchr(file, '/');
+    return slash && name[0] != '/'
+               ? fw_arena_printf(arena, "%.*s/%s", (int)(slash - file), file, name)
+               : fw_arena_strdup(arena, name);
+}
+
+/* its own text, for carets */
+static void keep_source(fw_study *study, const char *xml, size_t n) {
+    study->source = xml, study->source_length = n;
+}
+
+static fw_status choose(fw_study *study, const fw_device *device) {
+    const char *wanted = study->options.study;
+    fw_text names = fw_text_new(study->arena);
+    for (int i = 0; i < device->nstudy; i++) {
+        if (!wanted || strcmp(device->study[i].name, wanted) == 0) {
+            if (wanted || device->nstudy == 1) {
+                study->asked = &device->study[i];
+                return FW_OK;
+            }
+        }
+        fw_text_printf(&names, " %s", device->study[i].name);
+    }
+    if (device->nstudy == 0)
+        return fw_diag_error(&study->diags, 494, (fw_place){.file = study->options.file},
+                             "the device file has no <study>; add one, or name a study file");
+    return fw_diag_error(&study->diags, 494, (fw_place){.file = study->options.file},
+                         wanted ? "there is no study '%s'; there are%s"
+                                : "%sseveral studies; name one with --study:%s",
+                         wanted ? wanted : "", names.failed ? "" : names.data);
+}
+
+static fw_status read_study_file(fw_study *study, char *xml, size_t n) {
+    FW_TRY(fw_device_study_read(study->arena, study->options.file, xml, n, &study->diags,
+                                &study->asked));
+    FW_NEED(study->device_path = beside(study->arena, study->options.file, study->asked->device));
+    return FW_OK;
+}
+
+/* ---- the description as it stands ---- */
+
+static void take_errors(fw_study *study, const fw_diags *from) {
+    for (size_t i = 0; i < from->count; i++) {
+        const fw_diag *d = &from->item[i];
+        if (d->severity == FW_ERROR)
+            fw_diag_error(&study->diags, d->number, d->place, "%s", d->message);
+    }
+}
+
+/* read and judged as any sample is, and kept: places, names and hashes are of it */
+static fw_status open_device(fw_study *study) {
+    int status;
+    fw_design *design = fw_study_design(study, study->options.cancel, NULL, &status);
+    FW_NEED(design);
+    fw_plan *plan = fw_plan_design_plan(design);
+    study->design = design;
+    study->plan = plan;
+    if (status != FW_STATUS_OK) {
+        take_errors(study, &plan->diags);
+        return (fw_status)status;
+    }
+    FW_NEED(study->device_name = fw_arena_strdup(study->arena, plan->device->name));
+    return FW_OK;
+}
+
+/* ---- inputs ---- */
+
+static fw_status unit_of(const char *text, fw_quantity_unit *unit) {
+    *unit = (fw_quantity_unit){.factor = 1};
+    if (!*text) return FW_OK;
+    return fw_quantity_unit_parse(text, strlen(text), unit, NULL, NULL) ? FW_OK : FW_INTERNAL;
+}
+
+/* the value that a parameter has now; NaN: it is a path, or there is none */
+static double value_now(const fw_device *d, const char *what) {
+    for (int i = 0; i < d->nparameter; i++)
+        if (strcmp(d->parameter[i].name, what) == 0) return d->parameter[i].value;
+    return (double)NAN;
+}
+
+/* of a yield: what the flows may make differ, behind what the study file names */
+static fw_status add_made_inputs(fw_study *study) {
+    int more = 0, at = study->ninput;
+    const fw_verdict *verdict = &study->plan->verdict;
+    for (int i = 0; i < verdict->nvariant; i++)
+        more += verdict->variant[i].ninput;
+    FW_NEED(study->input = fw_arena_grow(study->arena, study->input, (size_t)at,
+                                         (size_t)(at + more), sizeof *study->input));
+    for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < verdict->variant[i].ninput; k++) {
+            const fw_verdict_fabrication_input *in = &verdict->variant[i].input[k];
+            const char *flow = verdict->variant[i].variant->flow;
+            const char *name = verdict->nvariant > 1 && flow
+                                   ? fw_arena_printf(study->arena, "%s (%s)", in->name, flow)
+                                   : in->name;
+            FW_NEED(name);
+            study->input[study->ninput++] =
+                (fw_study_input){.what = name,
+                                 .unit_text = in->q.unit ? in->q.unit : "",
+                                 .unit = {.factor = 1},
+                                 .from = (double)NAN,
+                                 .to = (double)NAN,
+                                 .now = in->nominal,
+                                 .place = study->asked->place};
+        }
+    return FW_OK;
+}
+
+static fw_status take_inputs(fw_study *study) {
+    const fw_device_study *asked = study->asked;
+    study->nvary = asked->nvary;
+    study->ninput = asked->nvary + asked->nuncertain;
+    FW_NEED(study->input = fw_arena_array(study->arena, fw_study_input, (size_t)study->ninput));
+    for (int k = 0; k < asked->nvary; k++) {
+        const fw_device_vary *v = &asked->vary[k];
+        fw_study_input *in = &study->input[k];
+        *in = (fw_study_input){.what = v->what,
+                               .unit_text = v->unit,
+                               .from = v->from,
+                               .to = v->to,
+                               .logarithmic = v->logarithmic,
+                               .steps = v->steps,
+                               .text = v->text,
+                               .ntext = v->ntext,
+                               .now = value_now(study->plan->device, v->what),
+                               .place = v->place};
+        FW_TRY(unit_of(v->unit, &in->unit));
+    }
+    for (int k = 0; k < asked->nuncertain; k++) {
+        const fw_device_uncertain *u = &asked->uncertain[k];
+        fw_study_input *in = &study->input[asked->nvary + k];
+        *in = (fw_study_input){.what = u->what,
+                               .unit_text = u->unit,
+                               .from = (double)NAN,
+                               .to = (double)NAN,
+                               .now = value_now(study->plan->device, u->what),
+                               .place = u->place};
+        FW_TRY(unit_of(u->unit, &in->unit));
+    }
+    return FW_OK;
+}
+
+/* names of columns are those of inputs and responses together */
+static void check_names(fw_study *study) {
+    for (int r = 0; r < study->asked->nrespond; r++)
+        for (int k = -4; k < study->ninput; k++) {
+            static const char *const own[] = {"i", "state", "why", "limit_used"};
+            const char *other = k < 0 ? own[k + 4] : study->input[k].what;
+            if (strcmp(study->asked->respond[r].name, other) == 0)
+                fw_diag_error(&study->diags, 492, study->asked->respond[r].place,
+                              "response '%s': another column of the results has this name; rename "
+                              "the response",
+                              other);
+        }
+}
+
+/* one value of an input alone, read: what --set finds wrong with it is said at its row */
+static fw_status check_value(fw_study *study, int k, const fw_study_sample *sample) {
+    const fw_study_input *in = &study->input[k];
+    int status;
+    fw_design *design = fw_study_design(study, study->options.cancel,
+                                        (const char(*)[FW_STUDY_TEXT])sample->text, &status);
+    FW_NEED(design);
+    const fw_diags *said = &fw_plan_design_plan(design)->diags;
+    fw_status found =
+        status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED ? (fw_status)status : FW_OK;
+    for (size_t i = 0; i < said->count && found == FW_OK; i++) {
+        const fw_diag *d = &said->item[i];
+        /* no such path, not a value of its kind, beyond what the parameter allows; what else may be wrong
+           with a value is the sample's own affair */
+        bool of_path = d->number == 55 || d->number == 57 || (d->number >= 20 && d->number < 30);
+        if (d->severity != FW_ERROR || !of_path || !d->place.file ||
+            strncmp(d->place.file, "--set", 5) != 0)
+            continue;
+        found = fw_diag_error(&study->diags, 493, in->place, "\"%s\" set to %s: %s", in->what,
+                              sample->text[k], d->message);
+    }
+    fw_design_free(design);
+    return found;
+}
+
+/* a value that an input left to chance is sure to have nearby */
+static double some_value(const fw_device_uncertain *u) {
+    return isnan(u->mean) ? 0.5 * (u->from + u->to) : u->mean;
+}
+
+/* the ends of an input, or what is listed: is there such a parameter or attribute, and may it be so? */
+static fw_status check_input(fw_study *study, int k) {
+    fw_study_sample sample;
+    const fw_study_input *in = &study->input[k];
+    FW_TRY(fw_study_sample_new(study->arena, study, &sample));
+    if (k >= study->nvary) {
+        double value = some_value(&study->asked->uncertain[k - study->nvary]);
+        FW_TRY(fw_study_input_write(in, value, 12, sample.text[k], &sample.value[k]));
+        return check_value(study, k, &sample);
+    }
+    int steps = fw_study_input_steps(in);
+    for (int i = 0; i<steps; i += in->ntext> 0 ? 1 : steps - 1) {
+        FW_TRY(fw_study_input_step(in, i, sample.text[k], &sample.value[k]));
+        FW_TRY(check_value(study, k, &sample));
+    }
+    return FW_OK;
+}
+
+/* ---- responses ---- */
+
+static fw_status take_responses(fw_study *study) {
+    const fw_device_study *asked = study->asked;
+    study->nresponse = asked->nrespond;
+    FW_NEED(study->response =
+                fw_arena_array(study->arena, fw_study_response, (size_t)asked->nrespond));
+    fw_status status = FW_OK;
+    for (int k = 0; k < asked->nrespond; k++) {
+        fw_status one = fw_study_response_parse(study->arena, &asked->respond[k], &study->diags,
+                                                &study->response[k]);
+        if (one != FW_OK) status = one;
+        if (one == FW_OK) study->stages |= fw_study_documents[study->response[k].document].stages;
+    }
+    /* a yield and a size ask what check says */
+    if (asked->kind == FW_STUDY_IS_yield || asked->kind == FW_STUDY_IS_size || asked->nrespond == 0)
+        study->stages |= FW_STUDY_STAGE_JUDGE;
+    return status;
+}
+
+/* every path in the documents of the description as it stands */
+static fw_status resolve(fw_study *study, fw_design *design) {
+    fw_status status = FW_OK;
+    char why[FW_STUDY_WHY];
+    for (int k = 0; k < study->nresponse; k++) {
+        fw_study_response *r = &study->response[k];
+        const char *text;
+        size_t n;
+        int got = fw_design_document(design, fw_study_documents[r->document].document, &text, &n);
+        if (got != FW_STATUS_OK) return (fw_status)got;
+        json_t *root = json_loadb(text, n, 0, NULL);
+        FW_NEED(root);
+        if (!fw_study_response_find(r, root, &r->now, why, sizeof why))
+            status = fw_diag_error(&study->diags, 492, r->asked->place, "response '%s' (%s): %s",
+                                   r->asked->name, r->asked->value, why);
+        json_decref(root);
+    }
+    return status;
+}
+
+static fw_status run_as_it_stands(fw_study *study) {
+    fw_study_sample sample;
+    bool changed = false;
+    struct timespec begun, ended;
+    int status;
+    if (study->asked->kind == FW_STUDY_IS_yield) return FW_OK;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
+    FW_TRY(fw_study_sample_new(study->arena, study, &sample));
+    FW_TRY(fw_study_evaluate(study, study->options.cancel, &sample, &changed));
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
+    study->seconds_each =
+        (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);
+    study->decision = sample.decision;
+    if (!sample.run) return FW_OK; /* others may be run; paths cannot be looked up */
+    fw_design *design = fw_study_design(study, study->options.cancel, NULL, &status);
+    FW_NEED(design);
+    if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
+    fw_status found = status == FW_STATUS_OK ? resolve(study, design) : (fw_status)status;
+    fw_design_free(design);
+    return found;
+}
+
+/* ---- what decides a sample ---- */
+
+static void add_real(fw_text *out, double value) {
+    fw_text_add(out, " ");
+    fw_text_number(out, value, 17);
+}
+
+static void add_text(fw_text *out, const char *text) {
+    fw_text_printf(out, " %zu:%s", text ? strlen(text) : 0, text ? text : "");
+}
+
+static fw_status find_hash(fw_study *study) {
+    const fw_device_study *a = study->asked;
+    const fw_design_options *o = &study->options.design;
+    fw_text t = fw_text_new(study->arena);
+    const char *files;
+    char digits[65];
+    FW_TRY(fw_study_files_hash(study->arena, study->plan, &files));
+    fw_text_printf(&t, "flexwright %s %s\n", FW_VERSION, files);
+    const char *const words[] = {
+        o->flow,         o->effects, o->method,         o->integrator, o->stabilise,
+        o->hinge_model,  o->corners, o->scene,          o->at,         o->mask_formats,
+        o->mask_flatten, o->day,     o->planning_times, o->cut};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        add_text(&t, words[i]);
+    add_real(&t, o->accuracy);
+    add_real(&t, o->rtol);
+    for (int i = 0; i < study->options.nset; i++)
+        add_text(&t, study->options.set[i].path), add_text(&t, study->options.set[i].value);
+    fw_text_printf(&t, "\n%s %s %s %d %ld", fw_device_study_kind_text(a->kind),
+                   fw_device_study_points_text(a->points), fw_device_study_judge_text(a->judge),
+                   a->samples, a->seed);
+    add_text(&t, a->name);
+    add_real(&t, a->yield), add_real(&t, a->error), add_real(&t, a->confidence);
+    for (int k = 0; k < a->nvary; k++) {
+        const fw_device_vary *v = &a->vary[k];
+        add_text(&t, v->what);
+        add_real(&t, v->from), add_real(&t, v->to);
+        fw_text_printf(&t, " %s %d %d", v->unit, v->steps, v->logarithmic);
+        for (int i = 0; i < v->ntext; i++)
+            add_text(&t, v->text[i]);
+    }
+    for (int k = 0; k < a->nuncertain; k++) {
+        const fw_device_uncertain *u = &a->uncertain[k];
+        add_text(&t, u->what);
+        fw_text_printf(&t, " %d %s", (int)u->spread, u->unit);
+        add_real(&t, u->mean), add_real(&t, u->sd), add_real(&t, u->from), add_real(&t, u->to);
+    }
+    for (int k = 0; k < a->nrespond; k++) {
+        const fw_device_respond *q = &a->respond[k];
+        add_text(&t, q->name), add_text(&t, q->value);
+        fw_text_printf(&t, " %d %d", (int)q->take, (int)q->goal);
+        add_real(&t, q->min), add_real(&t, q->max);
+    }
+    FW_TRY(fw_text_end(&t));
+    fw_sha256(t.data, t.length, digits);
+    FW_NEED(study->hash = fw_arena_strdup(study->arena, digits));
+    return FW_OK;
+}
+
+/* ---- opening and running ---- */
+
+/* of every device of the study: no advice, and as drawn where that is asked */
+static void settle_options(fw_study *study) {
+    fw_design_options *o = &study->options.design;
+    o->advice = "none";
+    o->measurements = "none";
+    if (study->asked->judge == FW_JUDGE_DRAWN || study->asked->kind == FW_STUDY_IS_yield)
+        o->corners = "none";
+}
+
+/* with the options that only the study tells, and as drawn: what is made of it is the yield's own affair */
+static fw_status judge_device(fw_study *study) {
+    int status;
+    fw_design *design = fw_study_design(study, study->options.cancel, NULL, &status);
+    FW_NEED(design);
+    if (status == FW_STATUS_OK) status = fw_design_judge(design);
+    fw_design *former = study->design;
+    study->design = design;
+    study->plan = fw_plan_design_plan(design);
+    study->former = former; /* places of the study are of it */
+    if (status != FW_STATUS_OK) take_errors(study, &study->plan->diags);
+    return (fw_status)status;
+}
+
+static fw_status open_all(fw_study *study) {
+    char *xml;
+    size_t n;
+    FW_TRY(fw_input_read(study->arena, study->options.file, FILE_MOST, &study->diags, &xml, &n));
+    keep_source(study, xml, n);
+    study->device_path = study->options.file;
+    bool alone = is_study_file(xml, n);
+    if (alone) FW_TRY(read_study_file(study, xml, n));
+    FW_TRY(open_device(study));
+    if (!alone) FW_TRY(choose(study, study->plan->device));
+    settle_options(study);
+    FW_TRY(take_inputs(study));
+    fw_status responses = take_responses(study);
+    check_names(study);
+    for (int k = 0; k < study->ninput; k++) {
+        fw_status status = check_input(study, k);
+        if (status != FW_OK && status != FW_INPUT) return status;
+    }
+    FW_TRY(responses);
+    if (study->diags.errors > 0) return FW_INPUT;
+    if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(judge_device(study));
+    if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(add_made_inputs(study));
+    FW_TRY(find_hash(study));
+    return run_as_it_stands(study);
+}
+
+fw_study *fw_study_new(const fw_study_options *options) {
+    fw_arena *arena = fw_arena_new(options->design.memory_cap);
+    fw_study *study = arena ? fw_arena_one(arena, fw_study) : NULL;
+    if (!study) {
+        fw_arena_free(arena);
+        return NULL;
+    }
+    *study = (fw_study){
+        .arena = arena, .diags = fw_diags_new(arena), .options = *options, .decision = -1};
+    if (options->cancel) fw_arena_stop_with(arena, options->cancel);
+    return study;
+}
+
+fw_status fw_study_open_in(fw_study *study) {
+    return open_all(study);
+}
+
+fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
+    *study = fw_study_new(options);
+    FW_NEED(*study);
+    return open_all(*study);
+}
+
+void fw_study_free(fw_study *study) {
+    if (!study) return;
+    fw_study_store_close(study->store);
+    fw_design_free(study->design);
+    fw_design_free(study->former);
+    fw_arena_free(study->arena);
+}
+
+static void count(fw_study_result *result, const fw_study_sample *sample) {
+    result->run += sample->run;
+    result->failed += !sample->run;
+    result->accepted += sample->run && sample->decision == 0;
+    result->rejected += sample->run && sample->decision == 1;
+    result->inconclusive += sample->run && sample->decision == 4;
+}
+
+static fw_status tally(void *context, const fw_study_sample *sample) {
+    fw_study *study = context;
+    fw_study_result *result = (fw_study_result *)study->result;
+    count(result, sample);
+    if (!sample->run && !result->example_why) {
+        FW_NEED(result->example_why = fw_arena_strdup(study->arena, sample->why));
+        result->example_at = sample->i;
+    }
+    for (int k = 0; k < study->nresponse; k++) {
+        fw_study_extreme *e = &result->extreme[k];
+        double value = sample->response[k];
+        if (isnan(value)) continue;
+        if (e->n++ == 0)
+            e->first = e->least = e->largest = value, e->least_at = e->largest_at = sample->i;
+        if (value < e->least) e->least = value, e->least_at = sample->i;
+        if (value > e->largest) e->largest = value, e->largest_at = sample->i;
+        e->sum += value - e->first;
+        e->square += (value - e->first) * (value - e->first);
+    }
+    return FW_OK;
+}
+
+fw_status fw_study_run(fw_study *study) {
+    fw_study_result *result = fw_arena_one(study->arena, fw_study_result);
+    FW_NEED(result);
+    FW_NEED(result->extreme =
+                fw_arena_array(study->arena, fw_study_extreme, (size_t)study->nresponse));
+    for (int k = 0; k < study->nresponse; k++)
+        result->extreme[k] = (fw_study_extreme){
+            .least = (double)NAN, .largest = (double)NAN, .least_at = -1, .largest_at = -1};
+    bool apart =
+        study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity;
+    if (study->options.shards > 0 && !apart)
+        return fw_diag_error(
+            &study->diags, 490, study->asked->place,
+            "--shard: a study of kind %s looks at earlier samples to choose later ones; "
+            "run it in one piece, in as many threads as there are (--jobs)",
+            fw_device_study_kind_text(study->asked->kind));
+    if (study->options.output && !study->store) {
+        mkdir(study->options.output, 0777); /* what is wrong with it, the store will say */
+        FW_TRY(fw_study_store_open(study, &study->store));
+    }
+    fw_status status = FW_INTERNAL;
+    switch (study->asked->kind) {
+#define FW_STUDY(name, word, sentence)                                                             \
+    case FW_STUDY_IS_##name:                                                                       \
+        status = fw_study_kind_##name(study, result);                                              \
+        break;
+#include "device/studies.def"
+#undef FW_STUDY
+    case FW_STUDY_KINDS:
+        break;
+    }
+    FW_TRY(status);
+    study->result = result;
+    if (!study->store) return FW_OK;
+    FW_TRY(fw_study_store_finish(study->store));
+    return fw_study_store_each(study->store, tally, study);
+}
+
+int fw_study_decision(const fw_study *study) {
+    const fw_study_result *r = study->result;
+    return study->asked && study->asked->kind == FW_STUDY_IS_size && r && r->nfound == 0 ? 1 : 0;
+}

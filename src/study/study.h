@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study: many devices of one description, each judged like any other, and what they say together.
+
+   fw_study_open reads what is asked (a <study> of a device file, or a file of its own), runs the
+   description as it stands and finds every response in its documents; fw_study_run judges the samples
+   in threads and keeps each in a store as it comes; what the kind of study makes of them is in
+   fw_study_result. A sample is a function of the study, its seed and its number alone: threads, shards
+   and interruptions change nothing. */
+#ifndef FW_STUDY_STUDY_H
+#define FW_STUDY_STUDY_H
+#include "device/device.h"
+#include "plan/plan.h"
+#include <flexwright.h>
+
+enum {
+    FW_STUDY_TEXT = 96,       /* bytes of a setting, its NUL included */
+    FW_STUDY_WHY = 320,       /* of the reason why a device could not be judged */
+    FW_STUDY_JOBS_MOST = 256, /* threads */
+    FW_STUDY_SHARDS_MOST = 100000
+};
+
+typedef struct fw_study_options {
+    fw_design_options design; /* of every device */
+    const fw_device_set *set; /* (nset) of every device, before the study's own */
+    int nset;
+    const char *file;   /* device or study file */
+    const char *study;  /* which of a device file; NULL: the only one */
+    const char *output; /* directory of the store and of the results */
+    int jobs;           /* threads; 0: as many as there are processors */
+    int shard, shards;  /* from 1; 0: all of it */
+    bool resume;        /* go on with the store that is there */
+    const fw_cancel *cancel;
+    /* called now and then from the thread that runs the study; NULL: nobody asks */
+    void (*progress)(void *context, long done, long all, double seconds);
+    void *progress_context;
+} fw_study_options;
+
+/* an input of the study: chosen, or left to chance */
+typedef struct fw_study_input {
+    const char *what, *unit_text;
+    fw_quantity_unit unit;
+    double from, to; /* SI; NaN where values are listed or it is left to chance */
+    bool logarithmic;
+    int steps;
+    const char *const *text; /* (ntext) listed values */
+    int ntext;
+    double now; /* SI, of the description as it stands; NaN: not a parameter */
+    fw_place place;
+} fw_study_input;
+
+/* where a response stands: a document and the keys that lead to it */
+typedef struct fw_study_response {
+    const fw_device_respond *asked;
+    int document;     /* index into the table of documents, study_response.c */
+    const char *path; /* behind the document's name */
+    const char *unit; /* of the key, "m"; "" for pure numbers */
+    double now;       /* of the description as it stands */
+} fw_study_response;
+
+typedef struct fw_study_sample {
+    long i;                      /* number in the study */
+    char (*text)[FW_STUDY_TEXT]; /* (ninput) as --set takes them */
+    double *value;               /* (ninput) SI; NaN: listed words */
+    double *response;            /* (nresponse) SI; NaN: none */
+    int decision;                /* 0 accepted, 1 rejected, 4 inconclusive; -1: not judged */
+    /* largest share of a limit that any hinge or requirement uses, at the upper end of its band and over all
+       that the flows make of it; above 1 where it is not accepted; NaN: not judged */
+    double used;
+    bool run; /* false: `why` says why not */
+    char why[FW_STUDY_WHY];
+} fw_study_sample;
+
+struct fw_study_store;
+struct fw_study_result;
+
+typedef struct fw_study {
+    fw_arena *arena;
+    fw_diags diags;
+    fw_study_options options;
+    const fw_device_study *asked;
+    const char *device_path, *device_name;
+    const char *source; /* (source_length) of options.file, for carets */
+    size_t source_length;
+    bool stored_only;      /* of a merge: what the store has not is not run */
+    const char *hash;      /* of everything that decides what a sample is */
+    fw_study_input *input; /* (ninput) those of <vary>, then those of <uncertain> */
+    int ninput, nvary;
+    fw_study_response *response; /* (nresponse) */
+    int nresponse;
+    unsigned stages;              /* FW_STUDY_STAGE_..., what the responses need */
+    fw_design *design;            /* the description as it stands; of a yield judged as drawn */
+    fw_design *former;            /* as it was first read: places are of it; NULL: the same */
+    fw_plan *plan;                /* of `design` */
+    int decision;                 /* of it */
+    double seconds_each;          /* what the description as it stands took, all its stages; CPU */
+    struct fw_study_store *store; /* NULL: none was asked for */
+    long samples;                 /* of the whole study where they are known beforehand; else 0 */
+    const struct fw_study_result *result;
+} fw_study;
+
+/* Reads, runs the description as it stands, resolves inputs and responses. What is wrong is in
+   study->diags. *study may be asked for its diagnostics and must be freed after any status, and is
+   NULL only when memory is short. */
+fw_status fw_study_open(const fw_study_options *options, fw_study **study);
+void fw_study_free(fw_study *study); /* NULL allowed */
+/* runs what is not in the store yet, and computes study->result */
+fw_status fw_study_run(fw_study *study);
+/* what would be run: a text for a terminal, from the study as opened */
+fw_status fw_study_plan_text(const fw_study *study, fw_text *out);
+/* 1 where nothing was found that holds every limit (of a size), else 0 */
+int fw_study_decision(const fw_study *study);
+
+#endif

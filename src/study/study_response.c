@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A number of a document, by the keys that lead to it.
+
+     [DOCUMENT:] KEY ( .KEY | [SELECTOR] )*
+
+   SELECTOR picks elements of a list: a number counts from 0; * is all of them; words with commas between
+   pick those of which every word is the value of some text ([stroke,step]: the requirement of that probe in that
+   scene). Cost: that of the keys on the way. Test: tests/unit/study/test_response.c */
+#include "study/study_parts.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const fw_study_document fw_study_documents[] = {
+    {"verdict", FW_DOCUMENT_VERDICT_JSON, FW_STUDY_STAGE_JUDGE},
+    {"simulate", FW_DOCUMENT_SIMULATE_JSON, FW_STUDY_STAGE_SIMULATE},
+    {"statics", FW_DOCUMENT_STATICS_JSON, FW_STUDY_STAGE_STATICS},
+    {"modes", FW_DOCUMENT_MODES_JSON, FW_STUDY_STAGE_MODES},
+    {"workspace", FW_DOCUMENT_WORKSPACE_JSON, FW_STUDY_STAGE_WORKSPACE},
+    {"masks", FW_DOCUMENT_MASKS_JSON, FW_STUDY_STAGE_JUDGE | FW_STUDY_STAGE_FABRICATE},
+    {"recipes", FW_DOCUMENT_RECIPES_JSON, FW_STUDY_STAGE_JUDGE | FW_STUDY_STAGE_FABRICATE},
+};
+const int fw_study_document_count = sizeof fw_study_documents / sizeof fw_study_documents[0];
+
+/* ---- units, by the end of a key ---- */
+
+/* "volume_m2_rad" ends in "m2 rad": the longest end behind a '_' that is a unit */
+static fw_status unit_of_key(fw_arena *arena, const char *key, size_t n, const char **unit) {
+    char text[64];
+    *unit = "";
+    for (size_t at = 0; at < n; at++) {
+        if (key[at] != '_') continue;
+        size_t length = 0;
+        for (size_t k = at + 1; k < n && length + 2 < sizeof text; k++) {
+            bool per = n - k >= 5 && strncmp(key + k, "_per_", 5) == 0;
+            text[length++] = per ? '/' : key[k] == '_' ? ' ' : key[k];
+            if (per) k += 4;
+        }
+        text[length] = '\0';
+        const char *spelt = strcmp(text, "Nm") == 0 ? "N m" : text;
+        fw_quantity_unit found;
+        if (!fw_quantity_unit_parse(spelt, strlen(spelt), &found, NULL, NULL)) continue;
+        FW_NEED(*unit = fw_arena_strdup(arena, spelt));
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
+/* the last key of a path, without selectors behind it */
+static void last_key(const char *path, const char **key, size_t *n) {
+    *key = path, *n = 0;
+    for (const char *at = path; *at;) {
+        if (*at == '[') {
+            const char *end = strchr(at, ']');
+            at = end ? end + 1 : at + strlen(at);
+        } else if (*at == '.') {
+            at++;
+        } else {
+            *key = at, *n = strcspn(at, ".[");
+            at += *n;
+        }
+    }
+}
+
+static bool well_formed(const char *path) {
+    if (!*path || *path == '.' || *path == '[') return false;
+    for (const char *at = path; *at;) {
+        if (*at == '[') {
+            size_t n = strcspn(at, "]");
+            if (at[n] != ']' || n < 2) return false;
+            at += n + 1;
+            if (*at && *at != '.' && *at != '[') return false;
+        } else if (*at == '.') {
+            if (!at[1] || at[1] == '.' || at[1] == '[') return false;
+            at++;
+        } else {
+            at += strcspn(at, ".[");
+        }
+    }
+    return true;
+}
+
+fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *asked, fw_diags *diags,
+                                  fw_study_response *response) {
+    const char *key, *colon = strchr(asked->value, ':'), *bracket = strchr(asked->value, '[');
+    size_t n = 0;
+    if (colon && bracket && bracket < colon) colon = NULL; /* of a selector */
+    *response = (fw_study_response){.asked = asked, .path = asked->value, .now = (double)NAN};
+    if (colon) {
+        n = (size_t)(colon - asked->value);
+        response->path = colon + 1 + strspn(colon + 1, " ");
+        response->document = -1;
+        for (int i = 0; i < fw_study_document_count; i++)
+            if (strlen(fw_study_documents[i].name) == n &&
+                memcmp(fw_study_documents[i].name, asked->value, n) == 0)
+                response->document = i;
+        if (response->document < 0)
+            return fw_diag_error(diags, 492, asked->place,
+                                 "response '%s': there is no document '%.*s'; there are verdict, "
+                                 "simulate, statics, modes, workspace, masks and recipes",
+                                 asked->name, (int)n, asked->value);
+    }
+    if (!well_formed(response->path))
+        return fw_diag_error(diags, 492, asked->place,
+                             "response '%s': \"%s\" is no path; write keys with dots between and "
+                             "elements of lists in brackets: hinges[C].utilisation",
+                             asked->name, response->path);
+    last_key(response->path, &key, &n);
+    return unit_of_key(arena, key, n, &response->unit);
+}
+
+/* ---- the way through a document ---- */
+
+typedef struct walk {
+    const fw_study_response *response;
+    double value;
+    long found;   /* numbers that were met */
+    bool strange; /* something else than a number was met */
+    char *why;
+    size_t n; /* bytes of why */
+} walk;
+
+static void say(walk *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say(walk *w, const char *format, ...) {
+    va_list list;
+    if (w->why[0]) return; /* the first says it */
+    va_start(list, format);
+    vsnprintf(w->why, w->n, format, list);
+    va_end(list);
+}
+
+/* the keys of an object, or what names the elements of a list, for messages */
+static void names_of(const json_t *node, char *text, size_t n) {
+    static const char *const naming[] = {"id", "probe", "name", "part", "flow", "scene"};
+    size_t used = 0;
+    text[0] = '\0';
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)node, key, value) {
+        if (used + strlen(key) + 3 < n)
+            used += (size_t)snprintf(text + used, n - used, "%s%s", used ? " " : "", key);
+    }
+    for (size_t i = 0; json_is_array(node) && i < json_array_size(node); i++) {
+        const json_t *item = json_array_get(node, i);
+        const char *name = NULL;
+        for (size_t k = 0; k < sizeof naming / sizeof naming[0] && !name; k++)
+            name = json_string_value(json_object_get(item, naming[k]));
+        if (name && used + strlen(name) + 3 < n)
+            used += (size_t)snprintf(text + used, n - used, "%s%s", used ? " " : "", name);
+    }
+}
+
+static void add(walk *w, double value) {
+    const fw_device_respond_take take = w->response->asked->take;
+    if (w->found++ == 0)
+        w->value = value;
+    else
+        switch (take) {
+        case FW_TAKE_ONE:
+            break;
+        case FW_TAKE_LARGEST:
+            w->value = fmax(w->value, value);
+            break;
+        case FW_TAKE_LEAST:
+            w->value = fmin(w->value, value);
+            break;
+        case FW_TAKE_SUM:
+            w->value += value;
+            break;
+        }
+}
+
+/* a number, a truth, the word of a decision, or null */
+static void take_leaf(walk *w, const json_t *node) {
+    const char *text = json_string_value(node);
+    if (json_is_number(node))
+        add(w, json_number_value(node));
+    else if (json_is_boolean(node))
+        add(w, json_is_true(node) ? 1 : 0);
+    else if (json_is_null(node))
+        add(w, (double)NAN);
+    else if (text && (strcmp(text, "accept") == 0 || strcmp(text, "reject") == 0 ||
+                      strcmp(text, "inconclusive") == 0))
+        add(w, strcmp(text, "accept") == 0 ? 1 : 0);
+    else {
+        char names[160];
+        names_of(node, names, sizeof names);
+        w->strange = true;
+        say(w, "it leads to %s, not to a number%s%s",
+            text                  ? "a text"
+            : json_is_array(node) ? "a list"
+                                  : "an object",
+            names[0] ? "; below it are " : "", names);
+    }
+}
+
+/* every word of the selector is the value of some text of the element */
+static bool selected(const json_t *item, const char *selector, size_t n) {
+    for (size_t at = 0; at < n;) {
+        size_t end = at;
+        while (end < n && selector[end] != ',')
+            end++;
+        size_t from = at + strspn(selector + at, " ");
+        bool is = false;
+        const char *key;
+        json_t *value;
+        if (json_is_string(item))
+            is = strlen(json_string_value(item)) == end - from &&
+                 memcmp(json_string_value(item), selector + from, end - from) == 0;
+        json_object_foreach((json_t *)item, key, value) {
+            const char *text = json_string_value(value);
+            is = is || (text && strlen(text) == end - from &&
+                        memcmp(text, selector + from, end - from) == 0);
+        }
+        if (!is) return false;
+        at = end + 1;
+    }
+    return true;
+}
+
+static void go(walk *w, const json_t *node, const char *path);
+
+static void into_list(walk *w, const json_t *node, const char *path) {
+    size_t n = strcspn(path, "]") - 1, items = json_array_size(node), met = 0;
+    const char *selector = path + 1, *rest = selector + n + 1;
+    bool all = n == 1 && *selector == '*', number = strspn(selector, "0123456789") == n && n < 9;
+    if (!json_is_array(node)) {
+        say(w, "what stands before [%.*s] is no list", (int)n, selector);
+        return;
+    }
+    long index = 0;
+    for (size_t k = 0; number && k < n; k++)
+        index = 10 * index + (selector[k] - '0');
+    for (size_t i = 0; i < items; i++) {
+        const json_t *item = json_array_get(node, i);
+        if (!(all || (number ? (long)i == index : selected(item, selector, n)))) continue;
+        met++;
+        go(w, item, rest);
+    }
+    if (met == 0 && !all) {
+        char names[200];
+        names_of(node, names, sizeof names);
+        say(w, "the list has no [%.*s]%s%s", (int)n, selector, names[0] ? "; it has " : "", names);
+    }
+}
+
+static void into_object(walk *w, const json_t *node, const char *path) {
+    size_t n = strcspn(path, ".[");
+    char key[80], names[220];
+    snprintf(key, sizeof key, "%.*s", (int)n, path);
+    const json_t *next = json_object_get(node, key);
+    if (next) {
+        go(w, next, path + n);
+        return;
+    }
+    if (json_is_null(node)) { /* what would hold it is not there: no number, and no mistake */
+        add(w, (double)NAN);
+        return;
+    }
+    names_of(node, names, sizeof names);
+    say(w, "there is no '%s'%s%s", key, names[0] ? "; there are " : "", names);
+}
+
+static void go(walk *w, const json_t *node, const char *path) {
+    if (*path == '.') path++;
+    if (!*path)
+        take_leaf(w, node);
+    else if (*path == '[' && json_is_null(node))
+        add(w, (double)NAN);
+    else if (*path == '[')
+        into_list(w, node, path);
+    else
+        into_object(w, node, path);
+}
+
+bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
+                            char *why, size_t n) {
+    walk w = {.response = response, .value = (double)NAN, .why = why, .n = n};
+    why[0] = '\0';
+    go(&w, root, response->path);
+    if (w.found > 1 && response->asked->take == FW_TAKE_ONE)
+        say(&w, "it leads to %ld numbers; name one of them, or say take=\"largest\", least or sum",
+            w.found);
+    *value = w.found > 0 ? w.value : (double)NAN;
+    return why[0] == '\0';
+}

@@ -1,0 +1,496 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/study_store.h"
+#include "base/output.h"
+#include "base/text.h"
+#include "study/study_parts.h"
+#include <fcntl.h>
+#include <math.h>
+#include <sqlite3.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum {
+    APPLICATION = 0x46775374, /* "FwSt": PRAGMA application_id of a store of ours */
+    ROWS_AT_ONCE = 512        /* of one transaction; a reader sees them then */
+};
+static const double commit_s = 0.5; /* and not later than so */
+
+struct fw_study_store {
+    fw_study *study;
+    const char *path;
+    sqlite3 *db;
+    sqlite3_stmt *add, *get, *each;
+    fw_study_sample row;
+    int open; /* rows of the transaction */
+    struct timespec begun;
+};
+
+static const char *const states[] = {"failed", "run", "accept", "reject", "inconclusive"};
+
+static const char *state_of(const fw_study_sample *sample) {
+    if (!sample->run) return states[0];
+    return sample->decision == 0   ? states[2]
+           : sample->decision == 1 ? states[3]
+           : sample->decision == 4 ? states[4]
+                                   : states[1];
+}
+
+static void take_state(const char *state, fw_study_sample *sample) {
+    sample->run = strcmp(state, states[0]) != 0;
+    sample->decision = strcmp(state, states[2]) == 0   ? 0
+                       : strcmp(state, states[3]) == 0 ? 1
+                       : strcmp(state, states[4]) == 0 ? 4
+                                                       : -1;
+}
+
+static fw_status failed(const fw_study_store *store, const char *doing) {
+    return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
+                         "%s: %s; what was kept before is whole, and --resume goes on from it",
+                         doing, store->db ? sqlite3_errmsg(store->db) : "out of memory") == FW_NOMEM
+               ? FW_NOMEM
+               : FW_IO;
+}
+
+static fw_status run(const fw_study_store *store, const char *sql, const char *doing) {
+    return sqlite3_exec(store->db, sql, NULL, NULL, NULL) == SQLITE_OK ? FW_OK
+                                                                       : failed(store, doing);
+}
+
+static fw_status prepare(const fw_study_store *store, const fw_text *sql,
+                         sqlite3_stmt **statement) {
+    FW_TRY(fw_text_end(sql));
+    return sqlite3_prepare_v2(store->db, sql->data, -1, statement, NULL) == SQLITE_OK
+               ? FW_OK
+               : failed(store, "a statement could not be prepared");
+}
+
+/* a name between double quotes, which are doubled within */
+static void add_name(fw_text *sql, const char *name) {
+    fw_text_add(sql, ", \"");
+    for (const char *at = name; *at; at++)
+        fw_text_printf(sql, *at == '"' ? "\"\"" : "%c", *at);
+    fw_text_add(sql, "\"");
+}
+
+static void add_columns(fw_text *sql, const fw_study *study, bool types) {
+    for (int k = 0; k < study->ninput; k++) {
+        add_name(sql, study->input[k].what);
+        if (types) fw_text_add(sql, study->input[k].ntext > 0 ? "" : " REAL");
+    }
+    for (int k = 0; k < study->nresponse; k++) {
+        add_name(sql, study->response[k].asked->name);
+        if (types) fw_text_add(sql, " REAL");
+    }
+}
+
+/* ---- what it is of ---- */
+
+static fw_status say(fw_study_store *store, const char *key, const char *value) {
+    sqlite3_stmt *s;
+    if (sqlite3_prepare_v2(store->db, "INSERT INTO study VALUES (?, ?)", -1, &s, NULL) != SQLITE_OK)
+        return failed(store, "the store could not be begun");
+    sqlite3_bind_text(s, 1, key, -1, SQLITE_TRANSIENT);
+    sqlite3_bind_text(s, 2, value, -1, SQLITE_TRANSIENT);
+    bool done = sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_finalize(s);
+    return done ? FW_OK : failed(store, "the store could not be begun");
+}
+
+static fw_status make_tables(fw_study_store *store) {
+    const fw_study *study = store->study;
+    fw_text sql = fw_text_new(study->arena);
+    char number[32];
+    snprintf(number, sizeof number, "%d", (int)APPLICATION);
+    fw_text_printf(&sql, "PRAGMA application_id = %s; PRAGMA page_size = 4096; BEGIN;", number);
+    fw_text_add(
+        &sql, "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+              "CREATE TABLE sample (i INTEGER PRIMARY KEY, state TEXT, why TEXT, limit_used REAL");
+    add_columns(&sql, study, true);
+    fw_text_add(&sql, ");");
+    FW_TRY(fw_text_end(&sql));
+    FW_TRY(run(store, sql.data, "the store could not be begun"));
+    FW_TRY(say(store, "program", FW_VERSION));
+    FW_TRY(say(store, "hash", study->hash));
+    FW_TRY(say(store, "study", study->asked->name));
+    FW_TRY(say(store, "kind", fw_device_study_kind_text(study->asked->kind)));
+    FW_TRY(say(store, "device", study->device_name));
+    FW_TRY(say(store, "file", study->options.file));
+    if (study->options.shards > 0) {
+        snprintf(number, sizeof number, "%d", study->options.shard);
+        FW_TRY(say(store, "shard", number));
+        snprintf(number, sizeof number, "%d", study->options.shards);
+        FW_TRY(say(store, "shards", number));
+    }
+    return run(store, "COMMIT", "the store could not be begun");
+}
+
+/* what the store says under a key, of *db; NULL: nothing, or it is no store */
+static const char *said(fw_arena *arena, sqlite3 *db, const char *key) {
+    sqlite3_stmt *s;
+    const char *value = NULL;
+    if (sqlite3_prepare_v2(db, "SELECT value FROM study WHERE key = ?", -1, &s, NULL) != SQLITE_OK)
+        return NULL;
+    sqlite3_bind_text(s, 1, key, -1, SQLITE_TRANSIENT);
+    if (sqlite3_step(s) == SQLITE_ROW)
+        value = fw_arena_strdup(arena, (const char *)sqlite3_column_text(s, 0));
+    sqlite3_finalize(s);
+    return value;
+}
+
+static bool is_ours(sqlite3 *db) {
+    sqlite3_stmt *s;
+    bool ours = false;
+    if (sqlite3_prepare_v2(db, "PRAGMA application_id", -1, &s, NULL) == SQLITE_OK &&
+        sqlite3_step(s) == SQLITE_ROW)
+        ours = sqlite3_column_int(s, 0) == APPLICATION;
+    sqlite3_finalize(s);
+    return ours;
+}
+
+fw_status fw_study_store_said(fw_arena *arena, fw_diags *diags, const char *directory,
+                              const char *key, const char **value) {
+    const char *path = fw_arena_printf(arena, "%s/study.sqlite", directory);
+    sqlite3 *db = NULL;
+    FW_NEED(path);
+    *value = NULL;
+    bool there = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK && is_ours(db);
+    if (there) *value = said(arena, db, key);
+    fw_status status = FW_OK;
+    if (!there)
+        status = fw_diag_error(
+            diags, 497, (fw_place){.file = path}, "it is no store of a study: %s",
+            db && sqlite3_errcode(db) != SQLITE_OK ? sqlite3_errmsg(db)
+                                                   : "it was made by another program");
+    sqlite3_close(db);
+    return status;
+}
+
+/* ---- opening ---- */
+
+static fw_status prepare_all(fw_study_store *store) {
+    const fw_study *study = store->study;
+    fw_text add = fw_text_new(study->arena), get = fw_text_new(study->arena);
+    fw_text_add(&add, "INSERT INTO sample VALUES (?, ?, ?, ?");
+    for (int k = 0; k < study->ninput + study->nresponse; k++)
+        fw_text_add(&add, ", ?");
+    fw_text_add(&add, ")");
+    FW_TRY(prepare(store, &add, &store->add));
+    fw_text_add(&get, "SELECT i, state, why, limit_used");
+    add_columns(&get, study, false);
+    fw_text each = fw_text_new(study->arena);
+    FW_TRY(fw_text_end(&get));
+    fw_text_printf(&each, "%s FROM sample ORDER BY i", get.data);
+    fw_text_add(&get, " FROM sample WHERE i = ?");
+    FW_TRY(prepare(store, &get, &store->get));
+    return prepare(store, &each, &store->each);
+}
+
+/* a store that is there: of this study, or the message says of which */
+static fw_status check_same(const fw_study_store *store) {
+    const char *hash = said(store->study->arena, store->db, "hash");
+    const char *name = said(store->study->arena, store->db, "study");
+    if (hash && strcmp(hash, store->study->hash) == 0) return FW_OK;
+    return fw_diag_error(&store->study->diags, 495, (fw_place){.file = store->path},
+                         "it holds the samples of study '%s' of other inputs, options or another "
+                         "version of the program, not those of '%s' as it is now; name another "
+                         "directory with -o, or leave --resume out to begin anew",
+                         name ? name : "?", store->study->asked->name);
+}
+
+/* what an earlier study left beside its store: nothing of it is of the one that begins */
+static void remove_results(const char *directory) {
+    static const char *const name[] = {"study.json", "study.csv", "study.html", "study.sqlite-wal",
+                                       "study.sqlite-shm"};
+    int at = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (at < 0) return;
+    for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
+        unlinkat(at, name[i], 0);
+    fw_output_remove_tree(at, "pictures");
+    close(at);
+}
+
+static fw_status open_file(fw_study_store *store, bool resume) {
+    if (access(store->path, F_OK) == 0) {
+        bool ours =
+            sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READWRITE, NULL) == SQLITE_OK &&
+            is_ours(store->db);
+        if (!ours)
+            return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
+                                 "there is a file of this name that is no store of a study; name "
+                                 "another directory with -o");
+        if (resume) {
+            FW_TRY(check_same(store));
+            return run(store, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL",
+                       "the store could not be opened");
+        }
+        sqlite3_close(store->db);
+        store->db = NULL;
+        if (unlink(store->path) != 0)
+            return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
+                                 "the store of an earlier run could not be removed");
+        remove_results(store->study->options.output);
+    }
+    if (sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
+                        NULL) != SQLITE_OK)
+        return failed(store, "the store could not be made");
+    FW_TRY(make_tables(store));
+    return run(store, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL",
+               "the store could not be made");
+}
+
+fw_status fw_study_store_open(fw_study *study, fw_study_store **out) {
+    fw_study_store *store = fw_arena_one(study->arena, fw_study_store);
+    FW_NEED(*out = store);
+    store->study = study;
+    FW_NEED(store->path = fw_arena_printf(study->arena, "%s/study.sqlite", study->options.output));
+    FW_TRY(fw_study_sample_new(study->arena, study, &store->row));
+    FW_TRY(open_file(store, study->options.resume));
+    return prepare_all(store);
+}
+
+static void let_go(fw_study_store *store) {
+    sqlite3_finalize(store->add);
+    sqlite3_finalize(store->get);
+    sqlite3_finalize(store->each);
+    store->add = store->get = store->each = NULL;
+    sqlite3_close(store->db);
+    store->db = NULL;
+}
+
+static fw_status commit(fw_study_store *store) {
+    if (store->open == 0) return FW_OK;
+    store->open = 0;
+    return run(store, "COMMIT", "samples could not be written");
+}
+
+void fw_study_store_close(fw_study_store *store) {
+    if (!store || !store->db) return;
+    commit(store);
+    let_go(store);
+}
+
+/* ---- rows ---- */
+
+static double seconds_since(struct timespec then) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - then.tv_sec) + 1e-9 * (double)(now.tv_nsec - then.tv_nsec);
+}
+
+static void bind_number(sqlite3_stmt *s, int at, double value) {
+    if (isnan(value))
+        sqlite3_bind_null(s, at);
+    else
+        sqlite3_bind_double(s, at, value);
+}
+
+fw_status fw_study_store_add(fw_study_store *store, const fw_study_sample *sample) {
+    const fw_study *study = store->study;
+    sqlite3_stmt *s = store->add;
+    int at = 1;
+    if (store->open == 0) {
+        FW_TRY(run(store, "BEGIN", "samples could not be written"));
+        clock_gettime(CLOCK_MONOTONIC, &store->begun);
+    }
+    sqlite3_bind_int64(s, at++, sample->i);
+    sqlite3_bind_text(s, at++, state_of(sample), -1, SQLITE_STATIC);
+    if (sample->run)
+        sqlite3_bind_null(s, at++);
+    else
+        sqlite3_bind_text(s, at++, sample->why, -1, SQLITE_TRANSIENT);
+    bind_number(s, at++, sample->used);
+    for (int k = 0; k < study->ninput; k++, at++)
+        if (study->input[k].ntext > 0)
+            sqlite3_bind_text(s, at, sample->text[k], -1, SQLITE_TRANSIENT);
+        else
+            bind_number(s, at, sample->value[k]);
+    for (int k = 0; k < study->nresponse; k++)
+        bind_number(s, at++, sample->response[k]);
+    bool done = sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_reset(s);
+    if (!done) {
+        fw_status status = failed(store, "a sample could not be written");
+        commit(store);
+        return status;
+    }
+    store->open++;
+    return store->open >= ROWS_AT_ONCE || seconds_since(store->begun) > commit_s ? commit(store)
+                                                                                 : FW_OK;
+}
+
+static double column(sqlite3_stmt *s, int at) {
+    return sqlite3_column_type(s, at) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, at);
+}
+
+static const char *text_column(sqlite3_stmt *s, int at) {
+    const char *text = (const char *)sqlite3_column_text(s, at);
+    return text ? text : "";
+}
+
+static void take_row(const fw_study *study, sqlite3_stmt *s, fw_study_sample *sample) {
+    int at = 4;
+    sample->i = (long)sqlite3_column_int64(s, 0);
+    take_state(text_column(s, 1), sample);
+    snprintf(sample->why, FW_STUDY_WHY, "%s", text_column(s, 2));
+    sample->used = column(s, 3);
+    for (int k = 0; k < study->ninput; k++, at++) {
+        bool listed = study->input[k].ntext > 0;
+        sample->value[k] = listed ? (double)NAN : column(s, at);
+        snprintf(sample->text[k], FW_STUDY_TEXT, "%s", listed ? text_column(s, at) : "");
+    }
+    for (int k = 0; k < study->nresponse; k++)
+        sample->response[k] = column(s, at++);
+}
+
+fw_status fw_study_store_get(fw_study_store *store, long i, fw_study_sample *sample, bool *found) {
+    sqlite3_bind_int64(store->get, 1, i);
+    int step = sqlite3_step(store->get);
+    *found = step == SQLITE_ROW;
+    if (*found) take_row(store->study, store->get, sample);
+    sqlite3_reset(store->get);
+    return step == SQLITE_ROW || step == SQLITE_DONE ? FW_OK
+                                                     : failed(store, "samples could not be read");
+}
+
+long fw_study_store_count(fw_study_store *store) {
+    sqlite3_stmt *s;
+    long n = 0;
+    if (sqlite3_prepare_v2(store->db, "SELECT count(*) FROM sample", -1, &s, NULL) == SQLITE_OK &&
+        sqlite3_step(s) == SQLITE_ROW)
+        n = (long)sqlite3_column_int64(s, 0);
+    sqlite3_finalize(s);
+    return n;
+}
+
+fw_status fw_study_store_each(fw_study_store *store,
+                              fw_status (*row)(void *context, const fw_study_sample *sample),
+                              void *context) {
+    int step;
+    fw_status status = FW_OK;
+    while (status == FW_OK && (step = sqlite3_step(store->each)) == SQLITE_ROW) {
+        take_row(store->study, store->each, &store->row);
+        status = row(context, &store->row);
+    }
+    sqlite3_reset(store->each);
+    if (status != FW_OK) return status;
+    return step == SQLITE_DONE ? FW_OK : failed(store, "samples could not be read");
+}
+
+/* ---- the file in its final form ---- */
+
+/* Rows in order into a file beside it, which then takes its name. SQLite writes the same bytes for
+   the same statements on an empty file. */
+fw_status fw_study_store_finish(fw_study_store *store) {
+    fw_study *study = store->study;
+    fw_study_store last = {.study = study};
+    fw_text sql = fw_text_new(study->arena);
+    FW_TRY(commit(store));
+    FW_NEED(last.path = fw_arena_printf(study->arena, "%s.tmp-%ld", store->path, (long)getpid()));
+    unlink(last.path);
+    if (sqlite3_open_v2(last.path, &last.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL) !=
+        SQLITE_OK) {
+        fw_status status = failed(&last, "the store could not be completed");
+        sqlite3_close(last.db);
+        return status;
+    }
+    fw_status status = run(&last, "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF",
+                           "the store could not be completed");
+    if (status == FW_OK) status = make_tables(&last);
+    sqlite3_close(last.db);
+    last.db = NULL;
+    fw_text_add(&sql, "ATTACH ? AS last");
+    sqlite3_stmt *attach = NULL;
+    if (status == FW_OK) status = prepare(store, &sql, &attach);
+    if (status == FW_OK) {
+        sqlite3_bind_text(attach, 1, last.path, -1, SQLITE_TRANSIENT);
+        if (sqlite3_step(attach) != SQLITE_DONE)
+            status = failed(store, "the store could not be completed");
+    }
+    sqlite3_finalize(attach);
+    if (status == FW_OK)
+        status = run(store,
+                     "PRAGMA last.journal_mode = OFF; PRAGMA last.synchronous = FULL;"
+                     "INSERT INTO last.sample SELECT * FROM sample ORDER BY i; DETACH last",
+                     "the store could not be completed");
+    if (status != FW_OK) {
+        unlink(last.path);
+        return status;
+    }
+    let_go(store);
+    const char *wal = fw_arena_printf(study->arena, "%s-wal", store->path),
+               *shm = fw_arena_printf(study->arena, "%s-shm", store->path);
+    FW_NEED(wal && shm ? wal : NULL);
+    unlink(wal), unlink(shm);
+    if (rename(last.path, store->path) != 0) {
+        unlink(last.path);
+        return fw_diag_error(
+            &study->diags, 496, (fw_place){.file = store->path},
+            "the completed store could not take the place of the one it was made of");
+    }
+    if (sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READONLY, NULL) != SQLITE_OK)
+        return failed(store, "the store could not be read again");
+    return prepare_all(store);
+}
+
+/* ---- shards ---- */
+
+static fw_status shard_of(fw_study *study, const char *directory, sqlite3 *db, int n, bool *seen) {
+    const char *hash = said(study->arena, db, "hash"), *shard = said(study->arena, db, "shard"),
+               *shards = said(study->arena, db, "shards");
+    fw_place place = {.file = directory};
+    int i = shard ? (int)strtol(shard, NULL, 10) : 0,
+        of = shards ? (int)strtol(shards, NULL, 10) : 0;
+    if (!hash || strcmp(hash, study->hash) != 0)
+        return fw_diag_error(&study->diags, 497, place,
+                             "its store is of another study, of other inputs or options, or of "
+                             "another version of the program than %s is now",
+                             study->options.file);
+    if (of != n || i < 1 || i > n)
+        return fw_diag_error(
+            &study->diags, 497, place,
+            "its store is shard %d of %d, and %d directories were named; name those of all "
+            "shards, each once",
+            i, of, n);
+    if (seen[i - 1])
+        return fw_diag_error(&study->diags, 497, place, "shard %d of %d is named twice", i, n);
+    seen[i - 1] = true;
+    return FW_OK;
+}
+
+static fw_status merge_one(fw_study_store *store, const char *directory, int n, bool *seen) {
+    fw_study *study = store->study;
+    const char *path = fw_arena_printf(study->arena, "%s/study.sqlite", directory);
+    sqlite3 *db = NULL;
+    sqlite3_stmt *attach = NULL;
+    FW_NEED(path);
+    const char *value;
+    FW_TRY(fw_study_store_said(study->arena, &study->diags, directory, "hash", &value));
+    fw_status status = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK
+                           ? shard_of(study, directory, db, n, seen)
+                           : FW_IO;
+    sqlite3_close(db);
+    FW_TRY(status);
+    FW_TRY(commit(store));
+    if (sqlite3_prepare_v2(store->db, "ATTACH ? AS shard", -1, &attach, NULL) != SQLITE_OK)
+        return failed(store, "a shard could not be read");
+    sqlite3_bind_text(attach, 1, path, -1, SQLITE_TRANSIENT);
+    bool done = sqlite3_step(attach) == SQLITE_DONE;
+    sqlite3_finalize(attach);
+    if (!done) return failed(store, "a shard could not be read");
+    status = run(store, "INSERT INTO main.sample SELECT * FROM shard.sample",
+                 "a shard could not be read");
+    if (status == FW_OK) status = run(store, "DETACH shard", "a shard could not be read");
+    return status;
+}
+
+fw_status fw_study_store_merge(fw_study_store *store, const char *const *directory, int n) {
+    bool *seen = fw_arena_array(store->study->arena, bool, (size_t)n);
+    FW_NEED(seen);
+    for (int i = 0; i < n; i++)
+        FW_TRY(merge_one(store, directory[i], n, seen));
+    return FW_OK;
+}

@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a study says on a terminal, before it starts and when it is done; and its table. */
+#include "base/output.h"
+#include "study/study_parts.h"
+#include "study/study_result.h"
+#include "study/study_write.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static void number(fw_text *out, double value, const char *unit) {
+    if (isnan(value)) {
+        fw_text_add(out, "no value");
+        return;
+    }
+    fw_text_number(out, value, 5);
+    if (unit && *unit && strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
+}
+
+/* in the unit in which an input is written */
+static void input_value(fw_text *out, const fw_study_input *in, double value) {
+    number(out, fw_quantity_unit_from_si(&in->unit, value), in->unit_text);
+}
+
+static void range_of(fw_text *out, const fw_study *study, int k) {
+    const fw_study_input *in = &study->input[k];
+    fw_text_printf(out, "  %-24s ", in->what);
+    if (in->ntext > 0) {
+        for (int i = 0; i < in->ntext; i++)
+            fw_text_printf(out, "%s%s", i ? ", " : "", in->text[i]);
+    } else if (k < study->nvary) {
+        input_value(out, in, in->from);
+        fw_text_add(out, " to ");
+        input_value(out, in, in->to);
+        if (study->asked->kind == FW_STUDY_IS_sweep && study->asked->points != FW_POINTS_SOBOL)
+            fw_text_printf(out, ", %d values", in->steps);
+        if (in->logarithmic) fw_text_add(out, ", equal ratios");
+    } else {
+        fw_text_add(out, "differs from device to device");
+    }
+    fw_text_add(out, "\n");
+}
+
+static void seconds(fw_text *out, double s) {
+    const double scale = s < 120 ? 1 : s < 7200 ? 60 : 3600;
+    fw_text_number(out, s / scale, 2);
+    fw_text_add(out, s < 120 ? " s" : s < 7200 ? " min" : " h");
+}
+
+/* how many devices the study asks for, at most; 0: the kind says while it runs */
+static long devices(const fw_study *study) {
+    const fw_device_study *a = study->asked;
+    long n = study->nvary, samples = a->samples, sweep = 0;
+    int goals = 0;
+    switch (a->kind) {
+    case FW_STUDY_IS_sweep: {
+        fw_study copy = *study; /* its messages are said when it runs */
+        copy.diags = fw_diags_new(study->arena);
+        return fw_study_sweep_points(&copy, &sweep) == FW_OK ? sweep : 0;
+    }
+    case FW_STUDY_IS_yield:
+        return samples > 0 ? samples : 4000;
+    case FW_STUDY_IS_size:
+        for (int r = 0; r < study->nresponse; r++)
+            goals += study->response[r].asked->goal != FW_GOAL_NONE;
+        return samples > 0 ? samples : 1 + 4 * n + 25 * (n + 1) * (goals == 2 ? 33 : 3);
+    case FW_STUDY_IS_sensitivity:
+        return 7 * n + (samples > 0 ? samples : 128) * (n + 2);
+    case FW_STUDY_IS_worst_case:
+        return (n <= 10 ? 1L << n : 128) + 1 + 8 * (n + 1) + 2L * study->nresponse * 15 * (n + 1);
+    case FW_STUDY_KINDS:
+        break;
+    }
+    return 0;
+}
+
+fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
+    const fw_device_study *a = study->asked;
+    fw_text_printf(out, "study %s of %s: %s, each device judged as %s\n", a->name,
+                   study->device_name, fw_device_study_kind_text(a->kind),
+                   a->kind == FW_STUDY_IS_yield ? "made" : fw_device_study_judge_text(a->judge));
+    for (int k = 0; k < study->ninput; k++)
+        range_of(out, study, k);
+    for (int r = 0; r < study->nresponse; r++) {
+        const fw_study_response *q = &study->response[r];
+        fw_text_printf(out, "  %-24s %s, now ", q->asked->name, q->asked->value);
+        number(out, q->now, q->unit);
+        fw_text_add(out, "\n");
+    }
+    return fw_text_end(out);
+}
+
+fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
+    long n = devices(study);
+    int jobs = fw_study_jobs(study);
+    FW_TRY(fw_study_asked_text(study, out));
+    fw_text_printf(out, "%s%ld devices in %d threads",
+                   study->asked->kind == FW_STUDY_IS_sweep ? "" : "at most ", n, jobs);
+    if (study->seconds_each > 0) {
+        fw_text_add(out, ", about ");
+        seconds(out, study->seconds_each * (double)n / jobs);
+        fw_text_add(out, " (one took ");
+        seconds(out, study->seconds_each);
+        fw_text_add(out, ")");
+    }
+    fw_text_add(out, "\n");
+    return fw_text_end(out);
+}
+
+/* ---- when it is done ---- */
+
+static void settings(fw_text *out, const fw_study *study, char (*text)[FW_STUDY_TEXT]) {
+    for (int k = 0; k < study->nvary; k++)
+        fw_text_printf(out, " --set \"%s=%s\"", study->input[k].what, text[k]);
+    fw_text_add(out, "\n");
+}
+
+static void say_samples(fw_text *out, const fw_study *study) {
+    const fw_study_result *r = study->result;
+    fw_text_printf(out, "%ld devices", r->run + r->failed);
+    if (r->accepted + r->rejected + r->inconclusive > 0)
+        fw_text_printf(out, ": %ld accepted, %ld rejected, %ld inconclusive", r->accepted,
+                       r->rejected, r->inconclusive);
+    if (r->failed > 0)
+        fw_text_printf(out, "; %ld could not be judged (number %ld: %s)", r->failed, r->example_at,
+                       r->example_why);
+    fw_text_add(out, "\n");
+}
+
+static void say_ranges(fw_text *out, const fw_study *study) {
+    for (int r = 0; r < study->nresponse; r++) {
+        const fw_study_response *q = &study->response[r];
+        const fw_study_extreme *e = &study->result->extreme[r];
+        fw_text_printf(out, "  %-24s ", q->asked->name);
+        number(out, e->least, q->unit);
+        fw_text_printf(out, " (number %ld) to ", e->least_at);
+        number(out, e->largest, q->unit);
+        fw_text_printf(out, " (number %ld)", e->largest_at);
+        if (e->n < study->result->run + study->result->failed)
+            fw_text_printf(out, ", in %ld devices", e->n);
+        fw_text_add(out, "\n");
+    }
+}
+
+static void say_ends(fw_text *out, const fw_study *study) {
+    for (int r = 0; r < study->nresponse; r++)
+        for (int e = 0; e < 2; e++) {
+            const fw_study_end *end = &study->result->end[2 * r + e];
+            fw_text_printf(out, "  %-24s %s ", study->response[r].asked->name,
+                           e == 0 ? "least" : "largest");
+            number(out, end->known ? end->value : (double)NAN, study->response[r].unit);
+            if (end->known) fw_text_add(out, " at"), settings(out, study, end->text);
+        }
+}
+
+static void say_sensitivity(fw_text *out, const fw_study *study) {
+    const fw_study_result *result = study->result;
+    for (int r = 0; r < study->nresponse; r++) {
+        const fw_study_response *q = &study->response[r];
+        fw_text_printf(out, "  %s, now ", q->asked->name);
+        number(out, q->now, q->unit);
+        fw_text_add(out, "\n");
+        for (int k = 0; k < study->ninput; k++) {
+            size_t at = (size_t)r * (size_t)study->ninput + (size_t)k;
+            const fw_study_derivative *d = &result->derivative[at];
+            fw_text_printf(out, "    %-22s half its range changes it by ", study->input[k].what);
+            number(out, d->spread, q->unit);
+            if (result->index) {
+                fw_text_add(out, "; share of its variance ");
+                fw_text_number(out, result->index[at].first, 2);
+                fw_text_add(out, " alone, ");
+                fw_text_number(out, result->index[at].total, 2);
+                fw_text_add(out, " with others");
+            }
+            fw_text_add(out, "\n");
+        }
+    }
+}
+
+static void say_found(fw_text *out, const fw_study *study, const fw_study_found *f) {
+    fw_text_add(out, " ");
+    for (int r = 0; r < study->nresponse; r++) {
+        fw_text_printf(out, "%s %s ", r ? "," : "", study->response[r].asked->name);
+        number(out, f->response[r], study->response[r].unit);
+    }
+    fw_text_add(out, "\n   ");
+    settings(out, study, f->text);
+}
+
+static void say_size(fw_text *out, const fw_study *study) {
+    const fw_study_result *r = study->result;
+    if (r->nfound == 0) {
+        fw_text_add(out, "no device was found that holds every limit and is accepted");
+        if (r->nearest.text) {
+            fw_text_add(out, "; the nearest:\n");
+            say_found(out, study, &r->nearest);
+        } else {
+            fw_text_add(out, "\n");
+        }
+    } else {
+        fw_text_printf(out,
+                       r->nfound == 1 ? "the best that was found (accepted, number %ld):\n"
+                                      : "%ld devices that no other beats in both goals:\n",
+                       r->nfound == 1 ? r->found[0].i : (long)r->nfound);
+        for (int i = 0; i < r->nfound; i++)
+            say_found(out, study, &r->found[i]);
+    }
+}
+
+static void percent(fw_text *out, double share) {
+    /* near 1 the rest is what counts */
+    double away = fmin(share, 1 - share);
+    int digits = away > 0 ? (int)fmax(2, 1 - floor(log10(100 * away))) : 2;
+    fw_text_fixed(out, 100 * share, digits > 9 ? 9 : digits);
+    fw_text_add(out, " %");
+}
+
+static void say_yield(fw_text *out, const fw_study *study) {
+    for (int i = 0; i < study->result->nyield; i++) {
+        const fw_study_flow_yield *y = &study->result->yield[i];
+        fw_text_printf(out, "%s: yield ", y->flow ? y->flow : study->device_name);
+        percent(out, y->value);
+        fw_text_add(out, " (");
+        percent(out, y->sampled_low);
+        fw_text_add(out, " to ");
+        percent(out, y->sampled_high);
+        fw_text_add(out, " by sampling; ");
+        percent(out, y->low);
+        fw_text_add(out, " to ");
+        percent(out, y->high);
+        fw_text_add(out, " with what the model may be off by)\n");
+        fw_text_printf(out, "  %ld devices by %s: %s\n", y->evaluations, y->method, y->reason);
+        if (y->caution) fw_text_printf(out, "  %s\n", y->caution);
+        if (y->unevaluated > 0)
+            fw_text_printf(out, "  %ld of them could not be judged: they count both ways\n",
+                           y->unevaluated);
+        if (!y->share) continue;
+        fw_text_add(out, "  the nearest device that fails is ");
+        fw_text_number(out, y->beta, 3);
+        fw_text_add(out, " standard deviations away; of that way ");
+        for (int k = 0; k < y->ninput; k++) {
+            fw_text_printf(out, "%s%s has ", k ? ", " : "", y->input[k]);
+            percent(out, y->share[k]);
+        }
+        fw_text_add(out, "\n");
+    }
+}
+
+fw_status fw_study_text(const fw_study *study, fw_text *out) {
+    fw_text_printf(out, "study %s of %s: %s\n", study->asked->name, study->device_name,
+                   fw_device_study_kind_text(study->asked->kind));
+    say_samples(out, study);
+    switch (study->asked->kind) {
+    case FW_STUDY_IS_sweep:
+        say_ranges(out, study);
+        break;
+    case FW_STUDY_IS_yield:
+        say_yield(out, study);
+        break;
+    case FW_STUDY_IS_size:
+        say_size(out, study);
+        break;
+    case FW_STUDY_IS_sensitivity:
+        say_sensitivity(out, study);
+        break;
+    case FW_STUDY_IS_worst_case:
+        say_ends(out, study);
+        break;
+    case FW_STUDY_KINDS:
+        break;
+    }
+    if (study->result->how) fw_text_printf(out, "%s\n", study->result->how);
+    return fw_text_end(out);
+}
+
+/* ---- the table ---- */
+
+typedef struct table {
+    const fw_study *study;
+    FILE *file;
+    fw_text line;
+    fw_arena *arena;
+} table;
+
+/* a field of CSV (RFC 4180); a text that a spreadsheet would take for a formula gets a quote */
+static void field(fw_text *out, const char *text) {
+    bool formula = *text && strchr("=+-@\t\r", *text) != NULL;
+    bool quoted = formula || strpbrk(text, ",\"\n\r") != NULL;
+    if (!quoted) {
+        fw_text_add(out, text);
+        return;
+    }
+    fw_text_add(out, formula ? "\"'" : "\"");
+    for (const char *at = text; *at; at++)
+        fw_text_printf(out, *at == '"' ? "\"\"" : "%c", *at);
+    fw_text_add(out, "\"");
+}
+
+static void real(fw_text *out, double value) {
+    fw_text_add(out, ",");
+    if (!isnan(value)) fw_text_number(out, value, 17);
+}
+
+static fw_status row(void *context, const fw_study_sample *s) {
+    table *t = context;
+    fw_mark mark = fw_arena_mark(t->arena);
+    fw_text line = fw_text_new(t->arena);
+    fw_text_printf(&line, "%ld,", s->i);
+    fw_text_add(&line, !s->run            ? "failed"
+                       : s->decision == 0 ? "accept"
+                       : s->decision == 1 ? "reject"
+                       : s->decision == 4 ? "inconclusive"
+                                          : "run");
+    fw_text_add(&line, ",");
+    field(&line, s->run ? "" : s->why);
+    real(&line, s->used);
+    for (int k = 0; k < t->study->ninput; k++)
+        if (t->study->input[k].ntext > 0)
+            fw_text_add(&line, ","), field(&line, s->text[k]);
+        else
+            real(&line, s->value[k]);
+    for (int k = 0; k < t->study->nresponse; k++)
+        real(&line, s->response[k]);
+    fw_text_add(&line, "\n");
+    fw_status status = fw_text_end(&line);
+    if (status == FW_OK && fwrite(line.data, 1, line.length, t->file) != line.length)
+        status = FW_IO;
+    fw_arena_rewind(t->arena, mark);
+    return status;
+}
+
+static fw_status write_table(table *t) {
+    fw_text *head = &t->line;
+    fw_text_add(head, "i,state,why,limit_used");
+    for (int k = 0; k < t->study->ninput; k++)
+        fw_text_add(head, ","), field(head, t->study->input[k].what);
+    for (int k = 0; k < t->study->nresponse; k++)
+        fw_text_add(head, ","), field(head, t->study->response[k].asked->name);
+    fw_text_add(head, "\n");
+    FW_TRY(fw_text_end(head));
+    if (fwrite(head->data, 1, head->length, t->file) != head->length) return FW_IO;
+    return fw_study_store_each(t->study->store, row, t);
+}
+
+fw_status fw_study_csv_save(fw_study *study, const char *path) {
+    const char *aside = fw_arena_printf(study->arena, "%s.tmp-%ld", path, (long)getpid());
+    FW_NEED(aside);
+    table t = {.study = study, .line = fw_text_new(study->arena), .arena = study->arena};
+    t.file = fopen(aside, "wb");
+    fw_status status = t.file ? write_table(&t) : FW_IO;
+    if (t.file && (fflush(t.file) != 0 || fsync(fileno(t.file)) != 0)) status = FW_IO;
+    if (t.file && fclose(t.file) != 0) status = FW_IO;
+    if (status == FW_OK && rename(aside, path) != 0) status = FW_IO;
+    if (status == FW_OK) return FW_OK;
+    unlink(aside);
+    if (status != FW_IO) return status;
+    return fw_diag_error(&study->diags, 222, (fw_place){.file = path}, "could not be written") ==
+                   FW_NOMEM
+               ? FW_NOMEM
+               : FW_IO;
+}

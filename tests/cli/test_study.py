@@ -1,0 +1,302 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""flexwright study: samples say what check says, in any number of threads, shards and attempts the same bytes."""
+import csv
+import json
+import math
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import sqlite3
+import subprocess
+import tempfile
+import time
+import unittest
+
+from common import GALLERY, PROGRAM, run
+
+FLOW = ("--flow", "al-masked-rie")
+
+
+def bare():
+    """the gallery's six-bar as drawn, of no flow: what differs from device to device is what the test says"""
+    text = re.sub(r'\s*<(flow|workspace) [^>]*/>', "", GALLERY.read_text())
+    text = re.sub(r'\s*<scene name="gentle-step".*?</scene>', "", text, flags=re.S)
+    text = text.replace(' flow="al-masked-rie"', "").replace('fx="0.25 mN"', 'fx="push"')
+    return text.replace("<material ", '<parameter name="push" value="0.25 mN"/>\n  <material ', 1)
+
+
+def study(name, kind, rows, device=GALLERY, **attributes):
+    more = "".join(f' {k.replace("_", "-")}="{v}"' for k, v in attributes.items())
+    return (f'<study xmlns="urn:flexwright:study:1" name="{name}" kind="{kind}" device="{device}"{more}>\n'
+            f'{rows}\n</study>\n')
+
+
+SWEEP = """<vary what="arc" from="200 deg" to="260 deg" steps="4"/>
+<vary what="flexure[C]/@width" values="7.5 um; 8 um"/>
+<respond name="U" value="governing.utilisation" max="1"/>
+<respond name="C" value="hinges[C].utilisation"/>
+<respond name="largest" value="hinges[*].utilisation" take="largest"/>
+<respond name="f" value="modes:modes[0].f_Hz"/>"""
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        self.place = pathlib.Path(tempfile.mkdtemp(prefix="fw-study-"))
+        self.addCleanup(shutil.rmtree, self.place)
+
+    def write(self, text, name="study.xml"):
+        path = self.place / name
+        path.write_text(text)
+        return path
+
+    def run_study(self, path, out, *more, status=0):
+        done = run("study", path, "-o", self.place / out, *FLOW, *more)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return json.loads((self.place / out / "study.json").read_text()) if status == 0 else done
+
+    def rows(self, out):
+        with open(self.place / out / "study.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_a_sample_says_what_check_says(self):
+        result = self.run_study(self.write(study("s", "sweep", SWEEP).replace("<study", "<study as=\"drawn\"")), "out")
+        rows = self.rows("out")
+        self.assertEqual(len(rows), 8)
+        self.assertEqual(result["samples"]["run"], 8)
+        for row in rows:
+            settings = ("--set", f"arc={float(row['arc'])!r} rad", "--set",
+                        f"flexure[C]/@width={row['flexure[C]/@width']}")
+            said = json.loads(run("check", GALLERY, "--json", "--corners", "none", *FLOW, *settings).stdout)
+            self.assertAlmostEqual(float(row["U"]) / said["governing"]["utilisation"], 1, places=9)
+            self.assertEqual(row["state"], said["verdict"])
+            self.assertEqual(float(row["largest"]), max(float(row["U"]), float(row["largest"])))
+        names = {r["name"]: r for r in result["responses"]}
+        self.assertEqual(names["U"]["largest"], max(float(r["U"]) for r in rows))
+        self.assertEqual(names["f"]["unit"], "Hz")
+        with sqlite3.connect(self.place / "out/study.sqlite") as store:
+            asked = store.execute('SELECT count(*), max("U") FROM sample WHERE state = ?', ("accept",)).fetchone()
+        self.assertEqual(asked, (sum(r["state"] == "accept" for r in rows), names["U"]["largest"]))
+
+    def bytes_of(self, out):
+        return {p.name: p.read_bytes() for p in sorted((self.place / out).rglob("*")) if p.is_file()}
+
+    def test_threads_shards_and_attempts_change_no_byte(self):
+        path = self.write(study("s", "sweep", SWEEP).replace("<study", '<study as="drawn" points="grid"'))
+        self.run_study(path, "one", "--jobs", 1)
+        wanted = self.bytes_of("one")
+        self.run_study(path, "three", "--jobs", 3)
+        self.assertEqual(self.bytes_of("three"), wanted)
+        for i in (1, 2, 3):
+            done = run("study", path, "-o", self.place / f"shard{i}", *FLOW, "--shard", f"{i}/3")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        merge = ["study", "merge", *(self.place / f"shard{i}" for i in (3, 1, 2)), "-o", self.place / "merged", *FLOW]
+        done = run(*merge)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.bytes_of("merged"), wanted)
+        self.assertEqual([p.name for p in (self.place / "shard1").iterdir()], ["study.sqlite"])
+        for wrong, says in ((merge[:3] + merge[5:], "shard 3 of 3, and 1 directories"),
+                            (merge[:3] + merge[2:3] + merge[4:], "named twice"),
+                            (["study", "merge", self.place, "-o", self.place / "m"], "no store of a study")):
+            done = run(*wrong)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(says, done.stderr)
+            self.assertIn("FW-D497", done.stderr)
+
+    def test_killed_and_interrupted_studies_go_on(self):
+        path = self.write(study("s", "sweep", SWEEP.replace('steps="4"', 'steps="30"')).replace(
+            "<study", '<study as="drawn"'))
+        self.run_study(path, "whole", "--jobs", 1)
+        for number, out in ((signal.SIGKILL, "killed"), (signal.SIGINT, "interrupted")):
+            child = subprocess.Popen([PROGRAM, "study", path, "-o", self.place / out, *FLOW, "--jobs", "1"],
+                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            store = self.place / out / "study.sqlite"
+            for _ in range(2000):
+                time.sleep(0.01)
+                try:
+                    with sqlite3.connect(store) as db:
+                        if db.execute("SELECT count(*) FROM sample").fetchone()[0] > 3:
+                            break
+                except sqlite3.Error:
+                    pass
+            child.send_signal(number)
+            child.wait()
+            self.assertEqual(child.returncode, -9 if number == signal.SIGKILL else 130)
+            with sqlite3.connect(store) as db:
+                done = db.execute("SELECT count(*) FROM sample").fetchone()[0]
+            self.assertTrue(3 < done < 60, done)
+            self.run_study(path, out, "--resume")
+            self.assertEqual(self.bytes_of(out), self.bytes_of("whole"))
+
+    def test_a_store_of_another_study_is_left_alone(self):
+        first = self.write(study("s", "sweep", SWEEP).replace("<study", '<study as="drawn"'))
+        self.run_study(first, "out")
+        before = self.bytes_of("out")
+        other = self.write(study("t", "sweep", SWEEP).replace("<study", '<study as="drawn"'), "other.xml")
+        done = self.run_study(other, "out", "--resume", status=3)
+        self.assertIn("FW-D495", done.stderr)
+        self.assertEqual(self.bytes_of("out"), before)
+        (self.place / "mine").mkdir()
+        (self.place / "mine/study.sqlite").write_text("notes")
+        done = run("study", first, "-o", self.place / "mine", *FLOW)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("FW-D496", done.stderr)
+        self.assertEqual((self.place / "mine/study.sqlite").read_text(), "notes")
+
+    def test_what_cannot_be_kept_is_said_and_nothing_is_torn(self):
+        path = self.write(study("s", "sweep", SWEEP.replace('steps="4"', 'steps="40"')).replace(
+            "<study", '<study as="drawn"'))
+        done = run("study", path, "-o", self.place / "full", *FLOW,
+                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (24576, 24576)))
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn("FW-D496", done.stderr)
+        done = run("study", path, "-o", self.place / "full", *FLOW, "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(self.rows("full")), 80)
+
+    def test_devices_that_cannot_be_judged_are_counted(self):
+        rows = ('<vary what="arc" values="200 deg; 240 deg"/><vary what="flexure[C]/@width" values="8 um; 300 um"/>'
+                '<respond name="U" value="governing.utilisation"/>')
+        result = self.run_study(self.write(study("s", "sweep", rows).replace("<study", '<study as="drawn"')), "out")
+        self.assertEqual(result["samples"]["run"], 2)
+        self.assertEqual(result["samples"]["failed"], 2)
+        self.assertTrue(result["samples"]["example_why"])
+        failed = [r for r in self.rows("out") if r["state"] == "failed"]
+        self.assertEqual([r["flexure[C]/@width"] for r in failed], ["300 um"] * 2)
+        self.assertTrue(all(r["why"] and not r["U"] for r in failed))
+
+    def test_mistakes_are_said_at_their_places(self):
+        vary = '<vary what="arc" from="200 deg" to="260 deg"/>'
+        respond = '<respond name="U" value="governing.utilisation"/>'
+        cases = (
+            ("sweep", vary.replace("260", "160") + respond, "FW-D490", "from must be below to"),
+            ("sweep", vary.replace("260 deg", "260 um") + respond, "FW-D025", ""),
+            ("sweep", vary.replace("arc", "ark") + respond, "FW-D493", "no parameter has this name"),
+            ("sweep", vary.replace("260", "900") + respond, "FW-D493", "allows at most 260 deg"),
+            ("sweep", vary + respond.replace("utilisation", "utilization"), "FW-D492", "utilisation_band"),
+            ("sweep", vary + respond.replace("governing", "hinges[Q]"), "FW-D492", "it has A B C D E F"),
+            ("sweep", vary + respond.replace("governing.", "hinges[*]."), "FW-D492", "take="),
+            ("sweep", vary + respond.replace("governing", "masses:x"), "FW-D492", "no document 'masses'"),
+            ("sweep", vary, "FW-D490", "nothing is asked"),
+            ("sweep", respond, "FW-D490", "at least one &lt;vary&gt;"),
+            ("size", vary + respond, "FW-D490", "goal="),
+            ("sweep", vary + vary + respond, "FW-D490", "two rows"),
+            ("sweep", vary + respond.replace('"U"', '"arc"'), "FW-D492", "another column"),
+            ("yield", '<uncertain what="arc" spread="normal" mean="240 deg" sd="0 deg"/>', "FW-D491", "above 0"),
+            ("yield", '<uncertain what="arc" spread="uniform" mean="240 deg"/>', "FW-D491", "uniform"),
+            ("sweeep", vary + respond, "FW-D048", "sweep"),
+        )
+        for kind, rows, code, says in cases:
+            done = run("study", self.write(study("s", kind, rows)), "-o", self.place / "bad", *FLOW)
+            self.assertEqual(done.returncode, 3, (rows, done.stderr))
+            self.assertIn(code, done.stderr)
+            self.assertIn(says.replace("&lt;", "<").replace("&gt;", ">"), done.stderr)
+            self.assertRegex(done.stderr, r"study\.xml:\d+:\d+: error")
+            self.assertFalse((self.place / "bad").exists(), rows)
+
+    def test_what_looks_back_has_no_shards(self):
+        rows = '<vary what="arc" from="200 deg" to="260 deg"/><respond name="U" value="governing.utilisation"/>'
+        done = run("study", self.write(study("s", "worst-case", rows)), *FLOW, "--shard", "1/2", "-o", self.place / "o")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("run it in one piece", done.stderr)
+
+    def test_a_plan_says_how_many_and_writes_nothing(self):
+        path = self.write(study("s", "sweep", SWEEP).replace("<study", '<study as="drawn"'))
+        done = run("study", path, "--plan", *FLOW)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("8 devices", done.stdout)
+        self.assertEqual([p.name for p in self.place.iterdir()], ["study.xml"])
+
+    def test_a_study_of_the_device_file_and_the_choice_of_one(self):
+        text = GALLERY.read_text().replace("</device>", '<study name="a" kind="sweep" as="drawn">' + SWEEP +
+                                           '</study><study name="b" kind="worst-case" as="drawn">' +
+                                           '<vary what="arc" from="200 deg" to="260 deg"/>' +
+                                           '<respond name="U" value="governing.utilisation"/></study></device>')
+        path = self.write(text, "device.xml")
+        self.assertEqual(run("check", path, *FLOW).returncode, 0)
+        done = run("study", path, *FLOW)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("name one with --study: a b", done.stderr)
+        self.run_study(path, "a", "--study", "a")
+        self.assertEqual(len(self.rows("a")), 8)
+        worst = self.run_study(path, "b", "--study", "b")["responses"][0]
+        ends = [json.loads(run("check", path, "--json", "--corners", "none", *FLOW, "--set",
+                               f"arc={arc} deg").stdout)["governing"]["utilisation"] for arc in (200, 260)]
+        self.assertEqual([worst["worst_least"]["value"], worst["worst_largest"]["value"]], sorted(ends))
+
+    def used(self, path, **settings):
+        sets = [w for k, v in settings.items() for w in ("--set", f"{k}={v}")]
+        said = run("check", path, "--json", "--advice", "none", "--accuracy", "1e-9", *sets)
+        return json.loads(said.stdout)["governing"]["utilisation"]
+
+    def test_a_yield_of_one_uncertain_load_is_that_of_its_limit(self):
+        """U rises with the load, so a device fails where the load is beyond the one that uses the limit up"""
+        path = self.write(bare(), "bare.xml")
+        low, high = 0.25, 1.0  # mN
+        self.assertTrue(self.used(path, push=f"{low} mN") < 1 < self.used(path, push=f"{high} mN"))
+        for _ in range(14):
+            middle = 0.5 * (low + high)
+            if self.used(path, push=f"{middle} mN") < 1:
+                low = middle
+            else:
+                high = middle
+        for sigmas in (1.3, 3.2):
+            sd = 0.25 * low / sigmas
+            truth = 0.5 * math.erfc(-sigmas / math.sqrt(2))
+            rows = f'<uncertain what="push" mean="{low - sigmas * sd:.9g} mN" sd="{sd:.9g} mN"/>'
+            result = self.run_study(self.write(study("y", "yield", rows, path, samples=600)), f"y{sigmas}")
+            found = result["yields"][0]
+            least, most = found["sampling_interval"]
+            slack = 5e-3 * (1 - truth)  # the bisection's, and that the study judges at the usual accuracy
+            self.assertTrue(least - slack <= truth <= most + slack, (sigmas, truth, found))
+            self.assertTrue(found["yield_range"][0] <= least and most <= found["yield_range"][1])
+            again = self.run_study(self.write(study("y", "yield", rows, path, samples=600)), f"z{sigmas}", "--jobs", 1)
+            self.assertEqual(again, result)
+
+    def test_a_size_is_within_a_percent_of_what_trying_everything_finds(self):
+        """the widest hinge C that is accepted and keeps U below 0.7, as drawn"""
+        rows = ('<vary what="flexure[C]/@width" from="6 um" to="12 um"/><vary what="arc" from="200 deg" to="260 deg"/>'
+                '<respond name="U" value="governing.utilisation" max="0.7"/>'
+                '<respond name="angle" value="hinges[C].limit_angle_rad" goal="{}"/>')
+        path = self.write(study("s", "size", rows.format("minimise")).replace("<study", '<study as="drawn"'))
+        found = self.run_study(path, "size")["found"]
+        self.assertEqual(len(found), 1)
+        grid = rows.format("none").replace('to="12 um"', 'to="12 um" steps="49"').replace(
+            'to="260 deg"', 'to="260 deg" steps="5"')
+        self.run_study(self.write(study("g", "sweep", grid).replace("<study", '<study as="drawn"')), "grid")
+        tried = [float(r["angle"]) for r in self.rows("grid") if r["state"] == "accept" and float(r["U"]) <= 0.7]
+        is_ = {r["name"]: r["value"] for r in found[0]["responses"]}
+        self.assertLessEqual(is_["angle"], 1.01 * min(tried))
+        self.assertLessEqual(is_["U"], 0.7)
+        sets = [w for s in found[0]["set"] for w in ("--set", f"{s['path']}={s['value']}")]
+        said = run("check", GALLERY, "--json", "--corners", "none", *FLOW, *sets)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertEqual(json.loads(said.stdout)["hinges"][2]["limit_angle_rad"], is_["angle"])
+        none = rows.format("minimise").replace('max="0.7"', 'max="0.1"')
+        done = self.run_study(self.write(study("s", "size", none).replace("<study", '<study as="drawn" samples="20"')),
+                              "none", status=1)
+        self.assertIn("no device was found", done.stdout)
+
+    def test_derivatives_are_those_of_tight_runs(self):
+        rows = ('<vary what="arc" from="230 deg" to="250 deg"/><vary what="flexure[C]/@width" from="7.5 um" to="8.5 um"/>'
+                '<respond name="U" value="hinges[C].utilisation"/>')
+        result = self.run_study(self.write(study("s", "sensitivity", rows).replace("<study", '<study as="drawn"')), "s")
+        by = {d["what"]: d for d in result["responses"][0]["by"]}
+        at = {"arc": (240, "deg", math.pi / 180), "flexure[C]/@width": (8, "um", 1e-6)}
+        for what, (centre, unit, factor) in at.items():
+            step = centre * 1e-3
+            u = []
+            for k in (-2, -1, 1, 2):
+                said = run("check", GALLERY, "--json", "--corners", "none", "--accuracy", "1e-11", *FLOW, "--set",
+                           f"{what}={centre + k * step!r} {unit}")
+                u.append(json.loads(said.stdout)["hinges"][2]["utilisation"])
+            exact = (8 * (u[2] - u[1]) - (u[3] - u[0])) / (12 * step * factor)
+            self.assertLess(abs(by[what]["derivative_SI"] / exact - 1), 1e-6, (what, exact, by[what]))
+        self.assertAlmostEqual(sum(d["first"] for d in by.values()), 1, delta=0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One device at a point of what a flow may make says what the search of corners says of the same point. */
+#include "plan/plan.h"
+#include "test.h"
+#include <math.h>
+
+static void a_point_is_its_corner(void **state) {
+    (void)state;
+    fw_plan_options options = fw_plan_options_default();
+    options.data_directory = FW_TEST_SOURCE_DIR;
+    options.verdict.with_advice = false;
+    options.measurements = FW_MEASUREMENTS_NONE;
+    fw_plan *plan = fw_plan_new(&options);
+    assert_non_null(plan);
+    assert_int_equal(
+        fw_plan_load(plan, FW_TEST_SOURCE_DIR "/docs/gallery/reference-six-bar/device.xml"), FW_OK);
+    assert_int_equal(fw_plan_judge(plan), FW_OK);
+    int compared = 0;
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
+        assert_non_null(v->fabricated);
+        for (int c = 0; c < v->fabricated->ncorner; c++) {
+            const fw_verdict_fabricated_corner *corner = &v->fabricated->corner[c];
+            fw_verdict_made made;
+            double most = 0;
+            assert_int_equal(fw_verdict_made_at(plan->arena, plan->device, plan->layout,
+                                                &plan->options.verdict, v, corner->x, &made),
+                             FW_OK);
+            for (int k = 0; k < v->nhinge; k++)
+                if (corner->hinge[k].scene) most = fmax(most, corner->hinge[k].utilisation);
+            /* both are a first look or closer: its accuracy is 3 % */
+            if (!(fabs(made.ln - log(most)) < 0.03))
+                fail_msg("%s: %g, not %g", corner->what, exp(made.ln), most);
+            assert_true(made.up >= 0 && made.down >= 0 && made.up < 0.2);
+            assert_true(made.hinge >= 0 && made.hinge < v->nhinge);
+            compared++;
+        }
+    }
+    assert_true(compared >= 6);
+    fw_plan_free(plan);
+}
+
+/* a flexure that is etched away is beyond its limit */
+static void what_is_gone_fails(void **state) {
+    (void)state;
+    fw_plan_options options = fw_plan_options_default();
+    options.data_directory = FW_TEST_SOURCE_DIR;
+    options.verdict.with_advice = false;
+    options.verdict.corners = FW_CORNERS_NONE;
+    options.measurements = FW_MEASUREMENTS_NONE;
+    options.flow = "al-masked-rie";
+    fw_plan *plan = fw_plan_new(&options);
+    assert_non_null(plan);
+    assert_int_equal(
+        fw_plan_load(plan, FW_TEST_SOURCE_DIR "/docs/gallery/reference-six-bar/device.xml"), FW_OK);
+    assert_int_equal(fw_plan_judge(plan), FW_OK);
+    const fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
+    double x[FW_FABRICATION_INPUTS];
+    int edge = FW_NONE;
+    for (int k = 0; k < v->ninput; k++) {
+        x[k] = v->input[k].nominal;
+        if (edge == FW_NONE && v->input[k].edge_m != 0) edge = k;
+    }
+    assert_int_not_equal(edge, FW_NONE);
+    x[edge] -=
+        5e-6 / v->input[edge].edge_m; /* every wall 5 um further in: hinges of 8 um are gone */
+    fw_verdict_made made;
+    assert_int_equal(fw_verdict_made_at(plan->arena, plan->device, plan->layout,
+                                        &plan->options.verdict, v, x, &made),
+                     FW_OK);
+    assert_true(made.ln > 0);
+    assert_int_equal(made.decision, FW_REJECT);
+    assert_non_null(made.why);
+    fw_plan_free(plan);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_point_is_its_corner),
+        cmocka_unit_test(what_is_gone_fails),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers of documents by their keys; weights of derivatives; values of inputs as text. */
+#include "study/study_parts.h"
+#include "test.h"
+#include <math.h>
+#include <string.h>
+
+static const char document[] =
+    "{\"governing\": {\"utilisation\": 0.5, \"utilisation_band\": [0.4, 0.6], \"flow\": \"a\"},"
+    " \"hinges\": [{\"id\": \"A\", \"utilisation\": 0.25}, {\"id\": \"B\", \"utilisation\": 0.5},"
+    "             {\"id\": \"C\", \"utilisation\": null}],"
+    " \"requirements\": [{\"probe\": \"p\", \"scene\": \"s\", \"value\": 1e-6},"
+    "                   {\"probe\": \"p\", \"scene\": \"t\", \"value\": 2e-6}],"
+    " \"verdict\": \"accept\", \"none\": null, \"yes\": true, \"words\": [\"x\", \"y\"]}";
+
+static fw_status parse(fw_arena *arena, const char *value, fw_device_respond_take take,
+                       fw_study_response *r) {
+    fw_diags diags = fw_diags_new(arena);
+    fw_device_respond *asked = fw_arena_one(arena, fw_device_respond);
+    *asked = (fw_device_respond){.name = "r", .value = value, .take = take};
+    return fw_study_response_parse(arena, asked, &diags, r);
+}
+
+static void paths_lead_to_numbers(void **state) {
+    const struct {
+        const char *value;
+        fw_device_respond_take take;
+        double wanted;
+    } row[] = {{"governing.utilisation", FW_TAKE_ONE, 0.5},
+               {"governing.utilisation_band[1]", FW_TAKE_ONE, 0.6},
+               {"verdict: governing.utilisation", FW_TAKE_ONE, 0.5},
+               {"hinges[A].utilisation", FW_TAKE_ONE, 0.25},
+               {"hinges[1].utilisation", FW_TAKE_ONE, 0.5},
+               {"hinges[*].utilisation", FW_TAKE_LARGEST, 0.5},
+               {"hinges[*].utilisation", FW_TAKE_LEAST, 0.25},
+               {"requirements[p,t].value", FW_TAKE_ONE, 2e-6},
+               {"requirements[p].value", FW_TAKE_SUM, 3e-6},
+               {"verdict", FW_TAKE_ONE, 1},
+               {"yes", FW_TAKE_ONE, 1}};
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    json_t *root = json_loads(document, 0, NULL);
+    char why[FW_STUDY_WHY];
+    double value;
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_study_response r;
+        assert_int_equal(parse(arena, row[i].value, row[i].take, &r), FW_OK);
+        if (!fw_study_response_find(&r, root, &value, why, sizeof why) ||
+            fabs(value - row[i].wanted) > 1e-18)
+            fail_msg("%s: %g, wanted %g (%s)", row[i].value, value, row[i].wanted, why);
+    }
+    fw_study_response r; /* what would hold it is null: no number, and no mistake */
+    const char *const null[] = {"none", "none.below", "none[A].x", "hinges[C].utilisation"};
+    for (size_t i = 0; i < sizeof null / sizeof null[0]; i++) {
+        assert_int_equal(parse(arena, null[i], FW_TAKE_ONE, &r), FW_OK);
+        assert_true(fw_study_response_find(&r, root, &value, why, sizeof why));
+        assert_true(isnan(value));
+    }
+    json_decref(root);
+    fw_arena_free(arena);
+}
+
+static void wrong_paths_say_what_there_is(void **state) {
+    const struct {
+        const char *value, *says;
+    } row[] = {{"governing.used", "utilisation utilisation_band flow"},
+               {"hinges[Q].utilisation", "it has A B C"},
+               {"hinges[7].utilisation", "no [7]"},
+               {"hinges[*].utilisation", "3 numbers"},
+               {"requirements[p].value", "2 numbers"},
+               {"governing", "an object"},
+               {"governing.flow", "a text"},
+               {"governing[0]", "no list"},
+               {"words", "a list"}};
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    json_t *root = json_loads(document, 0, NULL);
+    char why[FW_STUDY_WHY];
+    double value;
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_study_response r;
+        assert_int_equal(parse(arena, row[i].value, FW_TAKE_ONE, &r), FW_OK);
+        if (fw_study_response_find(&r, root, &value, why, sizeof why) || !strstr(why, row[i].says))
+            fail_msg("%s: said \"%s\", wanted \"%s\"", row[i].value, why, row[i].says);
+    }
+    const char *const none[] = {"",   ".a",  "a.",    "a..b",     "[0]",
+                                "a[", "a[]", "a[0]b", "masses:x", "a.[0]"};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
+        fw_study_response r;
+        if (parse(arena, none[i], FW_TAKE_ONE, &r) != FW_INPUT) fail_msg("'%s' is a path", none[i]);
+    }
+    json_decref(root);
+    fw_arena_free(arena);
+}
+
+static void units_are_those_of_keys(void **state) {
+    const char *const row[][2] = {{"hinges[A].peak_angle_rad", "rad"},
+                                  {"workspace: flows[0].volume_m2_rad", "m2 rad"},
+                                  {"modes:modes[0].f_Hz", "Hz"},
+                                  {"x.speed_m_per_s", "m/s"},
+                                  {"x.torque_Nm", "N m"},
+                                  {"governing.utilisation", ""},
+                                  {"a.as_fabricated.utilisation_band[0]", ""}};
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_study_response r;
+        assert_int_equal(parse(arena, row[i][0], FW_TAKE_ONE, &r), FW_OK);
+        assert_string_equal(r.unit, row[i][1]);
+    }
+    fw_arena_free(arena);
+}
+
+/* of a polynomial of degree n - 1 they are exact, wherever the nodes are */
+static void derivatives_of_polynomials_are_exact(void **state) {
+    (void)state;
+    double x[7], w[7];
+    for (int trial = 0; trial < 50; trial++) {
+        int n = 3 + trial % 5;
+        double at = 0.1 * trial - 2;
+        for (int i = 0; i < n; i++)
+            x[i] = at + 0.3 * (i - trial % n) + 0.01 * i * i;
+        fw_study_derivative_weights(x, n, at, w);
+        for (int power = 0; power < n; power++) {
+            double sum = 0, exact = power == 0 ? 0 : power * pow(at, power - 1), size = 1;
+            for (int i = 0; i < n; i++)
+                sum += w[i] * pow(x[i], power), size = fmax(size, fabs(w[i] * pow(x[i], power)));
+            if (fabs(sum - exact) > 1e-12 * size)
+                fail_msg("n %d, power %d: %g, not %g", n, power, sum, exact);
+        }
+    }
+}
+
+static void the_text_is_the_value(void **state) {
+    (void)state;
+    fw_study_input in = {.what = "w", .unit_text = "um", .from = 1e-6, .to = 100e-6, .steps = 5};
+    char text[FW_STUDY_TEXT];
+    double value;
+    assert_true(fw_quantity_unit_parse("um", 2, &in.unit, NULL, NULL));
+    assert_int_equal(fw_study_input_write(&in, 12.34567e-6, 4, text, &value), FW_OK);
+    assert_string_equal(text, "12.35 um");
+    assert_true(value == fw_quantity_unit_to_si(&in.unit, 12.35));
+    in.logarithmic = true;
+    assert_int_equal(fw_study_input_step(&in, 2, text, &value), FW_OK);
+    assert_string_equal(text, "10 um");
+    assert_int_equal(fw_study_input_at(&in, 1, 5, text, &value), FW_OK);
+    assert_string_equal(text, "100 um");
+    const char *const words[] = {"csfh", "8 um"};
+    in = (fw_study_input){.what = "w", .unit_text = "", .text = words, .ntext = 2};
+    assert_int_equal(fw_study_input_steps(&in), 2);
+    assert_int_equal(fw_study_input_step(&in, 0, text, &value), FW_OK);
+    assert_string_equal(text, "csfh");
+    assert_true(isnan(value));
+    assert_int_equal(fw_study_input_at(&in, 0.9, 5, text, &value), FW_OK);
+    assert_string_equal(text, "8 um");
+    assert_true(fabs(value - 8e-6) < 1e-20);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(paths_lead_to_numbers),
+        cmocka_unit_test(wrong_paths_say_what_there_is),
+        cmocka_unit_test(units_are_those_of_keys),
+        cmocka_unit_test(derivatives_of_polynomials_are_exact),
+        cmocka_unit_test(the_text_is_the_value),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
