@@ -17,7 +17,7 @@ from .errors import (Cancelled, Diagnostic, FileError, FlexwrightError, Geometry
                      InternalError, LimitError, MemoryLimitError, Severity, SolverError, UsageError)
 from .results import (Assembly, Fabrication, LoadPath, Modes, Motion, Statics, Tradeoff, Utilisation,
                       Verdict, Workspace)
-from .study import columns, grid, sweep, verdict_of
+from .study import columns, grid, run_study, sweep, verdict_of
 from .tables import Named, Row, Table, truth
 
 __version__ = library_version()
@@ -27,5 +27,5 @@ __all__ = [
     "FlexwrightError", "GeometryError", "InputError", "InternalError", "LimitError", "LoadPath",
     "MemoryLimitError", "Modes", "Motion", "Named", "Progress", "Row", "Severity", "SolverError",
     "Statics", "Table", "Tradeoff", "UsageError", "Utilisation", "Verdict", "Workspace", "columns",
-    "grid", "library_version", "show_progress", "sweep", "truth", "verdict_of",
+    "grid", "library_version", "run_study", "show_progress", "sweep", "truth", "verdict_of",
 ]

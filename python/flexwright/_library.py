@@ -35,6 +35,13 @@ class OptionsStruct(Structure):
     ]
 
 
+class StudySettingsStruct(Structure):
+    """fw_study_settings; fields are only ever added at the end."""
+
+    _fields_ = [("size", c_size_t), ("study", c_char_p), ("directory", c_char_p), ("jobs", c_int32),
+                ("shard", c_int32), ("shards", c_int32), ("resume", c_int32)]
+
+
 class DiagnosticStruct(Structure):
     """fw_diagnostic."""
 
@@ -72,6 +79,8 @@ _FUNCTIONS = {
     "fw_design_unreliable": (c_int, [c_void_p]),
     "fw_design_workspace": (c_int, [c_void_p]),
     "fw_design_tradeoff": (c_int, [c_void_p, c_double, c_int]),
+    "fw_design_study": (c_int, [c_void_p, c_char_p, POINTER(StudySettingsStruct), POINTER(c_void_p),
+                                POINTER(c_size_t)]),
     "fw_design_write": (c_int, [c_void_p, c_char_p, c_uint]),
     "fw_design_files_written": (c_int, [c_void_p]),
     "fw_design_document": (c_int, [c_void_p, c_int, POINTER(c_void_p), POINTER(c_size_t)]),

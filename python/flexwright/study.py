@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import concurrent.futures
+import ctypes
 import itertools
+import json
 import os
 from typing import (Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence,
                     Union)
 
-from .device import Device, Value
+from ._design import Design, ProgressCallback
+from ._library import StudySettingsStruct
+from .device import Device, Value, _checked
 from .errors import FlexwrightError
 
 Settings = Mapping[str, Value]
@@ -99,3 +103,32 @@ def columns(rows: Iterable[Mapping[str, Any]]) -> Dict[str, list]:
     taken: Sequence[Mapping[str, Any]] = list(rows)
     names = dict.fromkeys(name for row in taken for name in row)
     return {name: [row.get(name) for row in taken] for name in names}
+
+
+def run_study(file: Union[str, "os.PathLike[str]"], directory: Union[str, "os.PathLike[str]"], *,
+              study: Optional[str] = None, jobs: int = 0, shard: int = 0, shards: int = 0,
+              resume: bool = False, set: Optional[Mapping[str, str]] = None,
+              progress: Optional[ProgressCallback] = None, **options: Any) -> Optional[Dict[str, Any]]:
+    """Runs a <study> of a device file, or a study file, as `flexwright study` does: sweep, yield, size,
+    sensitivity or worst case. What it found, as study.json has it (SI); None for a shard.
+
+        found = flexwright.run_study("widths.xml", "out/widths")
+        rows = pandas.read_csv("out/widths/study.csv")
+
+    directory: of study.sqlite, study.csv, study.json and study.html. jobs: threads; 0: one for each
+    processor. set: settings of every device, before the study's own. options: of every device
+    (accuracy, flow, ...). Ctrl-C keeps the samples so far, and resume=True goes on with them.
+    """
+    chosen = _checked(options)
+    if "data_directory" not in chosen and os.environ.get("FLEXWRIGHT_DATA"):
+        chosen["data_directory"] = os.environ["FLEXWRIGHT_DATA"]
+    design = Design(chosen)
+    for path, value in (set or {}).items():
+        design.set(path, value)
+    text, length = ctypes.c_void_p(), ctypes.c_size_t()
+    settings = StudySettingsStruct(ctypes.sizeof(StudySettingsStruct),
+                                   study.encode() if study else None, os.fsencode(directory), jobs,
+                                   shard, shards, int(resume))
+    design.call("study", os.fsencode(file), ctypes.byref(settings), ctypes.byref(text),
+                ctypes.byref(length), progress=progress)
+    return json.loads(ctypes.string_at(text.value, length.value)) if text.value else None

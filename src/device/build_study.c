@@ -250,8 +250,17 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
         what = "a goal belongs to kind=\"size\"; remove it";
     if (!what && s->kind != FW_STUDY_IS_yield && s->nrespond == 0)
         what = "nothing is asked; add <respond name=\"...\" value=\"governing.utilisation\"/>";
-    if (!what && s->kind != FW_STUDY_IS_size && fw_xml_given(record, "yield"))
-        what = "a wanted yield belongs to kind=\"size\"; remove it";
+    bool yield = s->kind == FW_STUDY_IS_yield;
+    if (!what && yield && s->nvary > 0)
+        what = "a yield chooses nothing; remove <vary>, or make it <uncertain>";
+    if (!what && yield && s->nrespond > 0)
+        what = "a yield asks what check asks; state limits of its own as <require> in the device";
+    if (!what && !yield && s->nuncertain > 0)
+        what = "<uncertain> belongs to kind=\"yield\"; remove it, or make it <vary>";
+    if (!what && s->kind != FW_STUDY_IS_sweep && fw_xml_given(record, "points"))
+        what = "points belong to kind=\"sweep\"; remove them";
+    if (!what && yield && fw_xml_given(record, "as"))
+        what = "a yield is of devices as they are made; remove as";
     if (what) wrong(r, record, NULL, what);
 }
 
@@ -267,8 +276,6 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         .judge = (fw_device_study_judge)word_of(record, "as", words->judge, FW_JUDGE_MADE),
         .samples = (int)fw_xml_number_or(record, "samples", 0),
         .seed = (long)fw_xml_number_or(record, "seed", 1),
-        .yield = fw_xml_number_of(record, "yield"),
-        .error = fw_xml_number_of(record, "error"),
         .confidence = fw_xml_number_or(record, "confidence", 0.95),
         .place = record->element->place};
     size_t varied = (size_t)fw_xml_children(record, "vary"),

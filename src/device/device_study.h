@@ -85,11 +85,8 @@ typedef struct fw_device_study {
     fw_device_study_kind kind;
     fw_device_study_points points;
     fw_device_study_judge judge;
-    int samples; /* 0: as many as the kind wants */
-    long seed;   /* of random numbers */
-    double
-        yield; /* wanted of a size, share; NaN: every device that the flow may make is accepted or not */
-    double error;         /* wanted of a yield: half the width of its interval, share; NaN: 0.1 % */
+    int samples;          /* 0: as many as the kind wants */
+    long seed;            /* of random numbers */
     double confidence;    /* of intervals */
     fw_device_vary *vary; /* (nvary) */
     int nvary;

@@ -68,10 +68,6 @@ const fw_device_study_words fw_device_study_words_of = {kinds,   points, judged,
         {"seed",          D_PURE,                                                                  \
          WHOLE,           RANGE(0, 2147483647, "seeds have 31 bits"),                              \
          .fallback = "1", .sentence = "Of random numbers: the same seed gives the same study."},   \
-        {"yield", D_PURE, ABOVE(0, 1, "a yield is a share"),                                       \
-         .sentence = "Of a size: the share of devices that must hold every limit."},               \
-        {"error", D_PURE, ABOVE(0, 0.5, "a yield is a share"), .fallback = "0.001",                \
-         .sentence = "Of a yield: half the width of its confidence interval at which it ends."},   \
     {                                                                                              \
         "confidence", D_PURE, ABOVE(0.5, 0.999999, "of an interval"),                              \
             .fallback = "0.95", .sentence = "How often intervals hold the truth."                  \

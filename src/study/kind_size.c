@@ -110,19 +110,12 @@ static fw_status fill(void *context, long k, fw_study_sample *sample, bool *want
     return FW_OK;
 }
 
-static void copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
-    to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
-    memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
-    memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
-    memcpy(to->response, from->response, (size_t)study->nresponse * sizeof *to->response);
-}
-
 static fw_status take(void *context, const fw_study_sample *sample) {
     sizing *s = context;
     /* rows of the store have no texts of ranged values: written again from their number */
     bool wanted;
     fw_study_sample *to = &s->kept[s->nkept++];
-    copy(s->study, sample, to);
+    fw_study_sample_copy(s->study, sample, to);
     return fill(s, sample->i, to, &wanted);
 }
 
@@ -132,7 +125,7 @@ static fw_status keep_found(fw_study *study, const fw_study_sample *sample, doub
                             fw_study_found *found) {
     fw_study_sample own;
     FW_TRY(fw_study_sample_new(study->arena, study, &own));
-    copy(study, sample, &own);
+    fw_study_sample_copy(study, sample, &own);
     *found = (fw_study_found){.text = own.text,
                               .value = own.value,
                               .response = own.response,
@@ -154,12 +147,6 @@ static double shares_apart(const fw_study *study, const fw_study_sample *a,
             most = fmax(most, fabs(a->value[k] - b->value[k]) / (in->to - in->from));
     }
     return most;
-}
-
-static double share_of(const fw_study_input *in, double value) {
-    double share = in->logarithmic ? log(value / in->from) / log(in->to / in->from)
-                                   : (value - in->from) / (in->to - in->from);
-    return fmin(fmax(share, 0), 1);
 }
 
 /* starts of searches for an aim: the best of what was judged, each a tenth of a range from the others */
@@ -195,7 +182,7 @@ static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n
         int at = 0;
         for (int k = 0; k < study->nvary; k++)
             if (study->input[k].ntext == 0)
-                one->start[at++] = share_of(&study->input[k], best->value[k]);
+                one->start[at++] = fw_study_input_share(&study->input[k], best->value[k]);
     }
     return FW_OK;
 }

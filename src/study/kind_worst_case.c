@@ -75,12 +75,6 @@ static double no_constraint(const void *context, const fw_study_sample *sample) 
     return isnan(sample->response[a->response]) ? (double)NAN : -1;
 }
 
-static double share_of(const fw_study_input *in, double value) {
-    double share = in->logarithmic ? log(value / in->from) / log(in->to / in->from)
-                                   : (value - in->from) / (in->to - in->from);
-    return fmin(fmax(share, 0), 1);
-}
-
 /* from the most extreme of what was judged */
 static fw_status begin_search(const worst *w, end_aim *a, long first, int most,
                               fw_study_search *search, bool *found) {
@@ -102,7 +96,7 @@ static fw_status begin_search(const worst *w, end_aim *a, long first, int most,
     int at = 0;
     for (int k = 0; k < w->study->ninput; k++)
         if (w->study->input[k].ntext == 0)
-            search->start[at++] = share_of(&w->study->input[k], best->value[k]);
+            search->start[at++] = fw_study_input_share(&w->study->input[k], best->value[k]);
     return FW_OK;
 }
 

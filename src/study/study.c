@@ -321,7 +321,7 @@ static fw_status find_hash(fw_study *study) {
                    fw_device_study_points_text(a->points), fw_device_study_judge_text(a->judge),
                    a->samples, a->seed);
     add_text(&t, a->name);
-    add_real(&t, a->yield), add_real(&t, a->error), add_real(&t, a->confidence);
+    add_real(&t, a->confidence);
     for (int k = 0; k < a->nvary; k++) {
         const fw_device_vary *v = &a->vary[k];
         add_text(&t, v->what);

@@ -15,6 +15,14 @@ fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_s
     return FW_OK;
 }
 
+void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
+    to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
+    memcpy(to->why, from->why, FW_STUDY_WHY);
+    memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
+    memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
+    memcpy(to->response, from->response, (size_t)study->nresponse * sizeof *to->response);
+}
+
 fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char **hash) {
     fw_text all = fw_text_new(arena);
     char digits[65];

@@ -62,3 +62,9 @@ fw_status fw_study_input_at(const fw_study_input *input, double share, int digit
     }
     return fw_study_input_write(input, between(input, share), digits, text, value);
 }
+
+double fw_study_input_share(const fw_study_input *input, double value) {
+    double share = input->logarithmic ? log(value / input->from) / log(input->to / input->from)
+                                      : (value - input->from) / (input->to - input->from);
+    return fmin(fmax(share, 0), 1);
+}

@@ -47,10 +47,15 @@ int fw_study_input_steps(const fw_study_input *input);
 fw_status fw_study_input_at(const fw_study_input *input, double share, int digits,
                             char text[FW_STUDY_TEXT], double *value);
 
+/* the other way: 0 at from, 1 at to, not beyond */
+double fw_study_input_share(const fw_study_input *input, double value);
+
 /* ---- study_evaluate.c: one device ---- */
 
 /* a sample with room for inputs and responses */
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
+/* everything but the room that it lies in */
+void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to);
 /* Runs the device of sample->text: decision and responses. What cannot be read, drawn or run is in
    sample->why and no error. FW_NOMEM, FW_CANCELLED, FW_IO, FW_INPUT (FW-D500, in *diags). Called by
    several threads at once. */

@@ -78,14 +78,6 @@ static fw_status evaluate(one *o) {
     return status;
 }
 
-static void copy_sample(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
-    to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
-    memcpy(to->why, from->why, FW_STUDY_WHY);
-    memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
-    memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
-    memcpy(to->response, from->response, (size_t)study->nresponse * sizeof *to->response);
-}
-
 /* objective and constraint at these shares, once for both */
 static void look(one *o, unsigned n, const double *x) {
     fw_study_search *s = o->s;
@@ -108,7 +100,7 @@ static void look(one *o, unsigned n, const double *x) {
     if (isnan(o->f)) o->c = (double)NAN;
     if (s->used == 1 || fw_study_search_better(o->f, o->c, s->f, s->c)) {
         s->f = o->f, s->c = o->c;
-        copy_sample(o->board->study, &o->now, &s->best);
+        fw_study_sample_copy(o->board->study, &o->now, &s->best);
     }
     if (!(o->scale > 0) && isfinite(o->f)) o->scale = fmax(fabs(o->f), 1e-300);
     if (s->used >= s->most) nlopt_force_stop(o->opt);

@@ -51,7 +51,8 @@ class Header(unittest.TestCase):
     def test_structs(self):
         for name, struct in (("fw_design_options", _library.OptionsStruct),
                              ("fw_diagnostic", _library.DiagnosticStruct),
-                             ("fw_array", _library.ArrayStruct)):
+                             ("fw_array", _library.ArrayStruct),
+                             ("fw_study_settings", _library.StudySettingsStruct)):
             self.assertEqual(self.fields(name), [f[0] for f in struct._fields_])
 
     def test_numbers_and_documents(self):
@@ -482,6 +483,32 @@ class Studies(unittest.TestCase):
         self.assertEqual(rows, list(flexwright.sweep(SIX_BAR, settings, jobs=2)))
         table = flexwright.columns(rows)
         self.assertEqual(len(table["arc"]), 4)
+
+    def test_a_study_of_the_program(self):
+        """run_study and `flexwright study` leave the same bytes; mistakes carry their places"""
+        with tempfile.TemporaryDirectory() as here:
+            file = os.path.join(here, "s.xml")
+            with open(file, "w") as out:
+                out.write('<study xmlns="urn:flexwright:study:1" name="s" kind="sweep" as="drawn" '
+                          f'device="{SIX_BAR}"><vary what="arc" from="200 deg" to="260 deg" steps="2"/>'
+                          '<respond name="U" value="governing.utilisation"/></study>')
+            told = []
+            mine = flexwright.run_study(file, os.path.join(here, "a"), flow="al-masked-rie",
+                                        progress=told.append)
+            program("study", file, "-o", os.path.join(here, "b"), "--flow", "al-masked-rie", "--json")
+            for name in ("study.json", "study.csv", "study.sqlite", "study.html"):
+                with open(os.path.join(here, "a", name), "rb") as a, open(os.path.join(here, "b", name), "rb") as b:
+                    self.assertEqual(a.read(), b.read(), name)
+            self.assertEqual(mine["samples"]["run"], 2)
+            self.assertEqual(told[-1].of, 2)
+            with open(file) as text:
+                wrong = text.read().replace("governing.", "governing.x")
+            with open(file, "w") as out:
+                out.write(wrong)
+            with self.assertRaises(flexwright.InputError) as caught:
+                flexwright.run_study(file, os.path.join(here, "c"))
+            self.assertEqual(caught.exception.diagnostics[0].number, 492)
+            self.assertEqual(caught.exception.diagnostics[0].line, 1)
 
     def test_sweep_streams_and_keeps_errors(self):
         def settings():
