@@ -27,7 +27,7 @@ static const char device_form[] =
     "<scene name=\"push\" duration=\"3 ms\"><force on=\"stage\" fx=\"4 uN\"/>"
     "<air kind=\"slide\" on=\"stage\" gap=\"%s\"/></scene></device>";
 
-static char folder[] = "/tmp/hollows-XXXXXX";
+static char folder[] = "fw-hollows-XXXXXX";
 
 /* a file of the data directory, with one text exchanged */
 static void copy(const char *name, const char *from, const char *to) {
@@ -55,7 +55,7 @@ static void copy(const char *name, const char *from, const char *to) {
 static int set_up(void **state) {
     char path[400];
     (void)state;
-    strcpy(folder, "/tmp/hollows-XXXXXX");
+    strcpy(folder, "fw-hollows-XXXXXX");
     assert_non_null(mkdtemp(folder));
     static const char *const part[] = {"processes", "masks"};
     for (int i = 0; i < 2; i++) {
