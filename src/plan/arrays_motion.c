@@ -146,7 +146,8 @@ static void shapes(fw_plan_arrays *to, const fw_plan_bodies *b, const fw_statics
         const size_t at = 3 * (i % b->body.n);
         const fw_mechanism_mass *body = &b->mechanism->body[i % b->body.n];
         const double phi = m->q[at + 2];
-        double part[2][3] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
+        double part[2][3] = {{(double)NAN, (double)NAN, (double)NAN},
+                             {(double)NAN, (double)NAN, (double)NAN}};
         fw_mechanism_frame_velocity(body, phi, mode->shape + at, shape + 3 * i);
         for (size_t k = 0; mode->damped && k < 2; k++)
             fw_mechanism_frame_velocity(body, phi, mode->damped + 3 * k * b->body.n + at, part[k]);
