@@ -130,7 +130,11 @@ with tempfile.TemporaryDirectory() as here:
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")
 
     for name in ("width-and-arc", "worst-load", "widest-hinge", "how-many-survive", "which-matters"):
-        done = subprocess.run([program, "study", f"docs/studies/{name}.xml", "-q", "-o", f"{here}/{name}", "--flow", "al-masked-rie"],
+        form = (ROOT / f"docs/studies/{name}.xml").read_text().replace("../gallery", str(ROOT / "docs/gallery"))
+        if not os.environ.get("FW_TEST_ALL"):  # keys need no more than a few devices
+            form = form.replace('samples="300"', 'samples="200"').replace('as="made"', 'as="drawn" samples="12"')
+        (pathlib.Path(here) / f"{name}.xml").write_text(form)
+        done = subprocess.run([program, "study", f"{here}/{name}.xml", "-q", "-o", f"{here}/{name}", "--flow", "al-masked-rie"],
                               cwd=ROOT, capture_output=True, text=True, timeout=900)
         if done.returncode:
             problems.append(f"docs/studies/{name}.xml: status {done.returncode}\n{done.stderr}")
