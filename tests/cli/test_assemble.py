@@ -153,7 +153,9 @@ class Assemble(unittest.TestCase):
         svg = self.path / "open.svg"
         device = self.device(four_bar(half="4"))
         result = run("assemble", device, "--svg", svg, "--json")
-        self.assertEqual((result.returncode, result.stdout), (7, ""))
+        self.assertEqual(result.returncode, 7)
+        said = json.loads(result.stdout)  # in the place of the result that there is not
+        self.assertEqual(said["schema"], "flexwright.diagnostics/1")
         self.assertIn("FW-D100", result.stderr)
         self.assertRegex(result.stderr, r"joint [ABCD] stays open by")
         self.assertIn("B to C on coupler measures 8000 mm", result.stderr)

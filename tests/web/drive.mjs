@@ -83,7 +83,7 @@ function shown() {
     const m = parts.motion;
     const banner = document.querySelector("#banner");
     return {
-        name: text("#device-name"), verdict: banner.dataset.verdict ?? null, basis: text(".as-drawn", banner),
+        name: text("#device-name"), verdict: banner.dataset.verdict ?? null, basis: text(".as-drawn", banner), of: banner.querySelector(".as-drawn")?.dataset.of,
         lines: [...banner.querySelectorAll(".top-line")].map((x) => x.textContent.replace(/[: ]/g, "")),
         bars: [...document.querySelectorAll(".bar")].map((x) => x.getAttribute("aria-label")),
         problems: [...document.querySelectorAll(".problems:not([hidden]) .what")].map((x) => x.textContent),
@@ -197,7 +197,7 @@ export async function compare(page, server) {
     assert.deepEqual(seen.effects, now.ledger.filter((e) => e.called_for).map((e) => [e.id, e.active ? "computed" : "left out"]));
     if (now.status === "failed") assert.equal(seen.verdict, "failed");
     else if (!now.verdict) assert.equal(seen.verdict, null);
-    else if (seen.basis === "as it will be made") compareChecked(seen, check(server, seen));
+    else if (seen.of === "check") compareChecked(seen, check(server, seen));
     else {
         assert.equal(seen.verdict, now.verdict.verdict);
         assert.deepEqual(seen.lines, now.verdict.summary.map((l) => `${l.label}${l.text}`.replace(/[: ]/g, "")));

@@ -54,6 +54,10 @@ const VALUES = {
     probe: (c) => ({ kind: "displacement", on: c.moving.at(-1), direction: "0 deg" }),
     require: (c) => ({ probe: c.ids("probe")[0] ?? "", measure: "peak", max: "1 m" }),
     eyelet: () => ({ x: "0 mm", y: "0 mm" }),
+    study: () => ({ kind: "sweep" }),
+    vary: (c) => varied(c),
+    uncertain: (c) => ({ what: varied(c).what, spread: "interval", from: varied(c).from, to: varied(c).to }),
+    respond: () => ({ value: "governing.utilisation" }),
 };
 
 /** Children that must be there: [element, attributes]. */
@@ -61,7 +65,15 @@ const CHILDREN = {
     tendon: (c) => [["eyelet", { on: c.moving[0] }], ["eyelet", { on: "ground", x: "2 mm", y: "2 mm" }]],
     outline: () => [["line", { "to-x": "200 um", "to-y": "0 um" }], ["line", { "to-x": "200 um", "to-y": "200 um" }], ["line", { "to-x": "0 um", "to-y": "200 um" }], ["line", { "to-x": "0 um", "to-y": "0 um" }]],
     body: () => [["plate", {}]],
+    study: (c) => [["vary", varied(c)], ["respond", { name: "used", value: "governing.utilisation" }]],
 };
+
+/** The range of the first parameter, or of what every description has. */
+function varied(c) {
+    const name = c.ids("parameter")[0];
+    const p = name && c.parameter(name);
+    return p?.min && p?.max ? { what: name, from: p.min, to: p.max } : { what: "limits/@safety-factor", from: "1", to: "2" };
+}
 
 function two(c) {
     const [a, b] = [c.moving.at(-1), c.moving.at(-2)];

@@ -130,7 +130,7 @@ export class Verdict {
         this.last = top.verdict;
         this.#decided(top.verdict);
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", "data-of": full ? "check" : "preview", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),
             lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "");
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
