@@ -42,7 +42,8 @@ static void out_of_memory(reader *r) {
 
 /* libxml2 does not say of every allocation that failed: it takes a namespace for no URI, or leaves out
    what it had no room for. The allocator says it in errno, which nobody sets back: it is 0 before the
-   parser runs, and everything of ours that runs in between looks here first. */
+   parser runs, everything of ours that runs in between looks here first, and leaves 0 behind: a
+   large piece of memory that glibc finds at its second try, in another of its arenas, leaves ENOMEM there, too. */
 static int parser_lacks_memory(reader *r) {
     if (errno == ENOMEM && !r->refused) out_of_memory(r);
     return r->refused;
@@ -152,12 +153,8 @@ static int read_attributes(reader *r, node *n, int count, const xmlChar **given)
     return 1;
 }
 
-static void start_element(void *context, const xmlChar *name, const xmlChar *prefix,
-                          const xmlChar *space, int nspaces, const xmlChar **spaces,
-                          int nattributes, int ndefaulted, const xmlChar **attributes) {
-    reader *r = context;
-    (void)prefix, (void)nspaces, (void)spaces, (void)ndefaulted;
-    if (parser_lacks_memory(r)) return;
+static void begin_node(reader *r, const xmlChar *name, const xmlChar *space, int nattributes,
+                       const xmlChar **attributes) {
     node *n = fw_arena_one(r->arena, node);
     if (!n) {
         out_of_memory(r);
@@ -193,11 +190,16 @@ static void start_element(void *context, const xmlChar *name, const xmlChar *pre
     r->current = n;
 }
 
-static void end_element(void *context, const xmlChar *name, const xmlChar *prefix,
-                        const xmlChar *space) {
-    reader *r = context;
-    (void)name, (void)prefix, (void)space;
-    if (parser_lacks_memory(r) || !r->current) return;
+static void start_element(void *context, const xmlChar *name, const xmlChar *prefix,
+                          const xmlChar *space, int nspaces, const xmlChar **spaces,
+                          int nattributes, int ndefaulted, const xmlChar **attributes) {
+    (void)prefix, (void)nspaces, (void)spaces, (void)ndefaulted;
+    if (parser_lacks_memory(context)) return;
+    begin_node(context, name, space, nattributes, attributes);
+    errno = 0;
+}
+
+static void end_node(reader *r) {
     node *n = r->current;
     fw_text *t = &r->text[n->depth];
     while (t->length > 0 && strchr(" \t\r\n", t->data[t->length - 1]))
@@ -210,9 +212,16 @@ static void end_element(void *context, const xmlChar *name, const xmlChar *prefi
     r->current = (node *)n->element.parent; /* element is the first member */
 }
 
-static void characters(void *context, const xmlChar *text, int length) {
+static void end_element(void *context, const xmlChar *name, const xmlChar *prefix,
+                        const xmlChar *space) {
     reader *r = context;
-    if (parser_lacks_memory(r) || !r->current || length <= 0) return;
+    (void)name, (void)prefix, (void)space;
+    if (parser_lacks_memory(r) || !r->current) return;
+    end_node(r);
+    errno = 0;
+}
+
+static void add_text(reader *r, const xmlChar *text, int length) {
     const char *s = (const char *)text;
     size_t n = (size_t)length, skip = 0;
     if (r->text[r->current->depth].length == 0) {
@@ -227,6 +236,13 @@ static void characters(void *context, const xmlChar *text, int length) {
         if (offset >= r->line_start) r->current->element.text_place = next_place(r, offset);
     }
     fw_text_bytes(&r->text[r->current->depth], s + skip, n - skip);
+}
+
+static void characters(void *context, const xmlChar *text, int length) {
+    reader *r = context;
+    if (parser_lacks_memory(r) || !r->current || length <= 0) return;
+    add_text(r, text, length);
+    errno = 0;
 }
 
 /* the guard has refused these before; should it ever miss one, this stops the reading */

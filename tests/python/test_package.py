@@ -449,7 +449,7 @@ class Working(unittest.TestCase):
         thread = threading.Thread(target=beside)
         thread.start()
         seen = []
-        d.simulate(progress=lambda p: seen.append(count[0]))
+        d.simulate(samples=100001, rtol=1e-13, progress=lambda p: seen.append(count[0]))
         stop.set()
         thread.join()
         self.assertGreater(seen[-1], seen[0])
