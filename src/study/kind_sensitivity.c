@@ -39,7 +39,6 @@ void fw_study_derivative_weights(const double *x, int n, double at, double *weig
 
 typedef struct sensing {
     fw_study *study;
-    const fw_study_result *result;
     double *centre;   /* (ninput) SI */
     double *node;     /* (ninput x NODES) SI, as their texts say */
     double *response; /* (ninput x NODES x nresponse) */
@@ -169,14 +168,10 @@ static fw_status take_indices(fw_study *study, fw_study_result *result,
                               const fw_chance_indices *out) {
     size_t inputs = (size_t)study->ninput, n = (size_t)study->nresponse;
     FW_NEED(result->index = fw_arena_array(study->arena, fw_study_index, inputs * n));
-    FW_NEED(result->mean = fw_arena_array(study->arena, double, n));
-    FW_NEED(result->variance = fw_arena_array(study->arena, double, n));
     for (size_t k = 0; k < inputs * n; k++)
         result->index[k] =
             (fw_study_index){out->first[k].value, out->first[k].low, out->first[k].high,
                              out->total[k].value, out->total[k].low, out->total[k].high};
-    memcpy(result->mean, out->mean, n * sizeof *out->mean);
-    memcpy(result->variance, out->variance, n * sizeof *out->variance);
     return FW_OK;
 }
 
@@ -203,7 +198,7 @@ static fw_status indices(sensing *s, fw_study_result *result) {
 }
 
 fw_status fw_study_kind_sensitivity(fw_study *study, fw_study_result *result) {
-    sensing s = {.study = study, .result = result};
+    sensing s = {.study = study};
     for (int k = 0; k < study->ninput; k++)
         if (study->input[k].ntext > 0 || isnan(study->input[k].from))
             return fw_diag_error(&study->diags, 490, study->input[k].place,

@@ -131,7 +131,6 @@ static fw_status keep_found(fw_study *study, const fw_study_sample *sample, doub
                               .response = own.response,
                               .excess = excess,
                               .decision = own.decision,
-                              .yield = (double)NAN,
                               .i = own.i};
     return FW_OK;
 }

@@ -35,8 +35,7 @@ typedef struct fw_study_found {  /* size: a design */
     double *response;            /* (nresponse) */
     double excess;               /* <= 0: every limit holds */
     int decision;
-    double yield; /* NaN: not computed */
-    long i;       /* its sample */
+    long i; /* its sample */
 } fw_study_found;
 
 typedef struct fw_study_flow_yield { /* yield of one flow */
@@ -54,7 +53,6 @@ typedef struct fw_study_flow_yield { /* yield of one flow */
     const double *at;         /* (ninput) SI: the nearest device that fails; NULL: none found */
     const char *const *unit;  /* (ninput) */
     double beta;              /* its distance in standard deviations; NaN */
-    const char *governing;    /* what fails there */
 } fw_study_flow_yield;
 
 typedef struct fw_study_result {
@@ -64,9 +62,7 @@ typedef struct fw_study_result {
     long example_at;
     fw_study_derivative *derivative; /* (nresponse x ninput) sensitivity */
     fw_study_index *index;           /* (nresponse x ninput) sensitivity; NULL: not asked for */
-    double *mean, *variance;         /* (nresponse) over the ranges, of the indices */
     fw_study_end *end;               /* (nresponse x 2) worst case: least, largest */
-    bool proved;                     /* of worst cases: never by samples */
     fw_study_found
         *found; /* (nfound) size: the best; of two goals the Pareto front, by the first */
     int nfound;

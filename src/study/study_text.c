@@ -166,7 +166,9 @@ static void say_sensitivity(fw_text *out, const fw_study *study) {
             const fw_study_derivative *d = &result->derivative[at];
             fw_text_printf(out, "    %-22s half its range changes it by ", study->input[k].what);
             number(out, d->spread, q->unit);
-            if (result->index) {
+            if (result->index && isnan(result->index[at].total)) {
+                fw_text_add(out, "; at the accuracy asked it does not vary over the ranges");
+            } else if (result->index) {
                 fw_text_add(out, "; share of its variance ");
                 fw_text_number(out, result->index[at].first, 2);
                 fw_text_add(out, " alone, ");
