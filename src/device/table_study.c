@@ -76,7 +76,8 @@ const fw_device_study_words fw_device_study_words_of = {kinds,   points, judged,
 static const fw_xml_attribute_row study_rows[] = {STUDY_ROWS};
 static const fw_xml_attribute_row file_rows[] = {
     STUDY_ROWS,
-    {"device", TEXT, REQUIRED, .sentence = "The device file, beside this one or below it."},
+    {"device", TEXT, REQUIRED,
+     .sentence = "The device file; a relative name counts from where this file is."},
 };
 static const fw_xml_attribute_row vary_rows[] = {
     {"what", TEXT, REQUIRED, .sentence = "A parameter or a path, as --set takes it."},

@@ -164,6 +164,14 @@ static fw_status model(void *context, size_t first, size_t count, const double *
     return fw_study_pool_run(s->study, &work);
 }
 
+static long base_of(const fw_study *study) {
+    return study->asked->samples > 0 ? study->asked->samples : BASE_USUAL;
+}
+
+long fw_study_count_sensitivity(const fw_study *study) {
+    return NODES * (long)study->ninput + base_of(study) * (study->ninput + 2L);
+}
+
 static fw_status take_indices(fw_study *study, fw_study_result *result,
                               const fw_chance_indices *out) {
     size_t inputs = (size_t)study->ninput, n = (size_t)study->nresponse;
@@ -181,12 +189,10 @@ static fw_status indices(sensing *s, fw_study_result *result) {
     const char *why = NULL;
     size_t inputs = (size_t)study->ninput, n = (size_t)study->nresponse;
     const fw_chance_model of = {.dimensions = inputs, .responses = n, .f = model, .context = s};
-    const fw_chance_index_options o = {
-        .seed = (uint64_t)study->asked->seed,
-        .base = (size_t)(study->asked->samples > 0 ? study->asked->samples : BASE_USUAL),
-        .level = study->asked->confidence};
+    const fw_chance_index_options o = {.seed = (uint64_t)study->asked->seed,
+                                       .base = (size_t)base_of(study),
+                                       .level = study->asked->confidence};
     s->base = (long)inputs * NODES;
-    study->samples = s->base + (long)(o.base * (inputs + 2));
     /* in an arena of their own: they give back what they took, and we keep things meanwhile */
     FW_NEED(s->chance = fw_arena_part(study->arena, 0));
     fw_status status = fw_chance_indices_run(s->chance, &of, &o, &out, &why);

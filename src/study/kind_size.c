@@ -172,16 +172,11 @@ static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n
         *one = (fw_study_search){.objective = objective,
                                  .constraint = constraint,
                                  .context = a,
-                                 .from = best,
                                  .most = most,
                                  .digits = DIGITS,
                                  .first = *first};
         *first += PART;
-        FW_NEED(one->start = fw_arena_array(study->arena, double, (size_t)study->nvary + 1));
-        int at = 0;
-        for (int k = 0; k < study->nvary; k++)
-            if (study->input[k].ntext == 0)
-                one->start[at++] = fw_study_input_share(&study->input[k], best->value[k]);
+        FW_TRY(fw_study_search_from(study, best, one));
     }
     return FW_OK;
 }
@@ -282,6 +277,24 @@ static fw_status count_lists(sizing *s) {
     return FW_OK;
 }
 
+static int searches_of(int goals) {
+    return goals == 2 ? (2 + LEVELS) * STARTS : STARTS;
+}
+
+long fw_study_count_size(const fw_study *study) {
+    long n = 0, lists = 1;
+    int goals = 0;
+    if (study->asked->samples > 0) return study->asked->samples;
+    for (int k = 0; k < study->nvary; k++) {
+        const fw_study_input *in = &study->input[k];
+        n += in->ntext == 0;
+        if (in->ntext > 0 && lists <= LISTS_MOST) lists *= in->ntext;
+    }
+    for (int k = 0; k < study->nresponse; k++)
+        goals += study->response[k].asked->goal != FW_GOAL_NONE;
+    return (n == 0 ? 1 : 1 + 4 * n) * lists + 25 * (n + 1) * searches_of(goals);
+}
+
 static fw_status prepare(sizing *s, int *most) {
     fw_study *study = s->study;
     int n = 0;
@@ -292,14 +305,10 @@ static fw_status prepare(sizing *s, int *most) {
     for (int k = 0; k < study->nvary; k++)
         n += study->input[k].ntext == 0;
     FW_TRY(count_lists(s));
-    long points = n == 0 ? 1 : 1 + 4 * n;
-    s->first_n = points * s->lists;
-    int searches = s->ngoal == 2 ? (2 + LEVELS) * STARTS : STARTS;
-    long budget =
-        study->asked->samples > 0 ? study->asked->samples : s->first_n + 25L * (n + 1) * searches;
+    long budget = fw_study_count_size(study), searches = searches_of(s->ngoal);
+    s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
-    study->samples = budget;
     size_t room = (size_t)s->first_n + (size_t)searches;
     FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, room));
     for (long i = 0; i < s->first_n; i++)

@@ -48,36 +48,39 @@ static fw_status fill(void *context, long k, fw_study_sample *sample, bool *want
     return FW_INTERNAL;
 }
 
-/* how many points there are; FW_INPUT: they do not go together */
-fw_status fw_study_sweep_points(fw_study *study, long *n) {
-    *n = study->asked->points == FW_POINTS_SOBOL
-             ? (study->asked->samples > 0 ? study->asked->samples : SOBOL_USUAL)
-             : 1;
-    for (int v = 0; v < study->ninput; v++) {
+/* a grid of more than SWEEP_MOST: more than that */
+long fw_study_count_sweep(const fw_study *study) {
+    long n = 1;
+    if (study->asked->points == FW_POINTS_SOBOL)
+        return study->asked->samples > 0 ? study->asked->samples : SOBOL_USUAL;
+    if (study->asked->points == FW_POINTS_LIST) return fw_study_input_steps(&study->input[0]);
+    for (int v = 0; v < study->ninput && n <= SWEEP_MOST; v++)
+        n *= fw_study_input_steps(&study->input[v]);
+    return n;
+}
+
+static fw_status check_points(fw_study *study, long n) {
+    if (n > SWEEP_MOST)
+        return fw_diag_error(&study->diags, 490, study->asked->place,
+                             "the grid has more than %d points; take fewer steps, or "
+                             "points=\"sobol\" with so many samples as are wanted",
+                             (int)SWEEP_MOST);
+    for (int v = 0; study->asked->points == FW_POINTS_LIST && v < study->ninput; v++) {
         const fw_study_input *in = &study->input[v];
         int steps = fw_study_input_steps(in);
-        if (study->asked->points == FW_POINTS_GRID) *n *= steps;
-        if (*n > SWEEP_MOST)
-            return fw_diag_error(&study->diags, 490, in->place,
-                                 "the grid has more than %d points; take fewer steps, or "
-                                 "points=\"sobol\" with so many samples as are wanted",
-                                 (int)SWEEP_MOST);
-        if (study->asked->points != FW_POINTS_LIST) continue;
-        if (v == 0) *n = steps;
-        if (steps != *n)
+        if (steps != n)
             return fw_diag_error(&study->diags, 490, in->place,
                                  "points=\"list\" takes the values of all inputs side by side, and "
                                  "'%s' has %d where '%s' has %ld; give each as many",
-                                 in->what, steps, study->input[0].what, *n);
+                                 in->what, steps, study->input[0].what, n);
     }
     return FW_OK;
 }
 
 fw_status fw_study_kind_sweep(fw_study *study, fw_study_result *result) {
-    sweep s = {.study = study};
+    sweep s = {.study = study, .n = fw_study_count_sweep(study)};
     (void)result;
-    FW_TRY(fw_study_sweep_points(study, &s.n));
-    study->samples = s.n;
+    FW_TRY(check_points(study, s.n));
     if (study->asked->points == FW_POINTS_SOBOL)
         FW_TRY(fw_chance_sobol_new(study->arena, (size_t)study->ninput,
                                    (uint64_t)study->asked->seed, &s.sobol));

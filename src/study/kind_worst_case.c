@@ -88,16 +88,10 @@ static fw_status begin_search(const worst *w, end_aim *a, long first, int most,
     *search = (fw_study_search){.objective = objective,
                                 .constraint = no_constraint,
                                 .context = a,
-                                .from = best,
                                 .most = most,
                                 .digits = DIGITS,
                                 .first = first};
-    FW_NEED(search->start = fw_arena_array(w->study->arena, double, (size_t)w->study->ninput + 1));
-    int at = 0;
-    for (int k = 0; k < w->study->ninput; k++)
-        if (w->study->input[k].ntext == 0)
-            search->start[at++] = fw_study_input_share(&w->study->input[k], best->value[k]);
-    return FW_OK;
+    return fw_study_search_from(w->study, best, search);
 }
 
 static void take_end(const end_aim *a, const fw_study_search *s, fw_study_end *end) {
@@ -106,16 +100,30 @@ static void take_end(const end_aim *a, const fw_study_search *s, fw_study_end *e
     *end = (fw_study_end){.value = best->response[a->response], .text = best->text, .known = true};
 }
 
+/* 0: too many to look at */
+static long corners_of(const fw_study *study) {
+    long corners = 1;
+    for (int v = 0; v < study->ninput && corners <= 1L << CORNERS_MOST; v++)
+        corners *= values_of(&study->input[v]);
+    return corners <= 1L << CORNERS_MOST ? corners : 0;
+}
+
+static long points_of(const fw_study *study) {
+    long corners = corners_of(study), asked = study->asked->samples;
+    return corners + 1 + (asked > 0 ? asked : BETWEEN * (study->ninput + 1L) + (corners ? 0 : 128));
+}
+
+static int search_of(const fw_study *study) {
+    return SEARCH_USUAL * (study->ninput + 1);
+}
+
+long fw_study_count_worst_case(const fw_study *study) {
+    return points_of(study) + 2L * study->nresponse * search_of(study);
+}
+
 fw_status fw_study_kind_worst_case(fw_study *study, fw_study_result *result) {
-    worst w = {.study = study, .corners = 1};
-    int n = study->ninput, ends = 2 * study->nresponse, running = 0;
-    for (int v = 0; v < n && w.corners <= 1L << CORNERS_MOST; v++)
-        w.corners *= values_of(&study->input[v]);
-    if (w.corners > 1L << CORNERS_MOST) w.corners = 0;
-    long asked = study->asked->samples;
-    w.n = w.corners + 1 + (asked > 0 ? asked : BETWEEN * (n + 1L) + (w.corners ? 0 : 128));
-    int most = SEARCH_USUAL * (n + 1);
-    study->samples = w.n + (long)ends * most;
+    worst w = {.study = study, .corners = corners_of(study), .n = points_of(study)};
+    int n = study->ninput, ends = 2 * study->nresponse, running = 0, most = search_of(study);
     FW_TRY(fw_chance_sobol_new(study->arena, (size_t)n, (uint64_t)study->asked->seed, &w.sobol));
     FW_NEED(w.kept = fw_arena_array(study->arena, fw_study_sample, (size_t)w.n));
     for (long i = 0; i < w.n; i++)

@@ -16,10 +16,9 @@
 #include "study/study_parts.h"
 #include "study/study_result.h"
 #include <math.h>
-#include <pthread.h>
 #include <string.h>
 
-enum { PART = 100000000, MOST_CACHED = 1 << 20 };
+enum { PART = 100000000, BUDGET_USUAL = 4000 };
 
 typedef struct cached {
     long i; /* number of its sample; -1: free */
@@ -49,12 +48,10 @@ typedef struct yielding {
 
 typedef struct batch {
     yielding *y;
-    size_t n, next;
+    size_t n;
     const double *x;       /* (n x values) */
     fw_verdict_made *made; /* (n) */
     bool *wanted;          /* (n) not known from before */
-    pthread_mutex_t lock;
-    fw_status status;
 } batch;
 
 static double draw_of_input(const yielding *y, const double *x, int k) {
@@ -117,43 +114,10 @@ static fw_status judge_one(const yielding *y, const double *x, fw_verdict_made *
     return status;
 }
 
-static void work_through(batch *b) {
-    for (;;) {
-        pthread_mutex_lock(&b->lock);
-        while (b->next < b->n && !b->wanted[b->next])
-            b->next++;
-        bool over = b->next >= b->n || b->status != FW_OK;
-        size_t k = over ? 0 : b->next++;
-        pthread_mutex_unlock(&b->lock);
-        if (over) return;
-        fw_status status = judge_one(b->y, b->x + k * b->y->joint.values, &b->made[k]);
-        if (status == FW_OK) continue;
-        pthread_mutex_lock(&b->lock);
-        if (b->status == FW_OK) b->status = status;
-        pthread_mutex_unlock(&b->lock);
-    }
-}
-
-/* in the "C" locale, as all work is */
-static void *worker(void *argument) {
-    batch *b = argument;
-    locale_t before = uselocale(b->y->study->design->locale);
-    work_through(b);
-    uselocale(before);
-    return NULL;
-}
-
-static fw_status run_batch(batch *b) {
-    pthread_t thread[FW_STUDY_JOBS_MOST];
-    int jobs = fw_study_jobs(b->y->study), running = 0;
-    pthread_mutex_init(&b->lock, NULL);
-    for (; jobs > 1 && running < jobs; running++)
-        if (pthread_create(&thread[running], NULL, worker, b) != 0) break;
-    if (running == 0) worker(b);
-    for (int i = 0; i < running; i++)
-        pthread_join(thread[i], NULL);
-    pthread_mutex_destroy(&b->lock);
-    return b->status;
+static fw_status judge_kth(void *context, long k) {
+    batch *b = context;
+    return b->wanted[k] ? judge_one(b->y, b->x + (size_t)k * b->y->joint.values, &b->made[k])
+                        : FW_OK;
 }
 
 /* ---- devices that were judged before ---- */
@@ -239,7 +203,7 @@ static fw_status judge_new(yielding *y, fw_arena *scratch, size_t n, const doubl
     FW_TRY(from_store(y, &b, &sample, first));
     for (size_t k = 0; k < n; k++)
         stored[k] = !b.wanted[k];
-    FW_TRY(run_batch(&b));
+    FW_TRY(fw_study_each(y->study, (long)n, judge_kth, &b));
     for (size_t k = 0; k < n; k++) {
         cached c = {first + (long)k, b.made[k].ln};
         size_t to = slot_of(y, x + k * values);
@@ -481,6 +445,11 @@ static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_f
     fw_status status = estimate_all(&y, v, out);
     fw_arena_free(y.chance);
     return status;
+}
+
+/* of one estimate; there are some more of each flow where the limit is moved or a range is not known */
+long fw_study_count_yield(const fw_study *study) {
+    return study->asked->samples > 0 ? study->asked->samples : BUDGET_USUAL;
 }
 
 fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {

@@ -6,6 +6,7 @@
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include "study/study_result.h"
+#include "xml/xml.h"
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -15,9 +16,16 @@ enum { FILE_MOST = 8 << 20 };
 
 /* ---- which study, of which device ---- */
 
-static bool is_study_file(const char *xml, size_t n) {
-    const char *root = n > 0 ? strstr(xml, "urn:flexwright:study:") : NULL;
-    return root != NULL;
+/* by its first element; what cannot be read as XML is a device file, whose reader says what is wrong */
+static fw_status is_study_file(const fw_study *study, const char *xml, size_t n, bool *is) {
+    fw_arena *scratch = fw_arena_part(study->arena, 0);
+    FW_NEED(scratch);
+    fw_diags silent = fw_diags_new(scratch);
+    fw_xml_element *root = NULL;
+    fw_status status = fw_xml_read(scratch, study->options.file, xml, n, &silent, &root);
+    *is = root && strcmp(root->name, "study") == 0;
+    fw_arena_free(scratch);
+    return status == FW_NOMEM ? FW_NOMEM : FW_OK;
 }
 
 /* path of a file that another one names beside it */
@@ -26,11 +34,6 @@ static const char *beside(fw_arena *arena, const char *file, const char *name) {
     return slash && name[0] != '/'
                ? fw_arena_printf(arena, "%.*s/%s", (int)(slash - file), file, name)
                : fw_arena_strdup(arena, name);
-}
-
-/* its own text, for carets */
-static void keep_source(fw_study *study, const char *xml, size_t n) {
-    study->source = xml, study->source_length = n;
 }
 
 static fw_status choose(fw_study *study, const fw_device *device) {
@@ -64,11 +67,9 @@ static fw_status read_study_file(fw_study *study, char *xml, size_t n) {
 /* ---- the description as it stands ---- */
 
 static void take_errors(fw_study *study, const fw_diags *from) {
-    for (size_t i = 0; i < from->count; i++) {
-        const fw_diag *d = &from->item[i];
-        if (d->severity == FW_ERROR)
-            fw_diag_error(&study->diags, d->number, d->place, "%s", d->message);
-    }
+    for (size_t i = 0; i < from->count; i++)
+        if (from->item[i].severity == FW_ERROR)
+            fw_diags_add(&study->diags, &from->item[i], FW_ERROR);
 }
 
 /* read and judged as any sample is, and kept: places, names and hashes are of it */
@@ -178,29 +179,39 @@ static void check_names(fw_study *study) {
         }
 }
 
-/* one value of an input alone, read: what --set finds wrong with it is said at its row */
-static fw_status check_value(fw_study *study, int k, const fw_study_sample *sample) {
+/* the description alone is read with one value of an input: what --set finds wrong with it is said at
+   the input's row */
+static fw_status check_value_in(fw_study *study, fw_arena *scratch, int k, const char *text) {
     const fw_study_input *in = &study->input[k];
-    int status;
-    fw_design *design = fw_study_design(study, study->options.cancel,
-                                        (const char(*)[FW_STUDY_TEXT])sample->text, &status);
-    FW_NEED(design);
-    const fw_diags *said = &fw_plan_design_plan(design)->diags;
-    fw_status found =
-        status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED ? (fw_status)status : FW_OK;
-    for (size_t i = 0; i < said->count && found == FW_OK; i++) {
-        const fw_diag *d = &said->item[i];
+    fw_plan *plan = study->plan;
+    const size_t n = (size_t)plan->options.nset;
+    const fw_device *device;
+    fw_diags said = fw_diags_new(scratch);
+    fw_device_set *set = fw_arena_array(scratch, fw_device_set, n + 1);
+    FW_NEED(set);
+    if (n > 0) memcpy(set, plan->options.set, n * sizeof *set);
+    set[n] = (fw_device_set){in->what, text};
+    fw_status status = fw_plan_device_again(plan, scratch, set, (int)n + 1, &said, &device);
+    if (fw_plan_is_final(status)) return status;
+    for (size_t i = 0; i < said.count; i++) {
+        const fw_diag *d = &said.item[i];
         /* no such path, not a value of its kind, beyond what the parameter allows; what else may be wrong
            with a value is the sample's own affair */
         bool of_path = d->number == 55 || d->number == 57 || (d->number >= 20 && d->number < 30);
-        if (d->severity != FW_ERROR || !of_path || !d->place.file ||
-            strncmp(d->place.file, "--set", 5) != 0)
-            continue;
-        found = fw_diag_error(&study->diags, 493, in->place, "\"%s\" set to %s: %s", in->what,
-                              sample->text[k], d->message);
+        if (d->severity == FW_ERROR && of_path && d->place.file &&
+            strncmp(d->place.file, "--set", 5) == 0)
+            return fw_diag_error(&study->diags, 493, in->place, "\"%s\" set to %s: %s", in->what,
+                                 text, d->message);
     }
-    fw_design_free(design);
-    return found;
+    return FW_OK;
+}
+
+static fw_status check_value(fw_study *study, int k, const char *text) {
+    fw_arena *scratch = fw_arena_part(study->arena, 0);
+    FW_NEED(scratch);
+    fw_status status = check_value_in(study, scratch, k, text);
+    fw_arena_free(scratch);
+    return status;
 }
 
 /* a value that an input left to chance is sure to have nearby */
@@ -210,18 +221,18 @@ static double some_value(const fw_device_uncertain *u) {
 
 /* the ends of an input, or what is listed: is there such a parameter or attribute, and may it be so? */
 static fw_status check_input(fw_study *study, int k) {
-    fw_study_sample sample;
     const fw_study_input *in = &study->input[k];
-    FW_TRY(fw_study_sample_new(study->arena, study, &sample));
+    char text[FW_STUDY_TEXT];
+    double shown;
     if (k >= study->nvary) {
         double value = some_value(&study->asked->uncertain[k - study->nvary]);
-        FW_TRY(fw_study_input_write(in, value, 12, sample.text[k], &sample.value[k]));
-        return check_value(study, k, &sample);
+        FW_TRY(fw_study_input_write(in, value, 12, text, &shown));
+        return check_value(study, k, text);
     }
-    int steps = fw_study_input_steps(in);
-    for (int i = 0; i<steps; i += in->ntext> 0 ? 1 : steps - 1) {
-        FW_TRY(fw_study_input_step(in, i, sample.text[k], &sample.value[k]));
-        FW_TRY(check_value(study, k, &sample));
+    int last = fw_study_input_steps(in) - 1, step = in->ntext > 0 || last == 0 ? 1 : last;
+    for (int i = 0; i <= last; i += step) {
+        FW_TRY(fw_study_input_step(in, i, text, &shown));
+        FW_TRY(check_value(study, k, text));
     }
     return FW_OK;
 }
@@ -246,46 +257,28 @@ static fw_status take_responses(fw_study *study) {
     return status;
 }
 
-/* every path in the documents of the description as it stands */
-static fw_status resolve(fw_study *study, fw_design *design) {
-    fw_status status = FW_OK;
-    char why[FW_STUDY_WHY];
-    for (int k = 0; k < study->nresponse; k++) {
-        fw_study_response *r = &study->response[k];
-        const char *text;
-        size_t n;
-        int got = fw_design_document(design, fw_study_documents[r->document].document, &text, &n);
-        if (got != FW_STATUS_OK) return (fw_status)got;
-        json_t *root = json_loadb(text, n, 0, NULL);
-        FW_NEED(root);
-        if (!fw_study_response_find(r, root, &r->now, why, sizeof why))
-            status = fw_diag_error(&study->diags, 492, r->asked->place, "response '%s' (%s): %s",
-                                   r->asked->name, r->asked->value, why);
-        json_decref(root);
-    }
-    return status;
-}
-
+/* once, for every path and for what one device takes */
 static fw_status run_as_it_stands(fw_study *study) {
-    fw_study_sample sample;
-    bool changed = false;
     struct timespec begun, ended;
+    double *now = fw_arena_array(study->arena, double, (size_t)study->nresponse);
+    size_t errors = study->diags.errors;
     int status;
+    FW_NEED(now);
     if (study->asked->kind == FW_STUDY_IS_yield) return FW_OK;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
-    FW_TRY(fw_study_sample_new(study->arena, study, &sample));
-    FW_TRY(fw_study_evaluate(study, study->options.cancel, &sample, &changed));
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
-    study->seconds_each =
-        (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);
-    study->decision = sample.decision;
-    if (!sample.run) return FW_OK; /* others may be run; paths cannot be looked up */
     fw_design *design = fw_study_design(study, study->options.cancel, NULL, &status);
     FW_NEED(design);
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
-    fw_status found = status == FW_STATUS_OK ? resolve(study, design) : (fw_status)status;
+    if (status == FW_STATUS_OK) status = fw_study_responses_take(study, design, now, &study->diags);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
     fw_design_free(design);
-    return found;
+    study->seconds_each =
+        (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);
+    if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
+    if (status != FW_STATUS_OK) return FW_OK; /* others may be run; paths cannot be looked up */
+    for (int k = 0; k < study->nresponse; k++)
+        study->response[k].now = now[k];
+    return study->diags.errors > errors ? FW_INPUT : FW_OK;
 }
 
 /* ---- what decides a sample ---- */
@@ -377,9 +370,10 @@ static fw_status open_all(fw_study *study) {
     char *xml;
     size_t n;
     FW_TRY(fw_input_read(study->arena, study->options.file, FILE_MOST, &study->diags, &xml, &n));
-    keep_source(study, xml, n);
+    study->source = xml, study->source_length = n;
     study->device_path = study->options.file;
-    bool alone = is_study_file(xml, n);
+    bool alone;
+    FW_TRY(is_study_file(study, xml, n, &alone));
     if (alone) FW_TRY(read_study_file(study, xml, n));
     FW_TRY(open_device(study));
     if (!alone) FW_TRY(choose(study, study->plan->device));
@@ -406,8 +400,7 @@ fw_study *fw_study_new(const fw_study_options *options) {
         fw_arena_free(arena);
         return NULL;
     }
-    *study = (fw_study){
-        .arena = arena, .diags = fw_diags_new(arena), .options = *options, .decision = -1};
+    *study = (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options};
     if (options->cancel) fw_arena_stop_with(arena, options->cancel);
     return study;
 }
@@ -496,6 +489,19 @@ fw_status fw_study_run(fw_study *study) {
     if (!study->store) return FW_OK;
     FW_TRY(fw_study_store_finish(study->store));
     return fw_study_store_each(study->store, tally, study);
+}
+
+long fw_study_count(const fw_study *study) {
+    switch (study->asked->kind) {
+#define FW_STUDY(name, word, sentence)                                                             \
+    case FW_STUDY_IS_##name:                                                                       \
+        return fw_study_count_##name(study);
+#include "device/studies.def"
+#undef FW_STUDY
+    case FW_STUDY_KINDS:
+        break;
+    }
+    return 0;
 }
 
 int fw_study_decision(const fw_study *study) {

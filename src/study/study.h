@@ -91,10 +91,8 @@ typedef struct fw_study {
     fw_design *design;            /* the description as it stands; of a yield judged as drawn */
     fw_design *former;            /* as it was first read: places are of it; NULL: the same */
     fw_plan *plan;                /* of `design` */
-    int decision;                 /* of it */
     double seconds_each;          /* what the description as it stands took, all its stages; CPU */
     struct fw_study_store *store; /* NULL: none was asked for */
-    long samples;                 /* of the whole study where they are known beforehand; else 0 */
     const struct fw_study_result *result;
 } fw_study;
 
@@ -105,6 +103,8 @@ fw_status fw_study_open(const fw_study_options *options, fw_study **study);
 void fw_study_free(fw_study *study); /* NULL allowed */
 /* runs what is not in the store yet, and computes study->result */
 fw_status fw_study_run(fw_study *study);
+/* devices that it will run, at most */
+long fw_study_count(const fw_study *study);
 /* what would be run: a text for a terminal, from the study as opened */
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out);
 /* 1 where nothing was found that holds every limit (of a size), else 0 */

@@ -2,6 +2,7 @@
 /* One device of a study: the description with its settings through the same calls that the commands make,
    so that a sample says what `check` would say of it, and its numbers from the same documents. */
 #include "plan/design.h"
+#include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,6 +14,14 @@ fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_s
     FW_NEED(sample->value = fw_arena_array(arena, double, (size_t)study->ninput));
     FW_NEED(sample->response = fw_arena_array(arena, double, (size_t)study->nresponse));
     return FW_OK;
+}
+
+const char *fw_study_state_text(bool run, int decision) {
+    return !run            ? "failed"
+           : decision == 0 ? "accept"
+           : decision == 1 ? "reject"
+           : decision == 4 ? "inconclusive"
+                           : "run";
 }
 
 void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
@@ -75,8 +84,8 @@ static void first_error(fw_design *design, int status, char why[FW_STUDY_WHY]) {
     snprintf(why, FW_STUDY_WHY, "%s", text);
 }
 
-/* the numbers of all responses; each document is composed and read once */
-static int take_responses(const fw_study *study, fw_design *design, fw_study_sample *sample) {
+int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
+                            fw_diags *diags) {
     char why[FW_STUDY_WHY];
     for (int d = 0; d < fw_study_document_count; d++) {
         json_t *root = NULL;
@@ -91,7 +100,9 @@ static int take_responses(const fw_study *study, fw_design *design, fw_study_sam
                 root = json_loadb(text, n, 0, NULL);
                 if (!root) return FW_STATUS_NOMEM;
             }
-            fw_study_response_find(r, root, &sample->response[k], why, sizeof why);
+            if (!fw_study_response_find(r, root, &value[k], why, sizeof why) && diags)
+                fw_diag_error(diags, 492, r->asked->place, "response '%s' (%s): %s", r->asked->name,
+                              r->asked->value, why);
         }
         json_decref(root);
     }
@@ -132,12 +143,6 @@ static double used_of(const fw_verdict *verdict, int decision) {
     return decision == 0 ? fmin(most, 1) : fmax(most, beyond);
 }
 
-/* does it end the study, not this device alone? */
-static bool is_final(int status) {
-    return status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED || status == FW_STATUS_IO ||
-           status == FW_STATUS_INTERNAL || status == FW_STATUS_USAGE;
-}
-
 static bool same_files(const fw_study *study, fw_design *design) {
     fw_plan *plan = fw_plan_design_plan(design);
     const char *was, *is;
@@ -157,7 +162,8 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
     FW_NEED(design);
     if (status == FW_STATUS_OK && !same_files(study, design)) *changed = true;
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
-    if (status == FW_STATUS_OK) status = take_responses(study, design, sample);
+    if (status == FW_STATUS_OK)
+        status = fw_study_responses_take(study, design, sample->response, NULL);
     sample->run = status == FW_STATUS_OK;
     if (sample->run) {
         sample->decision = fw_design_decision(design);
@@ -166,5 +172,5 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
     } else
         first_error(design, status, sample->why);
     fw_design_free(design);
-    return *changed ? FW_INPUT : is_final(status) ? (fw_status)status : FW_OK;
+    return *changed ? FW_INPUT : fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
 }

@@ -125,11 +125,7 @@ static void found(fw_json *j, const char *key, const fw_study *study, const fw_s
     }
     fw_json_end(j);
     fw_json_real(j, "excess", f->excess);
-    fw_json_text(j, "verdict",
-                 f->decision == 0   ? "accept"
-                 : f->decision == 1 ? "reject"
-                 : f->decision == 4 ? "inconclusive"
-                                    : NULL);
+    fw_json_text(j, "verdict", fw_study_state_text(true, f->decision));
     fw_json_end(j);
 }
 

@@ -64,6 +64,10 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
 /* a design with the study's options, sets and these settings, read; *status tells. NULL: no memory */
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
                            const char (*text)[FW_STUDY_TEXT], int *status);
+/* values (nresponse) of a design whose stages have run, each document read once; what is not found is NaN,
+   and said in diags (NULL: nobody is told). The library's status */
+int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
+                            fw_diags *diags);
 /* what responses need of a design that was read; the library's status */
 int fw_study_stages_run(fw_design *design, unsigned stages);
 /* one hash of all files that a plan has read */
@@ -81,8 +85,6 @@ typedef struct fw_study_work {
 } fw_study_work;
 /* FW_CANCELLED: what was taken before is whole */
 fw_status fw_study_pool_run(fw_study *study, const fw_study_work *work);
-/* threads of the study: options.jobs, or the processors that there are */
-int fw_study_jobs(const fw_study *study);
 
 /* ---- study_search.c: optimisers over the inputs ---- */
 
@@ -102,6 +104,9 @@ typedef struct fw_study_search {
     double f, c;
     int used;
 } fw_study_search;
+/* begins at a sample: its shares, and its texts of listed inputs */
+fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *from,
+                               fw_study_search *search);
 /* n searches, in threads: each gives the same whatever runs beside it */
 fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n);
 /* a is better than b: feasible before infeasible, then by objective, or by constraint */
@@ -109,12 +114,19 @@ bool fw_study_search_better(double fa, double ca, double fb, double cb);
 
 /* weights (n <= 7) of the first derivative at `at` by values at the nodes x (kind_sensitivity.c) */
 void fw_study_derivative_weights(const double *x, int n, double at, double *weight);
-/* how many points a sweep has; FW_INPUT: said (kind_sweep.c) */
-fw_status fw_study_sweep_points(fw_study *study, long *n);
 
 /* study.c: the two steps of fw_study_open. NULL: memory is short */
 fw_study *fw_study_new(const fw_study_options *options);
 fw_status fw_study_open_in(fw_study *study);
+
+/* ---- study_threads.c ---- */
+
+/* `one` for 0 to n - 1 in the study's threads, in the "C" locale, each once, until one of them is not
+   FW_OK: that is the answer */
+fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *context, long i),
+                        void *context);
+/* threads of the study: options.jobs, or the processors that there are */
+int fw_study_jobs(const fw_study *study);
 
 /* ---- what kinds of studies share ---- */
 
@@ -122,6 +134,8 @@ fw_status fw_study_open_in(fw_study *study);
 fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample);
 /* is sample i of this shard, and not in the store yet? */
 bool fw_study_is_due(const fw_study *study, long i);
+/* "accept", "reject", "inconclusive", "run" (not judged), "failed" */
+const char *fw_study_state_text(bool run, int decision);
 /* by their numbers */
 void fw_study_sort_samples(fw_study_sample *sample, int n);
 /* the largest share by which a limit of a <respond> is missed; <= 0: all hold; NaN: it was not run, or
@@ -129,7 +143,8 @@ void fw_study_sort_samples(fw_study_sample *sample, int n);
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample);
 
 #define FW_STUDY(name, word, sentence)                                                             \
-    fw_status fw_study_kind_##name(fw_study *study, struct fw_study_result *result);
+    fw_status fw_study_kind_##name(fw_study *study, struct fw_study_result *result);               \
+    long fw_study_count_##name(const fw_study *study); /* devices, at most */
 #include "device/studies.def"
 #undef FW_STUDY
 

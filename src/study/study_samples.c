@@ -3,13 +3,6 @@
 #include "base/sort.h"
 #include "study/study_parts.h"
 #include <math.h>
-#include <unistd.h>
-
-int fw_study_jobs(const fw_study *study) {
-    long there = sysconf(_SC_NPROCESSORS_ONLN);
-    int jobs = study->options.jobs > 0 ? study->options.jobs : there > 0 ? (int)there : 1;
-    return jobs > FW_STUDY_JOBS_MOST ? FW_STUDY_JOBS_MOST : jobs;
-}
 
 fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample) {
     return study->store ? fw_study_store_add(study->store, sample) : FW_OK;

@@ -25,8 +25,7 @@ bool fw_study_search_better(double fa, double ca, double fb, double cb) {
 typedef struct board { /* of all searches of one run */
     fw_study *study;
     fw_study_search *search;
-    int n, next;
-    pthread_mutex_t lock; /* of next, status and the store */
+    pthread_mutex_t lock; /* of status and the store */
     fw_status status;
 } board;
 
@@ -144,36 +143,34 @@ static fw_status search(board *b, fw_study_search *s, fw_arena *arena) {
     return FW_OK;
 }
 
-static void *worker(void *argument) {
-    board *b = argument;
-    for (;;) {
-        pthread_mutex_lock(&b->lock);
-        int at = b->status == FW_OK && b->next < b->n ? b->next++ : FW_NONE;
-        pthread_mutex_unlock(&b->lock);
-        if (at == FW_NONE) return NULL;
-        fw_arena *arena = fw_arena_new(0);
-        fw_status status = arena ? search(b, &b->search[at], arena) : FW_NOMEM;
-        fw_arena_free(arena);
-        pthread_mutex_lock(&b->lock);
-        if (b->status == FW_OK) b->status = status;
-        pthread_mutex_unlock(&b->lock);
-    }
+static fw_status search_one(void *context, long i) {
+    board *b = context;
+    fw_arena *arena = fw_arena_new(0);
+    FW_NEED(arena);
+    fw_status status = search(b, &b->search[i], arena);
+    fw_arena_free(arena);
+    return status == FW_OK ? b->status : status;
+}
+
+fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *from,
+                               fw_study_search *s) {
+    int at = 0;
+    s->from = from;
+    FW_NEED(s->start = fw_arena_array(study->arena, double, (size_t)study->nvary + 1));
+    for (int k = 0; k < study->nvary; k++)
+        if (study->input[k].ntext == 0)
+            s->start[at++] = fw_study_input_share(&study->input[k], from->value[k]);
+    return FW_OK;
 }
 
 fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n) {
-    board b = {.study = study, .search = search, .n = n};
-    pthread_t thread[FW_STUDY_JOBS_MOST];
-    int jobs = fw_study_jobs(study), running = 0;
+    board b = {.study = study, .search = search};
     for (int i = 0; i < n; i++) {
         search[i].f = search[i].c = (double)NAN;
         FW_TRY(fw_study_sample_new(study->arena, study, &search[i].best));
     }
     pthread_mutex_init(&b.lock, NULL);
-    for (; jobs > 1 && running < jobs && running < n; running++)
-        if (pthread_create(&thread[running], NULL, worker, &b) != 0) break;
-    if (running == 0) worker(&b);
-    for (int i = 0; i < running; i++)
-        pthread_join(thread[i], NULL);
+    fw_status status = fw_study_each(study, n, search_one, &b);
     pthread_mutex_destroy(&b.lock);
-    return b.status;
+    return status;
 }

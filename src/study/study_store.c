@@ -29,22 +29,13 @@ struct fw_study_store {
     struct timespec begun;
 };
 
-static const char *const states[] = {"failed", "run", "accept", "reject", "inconclusive"};
-
-static const char *state_of(const fw_study_sample *sample) {
-    if (!sample->run) return states[0];
-    return sample->decision == 0   ? states[2]
-           : sample->decision == 1 ? states[3]
-           : sample->decision == 4 ? states[4]
-                                   : states[1];
-}
-
 static void take_state(const char *state, fw_study_sample *sample) {
-    sample->run = strcmp(state, states[0]) != 0;
-    sample->decision = strcmp(state, states[2]) == 0   ? 0
-                       : strcmp(state, states[3]) == 0 ? 1
-                       : strcmp(state, states[4]) == 0 ? 4
-                                                       : -1;
+    static const int decisions[] = {0, 1, 4};
+    sample->run = strcmp(state, fw_study_state_text(false, -1)) != 0;
+    sample->decision = -1;
+    for (int i = 0; i < 3; i++)
+        if (strcmp(state, fw_study_state_text(true, decisions[i])) == 0)
+            sample->decision = decisions[i];
 }
 
 static fw_status failed(const fw_study_store *store, const char *doing) {
@@ -297,7 +288,8 @@ fw_status fw_study_store_add(fw_study_store *store, const fw_study_sample *sampl
         clock_gettime(CLOCK_MONOTONIC, &store->begun);
     }
     sqlite3_bind_int64(s, at++, sample->i);
-    sqlite3_bind_text(s, at++, state_of(sample), -1, SQLITE_STATIC);
+    sqlite3_bind_text(s, at++, fw_study_state_text(sample->run, sample->decision), -1,
+                      SQLITE_STATIC);
     if (sample->run)
         sqlite3_bind_null(s, at++);
     else

@@ -48,33 +48,6 @@ static void seconds(fw_text *out, double s) {
     fw_text_add(out, s < 120 ? " s" : s < 7200 ? " min" : " h");
 }
 
-/* how many devices the study asks for, at most; 0: the kind says while it runs */
-static long devices(const fw_study *study) {
-    const fw_device_study *a = study->asked;
-    long n = study->nvary, samples = a->samples, sweep = 0;
-    int goals = 0;
-    switch (a->kind) {
-    case FW_STUDY_IS_sweep: {
-        fw_study copy = *study; /* its messages are said when it runs */
-        copy.diags = fw_diags_new(study->arena);
-        return fw_study_sweep_points(&copy, &sweep) == FW_OK ? sweep : 0;
-    }
-    case FW_STUDY_IS_yield:
-        return samples > 0 ? samples : 4000;
-    case FW_STUDY_IS_size:
-        for (int r = 0; r < study->nresponse; r++)
-            goals += study->response[r].asked->goal != FW_GOAL_NONE;
-        return samples > 0 ? samples : 1 + 4 * n + 25 * (n + 1) * (goals == 2 ? 33 : 3);
-    case FW_STUDY_IS_sensitivity:
-        return 7 * n + (samples > 0 ? samples : 128) * (n + 2);
-    case FW_STUDY_IS_worst_case:
-        return (n <= 10 ? 1L << n : 128) + 1 + 8 * (n + 1) + 2L * study->nresponse * 15 * (n + 1);
-    case FW_STUDY_KINDS:
-        break;
-    }
-    return 0;
-}
-
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     const fw_device_study *a = study->asked;
     fw_text_printf(out, "study %s of %s: %s, each device judged as %s\n", a->name,
@@ -92,7 +65,7 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
 }
 
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
-    long n = devices(study);
+    long n = fw_study_count(study);
     int jobs = fw_study_jobs(study);
     FW_TRY(fw_study_asked_text(study, out));
     fw_text_printf(out, "%s%ld devices in %d threads",
@@ -309,11 +282,7 @@ static fw_status row(void *context, const fw_study_sample *s) {
     fw_mark mark = fw_arena_mark(t->arena);
     fw_text line = fw_text_new(t->arena);
     fw_text_printf(&line, "%ld,", s->i);
-    fw_text_add(&line, !s->run            ? "failed"
-                       : s->decision == 0 ? "accept"
-                       : s->decision == 1 ? "reject"
-                       : s->decision == 4 ? "inconclusive"
-                                          : "run");
+    fw_text_add(&line, fw_study_state_text(s->run, s->decision));
     fw_text_add(&line, ",");
     field(&line, s->run ? "" : s->why);
     real(&line, s->used);

@@ -220,6 +220,7 @@ class Study(unittest.TestCase):
                                            '<respond name="U" value="governing.utilisation"/></study></device>')
         path = self.write(text, "device.xml")
         self.assertEqual(run("check", path, *FLOW).returncode, 0)
+        path.write_text(text.replace("<device ", "<!-- no urn:flexwright:study:1 of its own --><device ", 1))
         done = run("study", path, *FLOW)
         self.assertEqual(done.returncode, 3)
         self.assertIn("name one with --study: a b", done.stderr)
