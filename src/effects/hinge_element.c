@@ -122,11 +122,12 @@ double fw_effects_flexed_loss_W(const fw_effects_flexed *h, const fw_effects_por
 static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
                   double power[2]) {
     const flexed *h = e->data;
-    const bent b = bend(h, s, true);
-    power[0] = lost_W(h, &b);
     double rate;
     warmth(e, s, &rate);
-    power[1] = rate * b.law.energy_J;
+    const bent b =
+        bend(h, s, rate != 0); /* its energy is asked for only while the law changes it */
+    power[0] = lost_W(h, &b);
+    power[1] = rate != 0 ? rate * b.law.energy_J : 0;
 }
 
 /* ---- the tangent: all second derivatives ---- */

@@ -41,6 +41,6 @@ const fw_effect_row fw_effect_nonlinear_hinge = {
     .called_for = called_for,
     .bound = bound,
     .add = fw_effects_hinges_flex,
-    .cost = 4910,
+    .cost = 2900,
     .count = count,
     .solid = FW_EFFECTS_SOLID_HAS};

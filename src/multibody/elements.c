@@ -177,9 +177,10 @@ void fw_multibody_element_power(const fw_multibody_system *sys, const fw_multibo
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
         double now[2] = {0, 0};
-        if (!e->own->class_->power && !m->stretch.law) continue;
+        bool own = e->own->class_->power && (e->own->dissipates || e->own->works);
+        if (!own && !m->stretch.law) continue;
         const fw_effects_port_state state = look(sys, pose, e, v);
-        if (e->own->class_->power) e->own->class_->power(e->own, &state, now);
+        if (own) e->own->class_->power(e->own, &state, now);
         if (m->stretch.law) now[1] += fed_by_ground(sys, e, &state);
         power[0] += unit * now[0], power[1] += unit * now[1];
     }
