@@ -247,18 +247,19 @@ class Study(unittest.TestCase):
                 low = middle
             else:
                 high = middle
-        for sigmas in (1.3, 3.2):
+        for sigmas, samples in ((1.3, 200), (3.2, 600)):
             sd = 0.25 * low / sigmas
             truth = 0.5 * math.erfc(-sigmas / math.sqrt(2))
             rows = f'<uncertain what="push" mean="{low - sigmas * sd:.9g} mN" sd="{sd:.9g} mN"/>'
-            result = self.run_study(self.write(study("y", "yield", rows, path, samples=600)), f"y{sigmas}")
+            file = self.write(study("y", "yield", rows, path, samples=samples))
+            result = self.run_study(file, f"y{sigmas}")
             found = result["yields"][0]
             least, most = found["sampling_interval"]
             slack = 5e-3 * (1 - truth)  # the bisection's, and that the study judges at the usual accuracy
             self.assertTrue(least - slack <= truth <= most + slack, (sigmas, truth, found))
             self.assertTrue(found["yield_range"][0] <= least and most <= found["yield_range"][1])
-            again = self.run_study(self.write(study("y", "yield", rows, path, samples=600)), f"z{sigmas}", "--jobs", 1)
-            self.assertEqual(again, result)
+            if sigmas == 1.3:  # as likely in the other: nothing but the number of samples differs
+                self.assertEqual(self.run_study(file, f"z{sigmas}", "--jobs", 1), result)
 
     def test_a_size_is_within_a_percent_of_what_trying_everything_finds(self):
         """the widest hinge C that is accepted and keeps U below 0.7, as drawn"""
@@ -294,7 +295,7 @@ class Study(unittest.TestCase):
             step = centre * 1e-3
             u = []
             for k in (-2, -1, 1, 2):
-                said = run("check", GALLERY, "--json", "--corners", "none", "--accuracy", "1e-11", *FLOW, "--set",
+                said = run("check", GALLERY, "--json", "--corners", "none", "--accuracy", "1e-10", *FLOW, "--set",
                            f"{what}={centre + k * step!r} {unit}")
                 u.append(json.loads(said.stdout)["hinges"][2]["utilisation"])
             exact = (8 * (u[2] - u[1]) - (u[3] - u[0])) / (12 * step * factor)
