@@ -231,6 +231,31 @@ static fw_status run_point(const fw_verdict_search *s, const double *x,
     return status;
 }
 
+/* ---- points ---- */
+
+bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in) {
+    return in->high >
+           in->low; /* one that is known exactly has one value, and no second end to run */
+}
+
+unsigned fw_verdict_search_without_range(const fw_verdict_variant_verdict *v) {
+    unsigned bits = 0; /* corners have them clear */
+    for (int i = 0; i < v->ninput; i++)
+        bits |= fw_verdict_search_has_range(&v->input[i]) ? 0u : 1u << i;
+    return bits;
+}
+
+void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x) {
+    for (int i = 0; i < s->v->ninput; i++)
+        x[i] = bits >> i & 1u ? s->v->input[i].high : s->v->input[i].low;
+}
+
+int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits) {
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (s->bits[p] == bits) return p;
+    return FW_NONE;
+}
+
 /* bit for bit: where two points make one device, both were made from the same ends of ranges */
 static bool is_same(const fw_verdict_fabrication *a, const fw_verdict_fabrication *b) {
     return a->edge_m == b->edge_m && a->flare_m == b->flare_m &&

@@ -50,6 +50,8 @@ static fw_verdict_requirement blank(const fw_mechanism *m, int asked, int scene)
                                     .high = (double)NAN,
                                     .margin = (double)NAN,
                                     .origin = (double)NAN,
+                                    .all_low = (double)NAN,
+                                    .all_high = (double)NAN,
                                     .utilisation = (double)NAN,
                                     .t_s = (double)NAN,
                                     .decision = FW_INCONCLUSIVE,
@@ -314,10 +316,18 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                r->probe, of, isnan(r->min) ? "most" : "least",
                                fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
                                r->why);
-    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s), and at %s %s is required", r->probe,
-                           of, fw_probe_text(value, r->value, r->unit),
-                           fw_probe_text(low, r->low, r->unit),
-                           fw_probe_text(high, r->high, r->unit), below ? "least" : "most", bound);
+    fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
+    const char *all = "";
+    if (r->all_low < r->low || r->all_high > r->high) {
+        char least[FW_PROBE_TEXT], most[FW_PROBE_TEXT];
+        all = fw_arena_printf(arena, "; at every corner of the flow %s to %s",
+                              fw_probe_text(least, r->all_low, r->unit),
+                              fw_probe_text(most, r->all_high, r->unit));
+        if (!all) return NULL;
+    }
+    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s%s), and at %s %s is required", r->probe,
+                           of, fw_probe_text(value, r->value, r->unit), low, high, all,
+                           below ? "least" : "most", bound);
 }
 
 /* A min of a motion wants more of it: neither less load nor stiffer flexures help. What is of an
@@ -362,7 +372,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
     return FW_OK;
 }
 
-/* ---- what may still decide, and the worst of what is made ---- */
+/* ---- what may still decide ---- */
 
 /* as refinement.c sees a hinge */
 static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
@@ -397,21 +407,4 @@ double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement,
         enough = fmin(enough, fw_verdict_enough(&h, 1, accuracy));
     }
     return enough;
-}
-
-static bool is_worse(const fw_verdict_requirement *a, const fw_verdict_requirement *b) {
-    if (a->decision != b->decision) return fw_verdict_is_worse(a->decision, b->decision);
-    return isnan(a->utilisation) || isnan(b->utilisation) ? a->margin < b->margin
-                                                          : a->utilisation > b->utilisation;
-}
-
-const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
-                                                          int k, int *corner) {
-    const fw_verdict_requirement *worst = NULL;
-    for (int c = 0; v->fabricated && c < v->fabricated->ncorner; c++) {
-        const fw_verdict_requirement *list = v->fabricated->corner[c].requirement;
-        if (!list || (worst && !is_worse(&list[k], worst))) continue;
-        worst = &list[k], *corner = c;
-    }
-    return worst;
 }
