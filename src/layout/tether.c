@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tethers: fingers of the frame that hold the moving bodies by a neck until it is broken. The body
    keeps a short stub; everything beyond the neck stays on the frame. */
+#include "geometry/segment.h"
 #include "layout/tether_finger.h"
 #include <math.h>
 #include <string.h>
@@ -53,6 +54,40 @@ static fw_status add_stub(fw_layout_drawing *d, int body, double at, double cut,
     return FW_OK;
 }
 
+/* a point of this body (local) within reach of a box */
+static bool is_near(const fw_layout_drawing *d, int body, int of, fw_geometry_vec2 local,
+                    const fw_geometry_box *box) {
+    if (of != body || isnan(local.x) || isnan(local.y)) return false;
+    const fw_device_body *b = &d->device->body[body];
+    fw_geometry_vec2 frame = fw_v(b->x_m, b->y_m),
+                     turned = fw_geometry_vec_rotate(local, b->phi_rad);
+    if (!vec_finite(frame)) frame = d->layout->body[body].centroid;
+    const fw_geometry_vec2 p = vec_add(frame, turned);
+    const fw_geometry_box at = {p.x, p.y, p.x, p.y};
+    return fw_box_gap(*box, at) < fw_layout_rule.finger_works_m;
+}
+
+/* Is the finger where the body meets something, a contact or a spring of its own? Its stub, and what is
+   left of the finger, would be between them. */
+static bool works_at(const fw_layout_drawing *d, int body, const fw_geometry_contour *finger) {
+    const fw_geometry_box own = fw_geometry_contour_box(finger);
+    const fw_device *device = d->device;
+    for (int i = 0; i < device->nspring; i++) {
+        const fw_device_spring *s = &device->spring[i];
+        if (is_near(d, body, s->body_a, fw_v(s->ax_m, s->ay_m), &own) ||
+            is_near(d, body, s->body_b, fw_v(s->bx_m, s->by_m), &own))
+            return true;
+    }
+    for (int k = 0; k < device->nscene; k++)
+        for (int i = 0; i < device->scene[k].ncontact; i++) {
+            const fw_device_contact_use *c = &device->scene[k].contact[i];
+            if (c->joint == FW_NONE && (is_near(d, body, c->body_a, fw_v(c->ax_m, c->ay_m), &own) ||
+                                        is_near(d, body, c->body_b, fw_v(c->bx_m, c->by_m), &own)))
+                return true;
+        }
+    return false;
+}
+
 static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_side side,
                             fw_geometry_vec2 from, bool *done) {
     fw_layout_attachment a = {.body = body};
@@ -62,7 +97,7 @@ static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_sid
     FW_TRY(fw_layout_strip_draw(d, side, start, start, along, 0.5 * fw_layout_rule.tether_m,
                                 fw_layout_rule.tether_stub_m, &a));
     if (!fw_layout_finger_leaves_once(d, &a, from) ||
-        !fw_layout_finger_is_clear(d, &a.finger, body))
+        !fw_layout_finger_is_clear(d, &a.finger, body) || works_at(d, body, &a.finger))
         return FW_OK;
     fw_geometry_vec2 edge = fw_layout_window_point(d->layout, side, along, 0.0);
     double at = fw_layout_to_grid(along), deep = fw_norm(fw_sub(edge, from));

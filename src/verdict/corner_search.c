@@ -166,8 +166,8 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
     options.values = s->clearances;
     if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_accuracy);
     do {
-        *now =
-            (fw_verdict_variant_verdict){.variant = &device->variant, .like = like, .corner = true};
+        *now = (fw_verdict_variant_verdict){
+            .variant = &device->variant, .like = like, .corner = true, .arm = s->v->arm};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
     } while (refine(s, now, &options));

@@ -170,6 +170,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     bool beyond_pull_in;                /* a scene may ask for more than its pull-in voltage */
     fw_verdict_reason *reason;          /* (nreason) */
     int nreason;
+    const struct fw_verdict_arm
+        *arm; /* (2 nhinge) how bodies give (body_arms.h); NULL: not asked for */
     const fw_clearance_things *things; /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */
     int nclearance;
@@ -306,6 +308,12 @@ extern const fw_verdict_model_errors fw_verdict_model_error;
 /* accuracy of a first look */
 extern const double fw_verdict_first_accuracy;
 
+/* What bodies, which the motion takes as rigid, would give of the displacement where the loads act, as a
+   share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
+   verdict, or NULL */
+double fw_verdict_bending_share(const fw_dynamics_motion *motion);
+/* a share above this is told (FW-D510), and utilisations have it in their bands, too */
+extern const double fw_verdict_bending_told;
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (verdict_strain.c), else fw_verdict_model_error.motion */
 double fw_verdict_motion_model_error(const fw_mechanism *mechanism,

@@ -37,6 +37,15 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v);
 
+/* ---- verdict_bending.c: bodies are rigid in the motion, and are none ---- */
+
+/* v->arm, where it is not known of a device much like it */
+fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
+                                   const fw_mechanism *mechanism, const fw_verdict_options *options,
+                                   fw_verdict_variant_verdict *v);
+void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                             const fw_dynamics_motion *motion, fw_diags *diags);
+
 /* ---- verdict_missing.c: what the motion has and the masks lack ---- */
 
 int fw_verdict_missing_most(const fw_device *device); /* reasons of one flow */

@@ -162,11 +162,12 @@ static void put(fw_verdict_requirement *r, double value, double numeric, double 
 
 /* ---- of motions ---- */
 
-/* relative error of what was computed with this model of the hinges */
+/* relative error of what was computed with this model of the hinges, and with rigid bodies */
 static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, double level) {
-    double whole = fw_verdict_motion_model_error(m, motion);
+    const double bodies = fw_verdict_bending_share(motion);
+    double whole = fw_verdict_motion_model_error(m, motion) + bodies;
     if (isnan(level) || motion->ledger.hinge.used == FW_HINGE_ELASTICA) return whole;
-    double computed = level + fw_verdict_motion_lasting_error(m);
+    double computed = level + fw_verdict_motion_lasting_error(m) + bodies;
     bool swings = motion->loads && !motion->loads->quasi_static;
     return swings && motion->ledger.hinge.used == FW_HINGE_REVOLUTE ? fmax(computed, whole)
                                                                     : computed;
@@ -200,7 +201,7 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
                   fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const double model = model_of(m, motion, p->level),
-                 lasting = fw_verdict_motion_lasting_error(m);
+                 lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
     const bool size = !isnan(p->moved); /* a gap is not below 0 */
     switch (q->measure) {
     case FW_MEASURE_PEAK:
@@ -268,6 +269,14 @@ static const char *last_error(const fw_diags *diags) {
     return "there are no small motions";
 }
 
+/* of small motions no forces are known: the most of any scene */
+static double bodies_give(const fw_mechanism *m, const fw_verdict_variant_verdict *v) {
+    double most = 0;
+    for (int i = 0; i < m->device->nscene; i++)
+        most = fmax(most, fw_verdict_bending_share(v->motion[i]));
+    return most;
+}
+
 static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
                              const fw_dynamics_motion_options *options,
                              fw_verdict_variant_verdict *v, int scene) {
@@ -291,7 +300,9 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         double value = modes ? fw_probe_small(p, modes) : (double)NAN;
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
-        double model = fw_probe_small_error(p, modes), lasting = modes->stiffness_error;
+        double rigid = bodies_give(m, v) * (p->asked->row == FW_PROBE_IS_frequency ? 0.5 : 1);
+        double model = fw_probe_small_error(p, modes) + rigid,
+               lasting = modes->stiffness_error + rigid;
         put(r, value, 0, model, lasting, value, true);
     }
     return FW_OK;
