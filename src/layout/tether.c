@@ -67,10 +67,12 @@ static bool is_near(const fw_layout_drawing *d, int body, int of, fw_geometry_ve
     return fw_box_gap(*box, at) < fw_layout_rule.finger_works_m;
 }
 
-/* Is the finger where the body meets something, a contact or a spring of its own? Its stub, and what is
-   left of the finger, would be between them. */
-static bool works_at(const fw_layout_drawing *d, int body, const fw_geometry_contour *finger) {
-    const fw_geometry_box own = fw_geometry_contour_box(finger);
+/* Is the finger, from its cut to the frame's edge, where the body meets something, a contact or a spring
+   of its own? Its stub, and what is left of the finger, would be between them. */
+static bool works_at(const fw_layout_drawing *d, int body, fw_geometry_vec2 cut,
+                     fw_geometry_vec2 edge) {
+    const fw_geometry_box own = {fw_lesser(cut.x, edge.x), fw_lesser(cut.y, edge.y),
+                                 fw_greater(cut.x, edge.x), fw_greater(cut.y, edge.y)};
     const fw_device *device = d->device;
     for (int i = 0; i < device->nspring; i++) {
         const fw_device_spring *s = &device->spring[i];
@@ -97,13 +99,14 @@ static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_sid
     FW_TRY(fw_layout_strip_draw(d, side, start, start, along, 0.5 * fw_layout_rule.tether_m,
                                 fw_layout_rule.tether_stub_m, &a));
     if (!fw_layout_finger_leaves_once(d, &a, from) ||
-        !fw_layout_finger_is_clear(d, &a.finger, body) || works_at(d, body, &a.finger))
+        !fw_layout_finger_is_clear(d, &a.finger, body))
         return FW_OK;
     fw_geometry_vec2 edge = fw_layout_window_point(d->layout, side, along, 0.0);
     double at = fw_layout_to_grid(along), deep = fw_norm(fw_sub(edge, from));
     double cut = fw_layout_finger_cut(d, &a, at, deep);
     if (cut < fw_layout_rule.finger_least_m)
         return FW_OK; /* no length for neck, finger and the frame's stub */
+    if (works_at(d, body, fw_layout_window_point(d->layout, side, at, cut), edge)) return FW_OK;
     FW_TRY(add_stub(d, body, at, cut, deep, side, done));
     if (!*done) return FW_OK;
     a.at_m = at;

@@ -12,7 +12,7 @@
 #include "geometry/segment.h"
 #include <string.h>
 
-enum { ACROSS = 100, CLOSER = 3, CELLS = 400000 };
+enum { ACROSS = 100, FINEST = 3, CELLS = 400000 };
 /* a cell is not below this: what is narrower is no part of a body */
 static const double fw_least_cell = 2e-6;
 
@@ -352,7 +352,7 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
     double across = vec_length((fw_geometry_vec2){g.box.x1 - g.box.x0, g.box.y1 - g.box.y0});
     double cell = fw_greater(across / ACROSS, fw_least_cell);
     bool all = false;
-    for (int closer = 0; closer < CLOSER && !all; closer++, cell /= 2) {
+    for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
         double cells = across * across / (cell * cell);
         if (cells > CELLS) break;
         FW_TRY(lay(&g, cell));

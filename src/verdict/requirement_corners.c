@@ -4,7 +4,7 @@
    kink where the other bound becomes the nearer one, and there is none where a bound is the drawn value.
    The corners where the low end is lowest and the high end highest to first order are run; elsewhere
    counts first order, widened by the largest error that it was seen to have. Theory:
-   docs/theory/as-fabricated.md. Test: test_made_requirements.c. */
+   docs/theory/as-fabricated.md. Test: test_made.c. */
 #include "verdict/verdict_parts.h"
 #include <float.h>
 #include <math.h>
