@@ -374,6 +374,9 @@ fw_status fw_statics_tethers_find(fw_arena *arena, const fw_mechanism *m,
     return FW_OK;
 }
 
+/* what goes no further stays where it is */
+static const double fw_stays_m = 1e-8;
+
 void fw_statics_tethers_watch(const fw_statics_tethers *all, const fw_mechanism *m,
                               const char *scene, const double *q, int nrow) {
     for (int i = 0; i < all->n; i++) {
@@ -388,7 +391,7 @@ void fw_statics_tethers_watch(const fw_statics_tethers *all, const fw_mechanism 
             double x = cut.x - at->x_m, y = cut.y - at->y_m;
             double toward =
                 (now[0] + c * x - s * y - cut.x) * out.x + (now[1] + s * x + c * y - cut.y) * out.y;
-            if (toward > t->toward_m) t->toward_m = toward, t->scene = scene;
+            if (toward > fw_stays_m && toward > t->toward_m) t->toward_m = toward, t->scene = scene;
         }
     }
 }

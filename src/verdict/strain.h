@@ -59,7 +59,8 @@ typedef struct fw_verdict_strain_peak {
 typedef struct fw_verdict_bending {
     const fw_verdict_arm *arm; /* (2 nhinge); NULL: nobody asks */
     double stiff_N;            /* Young's modulus times thickness */
-    double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies */
+    double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
+    double turning_J;          /* and of the hinges' rotations alone */
     double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
 } fw_verdict_bending;
 /* arm NULL: nobody asks */

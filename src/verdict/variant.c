@@ -111,9 +111,8 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
     double strains = fw_verdict_model_error.strain + beyond_fit(c);
-    const double bodies = fw_verdict_bending_share(motion);
-    double model = fw_verdict_motion_model_error(by->m, motion) + strains;
-    if (bodies > fw_verdict_bending_told) model += bodies;
+    double model =
+        fw_verdict_motion_model_error(by->m, motion) + strains + fw_verdict_bending_counted(motion);
     out->numeric = numeric;
     out->lasting = fmin(model, fw_verdict_motion_lasting_error(by->m) + strains);
     double least = fmin(strain->least, strain->strain) / out->strain_limit;

@@ -312,8 +312,10 @@ extern const double fw_verdict_first_accuracy;
    share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
    verdict, or NULL */
 double fw_verdict_bending_share(const fw_dynamics_motion *motion);
-/* a share above this is told (FW-D510), and utilisations have it in their bands, too */
-extern const double fw_verdict_bending_told;
+/* the same where hinges turn, else 0: bands of clearances have it */
+double fw_verdict_bending_turning(const fw_dynamics_motion *motion);
+/* that above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */
+double fw_verdict_bending_counted(const fw_dynamics_motion *motion);
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (verdict_strain.c), else fw_verdict_model_error.motion */
 double fw_verdict_motion_model_error(const fw_mechanism *mechanism,

@@ -26,12 +26,12 @@ static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin,
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = 0;
+        b->hinges_J = b->bodies_J = b->turning_J = 0;
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         return;
     }
-    double hinges = 0, bodies = 0, *each = b->body_J + m->nbody;
+    double hinges = 0, bodies = 0, turning = 0, *each = b->body_J + m->nbody;
     for (int i = 0; i < m->nbody; i++)
         each[i] = 0;
     for (int k = 0; k < m->nhinge; k++) {
@@ -41,6 +41,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         const int body[2] = {pin->body_a, pin->body_b};
         double turn[2] = {turned(m, now, body[0]), turned(m, now, body[1])};
         hinges += of_hinge(h, pin, angle, force, 0.5 * (turn[0] + turn[1]));
+        turning += 0.5 * pin->stiffness_Nm_per_rad * angle * angle;
         for (int side = 0; side < 2; side++) {
             const fw_verdict_arm *arm = &b->arm[2 * k + side];
             if (!arm->known) continue;
@@ -53,6 +54,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     }
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
+    b->turning_J = fmax(b->turning_J, turning);
     b->hinges_J = fmax(b->hinges_J, hinges);
     b->bodies_J = fmax(b->bodies_J, bodies);
 }
@@ -81,7 +83,7 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, con
 
 /* The closed forms are taken where they are off by less than this (variant.c), and a clearance of a
    motion in parts where it is off by twice that. */
-const double fw_verdict_bending_told = 0.05;
+static const double fw_verdict_bending_told = 0.05;
 
 static const fw_verdict_bending *seen(const fw_dynamics_motion *motion) {
     const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
@@ -91,6 +93,18 @@ static const fw_verdict_bending *seen(const fw_dynamics_motion *motion) {
 double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     const fw_verdict_bending *b = seen(motion);
     return b ? b->bodies_J / b->hinges_J : 0;
+}
+
+/* A device that is pressed along its flexures goes nowhere, and what little its bodies give of that changes
+   no strain and no clearance: only where the hinges turn */
+double fw_verdict_bending_turning(const fw_dynamics_motion *motion) {
+    const fw_verdict_bending *b = seen(motion);
+    return b && b->turning_J > 0.5 * b->hinges_J ? fw_verdict_bending_share(motion) : 0;
+}
+
+double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
+    const double share = fw_verdict_bending_turning(motion);
+    return share > fw_verdict_bending_told ? share : 0;
 }
 
 static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,
@@ -108,10 +122,10 @@ static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_b
 void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags) {
     const fw_verdict_bending *b = seen(motion);
-    const double share = fw_verdict_bending_share(motion);
+    const double share = fw_verdict_bending_counted(motion);
     char all[32], one[32], width[32], x[32], y[32];
     int most = 0;
-    if (!(share > fw_verdict_bending_told)) return;
+    if (share == 0) return;
     for (int i = 1; i < m->nbody; i++)
         if (b->body_J[i] > b->body_J[most]) most = i;
     const fw_verdict_arm *arm = narrowest(m, b, most);

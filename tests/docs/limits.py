@@ -24,7 +24,8 @@ CASES = {
     "Motion out of the plane": (PORTAL, ('gradient="2 MPa/um"', 'gradient="8 MPa/um"'), "simulate --scene bowed", "FW-D251"),
     "Give of hinges whose axis": (f"{THEORY}/ring.xml", None, "simulate", r"foot stays a pin: the axis is not known"),
     "Solids as hinges": (f"{THEORY}/flexures.xml", None, "hinge --json", '"level": ?"continuum"|"strain": 0.04'),
-    "Bending of links": (LEAF, ('width="120 um"', 'width="26 um"'), "check --corners none --advice none", "FW-D510"),
+    "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=26um "
+                         "--set body[coupler]/@width=26um --set body[rocker]/@width=26um", "FW-D510"),
     "Corners and holes in": ("tests/bad/path-width-steps.xml", None, "check", "FW-D263"),
     "Drift along the axis of a path": (FREE, None, "hinge", r"FW-D265"),
     "Comparison with finite elements": (f"{THEORY}/flexures.xml", None, "hinge --json", '"outside": true'),
