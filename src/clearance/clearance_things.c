@@ -38,12 +38,17 @@ static fw_status keep(building *b, int solid, const fw_clearance_edge *edge) {
     return FW_OK;
 }
 
+/* bodies are cut out along the circle: what lies on it is the hinge's own */
+static double circle_m(const fw_layout_hinge_layout *h) {
+    return h->keep_out_m + fw_on_circle_m;
+}
+
 /* Parts of a segment inside and outside of one hinge's circle. The hinge's own verdict judges what
    happens inside (touches, free_rad). A JOINT there is no edge: the flexure goes on from it. */
 static fw_status cut(building *b, int solid, int joint, fw_clearance_edge edge) {
     const fw_layout_hinge_layout *h = &b->layout->hinge[joint];
     const fw_geometry_segment whole = edge.segment;
-    const double r = h->keep_out_m + fw_on_circle_m; /* bodies are cut out along the circle */
+    const double r = circle_m(h);
     fw_geometry_vec2 east = {h->centre.x + r, h->centre.y};
     const fw_geometry_segment circle = {.kind = FW_ARC,
                                         .a = east,
@@ -87,7 +92,7 @@ static fw_status add(building *b, int solid, int body, const fw_clearance_edge *
     for (; joint < b->device->nrevolute; joint++) {
         const fw_layout_hinge_layout *h = &b->layout->hinge[joint];
         const fw_geometry_box at = {h->centre.x, h->centre.y, h->centre.x, h->centre.y};
-        if (!belongs(h, body) || fw_box_gap(box, at) > h->keep_out_m) continue;
+        if (!belongs(h, body) || fw_box_gap(box, at) > circle_m(h)) continue;
         int last = b->things->solid[solid].count;
         for (int i = first; i < last; i++) { /* cut parts go behind, this one is taken out */
             fw_clearance_edge whole = b->things->solid[solid].edge[i];

@@ -119,6 +119,7 @@ const fw_layout_rules fw_layout_rule = {
     .strip_clear_m = 20e-6,
     .strip_disc_m = 10e-6,
     .fingers_apart_m = 60e-6,
+    .finger_works_m = 50e-6,
     .finger_beside_m = 8e-6,
     .finger_step_m = 2e-6,
     .finger_least_m = 50e-6,

@@ -153,6 +153,7 @@ typedef struct fw_layout_rules {
                                  anywhere, so that they keep more than the least space */
     double strip_disc_m;      /* and from a hinge's keep-out disc, which is free of parts already */
     double fingers_apart_m;   /* between two tethers: a needle breaks one and leaves the other */
+    double finger_works_m;    /* from where a body meets something: no stub between the two */
     double finger_beside_m;   /* on either side of a finger its own body keeps the least space */
     double finger_step_m;     /* of the search along it */
     double finger_least_m;    /* from the window's edge to the cut: stub, finger and neck fit */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tethers: fingers of the frame that hold the moving bodies by a neck until it is broken. The body
    keeps a short stub; everything beyond the neck stays on the frame. */
+#include "geometry/segment.h"
 #include "layout/tether_finger.h"
 #include <math.h>
 #include <string.h>
@@ -53,6 +54,42 @@ static fw_status add_stub(fw_layout_drawing *d, int body, double at, double cut,
     return FW_OK;
 }
 
+/* a point of this body (local) within reach of a box */
+static bool is_near(const fw_layout_drawing *d, int body, int of, fw_geometry_vec2 local,
+                    const fw_geometry_box *box) {
+    if (of != body || isnan(local.x) || isnan(local.y)) return false;
+    const fw_device_body *b = &d->device->body[body];
+    fw_geometry_vec2 frame = fw_v(b->x_m, b->y_m),
+                     turned = fw_geometry_vec_rotate(local, b->phi_rad);
+    if (!vec_finite(frame)) frame = d->layout->body[body].centroid;
+    const fw_geometry_vec2 p = vec_add(frame, turned);
+    const fw_geometry_box at = {p.x, p.y, p.x, p.y};
+    return fw_box_gap(*box, at) < fw_layout_rule.finger_works_m;
+}
+
+/* Is the finger, from its cut to the frame's edge, where the body meets something, a contact or a spring
+   of its own? Its stub, and what is left of the finger, would be between them. */
+static bool works_at(const fw_layout_drawing *d, int body, fw_geometry_vec2 cut,
+                     fw_geometry_vec2 edge) {
+    const fw_geometry_box own = {fw_lesser(cut.x, edge.x), fw_lesser(cut.y, edge.y),
+                                 fw_greater(cut.x, edge.x), fw_greater(cut.y, edge.y)};
+    const fw_device *device = d->device;
+    for (int i = 0; i < device->nspring; i++) {
+        const fw_device_spring *s = &device->spring[i];
+        if (is_near(d, body, s->body_a, fw_v(s->ax_m, s->ay_m), &own) ||
+            is_near(d, body, s->body_b, fw_v(s->bx_m, s->by_m), &own))
+            return true;
+    }
+    for (int k = 0; k < device->nscene; k++)
+        for (int i = 0; i < device->scene[k].ncontact; i++) {
+            const fw_device_contact_use *c = &device->scene[k].contact[i];
+            if (c->joint == FW_NONE && (is_near(d, body, c->body_a, fw_v(c->ax_m, c->ay_m), &own) ||
+                                        is_near(d, body, c->body_b, fw_v(c->bx_m, c->by_m), &own)))
+                return true;
+        }
+    return false;
+}
+
 static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_side side,
                             fw_geometry_vec2 from, bool *done) {
     fw_layout_attachment a = {.body = body};
@@ -69,6 +106,7 @@ static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_sid
     double cut = fw_layout_finger_cut(d, &a, at, deep);
     if (cut < fw_layout_rule.finger_least_m)
         return FW_OK; /* no length for neck, finger and the frame's stub */
+    if (works_at(d, body, fw_layout_window_point(d->layout, side, at, cut), edge)) return FW_OK;
     FW_TRY(add_stub(d, body, at, cut, deep, side, done));
     if (!*done) return FW_OK;
     a.at_m = at;

@@ -113,8 +113,8 @@ static const fw_plan_column requirement_columns[] = {
     WORD(decision, "verdict", "as drawn: accept, inconclusive, reject"),
     WORD(drawn.why, "why", "it has no value"),
     VALUE(made, "made_value", "of the worst device that the flow may make; NaN: none was judged"),
-    VALUE(made_low, "made_low", "its band: at least"),
-    VALUE(made_high, "made_high", "its band: at most"),
+    VALUE(made_low, "made_low", "its band over all corners: at least"),
+    VALUE(made_high, "made_high", "its band over all corners: at most"),
     SHARE(made_used, "made_utilisation", "of that device"),
     WORD(made_decision, "made_verdict", "of that device"),
     WORD(made_corner, "made_corner", "what the flow makes there"),
@@ -128,7 +128,9 @@ static requirement_row row_of_requirement(const fw_verdict_variant_verdict *v, i
     requirement_row row = {*r,  fw_verdict_decision_text(r->decision), none, none, none, none, NULL,
                            NULL};
     if (!made) return row;
-    row.made = made->value, row.made_low = made->low, row.made_high = made->high;
+    row.made = made->value;
+    row.made_low = isnan(made->all_low) ? made->low : made->all_low;
+    row.made_high = isnan(made->all_high) ? made->high : made->all_high;
     row.made_used = made->utilisation;
     row.made_decision = fw_verdict_decision_text(made->decision);
     row.made_corner = v->fabricated->corner[corner].what;

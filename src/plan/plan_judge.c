@@ -25,6 +25,20 @@ static fw_status restated(void *plan, fw_arena *arena, const fw_device_set *set,
     return fw_plan_restated((const fw_plan *)plan, arena, set, nset, device, variant);
 }
 
+/* how tethers are broken, and which of them stand in the way of their own bodies */
+static fw_status find_tethers(fw_plan *plan, const fw_verdict_variant_verdict *v,
+                              const fw_statics_tethers **out) {
+    if (!v->mechanism) return FW_OK;
+    FW_TRY(fw_statics_tethers_find(plan->arena, v->mechanism, out));
+    for (int k = 0; *out && v->motion && k < plan->device->nscene; k++) {
+        const fw_dynamics_motion *x = v->motion[k];
+        if (!x || !x->q) continue;
+        fw_dynamics_motion_rows(x, 0, x->nsample);
+        fw_statics_tethers_watch(*out, v->mechanism, plan->device->scene[k].name, x->q, x->nsample);
+    }
+    return FW_OK;
+}
+
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
     FW_TRY(fw_plan_need_material(plan));
@@ -43,9 +57,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
         FW_TRY(fw_verdict_rejections(plan->arena, verdict, &plan->because, &plan->nbecause));
     FW_TRY(fw_plan_compute_flows(plan));
     for (int i = 0; i < plan->nflow; i++)
-        if (verdict->variant[i].mechanism)
-            FW_TRY(fw_statics_tethers_find(plan->arena, verdict->variant[i].mechanism,
-                                           &plan->flow[i].tethers));
+        FW_TRY(find_tethers(plan, &verdict->variant[i], &plan->flow[i].tethers));
     return fw_plan_measurements_find(plan, false);
 }
 

@@ -24,6 +24,7 @@ static void made(fw_json *json, const fw_verdict_variant_verdict *v, int k) {
     }
     fw_json_object(json, "as_fabricated");
     value(json, r);
+    fw_report_json_pair(json, "all_corners_band", r->all_low, r->all_high);
     fw_json_text(json, "corner", v->fabricated->corner[corner].what);
     fw_json_end(json);
 }

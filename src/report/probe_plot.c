@@ -212,6 +212,7 @@ static void bound_text(fw_text *out, const fw_verdict_requirement *r) {
 }
 
 static void row(fw_text *out, const fw_verdict_requirement *r, const char *at) {
+    const bool all = at && !isnan(r->all_low); /* of what is made over all corners */
     char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT];
     fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td>", r->probe,
               r->measure ? r->measure : r->kind);
@@ -219,8 +220,9 @@ static void row(fw_text *out, const fw_verdict_requirement *r, const char *at) {
         fw_markup(out, "<td colspan=\"2\">not known: {s}</td>", r->why);
     else
         fw_markup(out, "<td class=\"n\">{s}</td><td class=\"n\">{s} to {s}</td>",
-                  fw_probe_text(value, r->value, r->unit), fw_probe_text(low, r->low, r->unit),
-                  fw_probe_text(high, r->high, r->unit));
+                  fw_probe_text(value, r->value, r->unit),
+                  fw_probe_text(low, all ? r->all_low : r->low, r->unit),
+                  fw_probe_text(high, all ? r->all_high : r->high, r->unit));
     fw_text_add(out, "<td class=\"n\">");
     bound_text(out, r);
     fw_markup(out, "</td><td class=\"n\">{s}</td><td>{s}</td><td>{s}</td><td>{s}</td></tr>\n",
@@ -234,7 +236,8 @@ fw_status fw_report_section_requirements(fw_report_page *page) {
     fw_text_add(
         page->out,
         "<div class=\"wide\"><table><caption>What the device is for: each value with its error "
-        "band, as drawn and of the worst device that was run as fabricated.</caption><thead><tr>"
+        "band, as drawn and of the worst device that was run as fabricated, there "
+        "with the band over all corners of the flow.</caption><thead><tr>"
         "<th scope=\"col\">Probe</th><th scope=\"col\">Measure</th><th scope=\"col\" "
         "class=\"n\">Value</th><th scope=\"col\" class=\"n\">Band</th><th scope=\"col\" "
         "class=\"n\">Required</th><th scope=\"col\" class=\"n\">Margin</th><th scope=\"col\">"
@@ -246,7 +249,7 @@ fw_status fw_report_section_requirements(fw_report_page *page) {
             int corner = 0;
             const fw_verdict_requirement *worst = fw_verdict_requirement_made(v, k, &corner);
             row(page->out, &v->requirement[k], NULL);
-            if (worst && corner > 0) row(page->out, worst, v->fabricated->corner[corner].what);
+            if (worst) row(page->out, worst, v->fabricated->corner[corner].what);
         }
     }
     fw_text_add(page->out, "</tbody></table></div>\n");

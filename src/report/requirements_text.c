@@ -4,14 +4,17 @@
 #include <math.h>
 #include <stdio.h>
 
+/* at: what is made, with its band over all corners; NULL: as drawn */
 static void row(fw_text *out, const fw_verdict_requirement *r, const char *at) {
+    const bool all = at && !isnan(r->all_low);
     char text[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT], band[2 * FW_PROBE_TEXT + 4];
     fw_text_printf(out, "  %-12s %-13s ", r->probe, r->measure ? r->measure : r->kind);
     if (r->why) {
         fw_text_printf(out, "%-12s  %-24s  ", "not known", "");
     } else {
-        snprintf(band, sizeof band, "%s..%s", fw_probe_text(low, r->low, r->unit),
-                 fw_probe_text(high, r->high, r->unit));
+        snprintf(band, sizeof band, "%s..%s",
+                 fw_probe_text(low, all ? r->all_low : r->low, r->unit),
+                 fw_probe_text(high, all ? r->all_high : r->high, r->unit));
         fw_text_printf(out, "%-12s  %-24s  ", fw_probe_text(text, r->value, r->unit), band);
     }
     bool both = !isnan(r->min) && !isnan(r->max);
@@ -44,7 +47,7 @@ void fw_report_requirements_text(fw_text *out, const fw_verdict *verdict) {
                                  "      required          margin       verdict      in\n");
             any = true;
             row(out, &v->requirement[k], NULL);
-            if (worst && corner > 0) row(out, worst, v->fabricated->corner[corner].what);
+            if (worst) row(out, worst, v->fabricated->corner[corner].what);
         }
     }
 }

@@ -373,3 +373,25 @@ fw_status fw_statics_tethers_find(fw_arena *arena, const fw_mechanism *m,
     }
     return FW_OK;
 }
+
+/* what goes no further stays where it is */
+static const double fw_stays_m = 1e-8;
+
+void fw_statics_tethers_watch(const fw_statics_tethers *all, const fw_mechanism *m,
+                              const char *scene, const double *q, int nrow) {
+    for (int i = 0; i < all->n; i++) {
+        fw_statics_tether *t = &all->item[i];
+        const int body = t->drawn->body;
+        if (body < 0) continue;
+        const fw_mechanism_mass *at = &m->drawn[body];
+        const fw_geometry_vec2 cut = t->drawn->cut, out = t->drawn->outward;
+        for (int row = 0; row < nrow; row++) {
+            const double *now = q + 3 * ((size_t)row * (size_t)m->nbody + (size_t)body);
+            double c = cos(now[2] - at->phi_rad), s = sin(now[2] - at->phi_rad);
+            double x = cut.x - at->x_m, y = cut.y - at->y_m;
+            double toward =
+                (now[0] + c * x - s * y - cut.x) * out.x + (now[1] + s * x + c * y - cut.y) * out.y;
+            if (toward > fw_stays_m && toward > t->toward_m) t->toward_m = toward, t->scene = scene;
+        }
+    }
+}

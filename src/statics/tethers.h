@@ -22,6 +22,9 @@ typedef struct fw_statics_tether {
     const fw_layout_tether *drawn;
     double probe_m; /* from the cut, along the finger: where the probe pushes */
     fw_statics_tether_break first, last; /* all others hold; it is the only one */
+    double
+        toward_m; /* how far the body goes towards the finger once it is broken, at most; 0: it does not */
+    const char *scene; /* in this one */
 } fw_statics_tether;
 
 typedef struct fw_statics_tethers {
@@ -37,6 +40,9 @@ typedef struct fw_statics_tethers {
 /* NULL: there are no tethers */
 fw_status fw_statics_tethers_find(fw_arena *arena, const fw_mechanism *mechanism,
                                   const fw_statics_tethers **out);
+/* poses of a motion of these bodies, (nrow x 3 nbody) of centres of mass */
+void fw_statics_tethers_watch(const fw_statics_tethers *tethers, const fw_mechanism *mechanism,
+                              const char *scene, const double *q, int nrow);
 /* a member "tethers" of an open object; nothing where there are none */
 void fw_statics_tethers_json(fw_json *json, const fw_mechanism *mechanism,
                              const fw_statics_tethers *tethers);

@@ -43,6 +43,8 @@ void fw_statics_tethers_json(fw_json *json, const fw_mechanism *m,
         fw_json_end(json);
         fw_json_real(json, "neck_m", t->drawn->neck_m);
         fw_json_real(json, "length_m", t->drawn->length_m);
+        fw_json_real(json, "toward_m", t->toward_m);
+        fw_json_text(json, "toward_scene", t->scene);
         if (!tethers->why) {
             fw_json_real(json, "probe_m", t->probe_m);
             one_break(json, "first", m, &t->first);
@@ -96,6 +98,26 @@ static void say_one(fw_text *text, const fw_mechanism *m, const fw_statics_tethe
     say_hinge(text, m, all, b);
 }
 
+/* what the neck leaves open is not known: a body that goes towards its finger meets it */
+static const double fw_meets_m = 1e-6;
+
+static void say_in_the_way(fw_text *text, const fw_statics_tethers *all) {
+    char x[32], y[32], by[32];
+    int n = 0;
+    for (int i = 0; i < all->n; i++) {
+        const fw_statics_tether *t = &all->item[i];
+        if (!(t->toward_m > fw_meets_m)) continue;
+        fw_text_add(text,
+                    n++ ? "; "
+                        : ". Then break these fingers off at the frame, too, for their bodies "
+                          "move against what is left of them: ");
+        fw_text_printf(text, "the %s at (%s, %s) um (%s um in scene %s)", t->drawn->label,
+                       fw_number_text(x, 32, 1e6 * t->drawn->cut.x, 5),
+                       fw_number_text(y, 32, 1e6 * t->drawn->cut.y, 5),
+                       number(by, 1e6 * t->toward_m), t->scene);
+    }
+}
+
 fw_status fw_statics_tethers_words(fw_arena *arena, const fw_mechanism *m,
                                    const fw_statics_tethers *tethers, const char **out) {
     enum { FEW = 4 };
@@ -105,8 +127,10 @@ fw_status fw_statics_tethers_words(fw_arena *arena, const fw_mechanism *m,
     if (!tethers) return FW_OK;
     const fw_layout_tether *keep = tethers->item[tethers->keep].drawn;
     if (tethers->why) {
-        FW_NEED(*out = fw_arena_printf(arena, "Force to break the tethers: NOT COMPUTABLE, %s",
-                                       tethers->why));
+        fw_text_printf(&text, "Force to break the tethers: NOT COMPUTABLE, %s", tethers->why);
+        say_in_the_way(&text, tethers);
+        FW_TRY(fw_text_end(&text));
+        *out = text.data;
         return FW_OK;
     }
     fw_text_add(&text, tethers->n > 1 ? "Break the tethers one at a time with a probe in the plane "
@@ -133,6 +157,7 @@ fw_status fw_statics_tethers_words(fw_arena *arena, const fw_mechanism *m,
         fw_text_printf(&text, ". Of %d more the recipe's JSON says it", tethers->n - FEW - 1);
     fw_text_add(&text, tethers->n > 1 ? ". Last, " : ". As the only one, ");
     say_one(&text, m, tethers, &tethers->item[tethers->keep], &tethers->item[tethers->keep].last);
+    say_in_the_way(&text, tethers);
     FW_TRY(fw_text_end(&text));
     *out = text.data;
     return FW_OK;

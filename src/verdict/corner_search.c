@@ -166,8 +166,8 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
     options.values = s->clearances;
     if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_accuracy);
     do {
-        *now =
-            (fw_verdict_variant_verdict){.variant = &device->variant, .like = like, .corner = true};
+        *now = (fw_verdict_variant_verdict){
+            .variant = &device->variant, .like = like, .corner = true, .arm = s->v->arm};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
     } while (refine(s, now, &options));
@@ -229,6 +229,31 @@ static fw_status run_point(const fw_verdict_search *s, const double *x,
     fw_status status = judge_point(s, scratch, x, corner, ln);
     fw_arena_free(scratch);
     return status;
+}
+
+/* ---- points ---- */
+
+bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in) {
+    return in->high >
+           in->low; /* one that is known exactly has one value, and no second end to run */
+}
+
+unsigned fw_verdict_search_without_range(const fw_verdict_variant_verdict *v) {
+    unsigned bits = 0; /* corners have them clear */
+    for (int i = 0; i < v->ninput; i++)
+        bits |= fw_verdict_search_has_range(&v->input[i]) ? 0u : 1u << i;
+    return bits;
+}
+
+void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x) {
+    for (int i = 0; i < s->v->ninput; i++)
+        x[i] = bits >> i & 1u ? s->v->input[i].high : s->v->input[i].low;
+}
+
+int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits) {
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (s->bits[p] == bits) return p;
+    return FW_NONE;
 }
 
 /* bit for bit: where two points make one device, both were made from the same ends of ranges */

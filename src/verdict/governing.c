@@ -63,9 +63,11 @@ static void as_made(const fw_verdict_variant_verdict *v, int kinds, fw_verdict_c
         for (int k = 0; (kinds & FW_CHECK_HINGES) && k < v->nhinge; k++)
             if (corner->hinge[k].scene)
                 keep(worst, found, check_of(&corner->hinge[k], v->variant->flow, corner->what));
-        if (!(kinds & FW_CHECK_REQUIREMENTS) || !corner->requirement) continue;
-        for (int k = 0; k < v->nrequirement; k++)
-            keep(worst, found, of_requirement(&corner->requirement[k], corner->what));
+    }
+    for (int k = 0; (kinds & FW_CHECK_REQUIREMENTS) && k < v->nrequirement; k++) {
+        int c;
+        const fw_verdict_requirement *r = fw_verdict_requirement_made(v, k, &c);
+        if (r) keep(worst, found, of_requirement(r, v->fabricated->corner[c].what));
     }
 }
 

@@ -10,6 +10,7 @@
 #include "maths/rainflow.h"
 #include "mechanism/mechanism.h"
 #include "probe/probe.h"
+#include "verdict/body_arms.h"
 
 typedef struct fw_verdict_hinge_load {
     double angle_rad;  /* of the pin: phi_b - phi_a - free angle */
@@ -53,6 +54,21 @@ typedef struct fw_verdict_strain_peak {
     int samples;
 } fw_verdict_strain_peak;
 
+/* ---- verdict_bending.c: what bodies that are taken as rigid would store ---- */
+
+typedef struct fw_verdict_bending {
+    const fw_verdict_arm *arm; /* (2 nhinge); NULL: nobody asks */
+    double stiff_N;            /* Young's modulus times thickness */
+    double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
+    double turning_J;          /* and of the hinges' rotations alone */
+    double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
+} fw_verdict_bending;
+/* arm NULL: nobody asks */
+fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_verdict_arm *arm, fw_verdict_bending *bending);
+void fw_verdict_bending_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
+                               const fw_dynamics_instant *now);
+
 typedef struct fw_verdict_strain_monitor { /* of one run */
     const fw_mechanism *mechanism;
     fw_arena *arena;
@@ -63,7 +79,8 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     struct fw_verdict_clearance_watch *clearance; /* verdict_clearance.h */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
-    fw_probe_monitor *probe;            /* looks at the same instants; NULL: nothing is probed */
+    fw_verdict_bending bending;
+    fw_probe_monitor *probe; /* looks at the same instants; NULL: nothing is probed */
 } fw_verdict_strain_monitor;
 
 /* cycles: also keep the turning points that fatigue needs */

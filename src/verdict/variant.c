@@ -111,7 +111,8 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
     double strains = fw_verdict_model_error.strain + beyond_fit(c);
-    double model = fw_verdict_motion_model_error(by->m, motion) + strains;
+    double model =
+        fw_verdict_motion_model_error(by->m, motion) + strains + fw_verdict_bending_counted(motion);
     out->numeric = numeric;
     out->lasting = fmin(model, fw_verdict_motion_lasting_error(by->m) + strains);
     double least = fmin(strain->least, strain->strain) / out->strain_limit;
@@ -233,6 +234,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         monitor[i].clearance = &watch[0];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
+        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, &monitor[i].bending));
+        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, &other[i].bending));
         other[i].clearance = &watch[1];
         FW_TRY(fw_verdict_clearance_scene(scene, watch));
         fw_probe_monitor *seen[2];
@@ -243,6 +246,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
+        if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
         FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
@@ -367,6 +371,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
     FW_NEED(monitor && other ? monitor : NULL);
     FW_TRY(fw_verdict_requirements_list(arena, m, v));
+    FW_TRY(fw_verdict_bending_begin(arena, layout, m, options, v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));

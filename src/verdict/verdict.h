@@ -86,6 +86,8 @@ typedef struct fw_verdict_requirement {
     double numeric; /* part of the band on either side that a tighter run would take away */
     double lasting; /* relative part of it that no better model of the hinges would take away */
     double t_s;     /* when; NaN: no one time */
+    /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
+    double all_low, all_high;
     fw_verdict_decision decision;
     const char *why; /* it has no value; NULL */
 } fw_verdict_requirement;
@@ -115,6 +117,9 @@ typedef struct fw_verdict_fabricated_verdict {
     fw_verdict_fabricated_corner *corner; /* (ncorner) the first is the nominal device */
     int ncorner;
     fw_verdict_fabricated_hinge *hinge; /* (nhinge) */
+    /* (nrequirement) the worst of those that were run, and at which corner; NULL: a trial */
+    fw_verdict_requirement *requirement;
+    int *requirement_corner;
     fw_verdict_decision decision; /* accept: all of them; reject: the nominal one is rejected */
     int governing, at;            /* hinge and corner; FW_NONE: a corner without hinges to judge */
     double error; /* largest |ln U - ln of the first-order estimate| where both are known */
@@ -165,6 +170,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     bool beyond_pull_in;                /* a scene may ask for more than its pull-in voltage */
     fw_verdict_reason *reason;          /* (nreason) */
     int nreason;
+    const struct fw_verdict_arm
+        *arm; /* (2 nhinge) how bodies give (body_arms.h); NULL: not asked for */
     const fw_clearance_things *things; /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */
     int nclearance;
@@ -301,6 +308,14 @@ extern const fw_verdict_model_errors fw_verdict_model_error;
 /* accuracy of a first look */
 extern const double fw_verdict_first_accuracy;
 
+/* What bodies, which the motion takes as rigid, would give of the displacement where the loads act, as a
+   share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
+   verdict, or NULL */
+double fw_verdict_bending_share(const fw_dynamics_motion *motion);
+/* the same where hinges turn, else 0: bands of clearances have it */
+double fw_verdict_bending_turning(const fw_dynamics_motion *motion);
+/* that above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */
+double fw_verdict_bending_counted(const fw_dynamics_motion *motion);
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (verdict_strain.c), else fw_verdict_model_error.motion */
 double fw_verdict_motion_model_error(const fw_mechanism *mechanism,
@@ -332,10 +347,12 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
                                   const fw_verdict_fabrication_input *input, int ninput, int hinge,
                                   fw_verdict_ranges *out);
 typedef struct fw_verdict_made { /* one device that a flow may make */
-    double ln;       /* logarithm of the largest share of a limit that any check uses; above 0 is too much; NaN: it
+    double
+        ln; /* logarithm of the largest share of a limit that any check uses; above 0 is too much; NaN: it
                         could not be run */
-    double up, down; /* how far the band of the hinge that governs reaches, as logarithms, both >= 0 */
-    int hinge;       /* that governs, of v; FW_NONE: none */
+    double up,
+        down;  /* how far the band of the hinge that governs reaches, as logarithms, both >= 0 */
+    int hinge; /* that governs, of v; FW_NONE: none */
     fw_verdict_decision decision;
     const char *why; /* what speaks against it beside its hinges, or NULL */
 } fw_verdict_made;
@@ -346,7 +363,7 @@ typedef struct fw_verdict_made { /* one device that a flow may make */
 fw_status fw_verdict_made_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
                              const double *x, fw_verdict_made *out);
-/* the worst of a requirement over the corners that were run; NULL: none was */
+/* the worst of a requirement over the corners that were run, with its band over all; NULL: none was */
 const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
                                                           int k, int *corner);
 /* lays out, builds and judges the device in every variant; verdict->variant must be an array of

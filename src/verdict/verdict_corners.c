@@ -21,28 +21,10 @@ static void nominal_point(const fw_verdict_variant_verdict *v, double *x) {
         x[i] = v->input[i].nominal;
 }
 
-static void corner_point(const fw_verdict_variant_verdict *v, unsigned bits, double *x) {
-    for (int i = 0; i < v->ninput; i++)
-        x[i] = bits >> i & 1u ? v->input[i].high : v->input[i].low;
-}
-
-/* an input that is known exactly has one value, and no second end to run */
-static bool has_range(const fw_verdict_fabrication_input *in) {
-    return in->high > in->low;
-}
-
-/* bits of inputs without a range: corners have them clear */
-static unsigned without_range(const fw_verdict_variant_verdict *v) {
-    unsigned bits = 0;
-    for (int i = 0; i < v->ninput; i++)
-        bits |= has_range(&v->input[i]) ? 0u : 1u << i;
-    return bits;
-}
-
 /* inputs that change nothing but edges have the same slopes, scaled */
 static bool edges_only(const fw_verdict_fabrication_input *in) {
-    return has_range(in) && in->edge_m != 0.0 && in->flare_m == 0.0 && in->thickness == 0.0 &&
-           in->youngs == 0.0;
+    return fw_verdict_search_has_range(in) && in->edge_m != 0.0 && in->flare_m == 0.0 &&
+           in->thickness == 0.0 && in->youngs == 0.0;
 }
 
 static int first_edge(const fw_verdict_variant_verdict *v) {
@@ -60,25 +42,29 @@ static fw_status slopes(fw_verdict_search *s) {
     for (int i = 0; i < v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &v->input[i];
         int like = edges_only(in) ? first_edge(v) : i, n = v->ninput;
-        if (!has_range(in)) continue; /* slopes are 0: it stays where it is */
+        s->slope_like[i] = like;
+        s->slope_point[i] = FW_NONE;
+        if (!fw_verdict_search_has_range(in)) continue; /* slopes are 0: it stays where it is */
         for (int r = 0; like < i && r < s->ncheck; r++)
             s->slope[r * n + i] = s->slope[r * n + like] * in->edge_m / v->input[like].edge_m;
         if (like < i) continue;
         nominal_point(v, x);
         x[i] = in->nominal > in->low ? in->low : in->high;
+        s->slope_point[i] = s->fabricated->ncorner;
         const double *at = s->ln + (size_t)s->fabricated->ncorner * (size_t)s->ncheck;
         FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
         for (int r = 0; r < s->ncheck; r++)
             s->slope[r * n + i] = (at[r] - s->ln[r]) / (x[i] - in->nominal);
     }
     s->first = s->fabricated->ncorner;
+    fw_verdict_ends_slopes(s);
     return FW_OK;
 }
 
 static double estimate(const fw_verdict_search *s, int check, unsigned bits) {
     const fw_verdict_variant_verdict *v = s->v;
     double x[FW_FABRICATION_INPUTS], ln = s->ln[check];
-    corner_point(v, bits, x);
+    fw_verdict_search_corner_point(s, bits, x);
     for (int i = 0; i < v->ninput; i++)
         ln += s->slope[check * v->ninput + i] * (x[i] - v->input[i].nominal);
     return ln;
@@ -94,12 +80,6 @@ static unsigned end_corner(const fw_verdict_search *s, int check, bool up, unsig
         bits |= high ? 1u << i : 0u;
     }
     return bits;
-}
-
-static int find_corner(const fw_verdict_search *s, unsigned bits) {
-    for (int p = 0; p < s->fabricated->ncorner; p++)
-        if (s->bits[p] == bits) return p;
-    return FW_NONE;
 }
 
 /* that corner of a check, as one that was run where the difference is of no account */
@@ -166,9 +146,9 @@ static double upper_at(const fw_verdict_search *s, int check, unsigned bits) {
 /* the highest of these bounds, over all corners or those that were not run */
 static double highest_bound(const fw_verdict_search *s, int check, bool unrun, unsigned *at) {
     double highest = -HUGE_VAL;
-    const unsigned fixed = without_range(s->v);
+    const unsigned fixed = fw_verdict_search_without_range(s->v);
     for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
-        if ((bits & fixed) || (unrun && find_corner(s, bits) != FW_NONE)) continue;
+        if ((bits & fixed) || (unrun && fw_verdict_search_find(s, bits) != FW_NONE)) continue;
         double upper = upper_at(s, check, bits);
         if (upper > highest) highest = upper, *at = bits;
     }
@@ -212,17 +192,19 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
         double upper = estimate(s, r, bits) + s->fabricated->error;
         double bar = fmin(largest, log(near_limit(s, r)));
         bool first = s->fabricated->ncorner == s->first; /* one is run in any case */
-        if (!first && (find_corner(s, bits) != FW_NONE || !(upper > bar))) continue;
+        if (!first && (fw_verdict_search_find(s, bits) != FW_NONE || !(upper > bar))) continue;
         if (upper > highest) highest = upper, next = bits;
     }
     if (next == FW_NO_CORNER) next = not_yet_below(s);
+    if (next == FW_NO_CORNER) next = fw_verdict_ends_next(s);
     *ran = next != FW_NO_CORNER;
     if (!*ran) return FW_OK;
     double x[FW_FABRICATION_INPUTS];
-    corner_point(s->v, next, x);
+    fw_verdict_search_corner_point(s, next, x);
     FW_TRY(fw_verdict_search_run(s, x, next));
     s->fabricated->error =
         fmax(s->fabricated->error, estimate_error(s, s->fabricated->ncorner - 1));
+    fw_verdict_ends_compare(s, s->fabricated->ncorner - 1);
     return FW_OK;
 }
 
@@ -235,11 +217,11 @@ static bool no_slope(const fw_verdict_search *s) {
 
 static fw_status run_all(fw_verdict_search *s) {
     double x[FW_FABRICATION_INPUTS];
-    const unsigned fixed = without_range(s->v);
+    const unsigned fixed = fw_verdict_search_without_range(s->v);
     s->fabricated->all = true;
     for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
-        if ((bits & fixed) || find_corner(s, bits) != FW_NONE) continue;
-        corner_point(s->v, bits, x);
+        if ((bits & fixed) || fw_verdict_search_find(s, bits) != FW_NONE) continue;
+        fw_verdict_search_corner_point(s, bits, x);
         FW_TRY(fw_verdict_search_run(s, x, bits));
     }
     return FW_OK;
@@ -251,7 +233,7 @@ fw_status fw_verdict_search_corners(fw_verdict_search *s) {
     FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
     if (s->fabricated->corner[0].decision == FW_REJECT) return FW_OK;
     FW_TRY(slopes(s));
-    if (no_slope(s)) return run_all(s);
+    if (no_slope(s) || fw_verdict_ends_unknown(s)) return run_all(s);
     for (bool ran = true; ran && s->fabricated->error <= fw_trusted;)
         FW_TRY(run_next(s, &ran));
     return s->fabricated->error > fw_trusted ? run_all(s) : FW_OK;
@@ -259,12 +241,12 @@ fw_status fw_verdict_search_corners(fw_verdict_search *s) {
 
 fw_status fw_verdict_search_ends(fw_verdict_search *s, int check) {
     double x[FW_FABRICATION_INPUTS];
-    bool one = s->first == 0 || without_range(s->v) + 1u == 1u << s->v->ninput;
+    bool one = s->first == 0 || fw_verdict_search_without_range(s->v) + 1u == 1u << s->v->ninput;
     if (one || s->fabricated->all || isnan(s->ln[check])) return FW_OK; /* no other corner */
     for (int up = 0; up < 2; up++) {
         unsigned bits = choose(s, check, up);
-        if (find_corner(s, bits) != FW_NONE) continue;
-        corner_point(s->v, bits, x);
+        if (fw_verdict_search_find(s, bits) != FW_NONE) continue;
+        fw_verdict_search_corner_point(s, bits, x);
         FW_TRY(fw_verdict_search_run(s, x, bits));
     }
     return FW_OK;
@@ -402,6 +384,7 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
     FW_NEED(s->ln = fw_arena_array(arena, double, (size_t)FW_MOST_POINTS *(size_t)s->ncheck));
     FW_NEED(s->bits = fw_arena_array(arena, unsigned, FW_MOST_POINTS));
     FW_NEED(s->slope = fw_arena_array(arena, double, (size_t)s->ncheck *n));
+    FW_NEED(s->end = fw_arena_array(arena, fw_verdict_end, 2 * (size_t)v->nrequirement));
     for (size_t k = 0; k < h; k++)
         FW_NEED(s->fabricated->hinge[k].share = fw_arena_array(arena, double, n));
     s->fabricated->ln = s->ln;
@@ -452,6 +435,7 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
         tightest(&s, k);
         if (!decided && s.first > 0) first_order(&s, k);
     }
+    if (!decided) FW_TRY(fw_verdict_ends_made(&s));
     fw_verdict_search_govern(&s);
     v->fabricated = s.fabricated;
     if (s.fabricated->decision == FW_ACCEPT) return FW_OK;

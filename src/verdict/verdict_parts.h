@@ -37,6 +37,15 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v);
 
+/* ---- verdict_bending.c: bodies are rigid in the motion, and are none ---- */
+
+/* v->arm, where it is not known of a device much like it */
+fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
+                                   const fw_mechanism *mechanism, const fw_verdict_options *options,
+                                   fw_verdict_variant_verdict *v);
+void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                             const fw_dynamics_motion *motion, fw_diags *diags);
+
 /* ---- verdict_missing.c: what the motion has and the masks lack ---- */
 
 int fw_verdict_missing_most(const fw_device *device); /* reasons of one flow */
@@ -79,6 +88,14 @@ typedef struct fw_verdict_known {
     const double *ln; /* (ncheck) */
 } fw_verdict_known;
 
+/* One end of the band of a requirement, and how it goes with the inputs. z: the end itself, or where it
+   has one sign everywhere sign ln(sign end), which grows with it and is nearer to a straight line. */
+typedef struct fw_verdict_end {
+    int sign;                            /* 0: z is the end */
+    double slope[FW_FABRICATION_INPUTS]; /* dz/dx about the nominal */
+    double error;                        /* largest difference from first order seen at a corner */
+} fw_verdict_end;
+
 typedef struct fw_verdict_search {
     fw_arena *arena; /* of the plan */
     const fw_device *device;
@@ -96,6 +113,11 @@ typedef struct fw_verdict_search {
     int judged;    /* points that were run, and not known */
     int first;     /* how many points there were when the slopes were known */
     double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
+    int slope_like
+        [FW_FABRICATION_INPUTS]; /* the input whose slopes were taken, scaled by the edges */
+    int slope_point
+        [FW_FABRICATION_INPUTS]; /* where it was off its nominal value; FW_NONE: no range */
+    fw_verdict_end *end;         /* (2 nrequirement) low and high of each band */
 } fw_verdict_search;
 
 enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) };
@@ -110,6 +132,22 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
 fw_status fw_verdict_search_corners(fw_verdict_search *s);
 /* after it: the corners where a check is highest and lowest to first order, where they were not run */
 fw_status fw_verdict_search_ends(fw_verdict_search *s, int check);
+/* ---- requirement_corners.c: the bands of requirements over all corners ---- */
+
+void fw_verdict_ends_slopes(fw_verdict_search *s); /* of the points that were run for slopes */
+/* after a corner was run: what its bands are off first order */
+void fw_verdict_ends_compare(fw_verdict_search *s, int point);
+bool fw_verdict_ends_unknown(const fw_verdict_search *s); /* a requirement without a slope */
+/* the corner to be run next so that the bands hold at all of them; FW_NO_CORNER: none */
+unsigned fw_verdict_ends_next(const fw_verdict_search *s);
+/* s->fabricated->requirement */
+fw_status fw_verdict_ends_made(fw_verdict_search *s);
+/* corner_search.c, shared */
+bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
+void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x);
+unsigned fw_verdict_search_without_range(const fw_verdict_variant_verdict *v);
+int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits); /* a point, or FW_NONE */
+
 /* what the corners that were run say: decision, governing hinge and corner of s->fabricated */
 void fw_verdict_search_govern(fw_verdict_search *s);
 /* runs the device at x and keeps it as the next corner of s->fabricated */

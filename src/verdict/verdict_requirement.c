@@ -50,6 +50,8 @@ static fw_verdict_requirement blank(const fw_mechanism *m, int asked, int scene)
                                     .high = (double)NAN,
                                     .margin = (double)NAN,
                                     .origin = (double)NAN,
+                                    .all_low = (double)NAN,
+                                    .all_high = (double)NAN,
                                     .utilisation = (double)NAN,
                                     .t_s = (double)NAN,
                                     .decision = FW_INCONCLUSIVE,
@@ -160,11 +162,12 @@ static void put(fw_verdict_requirement *r, double value, double numeric, double 
 
 /* ---- of motions ---- */
 
-/* relative error of what was computed with this model of the hinges */
+/* relative error of what was computed with this model of the hinges, and with rigid bodies */
 static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, double level) {
-    double whole = fw_verdict_motion_model_error(m, motion);
+    const double bodies = fw_verdict_bending_share(motion);
+    double whole = fw_verdict_motion_model_error(m, motion) + bodies;
     if (isnan(level) || motion->ledger.hinge.used == FW_HINGE_ELASTICA) return whole;
-    double computed = level + fw_verdict_motion_lasting_error(m);
+    double computed = level + fw_verdict_motion_lasting_error(m) + bodies;
     bool swings = motion->loads && !motion->loads->quasi_static;
     return swings && motion->ledger.hinge.used == FW_HINGE_REVOLUTE ? fmax(computed, whole)
                                                                     : computed;
@@ -198,7 +201,7 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
                   fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const double model = model_of(m, motion, p->level),
-                 lasting = fw_verdict_motion_lasting_error(m);
+                 lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
     const bool size = !isnan(p->moved); /* a gap is not below 0 */
     switch (q->measure) {
     case FW_MEASURE_PEAK:
@@ -266,6 +269,14 @@ static const char *last_error(const fw_diags *diags) {
     return "there are no small motions";
 }
 
+/* of small motions no forces are known: the most of any scene */
+static double bodies_give(const fw_mechanism *m, const fw_verdict_variant_verdict *v) {
+    double most = 0;
+    for (int i = 0; i < m->device->nscene; i++)
+        most = fmax(most, fw_verdict_bending_share(v->motion[i]));
+    return most;
+}
+
 static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
                              const fw_dynamics_motion_options *options,
                              fw_verdict_variant_verdict *v, int scene) {
@@ -289,7 +300,9 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         double value = modes ? fw_probe_small(p, modes) : (double)NAN;
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
-        double model = fw_probe_small_error(p, modes), lasting = modes->stiffness_error;
+        double rigid = bodies_give(m, v) * (p->asked->row == FW_PROBE_IS_frequency ? 0.5 : 1);
+        double model = fw_probe_small_error(p, modes) + rigid,
+               lasting = modes->stiffness_error + rigid;
         put(r, value, 0, model, lasting, value, true);
     }
     return FW_OK;
@@ -314,10 +327,18 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                r->probe, of, isnan(r->min) ? "most" : "least",
                                fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
                                r->why);
-    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s), and at %s %s is required", r->probe,
-                           of, fw_probe_text(value, r->value, r->unit),
-                           fw_probe_text(low, r->low, r->unit),
-                           fw_probe_text(high, r->high, r->unit), below ? "least" : "most", bound);
+    fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
+    const char *all = "";
+    if (r->all_low < r->low || r->all_high > r->high) {
+        char least[FW_PROBE_TEXT], most[FW_PROBE_TEXT];
+        all = fw_arena_printf(arena, "; at every corner of the flow %s to %s",
+                              fw_probe_text(least, r->all_low, r->unit),
+                              fw_probe_text(most, r->all_high, r->unit));
+        if (!all) return NULL;
+    }
+    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s%s), and at %s %s is required", r->probe,
+                           of, fw_probe_text(value, r->value, r->unit), low, high, all,
+                           below ? "least" : "most", bound);
 }
 
 /* A min of a motion wants more of it: neither less load nor stiffer flexures help. What is of an
@@ -362,7 +383,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
     return FW_OK;
 }
 
-/* ---- what may still decide, and the worst of what is made ---- */
+/* ---- what may still decide ---- */
 
 /* as refinement.c sees a hinge */
 static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
@@ -397,21 +418,4 @@ double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement,
         enough = fmin(enough, fw_verdict_enough(&h, 1, accuracy));
     }
     return enough;
-}
-
-static bool is_worse(const fw_verdict_requirement *a, const fw_verdict_requirement *b) {
-    if (a->decision != b->decision) return fw_verdict_is_worse(a->decision, b->decision);
-    return isnan(a->utilisation) || isnan(b->utilisation) ? a->margin < b->margin
-                                                          : a->utilisation > b->utilisation;
-}
-
-const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
-                                                          int k, int *corner) {
-    const fw_verdict_requirement *worst = NULL;
-    for (int c = 0; v->fabricated && c < v->fabricated->ncorner; c++) {
-        const fw_verdict_requirement *list = v->fabricated->corner[c].requirement;
-        if (!list || (worst && !is_worse(&list[k], worst))) continue;
-        worst = &list[k], *corner = c;
-    }
-    return worst;
 }

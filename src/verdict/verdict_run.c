@@ -92,6 +92,7 @@ static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layo
                                  "no joint of the mechanism is a flexure, so there is no elastic "
                                  "limit to judge: name a flexure on the joints");
         FW_TRY(fw_verdict_check_closure(device, m, diags));
+        if (i > 0) v->arm = verdict->variant[0].arm; /* the same drawing */
         FW_TRY(fw_verdict_variant(arena, device, layout, m, options, diags, v));
         if (!judged(v, device))
             status = fw_diag_error(diags, 202, flow_place(device, v->variant->flow),

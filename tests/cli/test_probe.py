@@ -357,6 +357,25 @@ class Probe(unittest.TestCase):
         missed = [r for r in verdict["reasons"] if r["code"] == "FW-D238"]
         self.assertTrue(any("frequency-1" in r["text"] for r in missed), verdict["reasons"])
 
+    def test_links_that_bend_are_told_and_in_the_bands(self):
+        """the same leaves between links of 120 and of 26 um: the second give, which every band and a warning say"""
+        text = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
+        thin = text.replace('width="120 um"', 'width="26 um"').replace('width="160 um"', 'width="26 um"')
+        asked = ('<probe id="go" kind="displacement" on="coupler"/>'
+                 '<require probe="go" measure="peak" max="1 mm"/></device>')
+        wide = {}
+        for name, one in (("stiff", text), ("thin", thin)):
+            path = self.file(one.replace("</device>", asked))
+            result = run("check", path, "--corners", "none", "--advice", "none", "--json")
+            verdict = json.loads(result.stdout)
+            give, go = verdict["hinge_model"][0]["bodies_give"], verdict["requirements"][0]
+            self.assertEqual("FW-D510" in result.stderr, name == "thin", result.stderr)
+            self.assertEqual(give > 0.05, name == "thin")
+            self.assertGreater((go["band"][1] - go["value"]) / go["value"], give)
+            used = verdict["hinges"][0]
+            wide[name] = used["utilisation_band"][1] / used["utilisation"] - 1
+        self.assertGreater(wide["thin"], wide["stiff"] + 0.1)
+
     def test_without_probes_nothing_changes(self):
         text = self.GRIPPER.read_text(encoding="utf-8")
         plain = "\n".join(line for line in text.splitlines() if "<probe" not in line and "<require" not in line)

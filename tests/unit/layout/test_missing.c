@@ -249,6 +249,54 @@ static drawn draw_enclosed(const char *down_to, const char *rest, const fw_devic
     return d;
 }
 
+/* a plate on one hinge, and what else there is of it */
+static const char plate[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"silicon-100\" "
+    "thickness=\"50 um\"/><flexure id=\"f\" kind=\"leaf\" length=\"300 um\" width=\"8 um\" "
+    "gap=\"10 um\"/><mechanism>"
+    "<body id=\"p\" x=\"0.1 mm\" y=\"1 mm\" plate-width=\"0.8 mm\" plate-height=\"0.6 mm\" "
+    "plate-x=\"0 mm\" plate-y=\"0.8 mm\"/>"
+    "<revolute id=\"A\" a=\"ground\" b=\"p\" b-x=\"-0.1 mm\" b-y=\"-1 mm\" hinge=\"f\"/>%s"
+    "</mechanism></device>";
+
+/* the first tether, with a spring at a place of the plate (mm, its frame at (0.1, 1)) */
+static fw_geometry_vec2 first_cut(bool spring, double x, double y, double *nearest_m) {
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_device *device;
+    const fw_layout *layout;
+    char xml[4096], rest[512] = "";
+    snprintf(rest, sizeof rest,
+             "<spring id=\"s\" a=\"p\" a-x=\"%.4f mm\" a-y=\"%.4f mm\" b=\"ground\" b-x=\"3 mm\" "
+             "b-y=\"3 mm\" stiffness=\"1 N/m\"/>",
+             x, y);
+    snprintf(xml, sizeof xml, plate, spring ? rest : "");
+    assert_int_equal(fw_device_read(arena, "t.xml", xml, strlen(xml), NULL, 0, &diags, &device),
+                     FW_OK);
+    assert_int_equal(fw_layout_build(arena, device, &diags, &layout), FW_OK);
+    assert_true(layout->ntether > 0);
+    *nearest_m = HUGE_VAL;
+    for (int i = 0; i < layout->ntether; i++) {
+        fw_geometry_vec2 cut = layout->tether[i].cut;
+        *nearest_m = fmin(*nearest_m, hypot(cut.x - 1e-3 * (x + 0.1), cut.y - 1e-3 * (y + 1)));
+    }
+    fw_geometry_vec2 cut = layout->tether[0].cut;
+    fw_arena_free(arena);
+    return cut;
+}
+
+/* where a spring presses on the body there is no stub: the tether goes elsewhere; a spring that is not
+   there moves none */
+static void a_tether_keeps_from_where_its_body_acts(void **unused) {
+    (void)unused;
+    double nearest;
+    fw_geometry_vec2 was = first_cut(false, 0, 0, &nearest);
+    fw_geometry_vec2 away = first_cut(true, 0, -0.2, &nearest);
+    assert_true(was.x == away.x && was.y == away.y);
+    first_cut(true, 1e3 * was.x - 0.1, 1e3 * was.y - 1, &nearest);
+    assert_true(nearest >= 50e-6);
+}
+
 static void an_enclosed_body_has_no_tether(void **unused) {
     (void)unused;
     const fw_device *device;
@@ -339,6 +387,7 @@ int main(void) {
         cmocka_unit_test(no_insulation_has_no_room),
         cmocka_unit_test(an_eyelet_names_a_place_that_has_room),
         cmocka_unit_test(flows_lack_what_their_scenes_have),
+        cmocka_unit_test(a_tether_keeps_from_where_its_body_acts),
         cmocka_unit_test(an_enclosed_body_has_no_tether),
         cmocka_unit_test(all_is_drawn_or_said),
     };

@@ -267,6 +267,35 @@ static void the_share_of_the_hinge_is_told(void **unused) {
     fw_arena_free(arena);
 }
 
+/* how far the cut goes towards the finger, by a shift and by a turn about the centre of mass, and what the
+   run sheet says of it */
+static void a_body_that_goes_towards_its_finger_is_told(void **state) {
+    (void)state;
+    static case_of c;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_statics_tethers *all;
+    const char *text;
+    make(&c, 1e-3, 0.7e-3, 0.2e-3);
+    c.m.drawn = &c.body;
+    assert_int_equal(fw_statics_tethers_find(arena, &c.m, &all), FW_OK);
+    const double x = c.body.x_m, y = c.body.y_m, turn = 0.01;
+    const double away[3] = {x, y - 20e-6, 0}, rows[6] = {x + 50e-6, y + 3e-6, 0, x, y, turn};
+    fw_statics_tethers_watch(all, &c.m, "back", away, 1);
+    assert_near(all->item[0].toward_m, 0, 1e-12);
+    assert_int_equal(fw_statics_tethers_words(arena, &c.m, all, &text), FW_OK);
+    assert_null(strstr(text, "at the frame"));
+    fw_statics_tethers_watch(all, &c.m, "shift", rows, 1);
+    assert_near(all->item[0].toward_m, 3e-6, 1e-15);
+    assert_string_equal(all->item[0].scene, "shift");
+    fw_statics_tethers_watch(all, &c.m, "both", rows, 2);
+    /* the cut is at (0.4, 0.3) mm from the centre of mass */
+    assert_near(all->item[0].toward_m, 0.4e-3 * sin(turn) + 0.3e-3 * (cos(turn) - 1), 1e-15);
+    assert_int_equal(fw_statics_tethers_words(arena, &c.m, all, &text), FW_OK);
+    assert_non_null(strstr(text, "at the frame, too"));
+    assert_non_null(strstr(text, "(3.98 um in scene both)"));
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_free_body_leaves_a_cantilever),
@@ -274,6 +303,7 @@ int main(void) {
         cmocka_unit_test(stepped_beams_agree_with_direct_stiffness),
         cmocka_unit_test(hinges_add_up),
         cmocka_unit_test(the_share_of_the_hinge_is_told),
+        cmocka_unit_test(a_body_that_goes_towards_its_finger_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -295,6 +295,69 @@ static void each_hinge_has_its_own_corner(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* both bounds, a size that passes 0 and a bound that is the value as drawn */
+static const char asked[] =
+    "\"/></scene><probe id=\"go\" kind=\"displacement\" on=\"b\" direction=\"90 deg\"/>"
+    "<probe id=\"turn\" kind=\"angle\" on=\"a\"/>"
+    "<probe id=\"rush\" kind=\"velocity\" on=\"b\"/>"
+    "<require probe=\"go\" measure=\"maximum\" scene=\"push\" min=\"1 um\" max=\"%s\"/>"
+    "<require probe=\"go\" measure=\"minimum\" scene=\"push\" min=\"-0.1 um\"/>"
+    "<require probe=\"go\" measure=\"parasitic\" scene=\"push\" max=\"1 mm\"/>"
+    "<require probe=\"turn\" measure=\"final\" scene=\"push\" min=\"-30 deg\" max=\"30 deg\"/>"
+    "<require probe=\"rush\" measure=\"peak\" scene=\"push\" max=\"10 m/s\"/>"
+    "<scene name=\"rest\" duration=\"1 ms\"><force on=\"b\" fx=\"0 mN\" fy=\"0 uN";
+
+/* the band of a requirement as made holds the bands of all corners, run or not, and is no wider than
+   the corners that decide ask for; accepted only where all are */
+static void a_requirement_holds_at_every_corner(void **state) {
+    (void)state;
+    /* the highest corner is at 131.4 um, with its band */
+    const char *const most[] = {"200 um", "132 um", "128 um"};
+    int decisions[3] = {0}, unrun = 0;
+    for (int n = 0; n < 3; n++) {
+        set_up s;
+        char load[1600];
+        int at_most = snprintf(load, sizeof load, "20 uN");
+        snprintf(load + at_most, sizeof load - (size_t)at_most, asked, most[n]);
+        begin(&s, load);
+        fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+        const fw_verdict_fabricated_verdict *f = v.variant[0].fabricated;
+        assert_non_null(f);
+        decisions[v.decision]++;
+        unrun += !f->all && f->ncorner < 12;
+        fw_verdict_decision all = FW_ACCEPT;
+        double low[5], high[5];
+        for (int k = 0; k < 5; k++)
+            low[k] = HUGE_VAL, high[k] = -HUGE_VAL;
+        for (unsigned bits = 0; bits < 8; bits++) {
+            double x[3];
+            corner(&s, bits, x);
+            fw_verdict_variant_verdict now = at(&s, x);
+            assert_int_equal(now.nrequirement, 5);
+            all = fw_verdict_worse(all, now.decision);
+            for (int k = 0; k < 5; k++) {
+                low[k] = fmin(low[k], now.requirement[k].low);
+                high[k] = fmax(high[k], now.requirement[k].high);
+            }
+        }
+        if (v.decision == FW_ACCEPT) assert_int_equal(all, FW_ACCEPT);
+        if (all == FW_ACCEPT) assert_int_equal(v.decision, FW_ACCEPT);
+        for (int k = 0; k < 5; k++) {
+            int c;
+            const fw_verdict_requirement *made = fw_verdict_requirement_made(&v.variant[0], k, &c);
+            double wide = high[k] - low[k];
+            assert_non_null(made);
+            assert_true(made->all_low <= low[k] + 1e-3 * wide);
+            assert_true(made->all_high >= high[k] - 1e-3 * wide);
+            /* near 0 there is no measure of it, and where a ring ends it is not monotone */
+            if (low[k] > 0 && k != 3) assert_true(made->all_high - made->all_low < 1.5 * wide);
+        }
+        fw_arena_free(s.arena);
+    }
+    assert_true(decisions[FW_ACCEPT] > 0 && decisions[FW_INCONCLUSIVE] > 0);
+    assert_true(unrun > 0);
+}
+
 /* sigma against central differences of full runs */
 static void sigma_is_first_order(void **state) {
     (void)state;
@@ -449,6 +512,7 @@ int main(void) {
         cmocka_unit_test(a_crystal_has_a_modulus_too),
         cmocka_unit_test(no_corner_is_worse),
         cmocka_unit_test(each_hinge_has_its_own_corner),
+        cmocka_unit_test(a_requirement_holds_at_every_corner),
         cmocka_unit_test(sigma_is_first_order),
         cmocka_unit_test(what_must_be_held_is_enough),
         cmocka_unit_test(what_counts_most_is_held),

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Requirements of what a flow makes: a band that holds at every corner of the ranges. Each requirement
+   has two ends, the low and the high one of its band, which are followed as values: a utilisation has a
+   kink where the other bound becomes the nearer one, and there is none where a bound is the drawn value.
+   The corners where the low end is lowest and the high end highest to first order are run; elsewhere
+   counts first order, widened by the largest error that it was seen to have. Theory:
+   docs/theory/as-fabricated.md. Test: test_made.c. */
+#include "verdict/verdict_parts.h"
+#include <float.h>
+#include <math.h>
+
+/* an input that moves an end by less than this share of the value does not decide which corner is worst */
+static const double fw_of_no_account = 2e-3;
+
+static const fw_verdict_requirement *at_point(const fw_verdict_search *s, int point, int k) {
+    const fw_verdict_requirement *list = s->fabricated->corner[point].requirement;
+    return list && !list[k].why ? &list[k] : NULL;
+}
+
+/* NaN: it has no value there */
+static double end_of(const fw_verdict_search *s, int point, int e) {
+    const fw_verdict_requirement *r = at_point(s, point, e / 2);
+    if (!r) return (double)NAN;
+    return e % 2 ? r->high : r->low;
+}
+
+static bool is_known(const fw_verdict_search *s, int e) {
+    return s->fabricated->ncorner > 0 && !isnan(end_of(s, 0, e));
+}
+
+/* ---- first order, in z (fw_verdict_end) ---- */
+
+/* NaN: it has another sign there, or no value */
+static double z_of(const fw_verdict_end *end, double value) {
+    if (end->sign == 0) return value;
+    return end->sign * value > 0 ? end->sign * log(end->sign * value) : (double)NAN;
+}
+
+static double value_of(const fw_verdict_end *end, double z) {
+    return end->sign == 0 ? z : end->sign * exp(end->sign * z);
+}
+
+static double z_at(const fw_verdict_search *s, int point, int e) {
+    return z_of(&s->end[e], end_of(s, point, e));
+}
+
+/* of all points so far; one that is no number everywhere has none */
+static int sign_of(const fw_verdict_search *s, int e) {
+    int sign = end_of(s, 0, e) > 0 ? 1 : -1;
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (!(sign * end_of(s, p, e) > 0)) return 0;
+    return sign;
+}
+
+void fw_verdict_ends_slopes(fw_verdict_search *s) {
+    const fw_verdict_fabrication_input *in = s->v->input;
+    for (int e = 0; e < 2 * s->v->nrequirement; e++) {
+        fw_verdict_end *end = &s->end[e];
+        end->sign = sign_of(s, e);
+        for (int i = 0; i < s->v->ninput; i++) {
+            int like = s->slope_like[i], p = s->slope_point[i];
+            if (like < i) end->slope[i] = end->slope[like] * in[i].edge_m / in[like].edge_m;
+            if (p == FW_NONE) continue;
+            end->slope[i] =
+                (z_at(s, p, e) - z_at(s, 0, e)) / (s->fabricated->corner[p].x[i] - in[i].nominal);
+        }
+    }
+}
+
+static double estimate(const fw_verdict_search *s, int e, unsigned bits) {
+    double x[FW_FABRICATION_INPUTS], z = z_at(s, 0, e);
+    fw_verdict_search_corner_point(s, bits, x);
+    for (int i = 0; i < s->v->ninput; i++)
+        z += s->end[e].slope[i] * (x[i] - s->v->input[i].nominal);
+    return z;
+}
+
+void fw_verdict_ends_compare(fw_verdict_search *s, int point) {
+    for (int e = 0; e < 2 * s->v->nrequirement; e++) {
+        double off = fabs(z_at(s, point, e) - estimate(s, e, s->bits[point]));
+        if (isnan(off) && !isnan(end_of(s, point, e))) off = HUGE_VAL; /* another sign */
+        s->end[e].error = fmax(s->end[e].error, off); /* no value: it is inconclusive there */
+    }
+}
+
+bool fw_verdict_ends_unknown(const fw_verdict_search *s) {
+    for (int e = 0; e < 2 * s->v->nrequirement; e++)
+        for (int i = 0; is_known(s, e) && i < s->v->ninput; i++)
+            if (isnan(s->end[e].slope[i])) return true;
+    return false;
+}
+
+/* bits of the inputs that move an end by as much as counts */
+static unsigned account(const fw_verdict_search *s, int e) {
+    const fw_verdict_requirement *r = at_point(s, 0, e / 2);
+    const fw_verdict_end *end = &s->end[e];
+    double size = fmax(fabs(r->value), fmax(fabs(r->min), fabs(r->max))); /* NaN is passed */
+    unsigned bits = 0;
+    for (int i = 0; i < s->v->ninput; i++) {
+        double range = s->v->input[i].high - s->v->input[i].low;
+        if (fabs(end->slope[i]) * range >= fw_of_no_account * (end->sign ? 1 : size) &&
+            fw_verdict_search_has_range(&s->v->input[i]))
+            bits |= 1u << i;
+    }
+    return bits;
+}
+
+/* where the end is highest (up) or lowest; inputs of no account are low */
+static unsigned end_corner(const fw_verdict_search *s, int e, bool up) {
+    unsigned counts = account(s, e), bits = 0;
+    for (int i = 0; i < s->v->ninput; i++)
+        if ((counts >> i & 1u) && (s->end[e].slope[i] > 0) == up) bits |= 1u << i;
+    return bits;
+}
+
+/* a corner that was run and differs in inputs of no account only; FW_NONE: there is none */
+static int run_like(const fw_verdict_search *s, unsigned bits, unsigned counts) {
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (s->bits[p] != FW_NO_CORNER && ((s->bits[p] ^ bits) & counts) == 0) return p;
+    return FW_NONE;
+}
+
+/* the end at a corner at most (up) or at least; NaN: not known there */
+static double bound(const fw_verdict_search *s, int e, bool up, unsigned bits) {
+    int p = run_like(s, bits, account(s, e));
+    double z = estimate(s, e, bits);
+    z +=
+        p != FW_NONE ? z_at(s, p, e) - estimate(s, e, s->bits[p]) : (up ? 1 : -1) * s->end[e].error;
+    return value_of(&s->end[e], z);
+}
+
+/* ---- what is still to be run ---- */
+
+/* by how much an end may be beyond its bound at this corner, of its size; not above 0: it is within */
+static double beyond(const fw_verdict_search *s, int e, unsigned bits) {
+    const fw_verdict_requirement *r = at_point(s, 0, e / 2);
+    bool up = e % 2;
+    double limit = up ? r->max : r->min, size = fmax(fabs(r->value), fabs(limit));
+    double off = up ? bound(s, e, up, bits) - limit : limit - bound(s, e, up, bits);
+    return isnan(off) ? -HUGE_VAL : off / fmax(size, DBL_MIN);
+}
+
+unsigned fw_verdict_ends_next(const fw_verdict_search *s) {
+    const unsigned fixed = fw_verdict_search_without_range(s->v);
+    unsigned next = FW_NO_CORNER;
+    double most = 0;
+    for (int e = 0; e < 2 * s->v->nrequirement; e++) {
+        if (!is_known(s, e)) continue;
+        unsigned bits = end_corner(s, e, e % 2);
+        if (run_like(s, bits, account(s, e)) == FW_NONE) return bits;
+    }
+    for (int e = 0; e < 2 * s->v->nrequirement; e++)
+        for (unsigned bits = 0; is_known(s, e) && bits < 1u << s->v->ninput; bits++) {
+            if ((bits & fixed) || fw_verdict_search_find(s, bits) != FW_NONE) continue;
+            double off = beyond(s, e, bits);
+            if (off > most) most = off, next = bits;
+        }
+    return next;
+}
+
+/* ---- what it says ---- */
+
+static bool is_worse(const fw_verdict_requirement *a, const fw_verdict_requirement *b) {
+    if (a->decision != b->decision) return fw_verdict_is_worse(a->decision, b->decision);
+    return isnan(a->utilisation) || isnan(b->utilisation) ? a->margin < b->margin
+                                                          : a->utilisation > b->utilisation;
+}
+
+/* over all corners; NaN where the nominal device is rejected and no other was run, and where it has no
+   value at some corner */
+static void cover(const fw_verdict_search *s, int k, fw_verdict_requirement *made) {
+    const unsigned fixed = fw_verdict_search_without_range(s->v);
+    made->all_low = made->all_high = (double)NAN;
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (s->first == 0 || !at_point(s, p, k)) return;
+    for (int p = 0; p < s->fabricated->ncorner; p++) {
+        made->all_low = fmin(made->all_low, end_of(s, p, 2 * k));
+        made->all_high = fmax(made->all_high, end_of(s, p, 2 * k + 1));
+    }
+    bool size = isnan(made->origin) && made->all_low >= 0; /* and not below 0 */
+    for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
+        if ((bits & fixed) || fw_verdict_search_find(s, bits) != FW_NONE) continue;
+        made->all_low = fmin(made->all_low, bound(s, 2 * k, false, bits));
+        made->all_high = fmax(made->all_high, bound(s, 2 * k + 1, true, bits));
+    }
+    if (size) made->all_low = fmax(made->all_low, 0);
+}
+
+fw_status fw_verdict_ends_made(fw_verdict_search *s) {
+    fw_verdict_fabricated_verdict *f = s->fabricated;
+    size_t n = (size_t)s->v->nrequirement;
+    FW_NEED(f->requirement = fw_arena_array(s->arena, fw_verdict_requirement, n));
+    FW_NEED(f->requirement_corner = fw_arena_array(s->arena, int, n));
+    for (int k = 0; k < s->v->nrequirement; k++) {
+        const fw_verdict_requirement *worst = NULL;
+        for (int p = 0; p < f->ncorner; p++) {
+            const fw_verdict_requirement *list = f->corner[p].requirement;
+            if (!list || (worst && !is_worse(&list[k], worst))) continue;
+            worst = &list[k], f->requirement_corner[k] = p;
+        }
+        f->requirement[k] = worst ? *worst : s->v->requirement[k];
+        if (!worst) f->requirement_corner[k] = FW_NONE;
+        cover(s, k, &f->requirement[k]);
+    }
+    return FW_OK;
+}
+
+const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
+                                                          int k, int *corner) {
+    const fw_verdict_fabricated_verdict *f = v->fabricated;
+    if (!f || !f->requirement || f->requirement_corner[k] == FW_NONE) return NULL;
+    *corner = f->requirement_corner[k];
+    return &f->requirement[k];
+}

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies are rigid in every model of the motion. What that leaves out is judged by energy: under the
+   joint forces of the motion bodies would store at most U_b (body_arms.c), the hinges store U_h. By
+   Castigliano the place where a load acts goes further by U_b/U_h, to first order, and a frequency is
+   lower by half of it. Theory: docs/theory/verdict.md. Test: test_body_arms.c */
+#include "base/text.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+
+static double turned(const fw_mechanism *m, const fw_dynamics_instant *now, int body) {
+    return body == FW_GROUND ? 0 : now->q[3 * body + 2] - m->drawn[body].phi_rad;
+}
+
+/* by its rotation, and by the forces along and across its axis */
+static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin, double angle_rad,
+                       const double force[2], double frame_rad) {
+    double energy = 0.5 * pin->stiffness_Nm_per_rad * angle_rad * angle_rad;
+    const fw_flexure_result *c = &h->closed_form;
+    if (!isfinite(h->axis_rad) || !(c->kx_N_per_m > 0) || !(c->ky_N_per_m > 0)) return energy;
+    double x = cos(h->axis_rad + frame_rad), y = sin(h->axis_rad + frame_rad);
+    double along = x * force[0] + y * force[1], across = x * force[1] - y * force[0];
+    return energy + 0.5 * (along * along / c->kx_N_per_m + across * across / c->ky_N_per_m);
+}
+
+void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
+                               const fw_dynamics_instant *now) {
+    if (!now) { /* the run starts over */
+        b->hinges_J = b->bodies_J = b->turning_J = 0;
+        for (int i = 0; i < m->nbody; i++)
+            b->body_J[i] = 0;
+        return;
+    }
+    double hinges = 0, bodies = 0, turning = 0, *each = b->body_J + m->nbody;
+    for (int i = 0; i < m->nbody; i++)
+        each[i] = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_hinge *h = &m->hinge[k];
+        const fw_mechanism_pin *pin = &m->pin[h->pin];
+        const double angle = now->angle_rad[h->pin], *force = now->reaction_N + 2 * h->pin;
+        const int body[2] = {pin->body_a, pin->body_b};
+        double turn[2] = {turned(m, now, body[0]), turned(m, now, body[1])};
+        hinges += of_hinge(h, pin, angle, force, 0.5 * (turn[0] + turn[1]));
+        turning += 0.5 * pin->stiffness_Nm_per_rad * angle * angle;
+        for (int side = 0; side < 2; side++) {
+            const fw_verdict_arm *arm = &b->arm[2 * k + side];
+            if (!arm->known) continue;
+            double one =
+                fw_verdict_arm_energy_J(arm, b->stiff_N, -pin->stiffness_Nm_per_rad * angle,
+                                        force[0], force[1], turn[side]);
+            bodies += one;
+            each[body[side]] += one;
+        }
+    }
+    for (int i = 0; i < m->nbody; i++)
+        b->body_J[i] = fmax(b->body_J[i], each[i]);
+    b->turning_J = fmax(b->turning_J, turning);
+    b->hinges_J = fmax(b->hinges_J, hinges);
+    b->bodies_J = fmax(b->bodies_J, bodies);
+}
+
+fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
+                                   const fw_verdict_arm *arm, fw_verdict_bending *bending) {
+    const fw_mechanism_variant *of = m->variant;
+    if (!arm) return FW_OK;
+    *bending =
+        (fw_verdict_bending){.arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m};
+    FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
+    return FW_OK;
+}
+
+fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
+                                   const fw_verdict_options *options,
+                                   fw_verdict_variant_verdict *v) {
+    fw_verdict_arm *arm;
+    if (v->arm || !layout || !layout->drawn || options->at_a_glance) return FW_OK;
+    FW_TRY(fw_verdict_body_arms(arena, m, layout, &arm));
+    v->arm = arm;
+    return FW_OK;
+}
+
+/* ---- what it says ---- */
+
+/* The closed forms are taken where they are off by less than this (variant.c), and a clearance of a
+   motion in parts where it is off by twice that. */
+static const double fw_verdict_bending_told = 0.05;
+
+static const fw_verdict_bending *seen(const fw_dynamics_motion *motion) {
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    return saw && saw->bending.arm && saw->bending.hinges_J > 0 ? &saw->bending : NULL;
+}
+
+double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
+    const fw_verdict_bending *b = seen(motion);
+    return b ? b->bodies_J / b->hinges_J : 0;
+}
+
+/* A device that is pressed along its flexures goes nowhere, and what little its bodies give of that changes
+   no strain and no clearance: only where the hinges turn */
+double fw_verdict_bending_turning(const fw_dynamics_motion *motion) {
+    const fw_verdict_bending *b = seen(motion);
+    return b && b->turning_J > 0.5 * b->hinges_J ? fw_verdict_bending_share(motion) : 0;
+}
+
+double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
+    const double share = fw_verdict_bending_turning(motion);
+    return share > fw_verdict_bending_told ? share : 0;
+}
+
+static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,
+                                       int body) {
+    const fw_verdict_arm *narrow = NULL;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        const fw_verdict_arm *arm = &b->arm[i];
+        if ((i % 2 ? pin->body_b : pin->body_a) != body || !arm->known) continue;
+        if (!narrow || arm->narrow_m < narrow->narrow_m) narrow = arm;
+    }
+    return narrow;
+}
+
+void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene,
+                             const fw_dynamics_motion *motion, fw_diags *diags) {
+    const fw_verdict_bending *b = seen(motion);
+    const double share = fw_verdict_bending_counted(motion);
+    char all[32], one[32], width[32], x[32], y[32];
+    int most = 0;
+    if (share == 0) return;
+    for (int i = 1; i < m->nbody; i++)
+        if (b->body_J[i] > b->body_J[most]) most = i;
+    const fw_verdict_arm *arm = narrowest(m, b, most);
+    if (!arm) return;
+    fw_diag_warning(diags, 510, m->device->body[most].place,
+                    "bodies are taken as rigid, and in scene %s they may give by up to %s %% of "
+                    "what the hinges "
+                    "give, body %s by %s %%: what is probed may move that much further, and the "
+                    "bands allow for "
+                    "it. It is narrowest, %s um, at (%s, %s) um: make it wider there, or shorter",
+                    scene->name, fw_number_text(all, sizeof all, 100 * share, 2),
+                    m->device->body[most].id,
+                    fw_number_text(one, sizeof one, 100 * b->body_J[most] / b->hinges_J, 2),
+                    fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
+                    fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
+                    fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
+}
