@@ -13,7 +13,7 @@ typedef struct rule {
 } rule;
 
 /* sums over the strip about a point; see fw_flexure_path */
-enum { W1, WX, WY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, LOST, SUMS };
+enum { W1, WX, WY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, SUMS };
 
 static void add(const fw_flexure_path_section *at, double weight, const double about[2],
                 double *sum) {
@@ -46,7 +46,6 @@ static void add_root(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
     at.stretch_per_N = at.shear_per_N = at.thin_per_Nm2 = 0;
     at.force_per_Nm2 = at.bend_per_Nm2 * at.golovin;
     add(&at, -root, about, sum);
-    sum[LOST] += root * at.bend_per_Nm2;
 }
 
 static void integrate(const fw_flexure_course *p, const fw_flexure_path_stuff *m, const rule *r,
@@ -261,12 +260,12 @@ fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flex
     if (thick > 0.3) by = fmax(by, 10);
     double taper = slope * slope, off = 2 * aside / size;
     double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m;
-    return (fw_flexure_error){by * 0.012 + taper,
-                              by * 0.030 + taper + off,
-                              by * 0.030 + taper + off,
-                              by * 0.050 + taper,
-                              by * centre + aside + 0.1 * taper * size,
-                              by > 1};
+    return (fw_flexure_error){.stiffness = by * 0.012 + taper,
+                              .kx = by * 0.030 + taper + off,
+                              .ky = by * 0.030 + taper + off,
+                              .strain = taper + (plain ? 0 : 0.010),
+                              .centre_m = by * centre + aside + 0.1 * taper * size,
+                              .outside = by > 1};
 }
 
 static fw_flexure_path_section section_of(const fw_flexure_course *p,
@@ -326,7 +325,7 @@ static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
 }
 
 /* mean of both roots' (dL - d)/E, counted in the mean modulus */
-static double crystal_root(const fw_flexure_course *p, const fw_flexure_path_stuff *m) {
+static double root_less_loss(const fw_flexure_course *p, const fw_flexure_path_stuff *m) {
     double sum = 0;
     for (int end = 0; end < 2; end++) {
         fw_flexure_path_section at;
@@ -337,6 +336,23 @@ static double crystal_root(const fw_flexure_course *p, const fw_flexure_path_stu
         sum += 0.5 * (root - lost) * at.thin_per_Nm2 * m->depth_m * t * t * t / 12;
     }
     return sum * m->youngs_Pa;
+}
+
+/* of an isotropic strip: what both ends take off its flexibility in the peak strain per radian */
+static double ends_of_strain(const fw_flexure_course *p, const fw_flexure_input *in,
+                             const fw_flexure_path_stuff *m) {
+    fw_flexure_input own = *in;
+    fw_flexure_path_stuff with = *m;
+    double sum = 0, lost;
+    if (m->elastic.known) return 0; /* in the sums */
+    own.ends = true;
+    with.elastic = fw_flexure_elastic_of(&own);
+    for (int end = 0; end < 2; end++) {
+        fw_flexure_path_section at;
+        fw_flexure_path_end_loss(p, &with, end, &at, &lost);
+        sum += lost * at.bend_per_Nm2;
+    }
+    return sum;
 }
 
 /* Strip of any centre line P(s), width t(s), local radius R, neutral radius R - e (Winkler), depth
@@ -368,7 +384,7 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     C[2][2] = sum[FXX] + sum[AYY];
     C[1][2] = C[2][1] = sum[AXY] - sum[FXY];
     out->youngs_Pa = m.youngs_Pa, out->poisson = m.poisson;
-    if (m.crystal) out->root_length_m = crystal_root(&p, &m);
+    if (m.elastic.known) out->root_length_m = root_less_loss(&p, &m);
     out->stiffness_Nm_per_rad = 1 / sum[W1];
     out->stiffness_thin = 1 / sum[THIN];
     fw_flexure_path_stuff flat = m;
@@ -377,7 +393,7 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     measure(&p, &flat, other, without);
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
     double fit;
-    double rooted = sum[W1] + sum[LOST]; /* stresses go by the roots alone (csfh.c) */
-    out->strain_per_rad = peak(&p, &m, in, out, &fit) / rooted;
-    out->strain_fit_per_rad = fit / rooted;
+    out->ends_stiffer = sum[W1] / (sum[W1] - ends_of_strain(&p, in, &m));
+    out->strain_per_rad = peak(&p, &m, in, out, &fit) / sum[W1] * out->ends_stiffer;
+    out->strain_fit_per_rad = fit / sum[W1];
 }

@@ -7,10 +7,10 @@
 
 /* of what: uniform modulus 1 without depth (outline alone), or a material */
 typedef struct fw_flexure_path_stuff {
-    const fw_flexure_crystal *crystal; /* NULL: isotropic */
-    double youngs_Pa, poisson;         /* poisson: out of the plane; of a crystal its mean */
-    double depth_m;                    /* 0: no depth factor, unit depth */
-    double end_depth_m;                /* of what the ends of a crystal lose, whatever depth_m is */
+    fw_flexure_crystal elastic; /* of fw_flexure_elastic_of; not known: youngs_Pa alone */
+    double youngs_Pa, poisson;  /* poisson: out of the plane; of a crystal its mean */
+    double depth_m;             /* 0: no depth factor, unit depth */
+    double end_depth_m;         /* of what ends lose, whatever depth_m is */
 } fw_flexure_path_stuff;
 
 typedef struct fw_flexure_path_section {

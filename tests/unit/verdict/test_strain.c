@@ -130,7 +130,9 @@ static void rotation_and_unknown_axis(void **state) {
         assert_relative(strain_of(&other, -0.1, -fx, -fy, 0.3).peak, s.peak, 1e-12);
         const fw_verdict_hinge_strains any = strain_of(&unknown, 0.1, fx, fy, 0.3);
         assert_true(any.peak >= s.peak && any.least <= s.peak);
-        assert_true(s.least == s.peak && s.held);
+        /* where the fillets end the moment is less */
+        assert_true(s.least <= s.peak && s.least > 0.9 * s.peak && s.held);
+        assert_true(any.least <= s.least);
     }
     fw_arena_free(arena);
 }
