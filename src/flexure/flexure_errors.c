@@ -50,7 +50,7 @@ static void strain_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
 
 /* What the ends still take, or do not take, once (13a) has it: 0.03 t of strip each for the root law,
    and 0.4 of d. In m, 1; out m, both ends. 0.1 % (rms) and 0.3 % at most in K of 331 isotropic
-   solids, 0.4 % of 316 of silicon. Test: test_root_strain.c stiffness_of_solids */
+   solids, 0.4 % of 316 of silicon. Test: test_root_strain.c solids_that_were_not_fitted */
 static double ends_lost(const fw_flexure_shape *f, const fw_flexure_input *in,
                         const fw_flexure_result *r) {
     fw_flexure_input own = *in;

@@ -79,7 +79,7 @@ static void ratios_of_thin_arcs(void **state) {
         assert_relative(at.ky_N_per_m.value, o.ky_N_per_m, 1e-6);
     }
     fw_flexure_input leaf = hinge(H4, IDEAL, 50e-6);
-    leaf.width_m = 1e-9, leaf.fillet_m = IDEAL, leaf.poisson = 0;
+    leaf.width_m = 1e-9, leaf.fillet_m = IDEAL;
     fw_flexure_result o = form(&leaf);
     fw_flexure_hinge_law law;
     fw_flexure_hinge_at at;
@@ -87,6 +87,13 @@ static void ratios_of_thin_arcs(void **state) {
     fw_flexure_hinge_law_at(&law, 0, &at);
     assert_relative(o.kx_N_per_m * pow(leaf.length_m, 2) / o.stiffness_Nm_per_rad, 12, 1e-9);
     assert_near(0.5 * at.drift_m.curve / law.length_m, 0.08333, 5e-6);
+    /* the strip is shorter by what its ends lose (13a), which is nothing without Poisson's ratio */
+    assert_true(o.ends_stiffer > 1);
+    assert_near(o.strain_per_rad / (o.concentration * o.ends_stiffer) * leaf.length_m /
+                    leaf.width_m,
+                0.5, 1e-9);
+    leaf.poisson = 0;
+    o = form(&leaf);
     assert_near(o.strain_per_rad / o.concentration * leaf.length_m / leaf.width_m, 0.5, 1e-9);
 }
 
@@ -236,9 +243,8 @@ static void three_dimensional_real_roots(void **state) {
         assert_relative(o.kx_N_per_m, fe[i][3], 0.008);
         assert_relative(o.ky_N_per_m, fe[i][4], 0.011);
         assert_near(o.strain_fit_per_rad, printed[i], 5.1e-6);
-        fw_flexure_result best;
-        fw_flexure_closed_form(&in, &best);
-        assert_true(best.strain_per_rad >= fe[i][5] && best.strain_per_rad <= 1.015 * fe[i][5]);
+        /* never below a solid, and no more than: */
+        assert_true(o.strain_per_rad >= fe[i][5] && o.strain_per_rad <= 1.015 * fe[i][5]);
         assert_relative(o.stiffness_Nm_per_rad * 1e12, fe[i][1], o.error.stiffness);
         assert_near(o.centre_m * 1e6, fe[i][2], o.error.centre_m * 1e6);
         assert_relative(o.kx_N_per_m, fe[i][3], o.error.kx);
