@@ -64,6 +64,7 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     struct fw_verdict_clearance_watch *clearance; /* verdict_clearance.h */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
+    bool trial;                         /* only whether it is accepted is of account */
     fw_probe_monitor *probe;            /* looks at the same instants; NULL: nothing is probed */
 } fw_verdict_strain_monitor;
 

@@ -253,6 +253,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         fw_probe_monitor *seen[2];
         FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, seen));
         monitor[i].probe = seen[0], other[i].probe = seen[1];
+        monitor[i].trial = other[i].trial = options->decision_only && !options->values;
         motion.whole = seen[0] != NULL;
         motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
