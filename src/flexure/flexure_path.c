@@ -241,17 +241,36 @@ static double largest_curvature(const fw_flexure_course *p, double *thick, doubl
     return k;
 }
 
+/* (w(rho)/w(0))^2 - 1 of both ends, the larger of what opens and of what narrows: the peak strain of
+   a root stands where its fillet ends, and is less or more by that than with the width at the face */
+static void root_opens(const fw_flexure_course *p, double fillet_m, double *opens,
+                       double *narrows) {
+    *opens = *narrows = 0;
+    for (int end = 0; end < 2; end++) {
+        const fw_geometry_strip_shape *shape = &p->shape[end ? p->n - 1 : 0];
+        double L = shape->piece.length_m, s = fmin(fmax(fillet_m, 0), 0.5 * L);
+        double ratio = fw_geometry_strip_width(shape, end ? L - s : s) /
+                       fw_geometry_strip_width(shape, end ? L : 0);
+        *opens = fmax(*opens, ratio * ratio - 1);
+        *narrows = fmax(*narrows, 1 - ratio * ratio);
+    }
+}
+
 /* What a path's closed form may be off by: that of arcs (flexure_table.c), besides
      edges that open by 2 s: bending over-estimated by 1 - (atan(3 ...)) ~ s^2 of the section's
        stiffness (Timoshenko's wedge; shear tilts the neutral fibres)
      middle between the edges beside the centre line by d: W by d, forces by 2 d over the size
-   and twice all that where anything but one arc or line of one width is concerned, which no finite
-   element was compared with. In: rad, m. test_path.c errors_are_stated */
+     peak strain: what the width does over the fillet; 0.5 % in the middle of a strip that is thin
+       there, 1 % where pieces meet
+   and twice all that where anything but one arc or line of one width is concerned: of widths that
+   vary along one of these K and peak strain were compared with solids (fw_flexure_errors), kx, ky, W
+   were not, and of several pieces nothing. In: rad, m. test_path.c errors_are_stated */
 fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flexure_input *in) {
     fw_flexure_course p;
-    double thick, slope, aside;
+    double thick, slope, aside, opens, narrows;
     fw_flexure_path_of(in, &p);
     double k = largest_curvature(&p, &thick, &slope, &aside);
+    root_opens(&p, in->fillet_m, &opens, &narrows);
     bool plain = p.n == 1 && p.shape[0].uniform;
     double by = plain ? 1 : 2, size = f->radius_m;
     by *= f->length_m < 20 * f->width_m ? 2 : 1;
@@ -259,11 +278,14 @@ fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flex
     by *= thick > 0.15 ? 2 : 1;
     if (thick > 0.3) by = fmax(by, 10);
     double taper = slope * slope, off = 2 * aside / size;
+    double pieces = p.n > 1 ? 0.010 : plain ? 0 : 0.005;
     double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m;
     return (fw_flexure_error){.stiffness = by * 0.012 + taper,
+                              .softer = taper, /* of one arc or line all that is not its ends' */
                               .kx = by * 0.030 + taper + off,
                               .ky = by * 0.030 + taper + off,
-                              .strain = taper + (plain ? 0 : 0.010),
+                              .strain = taper + pieces + opens,
+                              .above = taper + pieces + narrows,
                               .centre_m = by * centre + aside + 0.1 * taper * size,
                               .outside = by > 1};
 }
