@@ -150,7 +150,7 @@ static fw_flexure_error widened(const fw_flexure_error *e, double wide) {
 
 /* One arc or line whose width varies: what ends and root law are off by counts as much as the roots
    have part in the compliance, K/(E I of the root); besides the wedge, and of the root law 0.75 of
-   the width that opens or narrows over the fillet. K of solids: tests/data/hinge/varying.csv,
+   what the width opens over the fillet. K of solids: tests/data/hinge/varying.csv,
    test_varying.c */
 static void varying_stiffness(const fw_flexure_shape *f, const fw_flexure_input *in,
                               const fw_flexure_result *r, double wide, fw_flexure_error *e) {
@@ -160,9 +160,8 @@ static void varying_stiffness(const fw_flexure_shape *f, const fw_flexure_input 
     fw_flexure_shape_of(&even, &one);
     double t = in->width_m, EI = r->youngs_Pa * in->depth_m * t * t * t / 12 * r->depth_factor;
     double part = r->stiffness_Nm_per_rad / EI, rho = fmax(fmin(in->fillet_m, t), 0);
-    double opens = fmax(f->error.strain, f->error.above);
     const lengths ends = lengths_of(&one, in, r);
-    double rest = 0.001 + f->error.softer + 0.75 * rho * opens * part;
+    double rest = 0.001 + f->error.softer + 0.75 * rho * f->error.strain * part;
     e->stiffness = fmax(wide, one.widening) * (rest + ends.stiffer * part);
     e->softer = fmax(wide, one.widening) * (rest + ends.softer * part);
 }

@@ -241,36 +241,30 @@ static double largest_curvature(const fw_flexure_course *p, double *thick, doubl
     return k;
 }
 
-/* (w(rho)/w(0))^2 - 1 of both ends, the larger of what opens and of what narrows: the peak strain of
-   a root stands where its fillet ends, and is less or more by that than with the width at the face */
-static void root_opens(const fw_flexure_course *p, double fillet_m, double *opens,
-                       double *narrows) {
-    *opens = *narrows = 0;
-    for (int end = 0; end < 2; end++) {
-        const fw_geometry_strip_shape *shape = &p->shape[end ? p->n - 1 : 0];
-        double L = shape->piece.length_m, s = fmin(fmax(fillet_m, 0), 0.5 * L);
-        double ratio = fw_geometry_strip_width(shape, end ? L - s : s) /
-                       fw_geometry_strip_width(shape, end ? L : 0);
-        *opens = fmax(*opens, ratio * ratio - 1);
-        *narrows = fmax(*narrows, 1 - ratio * ratio);
-    }
+double fw_flexure_path_root_opens(const fw_flexure_course *p, int end, double fillet_m) {
+    const fw_geometry_strip_shape *shape = &p->shape[end ? p->n - 1 : 0];
+    double L = shape->piece.length_m, s = fmin(fmax(fillet_m, 0), 0.5 * L);
+    double ratio = fw_geometry_strip_width(shape, end ? L - s : s) /
+                   fw_geometry_strip_width(shape, end ? L : 0);
+    return ratio * ratio;
 }
 
 /* What a path's closed form may be off by: that of arcs (flexure_table.c), besides
      edges that open by 2 s: bending over-estimated by 1 - (atan(3 ...)) ~ s^2 of the section's
        stiffness (Timoshenko's wedge; shear tilts the neutral fibres)
      middle between the edges beside the centre line by d: W by d, forces by 2 d over the size
-     peak strain: what the width does over the fillet; 0.5 % in the middle of a strip that is thin
+     peak strain: less by what the strip opens over a fillet; 0.5 % in the middle of one that is thin
        there, 1 % where pieces meet
    and twice all that where anything but one arc or line of one width is concerned: of widths that
    vary along one of these K and peak strain were compared with solids (fw_flexure_errors), kx, ky, W
    were not, and of several pieces nothing. In: rad, m. test_path.c errors_are_stated */
 fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flexure_input *in) {
     fw_flexure_course p;
-    double thick, slope, aside, opens, narrows;
+    double thick, slope, aside, opens = 0;
     fw_flexure_path_of(in, &p);
     double k = largest_curvature(&p, &thick, &slope, &aside);
-    root_opens(&p, in->fillet_m, &opens, &narrows);
+    for (int end = 0; end < 2; end++)
+        opens = fmax(opens, fw_flexure_path_root_opens(&p, end, in->fillet_m) - 1);
     bool plain = p.n == 1 && p.shape[0].uniform;
     double by = plain ? 1 : 2, size = f->radius_m;
     by *= f->length_m < 20 * f->width_m ? 2 : 1;
@@ -285,7 +279,7 @@ fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flex
                               .kx = by * 0.030 + taper + off,
                               .ky = by * 0.030 + taper + off,
                               .strain = taper + pieces + opens,
-                              .above = taper + pieces + narrows,
+                              .above = taper + pieces,
                               .centre_m = by * centre + aside + 0.1 * taper * size,
                               .outside = by > 1};
 }
@@ -316,7 +310,8 @@ static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
             section_of(p, m, i, end ? p->shape[i].piece.length_m : 0);
         double plain = fw_flexure_path_fibre(&at, in->youngs_Pa, m),
                own = fw_flexure_path_fibre_factor(&at);
-        double factor = fw_flexure_path_root_factor(in, m, end, &at);
+        double narrows = fmax(1, 1 / fw_flexure_path_root_opens(p, end, in->fillet_m));
+        double factor = narrows * fw_flexure_path_root_factor(in, m, end, &at);
         roots = fmax(roots, plain * p->concentration[end]);
         if (plain * factor <= best * own) continue;
         best = plain * factor / own;
@@ -386,7 +381,8 @@ static double ends_of_strain(const fw_flexure_course *p, const fw_flexure_input 
    that is fw_flexure_csfh with its constants taken at every place. D is that of an endless arc of
    the local radius: where pieces of different radius meet it changes within sqrt(R t) and not at
    once. Strain: M t/2/(E I D g) max((1 + t/3R) F_inner, (1 - t/3R) F_outer), the largest of the
-   whole strip, with Kt and a crystal's q at the roots.
+   whole strip, with Kt and a crystal's q at the roots, and the width where their fillets end if it
+   is less there.
    in: outline, m, Pa, rad; out: SI. Error: fw_flexure_path_errors. Cost 140 us for one piece.
    source: docs/theory/flexure-path.md; test_path.c */
 void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,

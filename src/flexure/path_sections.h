@@ -45,5 +45,8 @@ double fw_flexure_path_fibre(const fw_flexure_path_section *at, double youngs_Pa
  */
 double fw_flexure_path_root_factor(const fw_flexure_input *in, const fw_flexure_path_stuff *stuff,
                                    int end, const fw_flexure_path_section *at);
+/* (w(rho)/w(0))^2 of an end: the peak strain of a root stands where its fillet ends, and by that it
+   is less or more than with the width at the face. Test: test_varying.c */
+double fw_flexure_path_root_opens(const fw_flexure_course *path, int end, double fillet_m);
 
 #endif

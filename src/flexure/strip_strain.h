@@ -22,6 +22,7 @@ typedef struct fw_flexure_path_strain {
     int n;                        /* at most FW_STRIP_PLACES */
     double length_m;              /* of the centre line */
     double fillet_m;              /* below 0: none */
+    double narrows[2];            /* (w(0)/w(rho))^2 of either end, at least 1 */
     double stretched; /* of what pulls along, the share that the blocks' give may take */
     double W_m[2];    /* true centre of compliance */
 } fw_flexure_path_strain;
