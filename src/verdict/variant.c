@@ -197,7 +197,7 @@ static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *m
 /* The band holds what the model of the hinges is computed to be off by. A better one than the first of
    these is asked for where the verdict is undecided, than the second for a device whose bands are
    shown, and neither for trials, first looks and corners. */
-static const double fw_hinges_good_enough = 0.03, fw_hinges_good = 0.003;
+static const double fw_hinges_good_enough = 0.03, fw_hinges_good = 0.01;
 /* and exact beams only where they take seconds; who wants to wait longer asks for them */
 static const long fw_most_beams = 100000;
 
