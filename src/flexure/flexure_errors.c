@@ -157,7 +157,11 @@ static void varying_stiffness(const fw_flexure_shape *f, const fw_flexure_input 
     fw_flexure_input even = *in;
     fw_flexure_shape one;
     even.width_middle_m = 0;
-    fw_flexure_shape_of(&even, &one);
+    if (in->kind == FW_FLEXURE_CSFH)
+        fw_flexure_csfh_shape(&even, &one);
+    else
+        fw_flexure_leaf_shape(&even, &one);
+    fw_flexure_shape_marks(&one);
     double t = in->width_m, EI = r->youngs_Pa * in->depth_m * t * t * t / 12 * r->depth_factor;
     double part = r->stiffness_Nm_per_rad / EI, rho = fmax(fmin(in->fillet_m, t), 0);
     const lengths ends = lengths_of(&one, in, r);
