@@ -75,7 +75,7 @@ static void uniform_compliance(const fw_flexure_shape *f, const fw_flexure_input
      inside = max((1 + t/3r) F_inner, (1 - t/3r) F_outer); beside it the fit Kt inside
    error: K 0.15-0.51 %, W 0.2 um, strain 0 to 4 % above 3-D finite elements.
    source: docs/theory/flexure.md eq. 1-11a; test_ladder.c, test_csfh.c, test_root_strain.c */
-static void uniform_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
+static void printed_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
                         fw_flexure_result *out) {
     double t = f->width_m, E = in->youngs_Pa, EI = E * in->depth_m * t * t * t / 12;
     const fw_flexure_depth depth =
@@ -88,8 +88,11 @@ static void uniform_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
     uniform_compliance(f, in, depth.softness, out->compliance);
     out->compliance[0][0] = 1 / out->stiffness_Nm_per_rad;
     const fw_flexure_root_case root = root_case(f, in, in->poisson, depth.bow, 1);
-    fw_flexure_peak_strain(f, 0.5 * t / f->whole_m, fibre_factor(f, &depth),
+    double ends = 2 * fw_flexure_end_loss_m(in, depth.bow, f->root_block_m);
+    out->ends_stiffer = f->whole_m / (f->whole_m - ends);
+    fw_flexure_peak_strain(f, 0.5 * t / (f->whole_m - ends), fibre_factor(f, &depth),
                            fw_flexure_root_peak(&root, NULL), out);
+    out->strain_fit_per_rad /= out->ends_stiffer; /* the fit has no ends */
 }
 
 /* ---- a crystal ---- */
@@ -164,7 +167,6 @@ typedef struct arc_compliance {
     compliance_sum bend, slide, even_bend, even_slide;
     double bend_xy, slide_xy, X, Y; /* W */
     double roots, weight;           /* (dL - d)/E of both; int ds/E with that */
-    double whole;                   /* int ds/E with dL alone */
 } arc_compliance;
 
 /* what both ends add to the weight and take from it, and where */
@@ -223,8 +225,7 @@ static arc_compliance compliance_of(const fw_flexure_shape *f, const fw_flexure_
         .X = X,
         .Y = Y,
         .roots = kept,
-        .weight = weight,
-        .whole = r * m->weight + at->roots};
+        .weight = weight};
 }
 
 /* Kt G of the worse root: directions 4a - 4al0 and 4a + 4al0, the first mirrored */
@@ -240,10 +241,10 @@ static double root_peak(const fw_flexure_shape *f, const fw_flexure_input *in, d
      sigma/rad = t/(2 int ds/E) max(Kt G, inside), G of the worse root, eps = sigma/E
    the integral without d, with which G was found
    docs/theory/flexure-silicon.md eq. 12-14; test_crystal.c, test_root_strain.c */
-static void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
+static void elastic_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
                         fw_flexure_result *out) {
     double t = f->width_m, h = in->depth_m, I = h * t * t * t / 12, A = h * t;
-    const fw_flexure_crystal *k = &in->crystal;
+    const fw_flexure_crystal material = fw_flexure_elastic_of(in), *k = &material;
     const arc_modulus m = modulus_of(f, k);
     const fw_flexure_depth depth =
         fw_flexure_depth_crystal(h / sqrt(f->radius_m * t), k, m.youngs_Pa);
@@ -264,14 +265,14 @@ static void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
     out->offset_m[0] = o.X - f->centre_m, out->offset_m[1] = o.Y;
     out->youngs_Pa = m.youngs_Pa, out->poisson = m.poisson;
     out->depth_factor = depth.stiffness;
-    fw_flexure_peak_strain(f, 0.5 * t / (o.whole * in->youngs_Pa), fibre_factor(f, &depth),
+    fw_flexure_peak_strain(f, 0.5 * t / (o.weight * in->youngs_Pa), fibre_factor(f, &depth),
                            root_peak(f, in, m.poisson, depth.bow), out);
 }
 
 void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,
                      fw_flexure_result *out) {
-    if (in->crystal.known)
-        crystal_arc(f, in, out);
+    if (!in->crystal.known && !in->ends)
+        printed_arc(f, in, out);
     else
-        uniform_arc(f, in, out);
+        elastic_arc(f, in, out);
 }

@@ -22,6 +22,7 @@
 #include "flexure/finite.h"
 #include "base/constants.h"
 #include "flexure/path.h"
+#include "flexure/section.h"
 #include <math.h>
 
 /* so that what is not asked for is not worked out, at any level of optimisation */
@@ -300,7 +301,7 @@ void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result
                                   .root_m_per_N = dL * L * L / (2 * EI),
                                   .axial_m_per_N = L / (2 * EA),
                                   .shear_m_per_N = L / (2 * kGA)};
-    if (!in->crystal.known || in->kind != FW_FLEXURE_CSFH) return;
+    if (in->kind != FW_FLEXURE_CSFH || !fw_flexure_elastic_of(in).known) return;
     fw_flexure_hinge_at even, more;
     fw_flexure_hinge_law_at(law, 0, &even);
     law->uneven_x = law->uneven_y = 1; /* what bending alone contributes */

@@ -42,14 +42,21 @@ typedef struct fw_flexure_input {
     fw_flexure_crystal
         crystal; /* {.known = false}: isotropic, youngs_Pa and poisson hold; else they are
                            only what strains are counted in: strain = stress/youngs_Pa */
+    bool ends;   /* isotropic: with what the ends lose (13a), as a crystal always has it; else the
+                  printed formula, whose stiffness keeps its digits and has (13a) in its error */
 } fw_flexure_input;
 
 /* What the closed form may be off by, against 3-D finite elements with real roots: a bound of what
    was found on 23 shapes, of this shape; wider outside of what was compared (flexure_errors.c) */
 typedef struct fw_flexure_error {
-    double stiffness, kx, ky, strain; /* relative */
-    double centre_m;                  /* of W, on and across the axis */
-    bool outside;                     /* of the range that was compared */
+    double stiffness, kx, ky; /* relative */
+    double
+        softer; /* relative, by which K may be below: no more than stiffness, which the ends have */
+    double
+        strain; /* relative, by which a solid's peak may be below strain_per_rad, which bounds it */
+    double above;    /* by which it may be above: the solids' own error, and shapes not compared */
+    double centre_m; /* of W, on and across the axis */
+    bool outside;    /* of the range that was compared */
 } fw_flexure_error;
 
 typedef struct fw_flexure_result {
@@ -70,6 +77,8 @@ typedef struct fw_flexure_result {
     double limit_angle_rad;    /* strength / safety factor / stress_per_rad */
     double limit_uncertainty;  /* relative standard uncertainty of limit_angle from the model */
     double depth_factor, root_length_m; /* EI_eff/EI, dL */
+    double
+        ends_stiffer; /* K with what the ends lose (13a) over K: 1 where K has it, as of a crystal */
     double concentration;      /* strain_per_rad over that of the beam, t/2 over length and roots */
     double fibre;              /* the same between the roots: of curvature and depth, no fillet */
     double youngs_Pa, poisson; /* effective: of this arc; nu out of the plane */

@@ -10,9 +10,9 @@
    off the polar angle, which cos 4 psi does not feel. The two roots give as
    fw_flexure_root_m_per_Pa has it, the ends take away what fw_flexure_end_loss_of says, spread as
    it is found there */
-static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
+static void elastic_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                        fw_flexure_beam *out) {
-    const fw_flexure_crystal *k = &in->crystal;
+    const fw_flexure_crystal elastic = fw_flexure_elastic_of(in), *k = &elastic;
     double turn = 0.5 * FW_PI - out->psi_rad; /* from the middle to either end */
     fw_flexure_shape shape;
     fw_flexure_shape_of(in, &shape);
@@ -58,7 +58,7 @@ void fw_flexure_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_res
                           .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),
                           .depth_factor = closed_form->stiffness_Nm_per_rad * (L + 2 * dL) / thin,
                           .root_m = {dL, dL}};
-    if (in->crystal.known) crystal_of(in, closed_form, out);
+    if (fw_flexure_elastic_of(in).known) elastic_of(in, closed_form, out);
 }
 
 static double width(const void *context, int piece, double s_m) {

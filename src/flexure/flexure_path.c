@@ -13,7 +13,7 @@ typedef struct rule {
 } rule;
 
 /* sums over the strip about a point; see fw_flexure_path */
-enum { W1, WX, WY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, LOST, SUMS };
+enum { W1, WX, WY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, SUMS };
 
 static void add(const fw_flexure_path_section *at, double weight, const double about[2],
                 double *sum) {
@@ -46,7 +46,6 @@ static void add_root(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
     at.stretch_per_N = at.shear_per_N = at.thin_per_Nm2 = 0;
     at.force_per_Nm2 = at.bend_per_Nm2 * at.golovin;
     add(&at, -root, about, sum);
-    sum[LOST] += root * at.bend_per_Nm2;
 }
 
 static void integrate(const fw_flexure_course *p, const fw_flexure_path_stuff *m, const rule *r,
@@ -242,17 +241,30 @@ static double largest_curvature(const fw_flexure_course *p, double *thick, doubl
     return k;
 }
 
+double fw_flexure_path_root_opens(const fw_flexure_course *p, int end, double fillet_m) {
+    const fw_geometry_strip_shape *shape = &p->shape[end ? p->n - 1 : 0];
+    double L = shape->piece.length_m, s = fmin(fmax(fillet_m, 0), 0.5 * L);
+    double ratio = fw_geometry_strip_width(shape, end ? L - s : s) /
+                   fw_geometry_strip_width(shape, end ? L : 0);
+    return ratio * ratio;
+}
+
 /* What a path's closed form may be off by: that of arcs (flexure_table.c), besides
      edges that open by 2 s: bending over-estimated by 1 - (atan(3 ...)) ~ s^2 of the section's
        stiffness (Timoshenko's wedge; shear tilts the neutral fibres)
      middle between the edges beside the centre line by d: W by d, forces by 2 d over the size
-   and twice all that where anything but one arc or line of one width is concerned, which no finite
-   element was compared with. In: rad, m. test_path.c errors_are_stated */
+     peak strain: less by what the strip opens over a fillet; 0.5 % in the middle of one that is thin
+       there, 1 % where pieces meet
+   and twice all that where anything but one arc or line of one width is concerned: of widths that
+   vary along one of these K and peak strain were compared with solids (fw_flexure_errors), kx, ky, W
+   were not, and of several pieces nothing. In: rad, m. test_path.c errors_are_stated */
 fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flexure_input *in) {
     fw_flexure_course p;
-    double thick, slope, aside;
+    double thick, slope, aside, opens = 0;
     fw_flexure_path_of(in, &p);
     double k = largest_curvature(&p, &thick, &slope, &aside);
+    for (int end = 0; end < 2; end++)
+        opens = fmax(opens, fw_flexure_path_root_opens(&p, end, in->fillet_m) - 1);
     bool plain = p.n == 1 && p.shape[0].uniform;
     double by = plain ? 1 : 2, size = f->radius_m;
     by *= f->length_m < 20 * f->width_m ? 2 : 1;
@@ -260,13 +272,16 @@ fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flex
     by *= thick > 0.15 ? 2 : 1;
     if (thick > 0.3) by = fmax(by, 10);
     double taper = slope * slope, off = 2 * aside / size;
+    double pieces = p.n > 1 ? 0.010 : plain ? 0 : 0.005;
     double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m;
-    return (fw_flexure_error){by * 0.012 + taper,
-                              by * 0.030 + taper + off,
-                              by * 0.030 + taper + off,
-                              by * 0.050 + taper,
-                              by * centre + aside + 0.1 * taper * size,
-                              by > 1};
+    return (fw_flexure_error){.stiffness = by * 0.012 + taper,
+                              .softer = taper, /* of one arc or line all that is not its ends' */
+                              .kx = by * 0.030 + taper + off,
+                              .ky = by * 0.030 + taper + off,
+                              .strain = taper + pieces + opens,
+                              .above = taper + pieces,
+                              .centre_m = by * centre + aside + 0.1 * taper * size,
+                              .outside = by > 1};
 }
 
 static fw_flexure_path_section section_of(const fw_flexure_course *p,
@@ -295,7 +310,8 @@ static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
             section_of(p, m, i, end ? p->shape[i].piece.length_m : 0);
         double plain = fw_flexure_path_fibre(&at, in->youngs_Pa, m),
                own = fw_flexure_path_fibre_factor(&at);
-        double factor = fw_flexure_path_root_factor(in, m, end, &at);
+        double narrows = fmax(1, 1 / fw_flexure_path_root_opens(p, end, in->fillet_m));
+        double factor = narrows * fw_flexure_path_root_factor(in, m, end, &at);
         roots = fmax(roots, plain * p->concentration[end]);
         if (plain * factor <= best * own) continue;
         best = plain * factor / own;
@@ -326,7 +342,7 @@ static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
 }
 
 /* mean of both roots' (dL - d)/E, counted in the mean modulus */
-static double crystal_root(const fw_flexure_course *p, const fw_flexure_path_stuff *m) {
+static double root_less_loss(const fw_flexure_course *p, const fw_flexure_path_stuff *m) {
     double sum = 0;
     for (int end = 0; end < 2; end++) {
         fw_flexure_path_section at;
@@ -339,6 +355,23 @@ static double crystal_root(const fw_flexure_course *p, const fw_flexure_path_stu
     return sum * m->youngs_Pa;
 }
 
+/* of an isotropic strip: what both ends take off its flexibility in the peak strain per radian */
+static double ends_of_strain(const fw_flexure_course *p, const fw_flexure_input *in,
+                             const fw_flexure_path_stuff *m) {
+    fw_flexure_input own = *in;
+    fw_flexure_path_stuff with = *m;
+    double sum = 0, lost;
+    if (m->elastic.known) return 0; /* in the sums */
+    own.ends = true;
+    with.elastic = fw_flexure_elastic_of(&own);
+    for (int end = 0; end < 2; end++) {
+        fw_flexure_path_section at;
+        fw_flexure_path_end_loss(p, &with, end, &at, &lost);
+        sum += lost * at.bend_per_Nm2;
+    }
+    return sum;
+}
+
 /* Strip of any centre line P(s), width t(s), local radius R, neutral radius R - e (Winkler), depth
    factor D(R, t), Golovin's factor g(t/2R), roots dL as weights at the two ends:
      w  = ds/(E I D g),  W = int P_n w/int w,  P_n = P moved by e to the centre of curvature
@@ -348,7 +381,8 @@ static double crystal_root(const fw_flexure_course *p, const fw_flexure_path_stu
    that is fw_flexure_csfh with its constants taken at every place. D is that of an endless arc of
    the local radius: where pieces of different radius meet it changes within sqrt(R t) and not at
    once. Strain: M t/2/(E I D g) max((1 + t/3R) F_inner, (1 - t/3R) F_outer), the largest of the
-   whole strip, with Kt and a crystal's q at the roots.
+   whole strip, with Kt and a crystal's q at the roots, and the width where their fillets end if it
+   is less there.
    in: outline, m, Pa, rad; out: SI. Error: fw_flexure_path_errors. Cost 140 us for one piece.
    source: docs/theory/flexure-path.md; test_path.c */
 void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
@@ -368,7 +402,7 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     C[2][2] = sum[FXX] + sum[AYY];
     C[1][2] = C[2][1] = sum[AXY] - sum[FXY];
     out->youngs_Pa = m.youngs_Pa, out->poisson = m.poisson;
-    if (m.crystal) out->root_length_m = crystal_root(&p, &m);
+    if (m.elastic.known) out->root_length_m = root_less_loss(&p, &m);
     out->stiffness_Nm_per_rad = 1 / sum[W1];
     out->stiffness_thin = 1 / sum[THIN];
     fw_flexure_path_stuff flat = m;
@@ -377,7 +411,7 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     measure(&p, &flat, other, without);
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
     double fit;
-    double rooted = sum[W1] + sum[LOST]; /* stresses go by the roots alone (csfh.c) */
-    out->strain_per_rad = peak(&p, &m, in, out, &fit) / rooted;
-    out->strain_fit_per_rad = fit / rooted;
+    out->ends_stiffer = sum[W1] / (sum[W1] - ends_of_strain(&p, in, &m));
+    out->strain_per_rad = peak(&p, &m, in, out, &fit) / sum[W1] * out->ends_stiffer;
+    out->strain_fit_per_rad = fit / sum[W1];
 }

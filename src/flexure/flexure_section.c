@@ -7,8 +7,6 @@
 
 /* dL of a fillet that has no radius, over t: what the block behind the root gives way */
 static const double block_length = 0.4192;
-/* (t/rho)^(2/3) and rho/t of the sharpest fillet that the peak strain was fitted to, rho = t/10 */
-static const double sharpest = 0.1, sharpest_notch = 4.641588833612779;
 
 /* x = rho/t in the range of the laws of the root */
 static double fitted_ratio(double width_m, double fillet_m) {
@@ -144,7 +142,22 @@ fw_flexure_depth fw_flexure_depth_crystal(double deep, const fw_flexure_crystal 
     return depth_of(deep, -k->s12_per_Pa * E, k->bow_per_Pa * E, (k->a0_per_Pa + k->a1_per_Pa) * E);
 }
 
-/* ---- ends of a crystal ---- */
+/* ---- ends ---- */
+
+/* 1/E and 1/G without a harmonic, nu^2/E for what bowing adds, E' = E in the reach of an end:
+     l/(h f) = (G/(3 E))^(1/2) = (1/(6 (1 + nu)))^(1/2)
+   exact. Test: test_csfh.c ends_beside_plain_sums */
+fw_flexure_crystal fw_flexure_elastic_of(const fw_flexure_input *in) {
+    if (in->crystal.known || !in->ends) return in->crystal;
+    double nu = in->poisson, soft = 1 / in->youngs_Pa;
+    return (fw_flexure_crystal){.known = true,
+                                .aligned = true,
+                                .a0_per_Pa = soft,
+                                .g0_per_Pa = 2 * (1 + nu) * soft,
+                                .s12_per_Pa = -nu * soft,
+                                .bow_per_Pa = nu * nu * soft,
+                                .reach = sqrt(1 / (6 * (1 + nu)))};
+}
 
 /* What an end takes away, because it keeps its section straight that would bow across by nu/R as
    the strip bends (R of the bending), by f of that in a strip that is curved. Bow c0 f (1 - b(s)):
@@ -168,124 +181,12 @@ fw_flexure_end_loss fw_flexure_end_loss_of(const fw_flexure_crystal *k, double d
     return (fw_flexure_end_loss){.reach_m = l, .length_m = bow * (l * l) / (l + block_m)};
 }
 
-/* ---- peak strain at a root ---- */
-
-/* what the laws of the peak go by */
-typedef struct root_section {
-    double x, q; /* rho/t within [0.1, 2], (t/rho)^(2/3) of it */
-    double p;    /* h/(h + 4 t) */
-    double nu, n, u;
-} root_section;
-
-/* What a solid has at a root over what (5) says without its depth factors, as an upper bound:
-     q = (t/rho)^(2/3),  x = rho/t,  p = h/(h + 4 t),  u = t/3R (0: straight)
-     n = nu f, f as above (straight: nu): what the strip bows across as it bends, over its bending
-     peak strain = M t/2/(EI D) Kt (1 + u) G
-     G = 1.0312 + n p (1.8208 p^2 - 0.7838) + nu p^2 (q (0.8824 - 1.069 p) - 0.0907 x p)
-         + u (0.316 p + 3.092 n x - 0.2066 q)
-   n: a block keeps its end of the strip from bowing, so that the middle of the depth carries more
-   of the moment than the faces, the more of it the wider the strip; nu q: a notch is in plane
-   strain in the middle, where its concentration differs; u: the fillets of an arc are not mirror
-   images.
-   in: x clamped to [0.1, 2], q of that x, h, t m, nu, n, u >= 0; out: 1. Fitted (Chebyshev) to 262
-   solids, arcs and leaves: x 0.1 to 2, h/t 0.5 to 30, t/r 0.025 to 0.15, nu 0.1 to 0.36, so that it
-   is above all of them: by 0.3 to 3.5 %, deeper than 10 t by 0.1 to 4.3 %; the solids' own error is
-   0.3 %.
-   source: docs/theory/root-strain.md eq. 11a; solids and fit: tools/solids;
-   test_root_strain.c */
-static double root_rise(const root_section *at) {
-    double x = at->x, q = at->q, p = at->p, p2 = p * p, nu = at->nu, n = at->n, u = at->u;
-    return 1.0312 + n * p * (1.8208 * p2 - 0.7838) +
-           nu * p2 * (q * (0.8824 - 1.069 * p) - 0.0907 * x * p) +
-           u * (0.316 * p + 3.092 * n * x - 0.2066 * q);
-}
-
-/* The same of a crystal's stress, over M t/2/(I D) Kt, as an upper bound:
-     G = max((1 + u)(A + B c + D u s + C s)(H + u V), (1 - u)(A + B c + D u s - C s)(H - u V))
-     A = a0 + a1 x + a2 q + a3 q^2,  B = b0 + b1 x + b2 q,  C = c0 + c1 x + c2 q + c3 q^2
-     H = 1 + n p (h1 p^2 + h2 p + h3) + nu p^2 x (h4 + h5 p),  V = v1 p + n (v2 x + v3) + v4 q
-   (the numbers are below). c, s: cosine and sine of 4 psi', psi' the direction of the strip from
-   [100] 1.35 rho/R before the root. s > 0: the fillet on the inside of the arc turns towards the
-   stiff <110>, the other one away from it; a straight strip has one on either side. What the
-   curvature does to the inner fillet it does to the outer one with the other sign. Of an unknown
-   direction the worst.
-     in: cosine and sine of 4 psi at the root, the sine such that s is as above; share: a1/a0 over
-   silicon's, by which B, C and D go for other crystals (not compared); x, q, p, n, u as above, p of
-   no more than h = 30 t, nu out of the plane, of the mean modulus; out: 1. Fitted (Chebyshev) to
-   285 solids of silicon, x 0.1 to 2, h/t 0.5 to 30: above all of them by 0.3 to 3.6 %, deeper than
-   10 t by 0.1 to 4.4 %; fitted to 70 % of them it is -1.3 to 4.9 % above the others.
-   source: docs/theory/flexure-silicon.md eq. 14; tools/solids; test_root_strain.c, test_crystal.c
-   peak_stress_of_silicon */
-typedef struct root_crystal {
-    double even, along, across, lean; /* A, B, C, D u */
-} root_crystal;
-
-typedef struct root_fillets { /* (1 + u)(A + ...) of the inner, (1 - u)(A + ...) of the outer */
-    double inner, outer;
-} root_fillets;
-
-static root_crystal root_crystal_of(double share, const root_section *at) {
-    double x = at->x, q = at->q, u = at->u;
-    return (root_crystal){.even = 1.0721 + 0.02 * x + q * (0.0172 + 0.0039 * q),
-                          .along = share * (-0.1134 + 0.0261 * x + 0.0305 * q),
-                          .across = share * (-0.077 + 0.0061 * x + q * (0.1783 - 0.0305 * q)),
-                          .lean = share * 0.394 * u};
-}
-
-/* 4 psi is turned back by 16.2 x u = 5.4 rho/R, of which sine and cosine stand as their Taylor
-   series, 2e-4 of 1 off at 1 rad, with which the laws were fitted */
-static root_fillets fillets_at(const root_crystal *r, const root_section *at, double four_psi) {
-    double x = at->x, u = at->u, cosine = cos(four_psi), sine = sin(four_psi);
-    double e = 16.2 * x * u, z = e * e;
-    double S = e * (1 - z * (1 / 6.0 - z * (1 / 120.0)));
-    double C = 1 - z * (0.5 - z * (1 / 24.0 - z * (1 / 720.0)));
-    double c = cosine * C + sine * S, s = sine * C - cosine * S;
-    double both = r->even + r->along * c + r->lean * s;
-    return (root_fillets){(1 + u) * (both + r->across * s), (1 - u) * (both - r->across * s)};
-}
-
-/* the worst direction */
-static root_fillets fillets_any(const root_crystal *r, const root_section *at) {
-    return (root_fillets){(1 + at->u) * (r->even + hypot(r->along, r->lean + r->across)),
-                          (1 - at->u) * (r->even + hypot(r->along, r->lean - r->across))};
-}
-
-/* G of both fillets */
-static double root_crystal_rise(const root_fillets *of, const root_section *at) {
-    double x = at->x, q = at->q, nu = at->nu, n = at->n, u = at->u;
-    double p = fmin(at->p, 15 / 17.0), p2 = p * p;
-    double level =
-        1 + n * p * (-4.4563 * p2 + 6.5109 * p - 2.0268) + nu * p2 * x * (-1.3063 + 1.6285 * p);
-    double tilt = u * (1.5231 * p + n * (0.3433 * x + 2.1208) - 0.4898 * q);
-    return fmax(of->inner * (level + tilt), of->outer * (level - tilt));
-}
-
-double fw_flexure_root_peak(const fw_flexure_root_case *r, const fw_flexure_crystal *k) {
-    double t = r->width_m, h = r->depth_m, u = fabs(r->curved);
-    if (r->fillet_m < 0) return 1 + u;
-    double Kt = fw_flexure_fillet_concentration(t, r->fillet_m);
-    const root_section at = {.x = fmax(fitted_ratio(t, r->fillet_m), sharpest),
-                             .q = fmin((Kt - 0.944) / 0.2113, sharpest_notch),
-                             .p = h / (h + 4 * t),
-                             .nu = r->poisson,
-                             .n = r->poisson * r->bow,
-                             .u = u};
-    if (!k || !k->known) return Kt * (1 + u) * root_rise(&at);
-    const root_crystal root = root_crystal_of(k->share, &at);
-    root_fillets of = fillets_any(&root, &at);
-    if (k->aligned) { /* of an arc that turns right and of the first end the mirror image */
-        double sense = r->curved < 0 ? -r->end : r->end;
-        of = fillets_at(&root, &at, sense * (atan2(k->sin4, k->cos4) + 4 * r->angle_rad));
-    }
-    return Kt * root_crystal_rise(&of, &at);
-}
-
-void fw_flexure_peak_strain(const fw_flexure_shape *f, double beam, double inside, double root,
-                            fw_flexure_result *out) {
-    out->concentration = f->fillet_m < 0 ? inside : fmax(inside, root);
-    out->fibre = inside;
-    out->strain_per_rad = beam * out->concentration;
-    out->strain_fit_per_rad = beam * f->fillet_concentration * inside;
+double fw_flexure_end_loss_m(const fw_flexure_input *in, double bow, double block_m) {
+    fw_flexure_input own = *in;
+    own.ends = true;
+    const fw_flexure_crystal k = fw_flexure_elastic_of(&own);
+    return in->poisson * in->poisson *
+           fw_flexure_end_loss_of(&k, in->depth_m, bow, in->length_m, block_m).length_m;
 }
 
 /* compliances of a cubic crystal by inversion of (C11, C12, C44), turned about [001]:

@@ -55,16 +55,17 @@ static void stiffness_and_limit(const fw_flexure_shape *f, const fw_flexure_inpu
     out->kx_N_per_m = 1 / out->compliance[1][1], out->ky_N_per_m = 1 / out->compliance[2][2];
     out->stress_per_rad_Pa = in->youngs_Pa * out->strain_per_rad;
     out->limit_angle_rad = in->strength_Pa / (in->safety_factor * out->stress_per_rad_Pa);
-    out->limit_uncertainty = (in->crystal.known ? 0.03 : FW_FLEXURE_STRAIN_UNCERTAINTY) +
-                             (f->beyond_fit ? 0.065 - FW_FLEXURE_STRAIN_UNCERTAINTY
-                              : f->sharp    ? 0.02
-                                            : 0);
+    out->limit_uncertainty =
+        FW_FLEXURE_STRAIN_UNCERTAINTY + (f->beyond_fit ? 0.065 - FW_FLEXURE_STRAIN_UNCERTAINTY
+                                         : f->sharp    ? 0.02
+                                                       : 0);
 }
 
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out) {
     fw_flexure_shape f;
     fw_flexure_shape_of(in, &f);
-    *out = (fw_flexure_result){.centre_m = f.centre_m, .root_length_m = f.root_length_m};
+    *out = (fw_flexure_result){
+        .centre_m = f.centre_m, .root_length_m = f.root_length_m, .ends_stiffer = 1};
     model_of(f.kind)->closed_form(&f, in, out);
     stiffness_and_limit(&f, in, out);
     out->error = fw_flexure_errors(&f, in, out);

@@ -30,7 +30,7 @@ void fw_flexure_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
    leaf_matches_the_reference */
 void fw_flexure_leaf(const fw_flexure_shape *f, const fw_flexure_input *in,
                      fw_flexure_result *out) {
-    const fw_flexure_crystal *k = &in->crystal;
+    const fw_flexure_crystal material = fw_flexure_elastic_of(in), *k = &material;
     double t = f->width_m, L = f->length_m, h = in->depth_m, A = h * t, E = in->youngs_Pa;
     double nu = in->poisson, G = E / (2.0 * (1.0 + nu)), dL = f->root_length_m;
     double lost = 0, lost_arm = 0;
@@ -56,6 +56,9 @@ void fw_flexure_leaf(const fw_flexure_shape *f, const fw_flexure_input *in,
     out->compliance[2][2] = L / (E * A);
     const fw_flexure_root_case root = {
         .width_m = t, .fillet_m = f->fillet_m, .depth_m = h, .poisson = nu, .bow = 1, .end = 1};
-    fw_flexure_peak_strain(f, 0.5 * t / (L + 2 * dL) * (k->known ? E / in->youngs_Pa : 1), 1,
-                           fw_flexure_root_peak(&root, k), out);
+    double apart = k->known ? 0 : 2 * fw_flexure_end_loss_m(in, 1, f->root_block_m);
+    out->ends_stiffer = whole / (whole - apart);
+    fw_flexure_peak_strain(f, 0.5 * t / (whole - apart) * (k->known ? E / in->youngs_Pa : 1), 1,
+                           fw_flexure_root_peak(&root, &in->crystal), out);
+    out->strain_fit_per_rad /= out->ends_stiffer; /* the fit has no ends */
 }

@@ -5,19 +5,19 @@
 #include <math.h>
 
 static double per_youngs(const fw_flexure_path_stuff *m, double psi_rad) {
-    const fw_flexure_crystal *k = m->crystal;
-    if (!k) return 1 / m->youngs_Pa;
+    const fw_flexure_crystal *k = &m->elastic;
+    if (!k->known) return 1 / m->youngs_Pa;
     return k->a0_per_Pa + k->a1_per_Pa * (k->cos4 * cos(4 * psi_rad) - k->sin4 * sin(4 * psi_rad));
 }
 
 static double per_shear(const fw_flexure_path_stuff *m, double psi_rad) {
-    const fw_flexure_crystal *k = m->crystal;
-    if (!k) return 2 * (1 + m->poisson) / m->youngs_Pa;
+    const fw_flexure_crystal *k = &m->elastic;
+    if (!k->known) return 2 * (1 + m->poisson) / m->youngs_Pa;
     return k->g0_per_Pa + k->g1_per_Pa * (k->cos4 * cos(4 * psi_rad) - k->sin4 * sin(4 * psi_rad));
 }
 
 static fw_flexure_depth depth_at(const fw_flexure_path_stuff *m, double deep) {
-    if (m->crystal) return fw_flexure_depth_crystal(deep, m->crystal, m->youngs_Pa);
+    if (m->elastic.known) return fw_flexure_depth_crystal(deep, &m->elastic, m->youngs_Pa);
     return fw_flexure_depth_at(deep, m->poisson);
 }
 
@@ -57,8 +57,8 @@ void fw_flexure_path_root(const fw_flexure_course *p, const fw_flexure_path_stuf
     int i = end ? p->n - 1 : 0;
     fw_flexure_path_section_at(p, m, i, end ? p->shape[i].piece.length_m : 0, at);
     *root_m = p->root_m[end];
-    if (!m->crystal || p->concentration[end] == 1) return;
-    double block = fw_flexure_root_block_m(at->width_m, 0), mean = m->crystal->a0_per_Pa;
+    if (!m->elastic.known || p->concentration[end] == 1) return;
+    double block = fw_flexure_root_block_m(at->width_m, 0), mean = m->elastic.a0_per_Pa;
     double along = per_youngs(m, at->pose.angle_rad);
     *root_m = (block * mean + (p->root_m[end] - block) * along) / along;
 }
@@ -70,18 +70,18 @@ void fw_flexure_path_end_loss(const fw_flexure_course *p, const fw_flexure_path_
     double root, length = 0, f = 1;
     fw_flexure_path_root(p, m, end, at, &root);
     *loss_m = 0;
-    if (!m->crystal) return;
+    if (!m->elastic.known) return;
     for (int i = 0; i < p->n; i++)
         length += p->shape[i].piece.length_m;
     double k = p->shape[end ? p->n - 1 : 0].piece.curvature_per_m, t = at->width_m;
     double h = m->end_depth_m, inwards = end ? -1 : 1, psi = at->pose.angle_rad;
     double block = p->concentration[end] == 1 ? 0 : fw_flexure_root_block_m(t, 0);
     if (k != 0) f = depth_at(m, h * sqrt(fabs(k) / t)).bow;
-    const fw_flexure_end_loss loss = fw_flexure_end_loss_of(m->crystal, h, f, length, block);
+    const fw_flexure_end_loss loss = fw_flexure_end_loss_of(&m->elastic, h, f, length, block);
     double q = loss.reach_m * k, far = loss.reach_m / (1 + q * q); /* N: to the left times k */
     at->neutral_x_m = at->pose.x_m + far * (inwards * cos(psi) - q * sin(psi));
     at->neutral_y_m = at->pose.y_m + far * (inwards * sin(psi) + q * cos(psi));
-    *loss_m = m->crystal->bow_per_Pa * loss.length_m / per_youngs(m, psi);
+    *loss_m = m->elastic.bow_per_Pa * loss.length_m / per_youngs(m, psi);
 }
 
 /* mean modulus of a crystal: what the whole strip bends like, int ds/I / int ds/(E I) */
@@ -92,8 +92,8 @@ fw_flexure_path_stuff fw_flexure_path_stuff_of(const fw_flexure_course *p,
                                .poisson = in->poisson,
                                .depth_m = in->depth_m,
                                .end_depth_m = in->depth_m};
+    m.elastic = fw_flexure_elastic_of(in);
     if (!in->crystal.known) return m;
-    m.crystal = &in->crystal;
     fw_flexure_gauss_rule(FW_GAUSS_MOST, node, weight);
     enum { PANELS = 8 };
     for (int i = 0; i < p->n; i++)

@@ -7,10 +7,10 @@
 
 /* of what: uniform modulus 1 without depth (outline alone), or a material */
 typedef struct fw_flexure_path_stuff {
-    const fw_flexure_crystal *crystal; /* NULL: isotropic */
-    double youngs_Pa, poisson;         /* poisson: out of the plane; of a crystal its mean */
-    double depth_m;                    /* 0: no depth factor, unit depth */
-    double end_depth_m;                /* of what the ends of a crystal lose, whatever depth_m is */
+    fw_flexure_crystal elastic; /* of fw_flexure_elastic_of; not known: youngs_Pa alone */
+    double youngs_Pa, poisson;  /* poisson: out of the plane; of a crystal its mean */
+    double depth_m;             /* 0: no depth factor, unit depth */
+    double end_depth_m;         /* of what ends lose, whatever depth_m is */
 } fw_flexure_path_stuff;
 
 typedef struct fw_flexure_path_section {
@@ -45,5 +45,8 @@ double fw_flexure_path_fibre(const fw_flexure_path_section *at, double youngs_Pa
  */
 double fw_flexure_path_root_factor(const fw_flexure_input *in, const fw_flexure_path_stuff *stuff,
                                    int end, const fw_flexure_path_section *at);
+/* (w(rho)/w(0))^2 of an end: the peak strain of a root stands where its fillet ends, and by that it
+   is less or more than with the width at the face. Test: test_varying.c */
+double fw_flexure_path_root_opens(const fw_flexure_course *path, int end, double fillet_m);
 
 #endif

@@ -34,6 +34,12 @@ fw_flexure_depth fw_flexure_depth_crystal(double depth_over_root_of_radius_and_w
 typedef struct fw_flexure_end_loss {
     double reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
 } fw_flexure_end_loss;
+/* What (13a) and the sums along a strip go by: the crystal, or an isotropic material as one whose
+   modulus is the same in all directions; `known` is false of the printed formula, whose ends lose
+   nothing. The peak strain has (13a) in any case: it was fitted with it */
+fw_flexure_crystal fw_flexure_elastic_of(const fw_flexure_input *in);
+/* of an isotropic strip: d, which either end takes off its length in the peak strain per radian. bow: f */
+double fw_flexure_end_loss_m(const fw_flexure_input *in, double bow, double block_m);
 /* bow: f of the depth factor, 1 of a straight strip; block: fw_flexure_root_block_m */
 fw_flexure_end_loss fw_flexure_end_loss_of(const fw_flexure_crystal *crystal, double depth_m,
                                            double bow, double length_m, double block_m);

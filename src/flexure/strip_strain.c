@@ -46,12 +46,15 @@ static fw_flexure_path_point place_of(const fw_flexure_input *in, fw_geometry_po
                                    .strain_per_N = kt / (width_m * in->depth_m * in->youngs_Pa)};
 }
 
-static fw_status varying_places(fw_arena *arena, const fw_flexure_input *in,
+/* ends_stiffer: strains are those of the closed form's stiffness, which does not have it */
+static fw_status varying_places(fw_arena *arena, const fw_flexure_input *in, double ends_stiffer,
                                 fw_flexure_path_strain *out) {
     fw_flexure_course p;
     fw_flexure_path_of(in, &p);
     const fw_flexure_path_stuff m = fw_flexure_path_stuff_of(&p, in);
     int each = p.n <= 2 ? 64 : 32;
+    for (int end = 0; end < 2; end++)
+        out->narrows[end] = fmax(1, 1 / fw_flexure_path_root_opens(&p, end, in->fillet_m));
     double length = 0, before = 0;
     for (int i = 0; i < p.n; i++)
         length += p.shape[i].piece.length_m;
@@ -59,11 +62,11 @@ static fw_status varying_places(fw_arena *arena, const fw_flexure_input *in,
     for (int i = 0; i < p.n; before += p.shape[i].piece.length_m, i++)
         for (int k = 0; k <= each; k++) {
             fw_flexure_path_section at;
-            double s = p.shape[i].piece.length_m * k / each, by = 1;
+            double s = p.shape[i].piece.length_m * k / each, by = ends_stiffer;
             fw_flexure_path_section_at(&p, &m, i, s, &at);
             bool root = (i == 0 && k == 0) || (i == p.n - 1 && k == each);
             double between = fw_flexure_path_fibre_factor(&at);
-            if (root) by = fmax(1, fw_flexure_path_root_factor(in, &m, k > 0, &at) / between);
+            if (root) by *= fmax(1, fw_flexure_path_root_factor(in, &m, k > 0, &at) / between);
             out->point[out->n++] = place_of(in, at.pose, at.width_m, (before + s) / length,
                                             by * fw_flexure_path_fibre(&at, in->youngs_Pa, &m),
                                             length * at.bend_per_Nm2, root);
@@ -96,10 +99,14 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
 fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in,
                                      const fw_flexure_result *closed_form,
                                      fw_flexure_path_strain *out) {
+    const double give = in->fillet_m < 0 ? 0 : 3.2 * in->width_m; /* flexure_errors.c, axial */
     *out = (fw_flexure_path_strain){
         .length_m = in->length_m,
+        .fillet_m = in->fillet_m,
+        .narrows = {1, 1},
+        .stretched = give / (in->length_m + give),
         .W_m = {closed_form->centre_m + closed_form->offset_m[0], closed_form->offset_m[1]}};
-    return fw_flexure_input_varies(in) ? varying_places(arena, in, out)
+    return fw_flexure_input_varies(in) ? varying_places(arena, in, closed_form->ends_stiffer, out)
                                        : even_places(arena, in, closed_form, out);
 }
 
@@ -260,10 +267,71 @@ static void root_faces(const fw_flexure_path_point *p, double M, double N, doubl
     face[1] = -p->strain_per_Nm * M + p->strain_per_N * N;
 }
 
+/* section moment where a fillet ends */
+static double behind_fillet(const fw_flexure_path_strain *s, int end, const double *M) {
+    const int last = s->n - 1, root = end ? last : 0, step = end ? -1 : 1;
+    double reach = fmax(s->fillet_m, 0) / s->length_m;
+    for (int i = root; i != last - root; i += step) {
+        double from = fabs(s->point[i].part - s->point[root].part),
+               to = fabs(s->point[i + step].part - s->point[root].part);
+        if (to < reach || !(to > from)) continue;
+        return M[i] + (M[i + step] - M[i]) * fmin((reach - from) / (to - from), 1);
+    }
+    return M[root];
+}
+
+/* A strip that narrows over its fillet: the peak and both faces by moment and width at its end, where
+   these are more than at the face */
+static void narrowed(const fw_flexure_path_strain *s, int end, const double *M, const double *N,
+                     fw_flexure_strip_strains *out) {
+    if (!(s->narrows[end] > 1)) return;
+    const int root = end ? s->n - 1 : 0;
+    const fw_flexure_path_point *p = &s->point[root];
+    double inside = s->narrows[end] * behind_fillet(s, end, M);
+    if (!(inside * M[root] > M[root] * M[root])) return;
+    root_faces(p, inside, sqrt(s->narrows[end]) * N[root], out->root[end]);
+    out->peak = fmax(out->peak, fmax(fabs(out->root[end][0]), fabs(out->root[end][1])));
+}
+
+/* What the peak is at least. At a fillet it stands where that ends, up to rho into the strip, and the
+   moment there is another one than at the block's face (solids of tests/judge/README.md: up to 6 %
+   less); and of given places of its ends a strip is pulled less by as much as the blocks give, which
+   is 1.6 t of strip each at most. A strip that the pull straightens has moments like the pull's root:
+
+     strain = k min(|M(0)|, |M(rho)|) (1 - g y/(2 (y + 10))) + n (1 - g) |N|,
+     g = 3.2 t/(L + 3.2 t),  y = N L^2/EI
+
+   in: section forces at the places, N m, N. Cost 50 ns. Test: test_strip_strain.c least_strain,
+   tests/judge/solid.py */
+static double least_at_root(const fw_flexure_path_strain *s, int end, const double *M,
+                            const double *N) {
+    const int root = end ? s->n - 1 : 0;
+    const fw_flexure_path_point *p = &s->point[root];
+    double inside = behind_fillet(s, end, M);
+    double pull = fmax(N[root] * s->length_m * p->soft_per_Nm, 0), g = s->stretched;
+    double moment = inside * M[root] > 0 ? fmin(fabs(inside), fabs(M[root])) : 0;
+    return p->strain_per_Nm * moment * (1 - 0.5 * g * pull / (pull + 10)) +
+           (1 - g) * p->strain_per_N * fabs(N[root]);
+}
+
+static void ends_of(const fw_flexure_path_strain *s, const double *M, const double *N,
+                    fw_flexure_strip_strains *out) {
+    for (int end = 0; end < 2; end++)
+        narrowed(s, end, M, N, out);
+    double least = fmax(least_at_root(s, 0, M, N), least_at_root(s, 1, M, N));
+    for (int i = 1; i < s->n - 1; i++) {
+        const fw_flexure_path_point *p = &s->point[i];
+        least = fmax(least, (1 - s->stretched) *
+                                (p->strain_per_Nm * fabs(M[i]) + p->strain_per_N * fabs(N[i])));
+    }
+    out->least = fmin(least, out->peak);
+}
+
 void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
                              fw_flexure_strip_strains *out) {
     const fw_flexure_path_point *first = &s->point[0], *last = &s->point[s->n - 1];
     double X = load->force_N[0], Y = load->force_N[1], M[FW_STRIP_PLACES], turn[FW_STRIP_PLACES];
+    double along_N[FW_STRIP_PLACES];
     const arms f = {X, Y, first->y_m * X - first->x_m * Y, last->y_m * X - last->x_m * Y};
     for (int i = 0; i < s->n; i++)
         turn[i] = 0;
@@ -285,7 +353,7 @@ void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_s
         small_turn(turn[i], &c, &n);
         if (i == 0 || i == s->n - 1) c = cos(turn[i]) - 1, n = sin(turn[i]);
         double along = X * p->cosine + Y * p->sine, across = Y * p->cosine - X * p->sine;
-        double N = along + c * along + n * across;
+        double N = along_N[i] = along + c * along + n * across;
         if (i == 0) root_faces(p, M[i], N, out->root[0]);
         if (i == s->n - 1) root_faces(p, M[i], N, out->root[1]);
         out->peak = fmax(out->peak, p->strain_per_Nm * fabs(M[i]) + p->strain_per_N * fabs(N));
@@ -293,6 +361,7 @@ void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_s
             out->peak =
                 fmax(out->peak, s->point[i - 1].strain_per_Nm * crest(M[i - 2], M[i - 1], M[i]));
     }
+    ends_of(s, M, along_N, out);
 }
 
 void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_elastica *beam,
@@ -311,4 +380,5 @@ void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_e
             out->peak =
                 fmax(out->peak, s->point[i - 1].strain_per_Nm * crest(M[i - 2], M[i - 1], M[i]));
     }
+    ends_of(s, M, N, out);
 }

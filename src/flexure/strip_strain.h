@@ -21,7 +21,10 @@ typedef struct fw_flexure_path_strain {
     fw_flexure_path_point *point; /* (n) along the strip, roots first and last */
     int n;                        /* at most FW_STRIP_PLACES */
     double length_m;              /* of the centre line */
-    double W_m[2];                /* true centre of compliance */
+    double fillet_m;              /* below 0: none */
+    double narrows[2];            /* (w(0)/w(rho))^2 of either end, at least 1 */
+    double stretched; /* of what pulls along, the share that the blocks' give may take */
+    double W_m[2];    /* true centre of compliance */
 } fw_flexure_path_strain;
 
 /* stress over N/(t h) at a root in tension */
@@ -51,7 +54,9 @@ void fw_flexure_strip_load_of(const fw_flexure_path_strain *strip, const fw_flex
                               fw_flexure_strip_load *out);
 
 typedef struct fw_flexure_strip_strains {
-    double peak;       /* largest |strain|, fillets included */
+    double peak;  /* largest |strain|, fillets included */
+    double least; /* no more than peak: with moments where the fillets end, and blocks that give
+                          along the strip */
     double root[2][2]; /* signed, at both faces of both roots: that of the side to which the axis
                           points away from first */
 } fw_flexure_strip_strains;

@@ -249,10 +249,12 @@ static bool lighten(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, do
     double over = excess(h) * extra;
     double by = fmax(fmin(1.0 / over, 0.9995), 1e-6);
     if (h->joint == FW_NONE) by = pow(by, trial->round + 1); /* a guess: further each time */
+    bool any = false; /* what is of no one scene: of all of them and of the boxes together */
     for (int i = 0; i < trial->changed->nscene; i++)
-        if (same(trial->changed->scene[i].name, h->scene)) {
+        if (!h->scene || same(trial->changed->scene[i].name, h->scene)) {
             trial->share[i] *= by;
-            return fw_effects_scale(&trial->changed->scene[i], by);
+            any = fw_effects_scale(&trial->changed->scene[i], by) || any;
+            if (h->scene) return any;
         }
     for (int i = 0; i < trial->changed->nworkspace; i++) {
         fw_device_workspace_box *w = &trial->changed->workspace[i];
@@ -261,7 +263,7 @@ static bool lighten(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, do
         w->y_min_m *= by, w->y_max_m *= by;
         w->phi_min_rad *= by, w->phi_max_rad *= by;
     }
-    return same(h->scene, "workspace");
+    return any || same(h->scene, "workspace");
 }
 
 static double kept(double now, double was) {

@@ -5,8 +5,8 @@
 
 /* motion: largest difference of any hinge's peak section moment, joint force included, between
    ideal pins and geometrically exact flexures over the four reference load cases of a whole
-   six-bar, 2.9 % (0.7 % at the governing hinge); strain: largest error of the closed form on
-   held-out shapes, 2.9 % */
+   six-bar, 2.9 % (0.7 % at the governing hinge); strain: more than the closed form's peak strain is
+   off by within its range (fw_flexure_error), for what is bounded and not judged */
 const fw_verdict_model_errors fw_verdict_model_error = {0.029, 0.029};
 const double fw_verdict_first_accuracy = 3e-2;
 

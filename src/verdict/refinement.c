@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whether a refined computation can decide an undecided device. A hinge uses U with the band
-     U (1 -+ m) -+ n,   m: model, n: numbers,
-   and of m a part l stays whatever is computed. What the refined computation finds lies within
-   n + U (m - l) of U, and its band is U' (1 -+ l); with tighter numbers alone within n, and
-   (1 -+ m). It pays where all undecided hinges may then be accepted, or one of them rejected.
+     U (1 - m) - n to U (1 + m') + n,   m, m': model, n: numbers,
+   and of either a part l stays whatever is computed. What the refined computation finds lies within
+   n + U (m - l) of U, and its band is U' (1 - l) to U' (1 + l'); with tighter numbers alone within
+   n, and of the same m. It pays where all undecided hinges may then be accepted, or one of them rejected.
    Test: test_closer.c. */
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -21,7 +21,7 @@ static reach reach_of(const fw_verdict_hinge_verdict *h, bool hinges) {
     if (!(u > 0)) return (reach){h->utilisation_high, h->utilisation_low};
     double up = (h->utilisation_high - n) / u - 1, down = 1 - (h->utilisation_low + n) / u;
     double stays_up = hinges ? fmin(up, h->lasting) : up;
-    double stays_down = hinges ? fmin(down, h->lasting) : down;
+    double stays_down = hinges ? fmin(down, h->lasting_low) : down;
     return (reach){(u - n - u * (up - stays_up)) * (1 + stays_up),
                    (u + n + u * (down - stays_down)) * (1 - stays_down)};
 }

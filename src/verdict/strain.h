@@ -30,9 +30,10 @@ fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *mechanism, in
 enum { FW_FACES = 4 }; /* two of either root */
 
 typedef struct fw_verdict_hinge_strains {
-    double peak;  /* largest |strain|, fillets included */
-    double least; /* where the axis is not known: the least that any direction of it has, peak being
-                     the most; else peak */
+    double peak; /* largest |strain|, fillets included */
+    double
+        least; /* what the peak is at least (fw_flexure_strip_strains); where the axis is not known
+                     the least that any direction of it has */
     double root[2][2]; /* at both faces of both roots, signed: their sign is what makes cycles */
     bool held; /* false: beyond the strip's buckling load, of which the closed form knows nothing */
 } fw_verdict_hinge_strains;
@@ -47,7 +48,7 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *hinge
 
 typedef struct fw_verdict_strain_peak {
     double strain, t_s; /* largest so far, and when */
-    double least;       /* likewise of what it is at least, where the axis is not known */
+    double least;       /* likewise of what it is at least, of the instants alone */
     double forced;      /* largest |strain less that of the rotation alone| at an instant */
     double between;     /* what the parabola added to the largest sample: the error of the search */
     double t[2], s[2];  /* the last two instants */
@@ -80,6 +81,7 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
     fw_verdict_bending bending;
+    bool trial;              /* only whether it is accepted is of account */
     fw_probe_monitor *probe; /* looks at the same instants; NULL: nothing is probed */
 } fw_verdict_strain_monitor;
 

@@ -36,6 +36,9 @@ static void count(fw_verdict_strain_monitor *w, int k, const fw_verdict_hinge_st
 }
 
 static const double fw_strains_settle = 2;
+/* times the accuracy wanted, of the largest strain or of a share of the limit below which nothing is
+   judged more closely; in a trial, whose band nobody sees, of the limit */
+static const double fw_strains_accurate = 5, fw_small_strain = 0.02, fw_trial_accurate = 30;
 
 double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin) {
@@ -49,14 +52,17 @@ double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
 double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *looser, double margin,
                                            double accuracy) {
     const fw_verdict_strain_monitor *monitor = tighter;
-    double limit = HUGE_VAL;
+    double limit = HUGE_VAL, most = 0;
     for (int k = 0; k < monitor->mechanism->nhinge; k++) {
         const fw_flexure_result *c = &monitor->mechanism->hinge[k].closed_form;
         limit = fmin(limit, c->limit_angle_rad * c->strain_per_rad);
+        most = fmax(most, monitor->hinge[k].strain);
     }
+    double of = monitor->trial ? limit : fmin(fmax(most, fw_small_strain * limit), limit);
+    double times = monitor->trial ? fw_trial_accurate : fw_strains_accurate;
     const fw_verdict_strain_monitor *other = looser;
     double strains = fw_verdict_strain_monitor_error(monitor, looser, margin) /
-                     (fmin(30 * accuracy, 0.03) * limit);
+                     (fmin(times * accuracy, 0.03) * of);
     if (!monitor->probe || !other->probe) return strains;
     return fmax(strains,
                 fw_probe_monitor_unsettled(monitor->probe, other->probe, margin, accuracy));

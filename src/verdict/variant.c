@@ -10,12 +10,6 @@ static fw_verdict_decision decide(double low, double high) {
     return high < 1.0 ? FW_ACCEPT : FW_INCONCLUSIVE;
 }
 
-/* twice the standard uncertainty that a shape outside the fitted range has on top of the model
-   error */
-static double beyond_fit(const fw_flexure_result *c) {
-    return 2.0 * (c->limit_uncertainty - FW_FLEXURE_STRAIN_UNCERTAINTY);
-}
-
 /* the solids meet first: what happens then is not in the model, so it cannot be accepted */
 static void collide(const fw_layout_hinge_layout *drawn, fw_verdict_hinge_verdict *out) {
     out->touches = drawn && drawn->drawn && drawn->free_rad > 0.0 &&
@@ -110,19 +104,34 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                          ? 0.0
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
-    double strains = fw_verdict_model_error.strain + beyond_fit(c);
-    double model =
-        fw_verdict_motion_model_error(by->m, motion) + strains + fw_verdict_bending_counted(motion);
+    double moved = fw_verdict_motion_model_error(by->m, motion);
+    double bent = fw_verdict_bending_counted(motion);
     out->numeric = numeric;
-    out->lasting = fmin(model, fw_verdict_motion_lasting_error(by->m) + strains);
-    double least = fmin(strain->least, strain->strain) / out->strain_limit;
-    out->utilisation_low = fmax(0.0, least * (1.0 - model) - numeric);
-    out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
+    double stays = fmin(moved, fw_verdict_motion_lasting_error(by->m));
+    double least = fmin(strain->least + strain->between, strain->strain) / out->strain_limit;
+    double less = fw_verdict_motion_lasting_error(by->m) - fw_verdict_motion_lasting_above(by->m);
+    /* not of a figure that stands for the reference cases */
+    bool usual =
+        motion->ledger.hinge.used == FW_HINGE_REVOLUTE || moved >= fw_verdict_model_error.motion;
+    double up = (usual ? moved : fmax(moved - less, 0)) + bent;
+    out->lasting = fmin(up, stays) + c->error.above;
+    out->lasting_low = stays + c->error.strain;
+    if (out->utilisation > 0) out->lasting_low += 1 - least / out->utilisation;
+    out->utilisation_low = fmax(0.0, least * (1.0 - moved - bent - c->error.strain) - numeric);
+    out->utilisation_high = out->utilisation * (1.0 + up + c->error.above) + numeric;
     chance(by, out);
     FW_TRY(count_fatigue(arena, by, monitor->root ? monitor->root[k] : NULL, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
     collide(by->drawn, out);
     return FW_OK;
+}
+
+/* Share of the strain by which the moment at a fillet's end may be below that at the block's face:
+   |dM/ds| is at most the force */
+static double faded(const fw_mechanism_hinge *h, double force_N, double strain) {
+    const fw_flexure_result *c = &h->closed_form;
+    double per_Nm = c->strain_per_rad / (h->scale * c->stiffness_Nm_per_rad);
+    return strain > 0 ? per_Nm * force_N * fmax(h->input.fillet_m, 0) / strain : 0;
 }
 
 /* every repetition is taken to go to the worst pose and as far to the other side */
@@ -157,14 +166,16 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     if (out->utilisation > by_angle) out->force_share = 1.0 - by_angle / out->utilisation;
     double share =
         load->known && load->over_rotation > 0.0 ? fabs(1.0 - 1.0 / load->over_rotation) : 0.0;
-    double model = fw_verdict_model_error.strain + beyond_fit(c) +
-                   share * fw_verdict_motion_lasting_error(by->m);
+    double moved = share * fw_verdict_motion_lasting_error(by->m);
+    double fades = load->known ? faded(by->hinge, load->force_N, out->peak_strain) : 0;
     double numeric =
         load->known ? load->error / out->strain_limit : peak->error_rad / c->limit_angle_rad;
     out->numeric = 0.0; /* no run makes the proof closer */
-    out->lasting = model + fmax(load->give, load->relief);
-    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model - load->relief) - numeric);
-    out->utilisation_high = out->utilisation * (1.0 + model + load->give);
+    double low = moved + c->error.strain + fades + load->relief;
+    out->lasting = moved + c->error.above + load->give;
+    out->lasting_low = low;
+    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - low) - numeric);
+    out->utilisation_high = out->utilisation * (1.0 + moved + c->error.above + load->give);
     if (!workspace->certified) out->utilisation_high += numeric;
     chance(by, out);
     workspace_fatigue(by, out);
@@ -184,9 +195,10 @@ static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *m
                     scene->name, fw_number_text(t, sizeof t, motion->end_s * 1e3, 4));
 }
 
-/* The band holds what the model of the hinges is computed to be off by. A better one than this is
-   asked for where the verdict is undecided, and not for every device and corner. */
-static const double fw_hinges_good_enough = 0.03;
+/* The band holds what the model of the hinges is computed to be off by. A better one than the first of
+   these is asked for where the verdict is undecided, than the second for a device whose bands are
+   shown, and neither for trials, first looks and corners. */
+static const double fw_hinges_good_enough = 0.03, fw_hinges_good = 0.01;
 /* and exact beams only where they take seconds; who wants to wait longer asks for them */
 static const long fw_most_beams = 100000;
 
@@ -212,7 +224,10 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
     motion.most_beams = fw_most_beams;
     if (motion.hinge_accuracy <= 0)
-        motion.hinge_accuracy = fmax(motion.accuracy, fw_hinges_good_enough);
+        motion.hinge_accuracy =
+            fmax(motion.accuracy, is_brief(options, v) || options->at_a_glance || v->corner
+                                      ? fw_hinges_good_enough
+                                      : fw_hinges_good);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
@@ -241,6 +256,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         fw_probe_monitor *seen[2];
         FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, seen));
         monitor[i].probe = seen[0], other[i].probe = seen[1];
+        monitor[i].trial = other[i].trial = options->decision_only && !options->values;
         motion.whole = seen[0] != NULL;
         motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));

@@ -27,9 +27,10 @@ typedef struct fw_verdict_hinge_verdict {
     double peak_strain, strain_limit;
     double utilisation, utilisation_low, utilisation_high;
     double numeric; /* part of the band on either side that a tighter run would take away */
-    double lasting; /* relative part of it that neither a tighter run nor a better model of the
-                       hinges would take away */
-    double t_s;     /* NaN for the workspace */
+    /* relative parts of it, upwards and downwards, that neither a tighter run nor a better model of
+       the hinges would take away */
+    double lasting, lasting_low;
+    double t_s; /* NaN for the workspace */
     fw_verdict_decision decision;
     int joint;
     double force_share; /* part of the peak strain that the joint force adds to the rotation's */
@@ -322,6 +323,8 @@ double fw_verdict_motion_model_error(const fw_mechanism *mechanism,
                                      const fw_dynamics_motion *motion);
 /* the part of it that exact beams have too */
 double fw_verdict_motion_lasting_error(const fw_mechanism *mechanism);
+/* of it what may make a strain more; the rest makes it less */
+double fw_verdict_motion_lasting_above(const fw_mechanism *mechanism);
 /* fills the strains of a step to the next level (may be NULL), on both levels */
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_statics_level_step *step);

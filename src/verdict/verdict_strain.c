@@ -86,14 +86,14 @@ void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *b
     fw_flexure_strip_strains now;
     if (isfinite(h->axis_rad)) {
         out->held = strains_along(h, beam, load, h->axis_rad + load->frame_rad, &now);
-        out->peak = out->least = now.peak;
+        out->peak = now.peak, out->least = now.least;
         memcpy(out->root, now.root, sizeof now.root);
         return;
     }
     *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .held = true};
     for (int i = 0; i < DIRECTIONS; i++) {
         if (!strains_along(h, NULL, load, i * FW_TURN / DIRECTIONS, &now)) out->held = false;
-        out->least = fmin(out->least, now.peak);
+        out->least = fmin(out->least, now.least);
         if (!(now.peak > out->peak)) continue;
         out->peak = now.peak;
         memcpy(out->root, now.root, sizeof now.root);
@@ -166,6 +166,31 @@ double fw_verdict_motion_lasting_error(const fw_mechanism *m) {
     for (int k = 0; k < m->nhinge; k++)
         if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
     return most;
+}
+
+/* alike: the law of the stiffness is off by as much for either, of the same material */
+static bool alike(const fw_mechanism_hinge *a, const fw_mechanism_hinge *b) {
+    const double part = 1e-9;
+    const fw_flexure_result *p = &a->closed_form, *q = &b->closed_form;
+    double K = p->stiffness_Nm_per_rad, k = q->stiffness_Nm_per_rad;
+    return a->stated == b->stated && fabs(K - k) <= part * K &&
+           fabs(p->strain_per_rad - q->strain_per_rad) <= part * p->strain_per_rad &&
+           fabs(p->kx_N_per_m - q->kx_N_per_m) <= part * p->kx_N_per_m;
+}
+
+/* What the stiffness may add to a strain. The strain per radian is held to solids; what a moment
+   strains is that over the stiffness, and less where solids are stiffer than the closed form. Hinges
+   that are alike share out loads as before, whatever their one law is off by: then a strain is more
+   only by what solids may be softer. Of hinges that are not alike one may get what the other bears
+   less: up to the whole error. */
+double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
+    double most = 0;
+    bool same = true;
+    for (int k = 0; k < m->nhinge; k++) {
+        same = same && alike(&m->hinge[0], &m->hinge[k]);
+        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.softer);
+    }
+    return same ? most : fw_verdict_motion_lasting_error(m);
 }
 
 /* Largest difference of strain and of angle between the level used and the next at the motion's

@@ -180,7 +180,7 @@ class Proposals(unittest.TestCase):
         quarter of the time, and that proposals hold at the corners is seen of the others here"""
         rng = random.Random(2)
         pull = rng.uniform(55, 65)
-        narrow = () if ALL else (('min="8 um" max="16 um"', 'min="11.2 um" max="16 um"'), ('max="2.6 mm"', 'max="2.3 mm"'))
+        narrow = () if ALL else (('min="8 um" max="16 um"', 'min="11.3 um" max="16 um"'), ('max="2.6 mm"', 'max="2.3 mm"'))
         most = 90 if ALL else 70
         device = self.changed(STAGE, ('value="115 uN" min="0 uN" max="200 uN"', f'value="{pull:.1f} uN" min="0 uN" max="{most} uN"'),
                               ('min="400 Hz"', f'min="{rng.uniform(540, 570):.0f} Hz"'), *narrow)

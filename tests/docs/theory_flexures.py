@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The worked examples of the pages about flexures, written again from their equations. SI units in and out."""
+import pathlib
+import re
 from math import atanh, cos, cosh, radians, sin, sinh, sqrt
 
 DEVICE = "tests/data/theory/flexures.xml"
@@ -9,6 +11,19 @@ def root_length(t, rho):
     """equation (6)"""
     x = min(max(rho / t, 0.05), 2.0)
     return t * (0.4192 - 0.5972 * x - 0.1167 * x * x)
+
+
+def sum_of_page(value):
+    """G of (11a) as docs/theory/root-strain.md prints it"""
+    page = (pathlib.Path(__file__).resolve().parents[2] / "docs/theory/root-strain.md").read_text(encoding="utf-8")
+    text, total = re.search(r"^    G = (.*?)\n    eps", page, re.M | re.S).group(1), 0.0
+    for sign, number, product in re.findall(r"([+-]?) ?([0-9.]+)((?: [a-z]+(?:\^[0-9])?)*)", text):
+        term = float(sign + number)
+        for word in product.split():
+            name, _, power = word.partition("^")
+            term *= value[name] ** int(power or 1)
+        total += term
+    return total
 
 
 def arc(g):
@@ -33,13 +48,13 @@ def arc(g):
     N = si * co + sh * ch
     C1, C2 = nu * (sh * co - ch * si) / (2 * l * l * N), nu * (ch * si + sh * co) / (2 * l * l * N)
     inner, outer = 1 - C1 / (r * t / 2), 1 + (C1 * ch * co + C2 * sh * si) / (r * t / 2)
-    q, p, w, n = max(x, 0.1) ** (-2 / 3), h / (h + 4 * t), t / (3 * r), nu * f
-    G = (1.0312 + n * p * (1.8208 * p * p - 0.7838) + nu * p * p * (q * (0.8824 - 1.069 * p) - 0.0907 * x * p)
-         + w * (0.316 * p + 3.092 * n * x - 0.2066 * q))
-    bend = t / (2 * (L + 2 * dL))
+    p, w, reach = h / (h + 4 * t), t / (3 * r), h * f / sqrt(6 * (1 + nu))
+    d = nu * nu * f * reach * reach / (reach + 0.4192 * t)
+    G = sum_of_page({"x": x, "q": x ** (-2 / 3), "p": p, "nu": nu, "n": nu * f, "w": w})
+    bend, least = t / (2 * (L + 2 * dL)), t / (2 * (L + 2 * dL - 2 * d))
     return {"L": L, "dL": dL, "Kt": Kt, "D": D, "f": f, "xW": xW, "K": K, "kx": 1 / C_xx, "ky": 1 / C_yy, "F_i": inner,
             "F_o": outer, "G": G, "fit": bend * Kt * max((1 + w) * inner, (1 - w) * outer),
-            "bound": bend * max(Kt * (1 + w) * G, (1 + w) * inner, (1 - w) * outer), "bow": nu * nu * f}
+            "d": d, "bound": least * max(Kt * (1 + w) * G, (1 + w) * inner, (1 - w) * outer), "bow": nu * nu * f}
 
 
 def hinge(run, which, device=DEVICE):

@@ -9,6 +9,7 @@
    half depth by half of it) about the wafer's normal, free to move and to change its width. um, uN,
    MPa. Cost: some ms, the solver's some seconds. tools/solids/README.md */
 #include "continuum/mesh.h"
+#include "geometry/strip.h"
 #include "row.h"
 #include <stdlib.h>
 
@@ -40,6 +41,35 @@ static fw_continuum_mesh half_of(const fw_continuum_mesh *whole) {
     return m;
 }
 
+/* Widths that vary as those of the program's strips do: every place across is moved in proportion,
+   the edge by as much as the strip's is beside that of one width; fillets go with it */
+static void vary(const solid_row *row, fw_continuum_mesh *m) {
+    double L = row->leaf ? row->size_m : row->size_m * row->angle_rad, t = row->width_m;
+    const fw_geometry_strip_piece piece = {
+        L, row->leaf ? 0 : 1 / row->size_m, {t, row->width_middle_m, t}};
+    fw_geometry_strip_shape shape;
+    fw_geometry_strip_shape_of(&piece, &shape);
+    const size_t row_nodes = (size_t)(2 * m->nj + 1);
+    for (int i = 0; i <= 2 * m->ni; i++) {
+        double out[2], *x = m->x + (size_t)i * row_nodes, *y = m->y + (size_t)i * row_nodes;
+        for (int side = 0; side < 2; side++) {
+            size_t n = side ? row_nodes - 1 : 0;
+            out[side] = row->leaf ? x[n] : hypot(x[n], y[n]) - row->size_m;
+        }
+        for (size_t j = 0; j < row_nodes; j++) {
+            double b = row->leaf ? 0 : atan2(y[j], x[j]);
+            double n = row->leaf ? x[j] : hypot(x[j], y[j]) - row->size_m;
+            double s = row->leaf ? y[j] + 0.5 * L : row->size_m * (b + 0.5 * row->angle_rad);
+            if (!(s > 0 && s < L)) continue;
+            double more = 0.5 * (fw_geometry_strip_width(&shape, s) - t);
+            double part = n / (n * out[0] > 0 ? fabs(out[0]) : fabs(out[1]));
+            n += part * more - fw_geometry_strip_aside(&shape, s);
+            x[j] = row->leaf ? n : (row->size_m + n) * cos(b);
+            if (!row->leaf) y[j] = (row->size_m + n) * sin(b);
+        }
+    }
+}
+
 static fw_status mesh_of(fw_arena *arena, const solid_row *row, int fineness, int layers,
                          fw_continuum_mesh *half) {
     const fw_flexure_input in = row_input(row);
@@ -51,6 +81,7 @@ static fw_status mesh_of(fw_arena *arena, const solid_row *row, int fineness, in
     fw_status status = fw_continuum_mesh_finer(arena, &shape, 1, false, finer, &whole, &why);
     if (status) fprintf(stderr, "no mesh: %s\n", why);
     FW_TRY(status);
+    if (row->width_middle_m > 0) vary(row, &whole);
     if (fw_continuum_mesh_quality(&whole).least_jacobian < 0.02 || whole.ni % 2) {
         fprintf(stderr, "no mesh: bricks too skew\n");
         return FW_GEOMETRY;

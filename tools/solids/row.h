@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One row of tests/data/hinge/root_strain.csv, up to the axis: what it is a solid of. */
+/* One row of tests/data/hinge/root_strain.csv, up to the axis: what it is a solid of. The width in
+   the middle follows in varying.csv alone. */
 #ifndef FW_TOOLS_SOLIDS_ROW_H
 #define FW_TOOLS_SOLIDS_ROW_H
 #include "flexure/flexure.h"
@@ -15,6 +16,7 @@ static const double row_silicon_Pa[3] = {165.7e9, 63.9e9, 79.6e9}; /* c11, c12, 
 typedef struct solid_row {
     bool leaf, silicon;
     double size_m, width_m, angle_rad, fillet_m, depth_m, poisson, axis_rad;
+    double width_middle_m; /* 0: one width */
 } solid_row;
 
 static inline bool row_of(const char *line, solid_row *row) {
@@ -32,6 +34,9 @@ static inline bool row_of(const char *line, solid_row *row) {
                        .depth_m = 1e-6 * v[4],
                        .poisson = v[5],
                        .axis_rad = v[6] * M_PI / 180};
+    double middle = 0;
+    if (sscanf(line, "%*[^,],%*[^,],%*f,%*f,%*f,%*f,%*f,%*f,%*f,middle=%lf", &middle) == 1)
+        row->width_middle_m = 1e-6 * middle;
     return true;
 }
 
@@ -41,6 +46,7 @@ static inline fw_flexure_input row_input(const solid_row *row) {
                            .angle_rad = row->leaf ? 0 : row->angle_rad,
                            .radius_m = row->leaf ? 0 : row->size_m,
                            .width_m = row->width_m,
+                           .width_middle_m = row->width_middle_m,
                            .fillet_m = row->fillet_m,
                            .depth_m = row->depth_m,
                            .youngs_Pa = row_youngs_Pa,

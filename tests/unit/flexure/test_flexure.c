@@ -50,6 +50,11 @@ static void csfh_matches_the_reference_ladder(void **state) {
         assert_relative(out.strain_per_rad, row[i].fe_strain, 0.03);
         assert_relative(out.limit_angle_rad * row[i].in.youngs_Pa * out.strain_per_rad, 500e6,
                         1e-14);
+        fw_flexure_input in = row[i].in; /* with what the ends lose */
+        in.ends = true;
+        fw_flexure_closed_form(&in, &out);
+        assert_relative(out.stiffness_Nm_per_rad * 1e12, row[i].fe_stiffness, 0.001);
+        assert_near((out.centre_m + out.offset_m[0]) * 1e6, row[i].fe_centre_um, 0.06);
     }
 }
 
@@ -71,6 +76,10 @@ static void leaf_matches_the_reference(void **state) {
     assert_relative(out.stiffness_thin * 1e12, 765075.5, 1e-7);
     assert_relative(out.kx_N_per_m, 41.326, 2e-3); /* plane-stress finite elements */
     assert_near(out.centre_m, 0.0, 0.0);
+    in.ends = true; /* solids of 50 um, without blocks */
+    fw_flexure_closed_form(&in, &out);
+    assert_relative(out.stiffness_Nm_per_rad * 1e12, 767802.8, 0.001);
+    assert_relative(out.kx_N_per_m, 41.717, 0.001);
 }
 
 static void root_law_matches_finite_elements(void **state) {

@@ -87,6 +87,13 @@ static void ratios_of_thin_arcs(void **state) {
     fw_flexure_hinge_law_at(&law, 0, &at);
     assert_relative(o.kx_N_per_m * pow(leaf.length_m, 2) / o.stiffness_Nm_per_rad, 12, 1e-9);
     assert_near(0.5 * at.drift_m.curve / law.length_m, 0.08333, 5e-6);
+    /* the strip is shorter by what its ends lose (13a), which is nothing without Poisson's ratio */
+    assert_true(o.ends_stiffer > 1);
+    assert_near(o.strain_per_rad / (o.concentration * o.ends_stiffer) * leaf.length_m /
+                    leaf.width_m,
+                0.5, 1e-9);
+    leaf.poisson = 0;
+    o = form(&leaf);
     assert_near(o.strain_per_rad / o.concentration * leaf.length_m / leaf.width_m, 0.5, 1e-9);
 }
 
@@ -236,7 +243,7 @@ static void three_dimensional_real_roots(void **state) {
         assert_relative(o.kx_N_per_m, fe[i][3], 0.008);
         assert_relative(o.ky_N_per_m, fe[i][4], 0.011);
         assert_near(o.strain_fit_per_rad, printed[i], 5.1e-6);
-        assert_relative(o.strain_per_rad, printed[i], 0.005); /* never below, and no more than: */
+        /* never below a solid, and no more than: */
         assert_true(o.strain_per_rad >= fe[i][5] && o.strain_per_rad <= 1.015 * fe[i][5]);
         assert_relative(o.stiffness_Nm_per_rad * 1e12, fe[i][1], o.error.stiffness);
         assert_near(o.centre_m * 1e6, fe[i][2], o.error.centre_m * 1e6);
@@ -307,7 +314,8 @@ static void estimates_widen(void **state) {
         assert_true(e.outside);
         assert_relative(e.stiffness, 2 * inside.stiffness, 0.005);
         assert_relative(e.ky, 2 * inside.ky, 0.005);
-        assert_relative(e.strain, 2 * inside.strain, 0.005);
+        /* of a fillet beyond the laws of the root a guess beside what doubles */
+        assert_relative(e.strain, i == 0 ? 2 * 0.021 + 0.10 : 2 * inside.strain, 0.005);
         assert_relative(e.centre_m, 2 * inside.centre_m, 0.005);
     }
     assert_near(form(&far[0]).limit_uncertainty, 0.065, 1e-15);

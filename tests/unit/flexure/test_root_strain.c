@@ -11,30 +11,51 @@
  */
 #include "flexure/flexure.h"
 #include "test.h"
+#include <stdlib.h>
 
 typedef struct row {
     bool leaf, silicon;
     double size, width, angle, fillet, depth, poisson, axis, strain; /* um, deg, 1/rad */
     double coarser;                                                  /* 0: one mesh only */
+    double stiffness; /* N m/rad; 0: not in the table */
 } row;
 
-enum { MOST = 600 };
+enum { MOST = 800 };
 
-static int rows_of(row *rows) {
+static int rows_in(const char *path, row *rows) {
     char line[256], kind[16], material[16];
     int n = 0;
-    FILE *file = fopen(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain.csv", "r");
+    FILE *file = fopen(path, "r");
     assert_non_null(file);
     assert_non_null(fgets(line, sizeof line, file));
     for (row *r = rows; n < MOST && fgets(line, sizeof line, file); r++, n++) {
-        r->coarser = 0;
-        assert_true(sscanf(line, "%15[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%*d,%lf", kind,
-                           material, &r->size, &r->width, &r->angle, &r->fillet, &r->depth,
-                           &r->poisson, &r->axis, &r->strain, &r->coarser) >= 10);
+        int read = 0;
+        r->coarser = r->stiffness = 0;
+        assert_int_equal(sscanf(line, "%15[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%*d,%n",
+                                kind, material, &r->size, &r->width, &r->angle, &r->fillet,
+                                &r->depth, &r->poisson, &r->axis, &r->strain, &read),
+                         10);
+        char *next = line + read;
+        if (*next != ',') r->coarser = strtod(next, &next);
+        if (*next == ',') r->stiffness = strtod(next + 1, NULL);
         r->leaf = strcmp(kind, "leaf") == 0, r->silicon = strcmp(material, "silicon") == 0;
     }
     fclose(file);
     return n;
+}
+
+static int rows_of(row *rows) {
+    return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain.csv", rows);
+}
+
+/* random shapes within the range of the narrow band; nothing was fitted to them */
+static int held_out(row *rows) {
+    return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_held_out.csv", rows);
+}
+
+/* others, solved when the bound was fitted to all of the former that are of silicon */
+static int unseen(row *rows) {
+    return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_unseen.csv", rows);
 }
 
 static fw_flexure_input input_of(const row *r) {
@@ -55,31 +76,87 @@ static fw_flexure_input input_of(const row *r) {
     return in;
 }
 
-/* never below a solid and at most 4 % above, 5 % above those deeper than 10 t; the own estimate
-   holds all of it. One figure in ten thousand is what the table is rounded to */
+/* of the narrow band: fillets from t/10 (silicon 0.15 t) to 1.25 t, no deeper than 10 t */
+static bool inside(const row *r) {
+    double x = r->fillet / r->width;
+    return x > (r->silicon ? 0.1499 : 0.0999) && x < 1.2501 && r->depth < 10.001 * r->width;
+}
+
+static double above(const row *r, const fw_flexure_result *o) {
+    return o->strain_per_rad / r->strain - 1;
+}
+
+/* never below a solid; at most 2 % above, of silicon 2.2 %, beyond the range of the narrow band 4 %
+   and 5.2 %; the own estimate holds all of it. One figure in ten thousand is what the table is
+   rounded to */
 static void never_below_a_solid(void **state) {
     (void)state;
     static row rows[MOST];
-    int n = rows_of(rows), counted[2] = {0}, deep = 0;
+    int n = rows_of(rows), counted[2] = {0}, outside = 0;
     double most[2] = {0};
     for (int i = 0; i < n; i++) {
         const row *r = &rows[i];
         const fw_flexure_input in = input_of(r);
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
-        double over = o.strain_per_rad / r->strain - 1;
-        bool deeper = r->depth > 10.001 * r->width;
-        double top = deeper ? 0.05 : 0.04;
+        double over = above(r, &o);
+        double top = inside(r) ? (r->silicon ? 0.022 : 0.02) : r->silicon ? 0.052 : 0.04;
         if (!(over >= -1e-4 && over <= top))
             fail_msg("row %d: %.4f above the solid, allowed 0 to %.4f", i + 2, over, top);
         assert_true(fabs(1 / (1 + over) - 1) < o.error.strain);
-        if (deeper)
-            deep++;
-        else
-            most[r->silicon] = fmax(most[r->silicon], over), counted[r->silicon]++;
+        outside += !inside(r);
+        if (inside(r)) most[r->silicon] = fmax(most[r->silicon], over), counted[r->silicon]++;
     }
-    assert_true(counted[0] > 200 && counted[1] > 200 && deep > 30);
-    assert_true(most[0] > 0.02 && most[1] > 0.02); /* the bounds above say something */
+    assert_true(counted[0] > 250 && counted[1] > 230 && outside > 100);
+    assert_true(most[0] > 0.015 && most[1] > 0.015); /* the bounds above say something */
+}
+
+/* the same of solids that nothing was fitted to, and the stiffness with what the ends lose (13a),
+   to which no number was fitted */
+static void solids_that_were_not_fitted(void **state) {
+    (void)state;
+    static row rows[MOST];
+    int n = held_out(rows);
+    double square = 0;
+    for (int i = 0; i < n; i++) {
+        const row *r = &rows[i];
+        fw_flexure_input in = input_of(r);
+        fw_flexure_result o;
+        in.ends = true;
+        fw_flexure_closed_form(&in, &o);
+        double over = above(r, &o), off = o.stiffness_Nm_per_rad / r->stiffness - 1;
+        double top = inside(r) ? (r->silicon ? 0.0235 : 0.02) : 0.052;
+        if (!(over >= (inside(r) ? -2e-4 : -o.error.above) && over <= top))
+            fail_msg("row %d: %.4f above the solid", i + 2, over);
+        if (!(fabs(off) < o.error.stiffness))
+            fail_msg("row %d: stiffness off by %.4f, stated %.4f", i + 2, off, o.error.stiffness);
+        assert_true(o.error.stiffness < 0.03);
+        square += off * off;
+    }
+    assert_true(n > 120 && sqrt(square / n) < 0.002);
+}
+
+/* 15 isotropic and 44 of silicon that no fit has seen: none is above the bound, and none further
+   below it than stated; of silicon one in range of h > t is 2.5 % below, two shallower 3.6 and 4.1 %
+ */
+static void solids_that_no_fit_has_seen(void **state) {
+    (void)state;
+    static row rows[MOST];
+    int n = unseen(rows), silicon = 0, shallow = 0;
+    for (int i = 0; i < n; i++) {
+        const row *r = &rows[i];
+        const fw_flexure_input in = input_of(r);
+        fw_flexure_result o;
+        assert_true(inside(r));
+        fw_flexure_closed_form(&in, &o);
+        double solid = r->strain / o.strain_per_rad - 1;
+        if (!(solid < 0 && solid > -o.error.strain))
+            fail_msg("row %d: %.4f beside the bound, stated %.4f", i + 2, solid, o.error.strain);
+        assert_true(o.error.strain < (r->silicon ? 0.0256 : 0.0211) ||
+                    (r->silicon && r->depth < r->width));
+        silicon += r->silicon, shallow += r->silicon && r->depth < r->width;
+    }
+    assert_true(n > 50 && silicon > 40 && shallow > 3);
 }
 
 /* what a solid's own mesh is off by: two of them */
@@ -133,7 +210,8 @@ static void fit_is_beside(void **state) {
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
         if (rows[i].silicon || rows[i].depth > 10.001 * rows[i].width) continue;
-        double t = in.width_m, beam = 0.5 * t / (in.length_m + 2 * o.root_length_m);
+        double t = in.width_m, ended = o.ends_stiffer / (in.length_m + 2 * o.root_length_m);
+        double beam = 0.5 * t * ended;
         assert_relative(o.strain_per_rad, beam * o.concentration, 1e-13);
         low = fmin(low, o.strain_per_rad / o.strain_fit_per_rad);
         high = fmax(high, o.strain_per_rad / o.strain_fit_per_rad);
@@ -167,8 +245,11 @@ static void mirrored(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(never_below_a_solid),
+                                       cmocka_unit_test(solids_that_were_not_fitted),
+                                       cmocka_unit_test(solids_that_no_fit_has_seen),
                                        cmocka_unit_test(solids_agree_with_themselves),
                                        cmocka_unit_test(never_below_the_reference),
-                                       cmocka_unit_test(fit_is_beside), cmocka_unit_test(mirrored)};
+                                       cmocka_unit_test(fit_is_beside),
+                                       cmocka_unit_test(mirrored)};
     return cmocka_run_group_tests_name("root_strain", tests, NULL, NULL);
 }

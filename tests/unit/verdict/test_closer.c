@@ -11,8 +11,11 @@ static double unit(uint64_t *seed) {
 }
 
 static fw_verdict_hinge_verdict hinge(double u, double numeric, double model, double lasting) {
-    fw_verdict_hinge_verdict h = {
-        .scene = "s", .utilisation = u, .numeric = numeric, .lasting = lasting};
+    fw_verdict_hinge_verdict h = {.scene = "s",
+                                  .utilisation = u,
+                                  .numeric = numeric,
+                                  .lasting = lasting,
+                                  .lasting_low = lasting};
     h.utilisation_low = u * (1 - model) - numeric;
     h.utilisation_high = u * (1 + model) + numeric;
     h.decision = h.utilisation_low > 1    ? FW_REJECT

@@ -114,6 +114,7 @@ static void rotation_and_unknown_axis(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fw_mechanism_hinge h = hinge_of(arena, arc(), 4e-6, 1.0), other = h, unknown = h;
+    const fw_mechanism_hinge sharp = hinge_of(arena, arc(), -1, 1.0);
     other.first_is_a = false;
     unknown.axis_rad = (double)NAN;
     double per = h.closed_form.strain_per_rad;
@@ -130,7 +131,14 @@ static void rotation_and_unknown_axis(void **state) {
         assert_relative(strain_of(&other, -0.1, -fx, -fy, 0.3).peak, s.peak, 1e-12);
         const fw_verdict_hinge_strains any = strain_of(&unknown, 0.1, fx, fy, 0.3);
         assert_true(any.peak >= s.peak && any.least <= s.peak);
-        assert_true(s.least == s.peak && s.held);
+        /* where the fillets end the moment is less, by no more than the force times the fillet, and
+           blocks give by no more than 1.6 t of strip each */
+        double less = per / h.closed_form.stiffness_Nm_per_rad * 2e-4 * 4e-6;
+        double give = 3.2 * h.input.width_m / (h.input.length_m + 3.2 * h.input.width_m);
+        assert_true(s.least <= s.peak && s.least >= s.peak * (1 - give) - less && s.held);
+        assert_true(any.least <= s.least);
+        s = strain_of(&sharp, 0.1, fx, fy, 0.3); /* without fillets and blocks one figure */
+        assert_true(s.least <= s.peak && s.least > 0.9999 * s.peak && s.held);
     }
     fw_arena_free(arena);
 }
