@@ -54,6 +54,8 @@ double fw_effects_contact_gap(const fw_effect_case *c, const fw_device_contact_u
 bool fw_effects_contact_may_touch(const fw_effect_case *c);
 /* this pin's damper comes from the scene's <material-damping>: joint-damping has nothing to add */
 bool fw_effects_material_damped(const fw_effect_case *c, int pin);
+/* loss factor of the flexures: the scene's, else the material's; NaN: not known */
+double fw_effects_loss(const fw_effect_case *c);
 /* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */
 double fw_effects_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
                                double gap_m, double force_N);

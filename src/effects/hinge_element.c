@@ -6,10 +6,10 @@
      w = e.D,  v = n.D,  U = U(o th, o w, o v) of flexure/finite_force.c,
      o = 1 where body a has the root at -a, else -1
 
-   Force -dU/dp, stiffness d2U/dp dp in full. The material dissipates in all three deformations
-   alike: forces -tau (kx w' dw/dp + ky z' dz/dp), z = v - o drift(o th), with tau = c/K of the pin's
-   own viscous damper, which goes on acting on th (joint-damping, material-damping); a damping stated
-   in the file is for the rotation only. All of U is proportional to Young's modulus: warm, it is
+   Force -dU/dp, stiffness d2U/dp dp in full. The material dissipates in all three deformations:
+   forces -(tau_x kx w' dw/dp + tau_y ky z' dz/dp), z = v - o drift(o th), beside the pin's own viscous
+   damper c, which goes on acting on th (joint-damping, material-damping); tau of hinge_release.c, at
+   most c/K. A damping stated in the file is for the rotation only. All of U is proportional to Young's modulus: warm, it is
    U (1 + beta dT law(t)), which the law feeds with U beta dT law'; dampers keep their values.
    Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid where the law is. Error: see
    flexure/finite_force.c. Cost of a force some 1500 instructions. Source:
@@ -55,7 +55,7 @@ static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool la
               .th = pb[2] - pa[2] - f->free_rad};
     const double at[3] = {o * b.th, o * b.x, o * b.y};
     if (law) fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &b.law);
-    if (f->loss_s > 0) {
+    if (fw_effects_flexed_loses(f)) {
         if (!law) softness_alone(f, &b);
         rates(s, &b);
     }
@@ -82,9 +82,9 @@ double fw_effects_flexed_warmth(const fw_effects_force_element *e, const fw_effe
 static inline void modal_load(const flexed *h, const fw_effects_port_state *s, double warm,
                               double *f) {
     const bent b = bend(h, s, warm != 0);
-    double o = h->sense * warm, lost = h->loss_s * b.law.ky_N_per_m * b.z_rate;
+    double o = h->sense * warm, lost = h->loss_s[1] * b.law.ky_N_per_m * b.z_rate;
     double moment = o * b.law.gradient[0] - lost * b.law.drift_slope;
-    double X = o * b.law.gradient[1] + h->loss_s * b.law.kx_N_per_m * b.w_rate;
+    double X = o * b.law.gradient[1] + h->loss_s[0] * b.law.kx_N_per_m * b.w_rate;
     double Y = o * b.law.gradient[2] + lost;
     double both = 0.5 * (Y * b.x - X * b.y); /* half of the couple that the offset makes */
     f[0] = X * b.c - Y * b.n, f[1] = X * b.n + Y * b.c;
@@ -110,8 +110,8 @@ static double energy(const fw_effects_force_element *e, const fw_effects_port_st
 }
 
 static double lost_W(const flexed *h, const bent *b) {
-    return h->loss_s *
-           (b->law.kx_N_per_m * b->w_rate * b->w_rate + b->law.ky_N_per_m * b->z_rate * b->z_rate);
+    return h->loss_s[0] * b->law.kx_N_per_m * b->w_rate * b->w_rate +
+           h->loss_s[1] * b->law.ky_N_per_m * b->z_rate * b->z_rate;
 }
 
 double fw_effects_flexed_loss_W(const fw_effects_flexed *h, const fw_effects_port_state *s) {
@@ -215,9 +215,9 @@ static void add_loss(const flexed *h, const fw_effects_port_state *s, strain *w,
     fw_flexure_hinge_law_at(&h->law, h->sense * (s->p[5] - s->p[2] - h->free_rad), &law);
     less_drift(z, seen_from_a(law.drift_m, h->sense, true));
     w->rate = rate_of(w, s->w), z->rate = rate_of(z, s->w);
-    add_strain(w, seen_from_a(law.kx_N_per_m, h->sense, false), h->loss_s, s->w, stiffness,
+    add_strain(w, seen_from_a(law.kx_N_per_m, h->sense, false), h->loss_s[0], s->w, stiffness,
                damping);
-    add_strain(z, seen_from_a(law.ky_N_per_m, h->sense, false), h->loss_s, s->w, stiffness,
+    add_strain(z, seen_from_a(law.ky_N_per_m, h->sense, false), h->loss_s[1], s->w, stiffness,
                damping);
 }
 
@@ -238,7 +238,7 @@ void fw_effects_flexed_tangent(const fw_effects_flexed *h, const fw_effects_port
         fw_flexure_hinge_law_bend(&h->law, &h->rest, at, true, &law);
         add_elastic(h, &law, &w, &v, warm, stiffness);
     }
-    if (h->loss_s > 0) add_loss(h, s, &w, &v, stiffness, damping);
+    if (fw_effects_flexed_loses(h)) add_loss(h, s, &w, &v, stiffness, damping);
 }
 
 static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,

@@ -11,12 +11,15 @@ typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, 
     fw_flexure_hinge_law law;
     double sense;               /* o: 1 where body a has the root at polar angle -a, else -1 */
     double axis_rad, free_rad;  /* axis less half of the drawn turns */
-    double loss_s;              /* tau */
+    double loss_s[2];           /* tau along and across the axis */
     double factor, varying;     /* U times factor + varying law(t): temperature */
     fw_flexure_hinge_rest rest; /* what does not depend on the rotation */
     fw_effects_exact *exact;    /* of hinge_exact.c; NULL: closed form */
 } fw_effects_flexed;
 
+static inline bool fw_effects_flexed_loses(const fw_effects_flexed *h) {
+    return h->loss_s[0] > 0 || h->loss_s[1] > 0;
+}
 /* what U is multiplied by, and its rate */
 double fw_effects_flexed_warmth(const fw_effects_force_element *e, const fw_effects_port_state *s,
                                 double *rate);

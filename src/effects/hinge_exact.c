@@ -146,7 +146,7 @@ static void force(const fw_effects_force_element *e, const fw_effects_port_state
     double gx = warm * (at.c * w[1] - at.s * w[2]), gy = warm * (at.s * w[1] + at.c * w[2]);
     double turn = warm * (w[1] * at.twist[2] - w[2] * at.twist[1]);
     memset(f, 0, 6 * sizeof *f);
-    if (h->loss_s > 0) fw_effects_flexed_force(h, s, 0, f);
+    if (fw_effects_flexed_loses(h)) fw_effects_flexed_force(h, s, 0, f);
     f[at.second] -= gx, f[at.second + 1] -= gy, f[at.second + 2] -= warm * w[0];
     f[at.first] += gx, f[at.first + 1] += gy, f[at.first + 2] += warm * w[0] - turn;
 }
@@ -170,7 +170,7 @@ static void power(const fw_effects_force_element *e, const fw_effects_port_state
                   double power[2]) {
     const fw_effects_flexed *h = e->data;
     double rate;
-    power[0] = h->loss_s > 0 ? fw_effects_flexed_loss_W(h, s) : 0;
+    power[0] = fw_effects_flexed_loses(h) ? fw_effects_flexed_loss_W(h, s) : 0;
     power[1] = 0;
     fw_effects_flexed_warmth(e, s, &rate);
     if (e->laws > 0) power[1] = rate * stored(h, s);
@@ -229,7 +229,7 @@ static void tangent(const fw_effects_force_element *e, const fw_effects_port_sta
         }
     add_turning(&at, h->exact->wrench, warm, stiffness);
     memset(damping, 0, N * N * sizeof *damping);
-    if (h->loss_s > 0) add_loss(h, s, stiffness, damping);
+    if (fw_effects_flexed_loses(h)) add_loss(h, s, stiffness, damping);
 }
 
 static bool valid(const fw_effects_force_element *e, const fw_effects_port_state *s,

@@ -23,8 +23,39 @@ bool fw_effects_material_damped(const fw_effect_case *c, int pin) {
            !m->hinge[hinge].damping_stated;
 }
 
+double fw_effects_loss(const fw_effect_case *c) {
+    const int n = c->scene->ndamping;
+    if (n > 0 && !isnan(c->scene->damping[n - 1].loss_factor))
+        return c->scene->damping[n - 1].loss_factor;
+    const fw_mechanism_variant *v = c->mechanism->variant;
+    if (!v || v->material.loss.unknown || !isfinite(v->material.loss.value)) return (double)NAN;
+    return v->material.loss.value;
+}
+
 static double drawn_turn(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? 0 : m->body[body].phi_rad;
+}
+
+static double mass_of(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? (double)INFINITY : m->body[body].mass_kg;
+}
+
+/* A loss factor hardly depends on the frequency, a damper's is proportional to it. So along either
+   direction the relaxation time is eta/omega, omega = sqrt(k/m) of the smaller mass of the hinge's
+   bodies on the stiffness there, and no more than that of the rotation: what rings a hundred times
+   faster would be damped a hundred times too much, and its strain with it. eta is no less than this,
+   a quarter of a per cent of critical damping: what nothing but rounding and the law's first instant
+   sets off dies within the scene, and need not be followed by steps as short as its period; what
+   rings loses 0.8 % of its amplitude per half period.
+   in: s, 1; out: s. Test: test_material_damping.c what_is_stiff_rings_on */
+static const double fw_least_ringing_loss = 5e-3;
+
+static void lose(const fw_mechanism *m, const fw_mechanism_pin *pin, const fw_flexure_hinge_at *at,
+                 double tau_s, double loss, double out[2]) {
+    const double k[2] = {at->kx_N_per_m.value, at->ky_N_per_m.value};
+    double mass = fmin(mass_of(m, pin->body_a), mass_of(m, pin->body_b));
+    for (int i = 0; i < 2; i++)
+        out[i] = fmin(tau_s, fmax(loss, fw_least_ringing_loss) * sqrt(mass / k[i]));
 }
 
 fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *loads, int hinge) {
@@ -43,15 +74,17 @@ fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *lo
         .free_rad = pin->free_angle_rad,
         .axis_rad = h->axis_rad - 0.5 * (drawn_turn(m, pin->body_a) + drawn_turn(m, pin->body_b))};
     f->law.stiffness_Nm_per_rad = pin->stiffness_Nm_per_rad;
+    double tau = 0;
     if (loads->torsion_of[h->pin]) { /* the spring is the element's now, the damper stays */
         fw_effects_torsion *t = &loads->torsion[loads->torsion_of[h->pin] - 1];
         t->stiffness_Nm_per_rad = 0;
         if (!h->damping_stated && pin->stiffness_Nm_per_rad > 0)
-            f->loss_s = t->damping_Nms_per_rad / pin->stiffness_Nm_per_rad;
+            tau = t->damping_Nms_per_rad / pin->stiffness_Nm_per_rad;
     }
     f->rest = fw_flexure_hinge_rest_of(&f->law);
     fw_flexure_hinge_at at;
     fw_flexure_hinge_law_at(&f->law, 0, &at);
+    lose(m, pin, &at, tau, fw_effects_loss(c), f->loss_s);
     e->data = f;
     e->id = pin->id;
     e->pin = h->pin;
@@ -59,7 +92,7 @@ fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *lo
     e->port[1] = (fw_effects_port){pin->body_b, pin->bx_m, pin->by_m};
     e->root_m[0] = pin->root_a_m, e->root_m[1] = pin->root_b_m;
     e->size_N_per_m = fmax(at.kx_N_per_m.value, at.ky_N_per_m.value);
-    e->dissipates = f->loss_s > 0;
+    e->dissipates = fw_effects_flexed_loses(f);
     if (m->device && h->pin < m->device->nrevolute) e->place = m->device->revolute[h->pin].place;
     loads->released[h->pin] = true;
     loads->nreleased++;

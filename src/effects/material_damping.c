@@ -39,23 +39,15 @@ static double frequency_of(const fw_effect_case *c, const fw_mechanism_pin *p) {
     return sqrt(p->stiffness_Nm_per_rad / fmin(a, b));
 }
 
-static double loss_of(const fw_effect_case *c) {
-    double stated = c->scene->damping[c->scene->ndamping - 1].loss_factor;
-    if (!isnan(stated)) return stated;
-    const fw_mechanism_variant *v = c->mechanism->variant;
-    if (!v || v->material.loss.unknown || !isfinite(v->material.loss.value)) return (double)NAN;
-    return v->material.loss.value;
-}
-
 /* N m s/rad; NaN: the material's loss factor is not known */
 static double damping_of(const fw_effect_case *c, int pin) {
     const fw_mechanism_pin *p = &c->mechanism->pin[pin];
     if (!(p->stiffness_Nm_per_rad > 0)) return 0;
-    return loss_of(c) * p->stiffness_Nm_per_rad / frequency_of(c, p);
+    return fw_effects_loss(c) * p->stiffness_Nm_per_rad / frequency_of(c, p);
 }
 
 static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
-    if (isnan(loss_of(c))) {
+    if (isnan(fw_effects_loss(c))) {
         const fw_mechanism_variant *v = c->mechanism->variant;
         if (!c->diags) return FW_INPUT;
         return fw_diag_error(c->diags, 247, c->scene->damping[c->scene->ndamping - 1].place,
@@ -79,7 +71,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     const fw_effects_envelope *v = c->envelope;
     *value = (double)INFINITY;
     *reason = "the loss factor is not known";
-    if (isnan(loss_of(c))) return FW_OK;
+    if (isnan(fw_effects_loss(c))) return FW_OK;
     if (!v || !v->valid) {
         FW_NEED(*reason = fw_arena_printf(c->arena,
                                           "the material has a loss factor, and nothing bounds how "

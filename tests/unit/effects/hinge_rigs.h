@@ -43,6 +43,7 @@ static inline void rig_new(rig *r, int bodies, int pins) {
     assert_non_null(r->arena);
     r->diags = fw_diags_new(r->arena);
     r->variant.thickness_m = 50e-6;
+    r->variant.material.loss.value = 1; /* what gives is damped, wherever a test has a damper */
     r->m = (fw_mechanism){.variant = &r->variant,
                           .body = r->body,
                           .pin = r->pin,

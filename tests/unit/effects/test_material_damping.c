@@ -114,11 +114,12 @@ static void a_swinging_lever(void **state) {
     }
 }
 
-/* the same relaxation time for what the hinge gives, where the damping is the material's */
+/* no longer relaxation time for what the hinge gives than for its rotation, where the damping is the
+   material's */
 static void what_gives_is_damped_too(void **state) {
     (void)state;
     for (int stated = 0; stated < 2; stated++) {
-        fw_device_material_damping use = {.loss_factor = 5e-3, .frequency_Hz = 800};
+        fw_device_material_damping use = {.loss_factor = 5e-3, .frequency_Hz = 8e5};
         rig r;
         rig_chain(&r, &use);
         r.hinge[0].damping_stated = stated;
@@ -130,11 +131,42 @@ static void what_gives_is_damped_too(void **state) {
         const double p[6] = {0}, speed = 1e-3, axis = 0.4;
         const double w[6] = {0, 0, 0, speed * cos(axis), speed * sin(axis), 0};
         const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
-        double f[6], tau = 5e-3 / (2 * M_PI * 800);
+        double f[6], tau = 5e-3 / (2 * M_PI * 8e5);
         e->class_->force(e, &s, f);
         double wanted = stated ? 0 : -tau * at.kx_N_per_m.value * speed;
         assert_near(f[3] * cos(axis) + f[4] * sin(axis), wanted, 1e-12 * fabs(wanted) + 1e-20);
         assert_near(damper(&r, 0), stated ? 1e-12 : tau * r.pin[0].stiffness_Nm_per_rad, 1e-22);
+        fw_arena_free(r.arena);
+    }
+}
+
+/* what a hinge gives is damped as its material is at its own frequency, sqrt(k/m) of the lighter body,
+   but no less than a loss factor of 5e-3, and not by the rotation's damper, which is far too strong
+   there */
+static void what_is_stiff_rings_on(void **state) {
+    (void)state;
+    for (int scene = 0; scene < 2; scene++) {
+        fw_device_material_damping use = {.loss_factor = 2e-2, .frequency_Hz = 80};
+        rig r;
+        rig_chain(&r, scene ? &use : NULL);
+        double K = r.pin[1].stiffness_Nm_per_rad, eta = scene ? 2e-2 : 2e-3;
+        r.pin[1].damping_Nms_per_rad = eta * sqrt(K * (1e-15 + 1e-8 * 25e-8));
+        compile(&r);
+        assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.loads), FW_OK);
+        const fw_effects_force_element *e = &r.loads.element[1];
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_at(&r.hinge[1].law, 0, &at);
+        const double k[2] = {at.kx_N_per_m.value, at.ky_N_per_m.value};
+        for (int i = 0; i < 2; i++) {
+            double angle = 0.4 + i * M_PI / 2, speed = 1e-3, mass = 1e-8, f[6];
+            const double p[6] = {0}, w[6] = {0, 0, 0, speed * cos(angle), speed * sin(angle), 0};
+            const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
+            e->class_->force(e, &s, f);
+            double c = -(f[3] * cos(angle) + f[4] * sin(angle)) / speed;
+            double omega = sqrt(k[i] / mass); /* of the second body on the hinge */
+            assert_relative(c * omega / k[i], fmax(eta, 5e-3), 1e-9);
+            assert_true(damper(&r, 1) * omega / K > 1.5 * fmax(eta, 5e-3));
+        }
         fw_arena_free(r.arena);
     }
 }
@@ -145,6 +177,7 @@ int main(void) {
         cmocka_unit_test(where_it_holds),
         cmocka_unit_test(a_swinging_lever),
         cmocka_unit_test(what_gives_is_damped_too),
+        cmocka_unit_test(what_is_stiff_rings_on),
     };
     return cmocka_run_group_tests_name("material-damping", tests, NULL, NULL);
 }

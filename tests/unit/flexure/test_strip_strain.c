@@ -175,11 +175,56 @@ static void least_strain(void **state) {
     fw_arena_free(arena);
 }
 
+/* A force that presses the inner fillet of an arc stretches the outer one, which a moment strains
+   less: the peak is that of a face, and not the sum of both parts' largest */
+static void faces_of_an_arc(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    for (int i = 0; i < 12; i++) {
+        fw_flexure_input in = strip_of(i % 2 ? 140 : 250, 1 / (18.0 + i), 0.3);
+        fw_flexure_result c;
+        fw_flexure_path_strain strip;
+        fw_flexure_strip_strains pressed, pulled, plain;
+        fw_flexure_closed_form(&in, &c);
+        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &strip), FW_OK);
+        const fw_flexure_path_point *p = &strip.point[0];
+        double u = in.width_m / (3 * in.radius_m), k = p->strain_per_Nm, M = 1e-8;
+        assert_near(p->face[0], 1 - u,
+                    1e-12); /* outside: to the right of a strip that turns left */
+        assert_near(p->face[1], 1, 0);
+        const fw_flexure_path_point *middle = &strip.point[strip.n / 2];
+        assert_near(middle->face[0], 1, 0);
+        /* along the strip's tangent at its first root, with little else there than at the root */
+        double N = 0.25 * k * M / p->strain_per_N;
+        for (int way = -1; way <= 1; way++) {
+            fw_flexure_strip_strains *out = way < 0 ? &pressed : way ? &pulled : &plain;
+            fw_flexure_strip_load load = {.root_Nm = {M, 0},
+                                          .force_N = {way * N * p->cosine, way * N * p->sine},
+                                          .drawn = true,
+                                          .held = true};
+            fw_flexure_strip_strain(&strip, &load, out);
+            assert_near(out->root[0][0], k * M * (1 - u) + way * p->strain_per_N * N, 1e-9);
+            assert_near(out->root[0][1], -k * M + way * p->strain_per_N * N, 1e-9);
+        }
+        assert_true(fabs(pressed.root[0][0]) < fabs(pulled.root[0][0]));
+        assert_true(fabs(pulled.root[0][1]) < k * M);
+    }
+    /* a leaf's fillets are alike */
+    fw_flexure_input leaf = strip_of(0, 1 / 20.0, 0.3);
+    fw_flexure_result c;
+    fw_flexure_path_strain strip;
+    fw_flexure_closed_form(&leaf, &c);
+    assert_int_equal(fw_flexure_path_strain_new(arena, &leaf, &c, &strip), FW_OK);
+    assert_near(strip.point[0].face[0], 1, 0);
+    assert_near(strip.point[strip.n - 1].face[1], 1, 0);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tension),      cmocka_unit_test(as_the_exact_beam),
         cmocka_unit_test(pressed),      cmocka_unit_test(between_the_roots),
-        cmocka_unit_test(least_strain),
+        cmocka_unit_test(least_strain), cmocka_unit_test(faces_of_an_arc),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
