@@ -558,7 +558,9 @@ static const fw_cli_option_row table[] = {
      "run only the settings LEVEL;METHOD/INTEGRATOR/RTOL,... and print nothing: what the program "
      "starts under callgrind to count instructions",
      FW_OPT_TRADEOFF, take_settings},
-    {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
+    {"quiet", 'q', NULL,
+     "no messages but errors, and warnings after which a value is not to be relied on",
+     FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},
     {"no-progress", 0, NULL, "no progress on a terminal", FW_OPT_COMMON, take_no_progress},

@@ -178,21 +178,27 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
     return FW_OK;
 }
 
-/* what is odd, and may still be true */
-/* mm for um: a hundred times what is accepted is in the range of its dimension, and seldom true */
+/* mm for um, or nm: a hundred times what is accepted is in the range of its dimension, and seldom true. Said also to
+   those who want no warnings (-q), since no line can be taken back. */
 static void ask_units(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_recipe_measured *m = &e->measured[i];
         const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
-        double most = fw_recipe_asrun_limit(a->high, (double)NAN);
-        if (!(most > 0.0) || !(fabs(m->number) > 100.0 * most)) continue;
-        fw_diag_warning(r->diags, 283, r->place,
-                        "%s=%s is more than 100 times the %s %s that are accepted: is the unit "
-                        "right? A later entry of the step takes its place",
-                        m->measure, m->value, a->high, a->unit);
+        double most = fw_recipe_asrun_limit(a->high, (double)NAN),
+               least = fw_recipe_asrun_limit(a->low, (double)NAN), size = fabs(m->number);
+        bool above = most > 0.0 && size > 100.0 * most,
+             below = least > 0.0 && size > 0.0 && size < 0.01 * least;
+        if (!above && !below) continue;
+        fw_diag_unreliable(r->diags, 283, r->place,
+                           "%s=%s is %s the %s %s that are accepted: is the unit right? A later "
+                           "entry of the step takes its place",
+                           m->measure, m->value,
+                           above ? "more than 100 times" : "less than a hundredth of",
+                           above ? a->high : a->low, a->unit);
     }
 }
 
+/* what is odd, and may still be true */
 static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);

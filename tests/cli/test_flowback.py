@@ -72,6 +72,17 @@ class Flowback(unittest.TestCase):
             self.expect(self.etch(wafer, *first, power="262 W" if wafer == 3 else "250 W",
                                   rate=0.545 * (1 + 0.01 * self.random.gauss(0, 1))))
 
+    def test_a_doubtful_unit_is_said_to_the_quiet_too(self):
+        entry = "S01; start=2026-11-02T08:00; end=2026-11-02T08:08; by=AB; thickness=50.1 {}; cracks or chipped edge=0"
+        for number, (unit, says) in enumerate((("mm", "more than 100 times the 52 um"), ("nm", "less than a hundredth of the 48 um"),
+                                               ("um", None))):
+            self.log = self.here / f"{number}.log"
+            said = self.expect(self.command("--entry", entry.format(unit), "--wafer", "1", "--wafers", "6", "-q")).stderr
+            self.assertEqual(said.strip() == "", says is None, said)
+            if says:
+                self.assertIn(says, said)
+                self.assertIn("is the unit right?", said)
+
     def test_a_lot(self):
         self.lot()
         page = self.here / "report.html"

@@ -356,6 +356,9 @@ static void refused_values(void **state) {
     }
     with(begun(), entry("thickness=9.1 mm; thickness below the mould's top=6"), 0);
     assert_non_null(strstr(diags.item[1].message, "is the unit right?"));
+    assert_true(diags.item[1].unreliable);
+    with(begun(), entry("thickness=9.1 nm; thickness below the mould's top=6"), 0);
+    assert_non_null(strstr(diags.item[1].message, "less than a hundredth of the 8.1 um"));
     lot_wafers = NULL; /* a log of before there were wafers */
     with(begun(), entry("wafer=1"), 282);
     with(begun(), entry("thickness=9.1"), 0);
