@@ -238,9 +238,9 @@ static fw_status check_clock(const fw_recipe_asrun_reader *r, const fw_recipe_as
 }
 
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
-                              const fw_recipe_asrun *run, const char *words, double now_s,
-                              fw_diags *diags, const char **line) {
-    fw_recipe_asrun_reader r = {arena, flow, run, true, diags, {"entry", 1, 1}};
+                              const fw_recipe_asrun *run, const char *words, fw_place place,
+                              double now_s, fw_diags *diags, const char **line) {
+    fw_recipe_asrun_reader r = {arena, flow, run, true, diags, place};
     fw_recipe_asrun_entry e;
     char chain[65];
     size_t n = strlen(words);

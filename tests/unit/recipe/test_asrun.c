@@ -42,7 +42,8 @@ static const char *with(const char *log, const char *words, int number) {
     fw_recipe_asrun run;
     const char *line = NULL;
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-    fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, now, &diags, &line);
+    fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, (fw_place){"entry", 1, 1}, now,
+                                           &diags, &line);
     if (number) {
         assert_int_equal(status, FW_INPUT);
         assert_int_equal(diags.item[diags.count - 1].number, number);
@@ -402,7 +403,8 @@ static void anything_typed(void **state) {
                 memmove(words + at, words + at + 1, n - at);
         }
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-        fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, now, &diags, &line);
+        fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, (fw_place){"entry", 1, 1},
+                                               now, &diags, &line);
         assert_true(status == FW_OK || status == FW_INPUT);
         if (status == FW_OK) {
             const char *both = fw_arena_printf(arena, "%s%s", log, line);
