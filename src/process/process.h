@@ -460,6 +460,8 @@ void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
 /* once for all wafers together, whatever the machine takes */
 bool fw_process_step_is_of_lot(const fw_process_step *step);
+/* is it measured on this wafer of the lot (from 0)? The first one, and every so many behind it */
+bool fw_process_accept_is_due(const fw_process_accept *accept, int wafer);
 /* most wafers that go through a step at once: what the pack and the machine both allow */
 int fw_process_step_load(const fw_process_step *step);
 /* or NULL */

@@ -199,6 +199,31 @@ static void ask_units(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_ent
 }
 
 /* what is odd, and may still be true */
+/* in the lot; 0 where the entry is of all wafers, or the log names none: then everything is measured */
+static int index_of_wafer(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (int i = 0; e->wafer && i < run->nwafer; i++)
+        if (strcmp(run->wafer[i], e->wafer) == 0) return i;
+    return 0;
+}
+
+static bool gives(const fw_recipe_asrun_entry *e, const fw_process_accept *a) {
+    for (int i = 0; i < e->nmeasured; i++)
+        if (strcmp(e->measured[i].measure, a->measure) == 0) return true;
+    return false;
+}
+
+/* what the sheet has a cell for, and the entry no value */
+static void ask_missing(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
+                        const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < e->step->naccept; i++) {
+        const fw_process_accept *a = &e->step->accept[i];
+        if (fw_process_accept_is_due(a, index_of_wafer(run, e)) && !gives(e, a))
+            fw_diag_warning(r->diags, 283, r->place,
+                            "the entry does not give '%s', which step %s measures of this wafer",
+                            a->measure, e->step->id);
+    }
+}
+
 static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
@@ -215,10 +240,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                         "step %s starts before step %s, which was entered before it", e->step->id,
                         last->step->id);
     ask_units(r, e);
-    if (e->nmeasured < e->step->naccept)
-        fw_diag_warning(r->diags, 283, r->place,
-                        "the entry gives %d of the %d values that step %s measures", e->nmeasured,
-                        e->step->naccept, e->step->id);
+    ask_missing(r, run, e);
 }
 
 /* A line cannot be taken back, and a wrong year is soon typed: what ends more than a day after the clock's time has not
