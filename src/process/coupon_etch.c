@@ -112,10 +112,19 @@ static fw_status ladder_losses(fw_process_coupon_work *w, double *y, double *s, 
         }
     }
     if (!of) return FW_OK;
-    if (gone < 0.0 || isinf(stands))
-        return fw_process_coupon_wrong(w, of,
-                                       "undercut-ladder needs the widest line that is gone and the "
-                                       "narrowest that stands, both");
+    bool both = gone >= 0.0 && isfinite(stands);
+    if (!both && *n > 0) {
+        fw_diag_warning(
+            w->diags, 211, of->place,
+            "lines that are all gone, or all stand, bound the undercut on one side only: "
+            "these rows of undercut-ladder are left out, its widths are used");
+        return FW_OK;
+    }
+    if (!both)
+        return fw_process_coupon_wrong(
+            w, of,
+            "undercut-ladder without widths needs the widest line that is gone and the "
+            "narrowest that stands, both");
     if (!(gone < stands))
         return fw_process_coupon_wrong(
             w, of,

@@ -261,9 +261,13 @@ typedef struct fw_process_corner { /* <corner of q assumed>: an input of what st
     const char *name;           /* "printed edge" */
     const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
     const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
+    const fw_quantity *within;  /* holds this one, too, once it was measured; may be NULL */
     double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
     fw_place place;
 } fw_process_corner;
+
+/* false: what was measured holds it already */
+bool fw_process_corner_counts(const fw_process_corner *corner);
 
 /* <finished>: what must be true of the wafer when the flow has ended */
 typedef struct fw_process_finished {
