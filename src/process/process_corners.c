@@ -62,10 +62,6 @@ void fw_process_pack_corners(fw_process_pack *pack) {
                       FW_FABRICATION_INPUTS);
 }
 
-bool fw_process_corner_counts(const fw_process_corner *c) {
-    return !c->within || c->within->unknown || c->within->status != FW_MEASURED;
-}
-
 /* ---- inputs of the verdict ---- */
 
 static void set_range(fw_verdict_fabrication_input *in, const fw_quantity *q) {
