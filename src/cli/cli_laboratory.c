@@ -146,6 +146,10 @@ int fw_cli_command_calibrate(fw_cli_options *options) {
 
 /* ---- the as-run log ---- */
 
+static bool adds(const fw_cli_options *o) {
+    return o->entry || o->entries;
+}
+
 /* the one flow that the log is about */
 static fw_plan_flow *flow_of(fw_plan *plan) {
     fw_plan_flow *found = NULL;
@@ -210,43 +214,108 @@ static fw_status entry_words(fw_arena *arena, const fw_cli_options *o, const cha
     return FW_OK;
 }
 
+typedef struct entries { /* what is added at once */
+    const char **words;
+    fw_place *place;
+    int n;
+} entries;
+
+static fw_status add_words(fw_arena *arena, entries *list, const char *words, fw_place place) {
+    size_t n = (size_t)list->n;
+    FW_NEED(list->words = fw_arena_grow(arena, list->words, n, n + 1, sizeof *list->words));
+    FW_NEED(list->place = fw_arena_grow(arena, list->place, n, n + 1, sizeof *list->place));
+    list->words[list->n] = words;
+    list->place[list->n++] = place;
+    return FW_OK;
+}
+
+/* a line for each, blank ones and remarks left out */
+static fw_status entries_of_file(fw_plan *plan, const char *file, entries *list) {
+    char *text;
+    size_t n;
+    FW_TRY(fw_input_read(plan->arena, file, LARGEST_LOG, &plan->diags, &text, &n));
+    if (memchr(text, '\0', n))
+        return fw_diag_error(&plan->diags, 282, (fw_place){file, 1, 1},
+                             "entries are lines of text, and this file holds a zero byte");
+    int number = 1;
+    for (char *line = text; *line; number++) {
+        size_t length = strcspn(line, "\n"), begins = strspn(line, " \t\r");
+        char *next = line + length + (line[length] == '\n');
+        if (length > 0 && line[length - 1] == '\r') length--;
+        line[length] = '\0';
+        if (begins < length && line[begins] != '#')
+            FW_TRY(add_words(plan->arena, list, line + begins,
+                             (fw_place){file, number, (int)begins + 1}));
+        line = next;
+    }
+    return list->n ? FW_OK
+                   : fw_diag_error(&plan->diags, 282, (fw_place){file, 1, 1},
+                                   "the file holds no entry");
+}
+
+static fw_status entries_of(fw_plan *plan, const fw_cli_options *options, entries *list) {
+    const char *words;
+    if (options->entries) return entries_of_file(plan, options->entries, list);
+    FW_TRY(entry_words(plan->arena, options, &words));
+    return add_words(plan->arena, list, words, (fw_place){"entry", 1, 1});
+}
+
+/* the first line of a log that begins; "" where it has begun */
+static fw_status first_line(fw_plan *plan, const fw_plan_flow *pf, const char *hash, bool begun,
+                            const fw_cli_options *options, const char **first) {
+    const char *wafers = NULL, *wrong;
+    *first = "";
+    if (begun && options->wafer_ids)
+        return fw_diag_error(&plan->diags, 282, (fw_place){options->run, 1, 1},
+                             "the wafers of a lot are stated where its log begins, and this one "
+                             "has begun");
+    if (begun) return FW_OK;
+    if (options->wafer_ids)
+        FW_NEED(wafers = fw_recipe_asrun_wafers(plan->arena, options->wafer_ids, &wrong));
+    return fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, first);
+}
+
+/* All lines behind what the log holds; each is read back with those before it, as the next command would. The log after
+   them is in *run. */
+static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flow *pf,
+                         const char *hash, const fw_cli_options *options, fw_text *added,
+                         fw_recipe_asrun *run) {
+    fw_text whole = fw_text_new(plan->arena);
+    const char *line;
+    entries list = {0};
+    FW_TRY(entries_of(plan, options, &list));
+    FW_TRY(first_line(plan, pf, hash, file->n > 0, options, &line));
+    fw_text_bytes(&whole, file->text, file->n);
+    for (int i = 0;; i++) {
+        fw_text_add(&whole, line);
+        fw_text_add(added, line);
+        FW_TRY(fw_text_end(&whole));
+        FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data,
+                                    whole.length, &plan->diags, run));
+        if (i == 0) FW_TRY(check_head(plan->arena, &plan->diags, options->run, run));
+        if (i == list.n) return fw_text_end(added);
+        FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, run, list.words[i], list.place[i],
+                                   options->now_s, &plan->diags, &line));
+    }
+}
+
 /* the file is locked from here to the end, so that two entries never have one line before them */
 static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, const char *hash,
                         const fw_cli_options *options) {
     fw_recipe_asrun run = {0};
-    const char *first = "", *line, *words, *wafers = NULL, *wrong;
-    FW_TRY(entry_words(plan->arena, options, &words));
-    if (file->n > 0 && options->wafer_ids)
-        return fw_diag_error(&plan->diags, 282, (fw_place){options->run, 1, 1},
-                             "the wafers of a lot are stated where its log begins, and this one "
-                             "has begun");
-    if (file->n == 0) {
-        if (options->wafer_ids)
-            FW_NEED(wafers = fw_recipe_asrun_wafers(plan->arena, options->wafer_ids, &wrong));
-        FW_TRY(fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, &first));
-        FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, first, strlen(first),
-                                    &plan->diags, &run));
-    } else {
-        FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, file->text, file->n,
-                                    &plan->diags, &run));
-    }
-    FW_TRY(check_head(plan->arena, &plan->diags, options->run, &run));
-    FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, words, options->now_s, &plan->diags,
-                               &line));
-    const char *all = fw_arena_printf(plan->arena, "%s%s", first, line);
-    FW_NEED(all);
-    const char *head, *name, *chain = strrchr(line, '='); /* a line ends with its chain */
-    FW_NEED(chain = fw_arena_strndup(plan->arena, chain + 1, strcspn(chain + 1, "\n")));
-    FW_TRY(fw_recipe_asrun_head(plan->arena, run.nentry + 1, chain, &head));
+    fw_text added = fw_text_new(plan->arena);
+    FW_TRY(compose(file, plan, pf, hash, options, &added, &run));
+    const char *head, *name;
+    FW_TRY(fw_recipe_asrun_head(plan->arena, run.nentry, run.chain, &head));
     FW_TRY(head_name(plan->arena, options->run, &name));
     size_t before = file->n;
-    FW_TRY(fw_append_text(file, all, strlen(all)));
+    FW_TRY(fw_append_text(file, added.data, added.length));
     fw_status status = fw_output_single(plan->arena, name, head, strlen(head), &plan->diags);
     if (status != FW_OK) {
         fw_append_take_back(file, before); /* else it would be added a second time */
         return status;
     }
-    if (!options->quiet) printf("%s: entry %d\n", options->run, run.nentry + 1);
+    if (!options->quiet) printf("%s: entry %d\n", options->run, run.nentry);
     return FW_OK;
 }
 
@@ -257,12 +326,19 @@ static fw_status keep(fw_plan *plan, const fw_cli_options *options) {
         return fw_diag_error(&plan->diags, 230, (fw_place){0},
                              "a log is about one flow: name it with --flow");
     FW_TRY(hash_of(plan, pf, hash));
-    if (!options->entry) return read_log(plan, pf, hash, options);
+    if (!adds(options)) return read_log(plan, pf, hash, options);
     fw_append file;
     FW_TRY(fw_append_open(plan->arena, options->run, LARGEST_LOG, &plan->diags, &file));
     fw_status status = add_to(&file, plan, pf, hash, options);
     fw_append_close(&file);
     return status;
+}
+
+/* said before the design is judged, which may take a while */
+static int readable(fw_plan *plan, const fw_cli_options *options) {
+    char *text;
+    size_t n;
+    return (int)fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n);
 }
 
 int fw_cli_command_log(fw_cli_options *options) {
@@ -271,11 +347,16 @@ int fw_cli_command_log(fw_cli_options *options) {
     if (!options->entry && (options->wafer || options->instrument || options->nlogged > 0))
         return fw_cli_usage("--wafer, --instrument, --site, --setting and --coupon belong to an "
                             "--entry");
-    if (options->entry && options->report)
-        return fw_cli_usage("--report is of a log that is read: leave out --entry");
+    if (options->entry && options->entries)
+        return fw_cli_usage("--entry and --entries are two ways: use one of them");
+    if (adds(options) && options->report)
+        return fw_cli_usage("--report is of a log that is read: leave out the entries");
+    options->design.advice = "none"; /* neither is in a recipe */
+    options->design.measurements = "none";
     fw_design *design = fw_cli_session_open(options, &exit_status);
     if (!design) return exit_status;
-    int status = fw_design_judge(design);
+    int status = adds(options) ? FW_STATUS_OK : readable(fw_plan_design_plan(design), options);
+    if (status == FW_STATUS_OK) status = fw_design_judge(design);
     if (status == FW_STATUS_OK) status = fw_design_fabricate(design);
     fw_plan *plan = fw_plan_design_plan(design);
     if (status == FW_STATUS_OK && plan->verdict.decision == FW_REJECT)

@@ -519,6 +519,13 @@ static const fw_cli_option_row table[] = {
      "one step as it was run: \"C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; "
      "thickness=9.1\", further second, tool, bath, note and what the step measures",
      FW_OPT_LOG, fw_cli_take_entry},
+    {"entries", 0, "FILE",
+     "many entries at once, a line for each with the words of --entry and wafer=ID; "
+     "instrument=NAME; "
+     "set power=251 W; coupon=...; # begins a remark. All of them are added, or none; - is "
+     "standard "
+     "input",
+     FW_OPT_LOG, fw_cli_take_entries},
     {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, fw_cli_take_lot},
     {"wafers", 0, "LIST",
      "wafers of the lot, for a log that begins: how many, or their ids with commas between",
@@ -558,7 +565,9 @@ static const fw_cli_option_row table[] = {
      "run only the settings LEVEL;METHOD/INTEGRATOR/RTOL,... and print nothing: what the program "
      "starts under callgrind to count instructions",
      FW_OPT_TRADEOFF, take_settings},
-    {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
+    {"quiet", 'q', NULL,
+     "no messages but errors, and warnings after which a value is not to be relied on",
+     FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},
     {"no-progress", 0, NULL, "no progress on a terminal", FW_OPT_COMMON, take_no_progress},

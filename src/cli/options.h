@@ -18,9 +18,9 @@ typedef struct fw_cli_options {
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
     const char *csv, *forces, *animate;
-    const char *svg;               /* of assemble and hinge */
-    const char *level, *deck;      /* of hinge; NULL: by accuracy, none */
-    const char *run, *entry, *lot; /* of log */
+    const char *svg;                         /* of assemble and hinge */
+    const char *level, *deck;                /* of hinge; NULL: by accuracy, none */
+    const char *run, *entry, *entries, *lot; /* of log */
     const char *wafer, *wafer_ids, *instrument, *report;
     double now_s; /* local time when it was started, since 1970-01-01T00:00 there */
     struct {

@@ -14,6 +14,11 @@ const char *fw_cli_take_entry(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs the words of an entry, see flexwright log --help";
 }
 
+const char *fw_cli_take_entries(fw_cli_options *o, const char *v) {
+    o->entries = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
 const char *fw_cli_take_lot(fw_cli_options *o, const char *v) {
     o->lot = v;
     for (const char *c = v; *c; c++)

@@ -7,6 +7,7 @@
 /* NULL or what is wrong with the value */
 const char *fw_cli_take_run(fw_cli_options *o, const char *v);
 const char *fw_cli_take_entry(fw_cli_options *o, const char *v);
+const char *fw_cli_take_entries(fw_cli_options *o, const char *v);
 const char *fw_cli_take_lot(fw_cli_options *o, const char *v);
 const char *fw_cli_take_wafer_ids(fw_cli_options *o, const char *v);
 const char *fw_cli_take_wafer(fw_cli_options *o, const char *v);

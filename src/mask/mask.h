@@ -390,6 +390,11 @@ void fw_mask_order_line(fw_text *out, const char *what, const char *value);
 enum { FW_MASK_GDS_TEXT = 32 };
 const char *fw_mask_order_gds(char text[FW_MASK_GDS_TEXT], const fw_mask_layer *layer);
 int fw_mask_order_gds_width(const fw_mask_table *table);
+/* the table of CD sites: `where` ("layer", "1/0") in `wide` columns, the middle and the direction of the chord in m */
+void fw_mask_order_site_heading(fw_text *out, const char *where, int wide);
+void fw_mask_order_site_row(fw_text *out, int number, const char *where, int wide,
+                            const fw_mask_order_site *site, fw_geometry_vec2 at,
+                            fw_geometry_vec2 along);
 /* the head of what is rejected, with why */
 void fw_mask_order_rejected(fw_text *out, const fw_mask *mask);
 /* the same as a member of an object; nothing where the verdict does not reject it */

@@ -246,25 +246,32 @@ static void layers(const fw_mask *mask, const fw_mask_order *order, fw_text *out
     }
 }
 
+void fw_mask_order_site_heading(fw_text *out, const char *where, int wide) {
+    fw_text_printf(out, "site  %-*s  %-5s %12s %12s %8s %8s  what\n", wide, where, "kind", "x", "y",
+                   "angle", "CD");
+}
+
+void fw_mask_order_site_row(fw_text *out, int number, const char *where, int wide,
+                            const fw_mask_order_site *site, fw_geometry_vec2 at,
+                            fw_geometry_vec2 along) {
+    fw_text_printf(out, "%4d  %-*s  %-5s ", number, wide, where, site->space ? "space" : "width");
+    fw_text_real(out, "%12.3f", at.x * 1e6);
+    fw_text_real(out, " %12.3f", at.y * 1e6);
+    fw_text_real(out, " %8.2f", atan2(along.y, along.x) * 180 / FW_PI);
+    fw_text_real(out, " %8.3f", vec_length(along) * 1e6);
+    fw_text_printf(out, "  %s\n", site->what);
+}
+
 static void sites(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
     int wide = fw_mask_order_gds_width(mask->table);
-    fw_text_printf(out,
-                   "\nCD sites: centre of the chord and its direction, um and degrees\n"
-                   "site  %-*s  kind        x            y       angle       CD  what\n",
-                   wide, "layer");
+    fw_text_add(out, "\nCD sites: centre of the chord and its direction, um and degrees\n");
+    fw_mask_order_site_heading(out, "layer", wide);
     for (int i = 0; i < order->nsite; i++) {
         const fw_mask_order_site *s = &order->site[i];
-        const fw_mask_layer *y = &mask->table->layer[s->layer];
         fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
         char gds[FW_MASK_GDS_TEXT];
-        double degrees = atan2(along.y, along.x) * 180 / FW_PI;
-        fw_text_printf(out, "%4d  %-*s  %-5s ", i + 1, wide, fw_mask_order_gds(gds, y),
-                       s->space ? "space" : "width");
-        fw_text_real(out, "%12.3f", at.x * 1e6);
-        fw_text_real(out, " %12.3f", at.y * 1e6);
-        fw_text_real(out, " %8.2f", degrees);
-        fw_text_real(out, " %8.3f", vec_length(along) * 1e6);
-        fw_text_printf(out, "  %s\n", s->what);
+        fw_mask_order_site_row(out, i + 1, fw_mask_order_gds(gds, &mask->table->layer[s->layer]),
+                               wide, s, at, along);
     }
 }
 

@@ -52,6 +52,10 @@ typedef struct fw_process_coupon {
     bool drawn, at;                 /* columns that it needs */
     bool one_run; /* what stands under `at` is the same, with one error, in all rows */
     fw_status (*fit)(fw_process_coupon_work *work);
+    /* what a row must say, checked where it is written down too, since a line of a log cannot be taken back: one of these
+       features (any: none is listed), and under `at` one of these (any: the first is a plain number) */
+    const char *features[3];
+    fw_quantity_dimension under[2];
 } fw_process_coupon;
 
 /* coupon_covariance.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the

@@ -86,10 +86,10 @@ static fw_status selectivity(fw_process_coupon_work *w) {
                                   "etched depth over the loss of the mask");
 }
 
-const fw_process_coupon fw_process_coupon_etch_rate = {"etch-rate", FW_DIM_LENGTH, false, false,
-                                                       true,        false,         rates};
-const fw_process_coupon fw_process_coupon_step = {"al-step", FW_DIM_LENGTH, false,      false,
-                                                  true,      false,         selectivity};
+const fw_process_coupon fw_process_coupon_etch_rate = {
+    "etch-rate", FW_DIM_LENGTH, false, false, true, false, rates, .under = {FW_DIM_TIME}};
+const fw_process_coupon fw_process_coupon_step = {
+    "al-step", FW_DIM_LENGTH, false, false, true, false, selectivity, .under = {FW_DIM_LENGTH}};
 
 /* ---- lines undercut in a ladder of widths ---- */
 
@@ -103,24 +103,28 @@ static fw_status ladder_losses(fw_process_coupon_work *w, double *y, double *s, 
         if (strcmp(r->feature, "width") == 0) {
             y[*n] = r->drawn_m - r->value;
             s[(*n)++] = r->uncertainty;
-        } else if (strcmp(r->feature, "gone") == 0 || strcmp(r->feature, "stands") == 0) {
+        } else { /* gone or stands */
             of = r;
             if (r->feature[0] == 'g')
                 gone = fmax(gone, r->drawn_m);
             else
                 stands = fmin(stands, r->drawn_m);
-        } else
-            return fw_process_coupon_wrong(
-                w, r,
-                "the feature of undercut-ladder is width (of the top), gone "
-                "or stands, not '%s'",
-                r->feature);
+        }
     }
     if (!of) return FW_OK;
-    if (gone < 0.0 || isinf(stands))
-        return fw_process_coupon_wrong(w, of,
-                                       "undercut-ladder needs the widest line that is gone and the "
-                                       "narrowest that stands, both");
+    bool both = gone >= 0.0 && isfinite(stands);
+    if (!both && *n > 0) {
+        fw_diag_warning(
+            w->diags, 211, of->place,
+            "lines that are all gone, or all stand, bound the undercut on one side only: "
+            "these rows of undercut-ladder are left out, its widths are used");
+        return FW_OK;
+    }
+    if (!both)
+        return fw_process_coupon_wrong(
+            w, of,
+            "undercut-ladder without widths needs the widest line that is gone and the "
+            "narrowest that stands, both");
     if (!(gone < stands))
         return fw_process_coupon_wrong(
             w, of,
@@ -171,8 +175,15 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
     return fw_process_coupon_give(w, etch.anisotropy->id, fmin(A, 1.0), u_A, &f, note);
 }
 
-const fw_process_coupon fw_process_coupon_ladder = {
-    "undercut-ladder", FW_DIM_LENGTH, false, true, true, true, fit_ladder};
+const fw_process_coupon fw_process_coupon_ladder = {"undercut-ladder",
+                                                    FW_DIM_LENGTH,
+                                                    false,
+                                                    true,
+                                                    true,
+                                                    true,
+                                                    fit_ladder,
+                                                    .features = {"width", "gone", "stands"},
+                                                    .under = {FW_DIM_TIME, FW_DIM_LENGTH}};
 
 /* ---- slots: the lag of narrow openings ---- */
 
@@ -239,5 +250,5 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
     return fw_process_coupon_give(w, etch.lag->id, fmax(S, 0.0), f.uncertainty[1], &f, note);
 }
 
-const fw_process_coupon fw_process_coupon_slots = {"arde-slots", FW_DIM_LENGTH, false,    true,
-                                                   true,         true,          fit_slots};
+const fw_process_coupon fw_process_coupon_slots = {
+    "arde-slots", FW_DIM_LENGTH, false, true, true, true, fit_slots, .under = {FW_DIM_TIME}};

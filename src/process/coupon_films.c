@@ -17,9 +17,6 @@ static fw_status fit_lines(fw_process_coupon_work *w) {
     for (int i = 0; i < w->n; i++) {
         const fw_process_measurement *r = w->measurement[i];
         bool space = strcmp(r->feature, "space") == 0;
-        if (!space && strcmp(r->feature, "line") != 0)
-            return fw_process_coupon_wrong(
-                w, r, "the feature of cd-lines is line or space, not '%s'", r->feature);
         y[i] = (space ? -0.5 : 0.5) * (r->value - r->drawn_m);
         s[i] = 0.5 * r->uncertainty;
     }
@@ -33,8 +30,8 @@ static fw_status fit_lines(fw_process_coupon_work *w) {
                : "edge on the wafer against the mask");
 }
 
-const fw_process_coupon fw_process_coupon_cd_lines = {"cd-lines", FW_DIM_LENGTH, false,    true,
-                                                      false,      false,         fit_lines};
+const fw_process_coupon fw_process_coupon_cd_lines = {
+    "cd-lines", FW_DIM_LENGTH, false, true, false, false, fit_lines, .features = {"line", "space"}};
 
 /* ---- resist over spin speed ---- */
 
@@ -78,8 +75,8 @@ static fw_status fit_spin(fw_process_coupon_work *w) {
     return fw_process_coupon_give(w, "resist.a", f.value[1], f.uncertainty[1], &f, note);
 }
 
-const fw_process_coupon fw_process_coupon_spin = {"spin", FW_DIM_LENGTH, false,   false,
-                                                  true,   false,         fit_spin};
+const fw_process_coupon fw_process_coupon_spin = {
+    "spin", FW_DIM_LENGTH, false, false, true, false, fit_spin, .under = {FW_DIM_ROTATION}};
 
 /* ---- plating ---- */
 
@@ -165,7 +162,8 @@ static fw_status by_pads(fw_process_coupon_work *w) {
                                   note);
 }
 
-const fw_process_coupon fw_process_coupon_mass = {"plating-mass", FW_DIM_MASS, false,  false,
-                                                  true,           false,       by_mass};
-const fw_process_coupon fw_process_coupon_pads = {"plating-pads", FW_DIM_LENGTH, false,  true,
-                                                  true,           true,          by_pads};
+const fw_process_coupon fw_process_coupon_mass = {
+    "plating-mass", FW_DIM_MASS, false, false, true, false, by_mass, .under = {FW_DIM_CHARGE}};
+const fw_process_coupon fw_process_coupon_pads = {
+    "plating-pads", FW_DIM_LENGTH, false,   true,
+    true,           true,          by_pads, .under = {FW_DIM(-2, 0, 1, 1, 0, 0, 0)}};

@@ -101,6 +101,7 @@ static void read_corners(const fw_process_flow *flow, double thickness_m,
         bool edge = c->of == FW_CORNER_EDGE, wall = c->of == FW_CORNER_TAPER;
         const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
         if ((!edge && !wall) || !q || q->unknown || (wall && isnan(thickness_m))) continue;
+        if (!fw_process_corner_counts(c)) continue;
         double low, high, x = c->q->unknown ? 0.0 : q->value;
         fw_process_quantity_range(q, &low, &high);
         if (edge) {

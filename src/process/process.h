@@ -261,9 +261,13 @@ typedef struct fw_process_corner { /* <corner of q assumed>: an input of what st
     const char *name;           /* "printed edge" */
     const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
     const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
+    const fw_quantity *within;  /* holds this one, too, once it was measured; may be NULL */
     double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
     fw_place place;
 } fw_process_corner;
+
+/* false: what was measured holds it already */
+bool fw_process_corner_counts(const fw_process_corner *corner);
 
 /* <finished>: what must be true of the wafer when the flow has ended */
 typedef struct fw_process_finished {
@@ -460,6 +464,8 @@ void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
 /* once for all wafers together, whatever the machine takes */
 bool fw_process_step_is_of_lot(const fw_process_step *step);
+/* is it measured on this wafer of the lot (from 0)? The first one, and every so many behind it */
+bool fw_process_accept_is_due(const fw_process_accept *accept, int wafer);
 /* most wafers that go through a step at once: what the pack and the machine both allow */
 int fw_process_step_load(const fw_process_step *step);
 /* or NULL */

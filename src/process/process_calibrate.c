@@ -35,6 +35,37 @@ static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *of)
                          best ? "'?" : "", list.data);
 }
 
+static fw_status check_feature(const fw_process_coupon *kind, const fw_process_measurement *r,
+                               fw_diags *diags) {
+    const char *const *name = kind->features;
+    enum { MOST = sizeof kind->features / sizeof kind->features[0] };
+    int n = 0;
+    for (; n < MOST && name[n]; n++)
+        if (strcmp(r->feature, name[n]) == 0) return FW_OK;
+    if (n == 0) return FW_OK;
+    bool three = n > 2;
+    return fw_diag_error(diags, 211, r->place, "the feature of %s is %s%s%s%s%s, not '%s'",
+                         r->coupon, name[0], three ? ", " : "", three ? name[1] : "",
+                         n > 1 ? " or " : "", n > 1 ? name[n - 1] : "", r->feature);
+}
+
+static fw_status check_under(const fw_process_coupon *kind, const fw_process_measurement *r,
+                             fw_diags *diags) {
+    const fw_quantity_dimension *under = kind->under, plain = {0};
+    bool any = fw_quantity_dimension_equal(under[0], plain),
+         two = !fw_quantity_dimension_equal(under[1], plain);
+    if (any || fw_quantity_dimension_equal(r->at_dimension, under[0]) ||
+        (two && fw_quantity_dimension_equal(r->at_dimension, under[1])))
+        return FW_OK;
+    const char *first = fw_quantity_dimension_text(diags->arena, under[0]),
+               *second = fw_quantity_dimension_text(diags->arena, under[1]),
+               *is = fw_quantity_dimension_text(diags->arena, r->at_dimension);
+    FW_NEED(first && second ? is : NULL);
+    return fw_diag_error(diags, 211, r->place,
+                         "%s is measured at %s%s%s, which stands under at, not at %s", r->coupon,
+                         first, two ? " or " : "", two ? second : "", is);
+}
+
 fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags *diags) {
     const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
     if (!kind) return unknown_kind(diags, r);
@@ -52,7 +83,8 @@ fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags
                              "%s needs the columns at, u_at and at_unit: the time, depth, "
                              "charge or speed at which it was measured",
                              r->coupon);
-    return FW_OK;
+    FW_TRY(check_feature(kind, r, diags));
+    return check_under(kind, r, diags);
 }
 
 /* two coupons of one number: their weighted mean, unless they contradict each other */

@@ -40,6 +40,7 @@ static void read_corner(fw_process_pack *pack, const fw_xml_record *e) {
                              .name = fw_process_pack_text(e, "name"),
                              .q = quantity(pack, e, "q", of),
                              .assumed = quantity(pack, e, "assumed", of),
+                             .within = quantity(pack, e, "within", of),
                              .place = e->element->place};
     const fw_quantity *layer = f->thickness;
     if (of == FW_CORNER_THICKNESS && layer && c->q != layer && !layer->unknown)
@@ -111,7 +112,7 @@ static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
     const fw_quantity *q = c->of == FW_CORNER_YOUNGS ? &v->material.youngs
                            : unknown                 ? c->assumed
                                                      : c->q;
-    if (!q || q->unknown) return false;
+    if (!q || q->unknown || !fw_process_corner_counts(c)) return false;
     *in = (fw_verdict_fabrication_input){.name = c->name, .unknown = unknown ? c->q->id : NULL};
     set_range(in, q);
     switch (c->of) {

@@ -42,6 +42,14 @@ const fw_quantity *fw_process_step_argument(const fw_process_step *s, const char
     return NULL;
 }
 
+bool fw_process_corner_counts(const fw_process_corner *c) {
+    return !c->within || c->within->unknown || c->within->status != FW_MEASURED;
+}
+
+bool fw_process_accept_is_due(const fw_process_accept *a, int wafer) {
+    return wafer == 0 || (a->every < 99 && wafer % a->every == 0);
+}
+
 bool fw_process_step_is_of_lot(const fw_process_step *s) {
     enum { ONCE_PER_LOT = 99 }; /* batch of a pack */
     return s->batch >= ONCE_PER_LOT;

@@ -156,6 +156,9 @@ static const fw_xml_attribute_row corner_rows[] = {
     {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
     {"q", TO(QUANTITY), .sentence = "Its range is the corner; none for youngs."},
     {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
+    {"within", TO(QUANTITY),
+     .sentence =
+         "A quantity that holds this one, too, once it was measured: the corner falls away then."},
 };
 static const fw_xml_attribute_row plate_rows[] = {
     {"id", TOKEN, REQUIRED, .sentence = "That of its row in the layer table."},

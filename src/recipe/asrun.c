@@ -178,18 +178,49 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
     return FW_OK;
 }
 
-/* what is odd, and may still be true */
-/* mm for um: a hundred times what is accepted is in the range of its dimension, and seldom true */
+/* mm for um, or nm: a hundred times what is accepted is in the range of its dimension, and seldom true. Said also to
+   those who want no warnings (-q), since no line can be taken back. */
 static void ask_units(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_recipe_measured *m = &e->measured[i];
         const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
-        double most = fw_recipe_asrun_limit(a->high, (double)NAN);
-        if (!(most > 0.0) || !(fabs(m->number) > 100.0 * most)) continue;
-        fw_diag_warning(r->diags, 283, r->place,
-                        "%s=%s is more than 100 times the %s %s that are accepted: is the unit "
-                        "right? A later entry of the step takes its place",
-                        m->measure, m->value, a->high, a->unit);
+        double most = fw_recipe_asrun_limit(a->high, (double)NAN),
+               least = fw_recipe_asrun_limit(a->low, (double)NAN), size = fabs(m->number);
+        bool above = most > 0.0 && size > 100.0 * most,
+             below = least > 0.0 && size > 0.0 && size < 0.01 * least;
+        if (!above && !below) continue;
+        fw_diag_unreliable(r->diags, 283, r->place,
+                           "%s=%s is %s the %s %s that are accepted: is the unit right? A later "
+                           "entry of the step takes its place",
+                           m->measure, m->value,
+                           above ? "more than 100 times" : "less than a hundredth of",
+                           above ? a->high : a->low, a->unit);
+    }
+}
+
+/* what is odd, and may still be true */
+/* in the lot; 0 where the entry is of all wafers, or the log names none: then everything is measured */
+static int index_of_wafer(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (int i = 0; e->wafer && i < run->nwafer; i++)
+        if (strcmp(run->wafer[i], e->wafer) == 0) return i;
+    return 0;
+}
+
+static bool gives(const fw_recipe_asrun_entry *e, const fw_process_accept *a) {
+    for (int i = 0; i < e->nmeasured; i++)
+        if (strcmp(e->measured[i].measure, a->measure) == 0) return true;
+    return false;
+}
+
+/* what the sheet has a cell for, and the entry no value */
+static void ask_missing(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
+                        const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < e->step->naccept; i++) {
+        const fw_process_accept *a = &e->step->accept[i];
+        if (fw_process_accept_is_due(a, index_of_wafer(run, e)) && !gives(e, a))
+            fw_diag_warning(r->diags, 283, r->place,
+                            "the entry does not give '%s', which step %s measures of this wafer",
+                            a->measure, e->step->id);
     }
 }
 
@@ -209,10 +240,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                         "step %s starts before step %s, which was entered before it", e->step->id,
                         last->step->id);
     ask_units(r, e);
-    if (e->nmeasured < e->step->naccept)
-        fw_diag_warning(r->diags, 283, r->place,
-                        "the entry gives %d of the %d values that step %s measures", e->nmeasured,
-                        e->step->naccept, e->step->id);
+    ask_missing(r, run, e);
 }
 
 /* A line cannot be taken back, and a wrong year is soon typed: what ends more than a day after the clock's time has not
@@ -232,9 +260,9 @@ static fw_status check_clock(const fw_recipe_asrun_reader *r, const fw_recipe_as
 }
 
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
-                              const fw_recipe_asrun *run, const char *words, double now_s,
-                              fw_diags *diags, const char **line) {
-    fw_recipe_asrun_reader r = {arena, flow, run, true, diags, {"entry", 1, 1}};
+                              const fw_recipe_asrun *run, const char *words, fw_place place,
+                              double now_s, fw_diags *diags, const char **line) {
+    fw_recipe_asrun_reader r = {arena, flow, run, true, diags, place};
     fw_recipe_asrun_entry e;
     char chain[65];
     size_t n = strlen(words);

@@ -73,13 +73,13 @@ const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char
      set current=0.2 A; coupon=plating-pads, drawn=1000 um, value=9.1 um, u=0.05 um, at=25 C/cm2
    with second, tool, bath, instrument, note and the step's measures as further words. *line ends with a newline; what
    is wrong with the entry is FW-D282, a value that makes no sense FW-D278, what a cautious colleague would ask a warning
-   FW-D283. now_s: local time, NaN: not known. */
+   FW-D283, at `place`. now_s: local time, NaN: not known. */
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
                                 const char **line);
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
-                              const fw_recipe_asrun *run, const char *words, double now_s,
-                              fw_diags *diags, const char **line);
+                              const fw_recipe_asrun *run, const char *words, fw_place place,
+                              double now_s, fw_diags *diags, const char **line);
 
 /* asrun_head.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
    others */

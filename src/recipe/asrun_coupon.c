@@ -76,7 +76,8 @@ static fw_status read_amounts(const fw_recipe_asrun_reader *r, const given *g,
 
 static fw_status read_word(const fw_recipe_asrun_reader *r, char *word, fw_recipe_coupon *c,
                            given *g) {
-    static const char *const known[] = {"drawn", "value", "u", "at", "u-at"};
+    enum { FIELDS = 5 };
+    static const char *const known[FIELDS + 1] = {"drawn", "value", "u", "at", "u-at", "feature"};
     const char **of[] = {&g->drawn, &g->value, &g->u, &g->at, &g->u_at};
     char *equal = strchr(word, '=');
     if (strncmp(word, "feature=", 8) == 0) { /* as the column of a table is called */
@@ -92,13 +93,13 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, char *word, fw_recip
         return FW_OK;
     }
     *equal = '\0';
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+    for (size_t i = 0; i < FIELDS; i++)
         if (strcmp(word, known[i]) == 0) {
             if (*of[i]) return fw_diag_error(r->diags, 282, r->place, "%s is given twice", word);
             *of[i] = equal + 1;
             return FW_OK;
         }
-    return fw_recipe_asrun_unknown(r, "a coupon has no", word, known, 5);
+    return fw_recipe_asrun_unknown(r, "a coupon has no", word, known, FIELDS + 1);
 }
 
 /* "arde-slots, drawn=10 um, value=45.6 45.4 45.7 45.5 45.6 um, u=0.1 um, at=90 min, u-at=6 s"; the first word is the kind,

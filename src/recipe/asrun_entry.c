@@ -49,6 +49,19 @@ static const char *const own_words[] = {"start", "end",  "by",    "second",    "
                                         "bath",  "note", "wafer", "instrument"};
 enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 
+/* how many times yes or no stands there; 0: something else stands there, too */
+static int answers_of(const char *value) {
+    int n = 0;
+    while (*value) {
+        size_t word = strcspn(value, " ");
+        bool yes = word == 3 && strncmp(value, "yes", 3) == 0;
+        if (!yes && !(word == 2 && strncmp(value, "no", 2) == 0)) return 0;
+        value += word + strspn(value + word, " ");
+        n++;
+    }
+    return n;
+}
+
 static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                               const char *name, const char *value) {
     const fw_process_accept *a = fw_recipe_asrun_accept(e->step, name);
@@ -67,9 +80,15 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     }
     for (int i = 0; i < FW_RECIPE_SITES; i++)
         m.site[i] = (double)NAN;
-    bool word = strcmp(value, "yes") == 0 || strcmp(value, "no") == 0;
-    if (!word && strcmp(a->unit, "yes/no") == 0)
-        return fw_diag_error(r->diags, 282, r->place, "%s=%s: say yes or no", name, value);
+    int answers = answers_of(value);
+    bool word = answers == 1 || (answers > 0 && answers == a->sites);
+    if (!word && (answers > 0 || strcmp(a->unit, "yes/no") == 0)) {
+        if (a->sites == 1)
+            return fw_diag_error(r->diags, 282, r->place, "%s=%s: say yes or no", name, value);
+        return fw_diag_error(r->diags, 282, r->place,
+                             "%s=%s: say yes or no, once or for each of the %d sites", name, value,
+                             a->sites);
+    }
     if (!word) {
         fw_recipe_asrun_values v;
         const fw_quantity any = {0};

@@ -20,12 +20,8 @@ static void limits(const fw_process_accept *a, fw_text *out) {
         fw_text_printf(out, ", first and every %dth", a->every);
 }
 
-static bool sampled(const fw_process_accept *a, int wafer) {
-    return wafer == 0 || (a->every < 99 && wafer % a->every == 0);
-}
-
 static void sites(const fw_process_accept *a, int wafer, fw_text *out) {
-    if (!sampled(a, wafer)) {
+    if (!fw_process_accept_is_due(a, wafer)) {
         fw_text_add(out, "<td class=\"off\"></td>");
         return;
     }

@@ -260,6 +260,42 @@ static void holds(fw_json *out, const fw_schedule_shop *shop) {
     fw_json_end(out);
 }
 
+static void pairs(fw_json *out, const char *key, const double (*pair)[2], int n) {
+    fw_json_list(out, key);
+    for (int i = 0; i < 2 * n; i++)
+        fw_json_number(out, NULL, pair[i / 2][i % 2], FW_PLAIN_DIGITS);
+    fw_json_end(out);
+}
+
+static void hours_of(fw_json *out, const fw_schedule_calendar *c) {
+    fw_json_object(out, NULL);
+    fw_json_number(out, "open_s", c->open_s, FW_PLAIN_DIGITS);
+    fw_json_number(out, "close_s", c->close_s, FW_PLAIN_DIGITS);
+    pairs(out, "breaks_s", c->break_s, c->breaks);
+    fw_json_list(out, "days");
+    for (int day = 0; day < 7; day++)
+        if (!(c->closed_days >> day & 1u)) words(out, NULL, fw_schedule_weekday[day]);
+    fw_json_end(out);
+    fw_json_end(out);
+}
+
+static void machines(fw_json *out, const fw_schedule_shop *shop) {
+    fw_json_list(out, "tool_hours");
+    for (int i = 0; i < shop->nmachine; i++) {
+        const fw_schedule_machine *m = &shop->machine[i];
+        if (!m->nhours && !m->nclosed) continue;
+        fw_json_object(out, NULL);
+        words(out, "equipment", m->id);
+        fw_json_list(out, "open");
+        for (int k = 0; k < m->nhours; k++)
+            hours_of(out, &m->hours[k]);
+        fw_json_end(out);
+        pairs(out, "closed_s", m->closed_s, m->nclosed);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
 static void runs(fw_json *out, const fw_schedule *s) {
     fw_json_list(out, "runs");
     for (int i = 0; i < s->nrun; i++) {
@@ -296,11 +332,7 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
     fw_json_number(out, "day_open_s", shop->calendar.open_s, FW_PLAIN_DIGITS);
     fw_json_number(out, "day_close_s", shop->calendar.close_s, FW_PLAIN_DIGITS);
     fw_json_truth(out, "weekends", shop->calendar.weekends);
-    fw_json_list(out, "breaks_s");
-    for (int i = 0; i < shop->calendar.breaks; i++)
-        for (int k = 0; k < 2; k++)
-            number(out, NULL, shop->calendar.break_s[i][k]);
-    fw_json_end(out);
+    pairs(out, "breaks_s", shop->calendar.break_s, shop->calendar.breaks);
     if (shop->calendar.dated) {
         long civil[3];
         fw_schedule_civil(shop->calendar.first_day, civil);
@@ -328,6 +360,7 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
     fw_json_whole(out, "unknown_steps", s->unknown);
     tasks(out, s);
     holds(out, shop);
+    machines(out, shop);
     runs(out, s);
     fw_json_end(out);
     return fw_json_finish(out, "\n");

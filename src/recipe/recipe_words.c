@@ -159,19 +159,53 @@ void fw_recipe_put_wafers(fw_text *out, const fw_schedule_run *run) {
     if (run->count > 1) fw_text_printf(out, "-%d", run->first + run->count);
 }
 
+static void put_span(fw_text *out, double from_s, double to_s) {
+    long from = lround(from_s / 60.0), to = lround(to_s / 60.0);
+    fw_text_printf(out, "%02ld:%02ld to %02ld:%02ld", from / 60, from % 60, to / 60, to % 60);
+}
+
 static void put_day(fw_text *out, const fw_schedule_calendar *c) {
     if (fw_schedule_calendar_round(c)) {
         fw_text_add(out, "round the clock");
         return;
     }
-    long open = lround(c->open_s / 60.0), close = lround(c->close_s / 60.0);
-    fw_text_printf(out, "%02ld:%02ld to %02ld:%02ld, Monday to Friday", open / 60, open % 60,
-                   close / 60, close % 60);
+    put_span(out, c->open_s, c->close_s);
+    fw_text_add(out, ", Monday to Friday");
     for (int i = 0; i < c->breaks; i++) {
-        long from = lround(c->break_s[i][0] / 60.0), to = lround(c->break_s[i][1] / 60.0);
-        fw_text_printf(out, "%s %02ld:%02ld to %02ld:%02ld", i ? "," : ", nobody there", from / 60,
-                       from % 60, to / 60, to % 60);
+        fw_text_add(out, i ? ", " : ", nobody there ");
+        put_span(out, c->break_s[i][0], c->break_s[i][1]);
     }
+}
+
+static void put_machine_days(fw_text *out, const fw_schedule_calendar *c) {
+    for (int day = 0; day < 7 && c->closed_days; day++)
+        if (!(c->closed_days >> day & 1u)) fw_text_printf(out, "%s ", fw_schedule_weekday[day]);
+    if (!c->breaks) put_span(out, c->open_s, c->close_s);
+    for (int i = 0; i <= c->breaks && c->breaks; i++) {
+        fw_text_add(out, i ? ", " : "");
+        put_span(out, i ? c->break_s[i - 1][1] : c->open_s,
+                 i == c->breaks ? c->close_s : c->break_s[i][0]);
+    }
+}
+
+/* "rie is open Tue Thu 09:00 to 13:00"; nothing for a machine without hours */
+static void put_hours(fw_text *out, const fw_schedule_shop *shop, int machine) {
+    const fw_schedule_machine *m = &shop->machine[machine];
+    if (!m->nhours && !m->nclosed) return;
+    fw_text_add(out, " ");
+    fw_text_escaped(out, m->id);
+    fw_text_add(out, " is ");
+    for (int i = 0; i < m->nhours; i++) {
+        fw_text_add(out, i ? ", and " : "open ");
+        put_machine_days(out, &m->hours[i]);
+    }
+    for (int i = 0; i < m->nclosed; i++) {
+        fw_text_add(out, i || m->nhours ? ", closed from " : "closed from ");
+        fw_recipe_put_moment(out, &shop->calendar, m->closed_s[i][0]);
+        fw_text_add(out, " to ");
+        fw_recipe_put_moment(out, &shop->calendar, m->closed_s[i][1]);
+    }
+    fw_text_add(out, ".");
 }
 
 static void put_percent(fw_text *out, double part) {
@@ -225,6 +259,8 @@ void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s) {
         put_percent(out, s->gap);
         fw_text_add(out, " above that.");
     }
+    for (int i = 0; i < shop->nmachine; i++)
+        put_hours(out, shop, i);
     if (s->unknown) {
         fw_text_add(out, " The times of ");
         put_steps(out, shop, false);

@@ -187,12 +187,28 @@ static void windows(const picture *p, const row *r) {
     }
 }
 
+static const char HATCH[] = "fill='url(#closed)'";
+
+/* when the machine is closed in the panel */
+static void closed(const picture *p, const row *r) {
+    const fw_schedule_machine *m = &p->s->shop->machine[r->index];
+    if (!m->nhours && !m->nclosed) return;
+    for (double t = p->open_s; t < p->next_s - 1.0;) {
+        double open = fw_schedule_machine_fit(m, t, 1.0), to = fmin(open, p->next_s);
+        if (to > t)
+            fw_svg_put(p->out, BOX " {r}\n", px(p, t), r->y, px(p, to) - px(p, t), r->height,
+                       HATCH);
+        t = isfinite(open) ? fw_schedule_machine_closes(m, open) : open;
+    }
+}
+
 static void draw_row(const picture *p, const row *r) {
     row_label(p, r);
     if (r->kind == HOLD) {
         windows(p, r);
         return;
     }
+    if (r->kind == MACHINE) closed(p, r);
     for (int i = 0; i < p->s->nrun; i++) {
         const fw_schedule_run *run = &p->s->run[i];
         const fw_schedule_task *t = &p->s->shop->task[run->task];
@@ -294,7 +310,22 @@ static double paragraph(fw_text *out, double y, const char *text) {
     return y;
 }
 
-static void legend(fw_text *out, int wafers, double y) {
+static bool any_hours(const fw_schedule_shop *shop) {
+    for (int i = 0; i < shop->nmachine; i++)
+        if (shop->machine[i].nhours + shop->machine[i].nclosed > 0) return true;
+    return false;
+}
+
+/* lines across what is closed: grey alone is the night's */
+static void hatch(fw_text *out) {
+    fw_svg_open(out, "pattern id='closed' width='6' height='6' patternUnits='userSpaceOnUse' "
+                     "patternTransform='rotate(45)'");
+    fw_svg_put(out, "path d='M0 0V6' stroke='#888' stroke-width='1.6'");
+    fw_svg_close(out, "pattern\n");
+}
+
+static void legend(fw_text *out, const fw_schedule_shop *shop, double y) {
+    int wafers = shop->wafers;
     label(out, 10, y + 10.0, "p", "wafer");
     for (int w = 0; w < wafers; w++) {
         char text[16];
@@ -303,10 +334,12 @@ static void legend(fw_text *out, int wafers, double y) {
                    22.0, 14.0, colour[w % COLOURS]);
         label(out, 63.0 + 24.0 * w, y + 11.0, "b", text);
     }
-    label(
-        out, 66.0 + 24.0 * wafers, y + 10.0, "p",
-        "a load has a band for every wafer; dashed: the time is not known; below: windows, waited "
-        "and allowed");
+    label(out, 66.0 + 24.0 * wafers, y + 10.0, "p",
+          any_hours(shop)
+              ? "a load has a band for every wafer; dashed: the time is not known; hatched: "
+                "the machine is closed; below: windows, waited and allowed"
+              : "a load has a band for every wafer; dashed: the time is not known; below: "
+                "windows, waited and allowed");
 }
 
 fw_status fw_recipe_write_schedule_svg(const fw_process_flow *flow, const fw_recipe_header *header,
@@ -325,7 +358,7 @@ fw_status fw_recipe_write_schedule_svg(const fw_process_flow *flow, const fw_rec
     FW_NEED(title);
     label(&body, 10, 24, "h", title);
     p->y = paragraph(&body, 44, words.data);
-    legend(&body, s->shop->wafers, p->y);
+    legend(&body, s->shop, p->y);
     p->y += 16.0;
     panels(p);
     FW_TRY(fw_text_end(&body));
@@ -337,6 +370,7 @@ fw_status fw_recipe_write_schedule_svg(const fw_process_flow *flow, const fw_rec
                "pointer-events:none}.d{font-weight:bold}.t{fill:#555;font-size:10px}"
                ".g{stroke:#ddd;stroke-width:0.5;fill:none}\n");
     fw_svg_paper(out, "#fff");
+    if (any_hours(s->shop)) hatch(out);
     fw_text_add(out, body.data);
     fw_svg_end(out);
     return fw_text_end(out);

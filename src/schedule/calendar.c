@@ -7,6 +7,9 @@ static const double day_s = 86400.0;
 
 const char *const fw_schedule_weekday[] = {"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
 
+const fw_schedule_calendar fw_schedule_round_the_clock = {
+    .open_s = 0.0, .close_s = 86400.0, .weekends = true};
+
 bool fw_schedule_calendar_round(const fw_schedule_calendar *c) {
     return c->open_s <= 0.0 && c->close_s >= day_s && c->breaks == 0 && c->closed_days == 0;
 }
@@ -71,6 +74,14 @@ double fw_schedule_calendar_fit(const fw_schedule_calendar *c, double from_s, do
             double t = fmax(from_s, day * day_s + span[0]);
             if (t + length_s <= day * day_s + span[1] + 1e-9) return t;
         }
+}
+
+/* midnight closes too, where the day goes on: what follows is the next day's stretch */
+double fw_schedule_calendar_closes(const fw_schedule_calendar *c, double t) {
+    double span[2], day = floor(t / day_s);
+    for (int k = 0; stretch(c, k, span); k++)
+        if (t < day * day_s + span[1]) return day * day_s + span[1];
+    return (day + 1.0) * day_s;
 }
 
 /* Earliest t with a working time of work_s between from_s and t. Test: test_calendar.c. */

@@ -3,7 +3,7 @@
    (1991) 61): nodes are the starts of the tasks of one wafer, an arc i -> j of weight w says
    start_j >= start_i + w. A least pause is an arc forwards, a longest one an arc backwards of
    negative weight. The network can be kept exactly when no cycle has a positive weight. */
-#include "schedule/schedule.h"
+#include "schedule/place.h"
 #include <math.h>
 
 typedef struct arc {
@@ -162,7 +162,7 @@ fw_status fw_schedule_network_pauses(fw_arena *arena, const fw_schedule_shop *sh
     return FW_OK;
 }
 
-/* Least fixed point of start_i = fit(max(arcs into i)): every right side rises with the starts, so
+/* Least fixed point of start_i = fit(max(arcs into i)), fit into the working day and the hours of its machine: every right side rises with the starts, so
    iterating from below ends at the earliest start of every task, or beyond all limits. With people
    there round the clock it is the longest path. Test: test_network.c, earliest. */
 fw_status fw_schedule_network_earliest(const fw_schedule_shop *shop, double start_s,
@@ -184,8 +184,7 @@ fw_status fw_schedule_network_earliest(const fw_schedule_shop *shop, double star
                 if (h->from == i && h->max_s < (double)INFINITY)
                     at = fmax(at, earliest_s[h->to] - h->max_s - t->duration_s);
             }
-            double there = t->by_day ? t->duration_s : t->attended_s;
-            if (there > 0.0) at = fw_schedule_calendar_fit(&shop->calendar, at, there);
+            at = fw_schedule_alone_fit(shop, i, at);
             if (at <= earliest_s[i] + 1e-6) continue;
             earliest_s[i] = at;
             again = true;

@@ -70,6 +70,20 @@ fw_status fw_schedule_tool_hours(fw_arena *arena, const fw_process_flow *flow,
                                  const fw_schedule_calendar *day, fw_schedule_machine *machine,
                                  int n, const fw_schedule_task *task, int ntask, fw_diags *diags);
 
+/* ---- hours ---- */
+
+/* Earliest t >= from at which a run of the task fits into the working day and the hours of its machine, whoever else is
+   there; INFINITY: never. It never falls when `from` rises: what the bounds rest on. Test: test_tools.c */
+double fw_schedule_alone_fit(const fw_schedule_shop *shop, int task, double from_s);
+/* earliest t by which the machine has been open for work_s since from, stretches shorter than least_s > 0 left out;
+   INFINITY: never */
+double fw_schedule_machine_worked(const fw_schedule_machine *machine, double from_s, double work_s,
+                                  double least_s);
+
 /* ---- lower bounds of the end of all schedules ---- */
+
+/* earliest_s (ntask): of a wafer alone */
+void fw_schedule_lower_bounds(const fw_schedule_shop *shop, const double *earliest_s,
+                              double start_s, fw_schedule_bound *bound);
 
 #endif

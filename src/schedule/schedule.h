@@ -131,7 +131,7 @@ fw_status fw_schedule_network_conflict(fw_arena *arena, const fw_schedule_shop *
 fw_status fw_schedule_network_pauses(fw_arena *arena, const fw_schedule_shop *shop,
                                      double *pause_s);
 /* earliest start of every task (ntask) of a wafer alone in the shop, from start_s on, with the
-   working day. *ok false: it never fits (the task at which it fails is in *failing) */
+   working day and the hours of the machines. *ok false: it never fits (the task at which it fails is in *failing) */
 fw_status fw_schedule_network_earliest(const fw_schedule_shop *shop, double start_s,
                                        double *earliest_s, bool *ok, int *failing);
 
@@ -143,7 +143,10 @@ double fw_schedule_calendar_fit(const fw_schedule_calendar *calendar, double fro
 /* earliest time by which people have been there for work_s since from_s */
 double fw_schedule_calendar_worked(const fw_schedule_calendar *calendar, double from_s,
                                    double work_s);
+/* end of the stretch that is open at t */
+double fw_schedule_calendar_closes(const fw_schedule_calendar *calendar, double t);
 bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round the clock */
+extern const fw_schedule_calendar fw_schedule_round_the_clock;
 /* when the first working day begins, s from 0:00 of day 1 */
 double fw_schedule_calendar_start(const fw_schedule_calendar *calendar);
 extern const char *const fw_schedule_weekday[7]; /* "Mon" ... */
@@ -158,6 +161,8 @@ void fw_schedule_civil(long day, long civil[3]);
 /* earliest t >= from such that a run of this length lies inside the hours of the machine and on no day
    on which it is closed; INFINITY: never. Test: test_tools.c */
 double fw_schedule_machine_fit(const fw_schedule_machine *machine, double from_s, double length_s);
+/* when the machine closes that is open at t; INFINITY: it has no hours */
+double fw_schedule_machine_closes(const fw_schedule_machine *machine, double t);
 
 /* ---- durations in words ---- */
 

@@ -6,82 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static double runs_of(const fw_schedule_shop *shop, int task) {
-    const fw_schedule_task *t = &shop->task[task];
-    int at_once = t->alone ? shop->machine[t->machine].places : t->load;
-    return ceil((double)shop->wafers / at_once);
-}
-
-static double there_of(const fw_schedule_task *t) {
-    return t->by_day ? t->duration_s : t->attended_s;
-}
-
-/* earliest end of the flow when task `from` may start at t: tasks alone, in the working day */
-static double rest_after(const fw_schedule_shop *shop, int from, double t) {
-    for (int i = from; i < shop->ntask; i++) {
-        double there = there_of(&shop->task[i]);
-        if (there > 0.0) t = fw_schedule_calendar_fit(&shop->calendar, t, there);
-        t += shop->task[i].duration_s;
-    }
-    return t;
-}
-
-/* Runs on one machine follow each other. None starts before the first of its tasks can, and behind
-   the last run the flow still has at least what follows the last of its tasks. */
-static double machine_bound(const fw_schedule_shop *shop, int machine, const double *earliest_s) {
-    int first = -1, last = -1;
-    double busy = 0.0, there = 0.0;
-    for (int i = 0; i < shop->ntask; i++) {
-        const fw_schedule_task *t = &shop->task[i];
-        if (t->machine != machine) continue;
-        first = first < 0 ? i : first;
-        last = i;
-        /* where a run occupies one of several places, so many run at once */
-        double share = t->alone ? 1.0 : 1.0 / shop->machine[machine].places;
-        busy += runs_of(shop, i) * t->duration_s * share;
-        there += t->alone ? 0.0 : runs_of(shop, i) * there_of(t) * share;
-    }
-    if (first < 0) return 0.0;
-    double t = fmax(earliest_s[first] + busy,
-                    fw_schedule_calendar_worked(&shop->calendar, earliest_s[first], there));
-    return rest_after(shop, last + 1, t);
-}
-
-/* K people stand there for all attended parts; behind the last one its run and the flow go on */
-static double operator_bound(const fw_schedule_shop *shop, const double *earliest_s) {
-    double work = 0.0, from = (double)INFINITY, least = (double)INFINITY;
-    for (int i = 0; i < shop->ntask; i++) {
-        if (!(shop->task[i].attended_s > 0.0)) continue;
-        work += runs_of(shop, i) * shop->task[i].attended_s;
-        from = fmin(from, earliest_s[i]);
-    }
-    if (work <= 0.0) return 0.0;
-    double t = fw_schedule_calendar_worked(&shop->calendar, from, work / shop->operators);
-    for (int i = 0; i < shop->ntask; i++) {
-        const fw_schedule_task *k = &shop->task[i];
-        if (k->attended_s > 0.0)
-            least = fmin(least, rest_after(shop, i + 1, t + k->duration_s - k->attended_s));
-    }
-    return least;
-}
-
-/* Each bound holds for every schedule, windows and days included: people and machines only delay a
-   wafer alone, fitting into the day never makes a later start earlier, and where a window forbids
-   loads that are counted here, the truth is later still. Test: test_schedule.c, brute_force. */
-static void lower_bounds(const fw_schedule_shop *shop, const double *earliest_s, double start_s,
-                         fw_schedule_bound *b) {
-    int last = shop->ntask - 1;
-    *b = (fw_schedule_bound){.path_s = earliest_s[last] + shop->task[last].duration_s - start_s};
-    for (int m = 0; m < shop->nmachine; m++) {
-        double at = machine_bound(shop, m, earliest_s) - start_s;
-        if (at <= b->machine_s) continue;
-        b->machine_s = at;
-        b->machine = m;
-    }
-    b->operator_s = fmax(0.0, operator_bound(shop, earliest_s) - start_s);
-    b->best_s = fmax(b->path_s, fmax(b->machine_s, b->operator_s));
-}
-
 /* Every rule once, then small changes of the best order, kept where they are no worse. The random
    numbers are always the same, so that the same shop gives the same schedule. */
 
@@ -236,6 +160,7 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
                        fw_schedule *out) {
     search s = {.shop = shop, .state = 20250106, .bound_s = out->bound.best_s};
     FW_TRY(room(arena, &s));
+    s.placing.start_s = out->start_s;
     for (int r = 0; r < TIES * FW_RULES && !done(&s); r++) {
         s.placing.tie_s = ties_s[r / FW_RULES];
         for (int i = 0; i < shop->ntask; i++)
@@ -264,43 +189,64 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     return name_operators(arena, shop, s.best.run, s.best.nrun);
 }
 
-/* a schedule of a problem with less freedom, `later_s` later, is one of this problem too: does it keep the working day? */
-static bool fits_day(const fw_schedule_shop *shop, const fw_schedule *of, double later_s) {
+/* does a schedule of a relaxed problem keep the working day and the hours of the machines? */
+static bool keeps_hours(const fw_schedule_shop *shop, const fw_schedule *of) {
     for (int i = 0; i < of->nrun; i++) {
-        const fw_schedule_task *t = &shop->task[of->run[i].task];
-        double start = of->run[i].start_s + later_s,
-               there = t->by_day ? t->duration_s : t->attended_s;
-        if (there > 0.0 && fw_schedule_calendar_fit(&shop->calendar, start, there) > start + 1e-6)
-            return false;
+        double start = of->run[i].start_s;
+        if (fw_schedule_alone_fit(shop, of->run[i].task, start) > start + 1e-6) return false;
     }
     return true;
 }
 
-static fw_status take_over(fw_arena *arena, const fw_schedule *of, double later_s,
-                           fw_schedule *out) {
-    fw_schedule_run *run = fw_arena_array(arena, fw_schedule_run, (size_t)of->nrun);
-    FW_NEED(run);
-    memcpy(run, of->run, (size_t)of->nrun * sizeof *run);
-    for (int i = 0; i < of->nrun; i++) {
-        run[i].start_s += later_s;
-        run[i].end_s += later_s;
-    }
+static void take_over(const fw_schedule *of, fw_schedule *out) {
     out->feasible = true;
     out->why = NULL;
     out->rule = of->rule;
-    out->run = run;
+    out->run = of->run;
     out->nrun = of->nrun;
     out->makespan_s = of->makespan_s;
     measure(out);
-    return FW_OK;
 }
 
 static bool better(const fw_schedule *a, const fw_schedule *b) {
     return a->feasible && (!b->feasible || a->makespan_s < b->makespan_s - 1e-6);
 }
 
-/* The search is no proof, so that it may miss what it finds for fewer people, or without a working day: neither may be
-   better than what is handed out. Cost: one search more for every operator that can be busy at once, and one. */
+static fw_status solve_relaxed(fw_arena *arena, const fw_schedule_shop *shop,
+                               const fw_schedule_shop *relaxed, int effort, fw_schedule *out) {
+    fw_schedule other = *out;
+    other.feasible = false;
+    FW_TRY(solve(arena, relaxed, effort, &other));
+    if (better(&other, out) && keeps_hours(shop, &other)) take_over(&other, out);
+    return FW_OK;
+}
+
+/* without breaks, round the clock, without the hours of machines, without both: what is stated of them */
+static fw_status solve_without_hours(fw_arena *arena, const fw_schedule_shop *shop, int effort,
+                                     fw_schedule *out) {
+    fw_schedule_machine *open = fw_arena_array(arena, fw_schedule_machine, (size_t)shop->nmachine);
+    FW_NEED(open);
+    bool hours = false, by_day = !fw_schedule_calendar_round(&shop->calendar);
+    for (int m = 0; m < shop->nmachine; m++) {
+        open[m] = shop->machine[m];
+        hours = hours || open[m].nhours + open[m].nclosed > 0;
+        open[m].nhours = open[m].nclosed = 0;
+    }
+    for (int machines = 0; machines <= (int)hours; machines++)
+        for (int day = 0; day < 3 && !out->optimal; day++) {
+            fw_schedule_shop relaxed = *shop;
+            if (machines) relaxed.machine = open;
+            if (day == 1) relaxed.calendar.breaks = 0;
+            if (day == 2) relaxed.calendar = fw_schedule_round_the_clock;
+            bool another = day == 0 ? machines : day == 1 ? shop->calendar.breaks > 0 : by_day;
+            if (another) FW_TRY(solve_relaxed(arena, shop, &relaxed, effort, out));
+        }
+    return FW_OK;
+}
+
+/* The search is no proof, so that it may miss what it finds for fewer people, or without hours: neither may be better
+   than what is handed out. Cost: one search more for every operator that can be busy at once, and one for each kind of
+   hours. */
 static fw_status solve_with_less(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                                  fw_schedule *out) {
     fw_schedule_shop less = *shop;
@@ -311,30 +257,33 @@ static fw_status solve_with_less(fw_arena *arena, const fw_schedule_shop *shop, 
         less.operators = k;
         other.feasible = false;
         FW_TRY(solve(arena, &less, effort, &other));
-        if (better(&other, out)) FW_TRY(take_over(arena, &other, 0.0, out));
+        if (better(&other, out)) take_over(&other, out);
     }
-    if (out->optimal || fw_schedule_calendar_round(&shop->calendar)) return FW_OK;
-    less = *shop;
-    less.calendar = (fw_schedule_calendar){.open_s = 0.0, .close_s = 86400.0, .weekends = true};
-    other.feasible = false;
-    FW_TRY(solve(arena, &less, effort, &other));
-    if (better(&other, out) && fits_day(shop, &other, out->start_s))
-        FW_TRY(take_over(arena, &other, out->start_s, out));
-    return FW_OK;
+    return solve_without_hours(arena, shop, effort, out);
 }
 
 /* NULL, or why nobody can ever stand there long enough */
-static const char *day_too_short(fw_arena *arena, const fw_schedule_shop *shop) {
+static fw_status day_too_short(fw_arena *arena, const fw_schedule_shop *shop, const char **why) {
     for (int i = 0; i < shop->ntask; i++) {
         const fw_schedule_task *t = &shop->task[i];
         double there = t->by_day ? t->duration_s : t->attended_s;
-        if (isfinite(fw_schedule_calendar_fit(&shop->calendar, 0.0, there))) continue;
         fw_text text = fw_text_new(arena);
-        fw_text_printf(&text, "%s %s longer than the working day", t->id,
-                       t->by_day ? "must not run without people, and takes" : "needs somebody for");
-        return text.failed ? "" : text.data;
+        if (isinf(fw_schedule_calendar_fit(&shop->calendar, 0.0, there)))
+            fw_text_printf(&text, "%s %s longer than the working day", t->id,
+                           t->by_day ? "must not run without people, and takes"
+                                     : "needs somebody for");
+        else if (isinf(fw_schedule_alone_fit(shop, i, 0.0)))
+            fw_text_printf(&text,
+                           "%s needs somebody while '%s' is open, and the machine's hours and the "
+                           "working day never meet for so long",
+                           t->id, shop->machine[t->machine].id);
+        else
+            continue;
+        FW_TRY(fw_text_end(&text));
+        *why = text.data;
+        return FW_OK;
     }
-    return NULL;
+    return FW_OK;
 }
 
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
@@ -356,18 +305,20 @@ fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int e
     FW_TRY(fw_schedule_network_conflict(arena, shop, true, &out->late));
     FW_TRY(fw_schedule_network_pauses(arena, shop, pause_s));
     out->pause_s = pause_s;
-    out->why = day_too_short(arena, shop);
+    FW_TRY(day_too_short(arena, shop, &out->why));
     if (out->why) return FW_OK;
     bool ok;
     int failing;
     FW_TRY(fw_schedule_network_earliest(shop, out->start_s, earliest_s, &ok, &failing));
     if (!ok) {
         FW_NEED(out->why = fw_arena_printf(
-                    arena, "the windows about %s (%s) cannot be kept within the working day",
+                    arena,
+                    "the windows about %s (%s) cannot be kept within the working day and "
+                    "the hours of the machines",
                     shop->task[failing].id, shop->task[failing].title));
         return FW_OK;
     }
-    lower_bounds(shop, earliest_s, out->start_s, &out->bound);
+    fw_schedule_lower_bounds(shop, earliest_s, out->start_s, &out->bound);
     FW_TRY(solve(arena, shop, effort, out));
     return solve_with_less(arena, shop, effort, out);
 }

@@ -19,6 +19,39 @@ double fw_schedule_machine_fit(const fw_schedule_machine *m, double from_s, doub
     return t;
 }
 
+double fw_schedule_machine_closes(const fw_schedule_machine *m, double t) {
+    double end = (double)INFINITY;
+    for (int i = 0; i < m->nhours; i++)
+        end = fmin(end, fw_schedule_calendar_closes(&m->hours[i], t));
+    for (int i = 0; i < m->nclosed; i++)
+        if (m->closed_s[i][0] > t) end = fmin(end, m->closed_s[i][0]);
+    return end;
+}
+
+double fw_schedule_machine_worked(const fw_schedule_machine *m, double from_s, double work_s,
+                                  double least_s) {
+    for (double t = from_s;;) {
+        t = fw_schedule_machine_fit(m, t, least_s);
+        if (!isfinite(t)) return t;
+        double close = fw_schedule_machine_closes(m, t);
+        if (work_s <= close - t) return t + work_s;
+        work_s -= close - t;
+        t = close;
+    }
+}
+
+double fw_schedule_alone_fit(const fw_schedule_shop *shop, int task, double from_s) {
+    const fw_schedule_task *k = &shop->task[task];
+    double there = k->by_day ? k->duration_s : k->attended_s, t = from_s;
+    for (double before = -(double)INFINITY; t > before;) {
+        if (!(t <= from_s + FW_HORIZON_S)) return (double)INFINITY; /* hours that never meet */
+        before = t;
+        if (there > 0.0) t = fw_schedule_calendar_fit(&shop->calendar, t, there);
+        t = fw_schedule_machine_fit(&shop->machine[k->machine], t, k->duration_s);
+    }
+    return t;
+}
+
 /* ---- from the words of a laboratory ---- */
 
 /* "Mon Tue": the others are closed; false: another word, or none */

@@ -74,21 +74,15 @@ static void sites(const fw_wafer *w, const fw_mask_order *order, const fw_wafer_
     int wide = fw_mask_order_gds_width(w->table);
     fw_text_printf(out,
                    "\nCD sites in die %s: centre of the chord from the plate's middle and its "
-                   "direction, um and degrees\n"
-                   "site  %-*s  kind        x            y       angle       CD  what\n",
-                   fw_wafer_site_name(w, die, name), wide, "layer");
+                   "direction, um and degrees\n",
+                   fw_wafer_site_name(w, die, name));
+    fw_mask_order_site_heading(out, "layer", wide);
     for (int i = 0; i < order->nsite; i++) {
         const fw_mask_order_site *s = &order->site[i];
-        const fw_mask_layer *y = &w->table->layer[s->layer];
         fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
         char gds[FW_MASK_GDS_TEXT];
-        fw_text_printf(out, "%4d  %-*s  %-5s ", i + 1, wide, fw_mask_order_gds(gds, y),
-                       s->space ? "space" : "width");
-        fw_text_real(out, "%12.3f", (at.x + shift.x) * 1e6);
-        fw_text_real(out, " %12.3f", (at.y + shift.y) * 1e6);
-        fw_text_real(out, " %8.2f", atan2(along.y, along.x) * 180 / FW_PI);
-        fw_text_real(out, " %8.3f", vec_length(along) * 1e6);
-        fw_text_printf(out, "  %s\n", s->what);
+        fw_mask_order_site_row(out, i + 1, fw_mask_order_gds(gds, &w->table->layer[s->layer]), wide,
+                               s, vec_add(at, shift), along);
     }
 }
 

@@ -90,7 +90,7 @@ static void glass(const fw_wafer *w, fw_text *out) {
 
 /* ---- where to measure: dies at the centre and at four edges ---- */
 
-enum { PLACES = 5 };
+enum { PLACES = 5, NAME = 5 }; /* columns of a die's name */
 
 /* the die whose middle is nearest to a point, not one of those before; NULL: none is left */
 static const fw_wafer_site *near(const fw_wafer *w, double x, double y,
@@ -128,13 +128,10 @@ static fw_status sites_of(const fw_wafer *w, const fw_wafer_site *die, bool mirr
         flexure = flexure || !least;
         fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
         double sign = mirrored ? -1 : 1;
-        fw_text_printf(out, "%4d  %-5s %-5s ", ++*number, fw_wafer_site_name(w, die, name),
-                       s->space ? "space" : "width");
-        fw_text_real(out, "%12.3f", sign * (at.x * 1e6 + (die->x + dx) * 1e-3));
-        fw_text_real(out, " %12.3f", at.y * 1e6 + (die->y + dy) * 1e-3);
-        fw_text_real(out, " %8.2f", atan2(along.y, sign * along.x) * 180 / FW_PI);
-        fw_text_real(out, " %8.3f", vec_length(along) * 1e6);
-        fw_text_printf(out, "  %s\n", s->what);
+        fw_mask_order_site_row(
+            out, ++*number, fw_wafer_site_name(w, die, name), NAME, s,
+            (fw_geometry_vec2){sign * (at.x + (die->x + dx) * 1e-9), at.y + (die->y + dy) * 1e-9},
+            (fw_geometry_vec2){sign * along.x, along.y});
     }
     return FW_OK;
 }
@@ -145,8 +142,8 @@ static fw_status sites(const fw_wafer *w, bool mirrored, fw_text *out) {
     int number = 0;
     fw_text_add(out,
                 "\nCD sites, as the file has them: centre of the chord from the plate's middle "
-                "and its direction, um and degrees\n"
-                "site  die   kind        x            y       angle       CD  what\n");
+                "and its direction, um and degrees\n");
+    fw_mask_order_site_heading(out, "die", NAME);
     for (int i = 0; i < PLACES; i++) {
         double r = (double)w->form.usable_dbu;
         die[i] = near(w, r * to[i][0], r * to[i][1], die, i);

@@ -72,6 +72,37 @@ class Flowback(unittest.TestCase):
             self.expect(self.etch(wafer, *first, power="262 W" if wafer == 3 else "250 W",
                                   rate=0.545 * (1 + 0.01 * self.random.gauss(0, 1))))
 
+    def test_a_doubtful_unit_is_said_to_the_quiet_too(self):
+        entry = "S01; start=2026-11-02T08:00; end=2026-11-02T08:08; by=AB; thickness=50.1 {}; cracks or chipped edge=0"
+        for number, (unit, says) in enumerate((("mm", "more than 100 times the 52 um"), ("nm", "less than a hundredth of the 48 um"),
+                                               ("um", None))):
+            self.log = self.here / f"{number}.log"
+            said = self.expect(self.command("--entry", entry.format(unit), "--wafer", "1", "--wafers", "6", "-q")).stderr
+            self.assertEqual(said.strip() == "", says is None, said)
+            if says:
+                self.assertIn(says, said)
+                self.assertIn("is the unit right?", said)
+
+    def test_a_day_at_once(self):
+        day = self.here / "day.txt"
+        lines = ["# Monday", ""] + [f"S01; start=2026-11-02T08:{w}0; end=2026-11-02T08:{w}8; by=AB; wafer={w}; instrument=gauge; "
+                                    f"thickness=50.1 50.2 50.0 49.9 50.3 um; cracks or chipped edge=0" for w in range(1, 4)]
+        day.write_text("\r\n".join(lines))
+        self.expect(self.command("--entries", day, "--wafers", "3", "-q"))
+        together = self.log.read_bytes()
+        self.log = self.here / "one.log"
+        for number, line in enumerate(lines[2:]):
+            self.expect(self.command("--entry", line, *([] if number else ["--wafers", "3"])))
+        self.assertEqual(together, self.log.read_bytes())
+        # all or none, and where
+        day.write_text("\n".join(lines[2:4] + ["  S02; start=2026-11-02T09:00; end=2026-11-02T09:35; by=AB; colour=red"]))
+        said = self.expect(self.command("--entries", day), 3).stderr
+        self.assertIn("day.txt:3:3: error", said)
+        self.assertEqual(together, self.log.read_bytes())
+        day.write_text("# nothing\n")
+        self.assertIn("no entry", self.expect(self.command("--entries", day), 3).stderr)
+        self.assertIn("use one of them", self.expect(self.command("--entries", day, "--entry", "S01"), 2).stderr)
+
     def test_a_lot(self):
         self.lot()
         page = self.here / "report.html"

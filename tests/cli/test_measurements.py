@@ -94,9 +94,11 @@ class Measurements(unittest.TestCase):
     def test_rank_and_reader(self):
         ranked = self.base["al-masked-rie"]["measurements"]["ranked"]
         first = ranked[0]
-        self.assertEqual(first["id"], "rie.A")
-        self.assertEqual(first["read_by"], "coupon undercut-ladder, with cd-lines")
-        self.assertFalse(first["known"])
+        self.assertEqual(first["id"], "made.al-edge")  # the printed edge is within what cd-lines reads of it
+        self.assertEqual(first["read_by"], "coupon cd-lines")
+        anisotropy = next(x for x in ranked if x["id"] == "rie.A")
+        self.assertEqual(anisotropy["read_by"], "coupon undercut-ladder, with cd-lines")
+        self.assertFalse(anisotropy["known"])
         self.assertTrue(first["decides"])
         order = [(not x["decides"], -x["narrowing"]) for x in ranked]
         self.assertEqual(order, sorted(order))
@@ -117,7 +119,7 @@ class Measurements(unittest.TestCase):
         line = [x for x in result.stdout.splitlines() if "Measure" in x]
         first = self.base["al-masked-rie"]["measurements"]["first"]
         self.assertEqual(line, [f"al-masked-rie: {first}"])
-        self.assertRegex(first, r"^Measure the anisotropy first \(rie\.A; coupon undercut-ladder, with cd-lines\): the "
+        self.assertRegex(first, r"^Measure the edge of the aluminium first \(made\.al-edge; coupon cd-lines\): the "
                                 r"band of hinge A goes from [\d.]+\.\.[\d.]+ % to [\d.]+\.\.[\d.]+ %.*accepted\.$")
         self.assertNotIn("Measure the", run("check", self.device, "--measurements", "none").stdout)
         self.assertNotIn("Measure the", run("check", GALLERY).stdout)  # accepted

@@ -42,7 +42,8 @@ static const char *with(const char *log, const char *words, int number) {
     fw_recipe_asrun run;
     const char *line = NULL;
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-    fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, now, &diags, &line);
+    fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, (fw_place){"entry", 1, 1}, now,
+                                           &diags, &line);
     if (number) {
         assert_int_equal(status, FW_INPUT);
         assert_int_equal(diags.item[diags.count - 1].number, number);
@@ -344,6 +345,10 @@ static void refused_values(void **state) {
         {"coupon=plating-pads, drawn=1 mm, value=9 um, u=-1 um, at=25 C/cm2", "not below 0", 282},
         {"coupon=plating-pads, drawn=1 mm, value=9 um, u=1 um", "needs the columns at", 211},
         {"coupon=plating-pads, value=9 um, u=1 um, at=25 C/cm2", "drawn_um", 211},
+        {"coupon=plating-pads, drawn=1 mm, value=9 um, u=1 um, at=25 s", "which stands under at", 211},
+        {"coupon=cd-lines, drawn=9 um, value=9 um, u=1 um", "is line or space, not ''", 211},
+        {"coupon=undercut-ladder, gon, drawn=9 um, value=9 um, u=1 um, at=9 min",
+         "is width, gone or stands", 211},
         {"coupon=plating-pads, colour=red, value=9 um, u=1 um", "a coupon has no 'colour'", 282},
         {"coupon=plating-pads, drawn=1 mm, value=9000 km, u=1 um, at=25 C/cm2", "plausible range",
          278},
@@ -356,6 +361,9 @@ static void refused_values(void **state) {
     }
     with(begun(), entry("thickness=9.1 mm; thickness below the mould's top=6"), 0);
     assert_non_null(strstr(diags.item[1].message, "is the unit right?"));
+    assert_true(diags.item[1].unreliable);
+    with(begun(), entry("thickness=9.1 nm; thickness below the mould's top=6"), 0);
+    assert_non_null(strstr(diags.item[1].message, "less than a hundredth of the 8.1 um"));
     lot_wafers = NULL; /* a log of before there were wafers */
     with(begun(), entry("wafer=1"), 282);
     with(begun(), entry("thickness=9.1"), 0);
@@ -399,7 +407,8 @@ static void anything_typed(void **state) {
                 memmove(words + at, words + at + 1, n - at);
         }
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-        fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, now, &diags, &line);
+        fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, (fw_place){"entry", 1, 1},
+                                               now, &diags, &line);
         assert_true(status == FW_OK || status == FW_INPUT);
         if (status == FW_OK) {
             const char *both = fw_arena_printf(arena, "%s%s", log, line);

@@ -94,8 +94,8 @@ static inline fw_schedule_shop shop_of(fw_arena *arena, const row *rows, int n, 
 }
 
 /* every rule of a schedule, looked at from outside: each wafer does every task once and in order,
-   no machine takes more than it has places for, nobody stands in two places, people work by day,
-   every hold is kept */
+   no machine takes more than it has places for or runs outside its hours, nobody stands in two
+   places, people work by day, every hold is kept */
 static inline void check_schedule(const fw_schedule *s) {
     const fw_schedule_shop *shop = s->shop;
     static double start[200 * 50], end[200 * 50];
@@ -112,6 +112,8 @@ static inline void check_schedule(const fw_schedule *s) {
         if (there > 0.0)
             assert_near(fw_schedule_calendar_fit(&shop->calendar, r->start_s, there), r->start_s,
                         1e-6);
+        const fw_schedule_machine *m = &shop->machine[t->machine];
+        assert_near(fw_schedule_machine_fit(m, r->start_s, t->duration_s), r->start_s, 1e-6);
         for (int w = r->first; w < r->first + r->count; w++) {
             count[r->task * shop->wafers + w]++;
             start[r->task * shop->wafers + w] = r->start_s;

@@ -58,6 +58,7 @@ typedef struct small {
     fw_schedule_shop shop;
     row rows[TASKS];
     fw_schedule_hold hold[2];
+    fw_schedule_calendar hours[2];
     int start[TASKS * 3]; /* minutes, task * wafers + wafer; -1: not yet */
     int best, wafers;
 } small;
@@ -72,6 +73,10 @@ static bool fits(const small *s, int task, int wafer, int t, int upto) {
     int together = 1, people = k->attended_s > 0;
     if (task > 0 && t < s->start[(task - 1) * s->wafers + wafer] + run_min(s, task - 1))
         return false;
+    for (int h = 0; h < s->shop.machine[k->machine].nhours; h++) {
+        const fw_schedule_calendar *c = &s->shop.machine[k->machine].hours[h];
+        if (60 * t < c->open_s || 60 * (t + run_min(s, task)) > c->close_s) return false;
+    }
     for (int h = 0; h < s->shop.nhold; h++)
         if (s->hold[h].to == task) {
             double w = 60.0 * (t - s->start[s->hold[h].from * s->wafers + wafer] -
@@ -138,20 +143,35 @@ static void random_small(small *s) {
     }
 }
 
-/* 120 shops of two or three wafers: never better than the best of all schedules, and nearly always
-   equal; the bound never above it. A batch may start together only. */
+/* on one machine of two, as long as any run, of the first day of the horizon */
+static void random_hours(small *s) {
+    int m = below(s->shop.nmachine), open = below(5), close = open + 3 + below(3 * MOST);
+    fw_schedule_machine *machine = fw_arena_array(arena, fw_schedule_machine, TASKS);
+    memcpy(machine, s->shop.machine, (size_t)s->shop.nmachine * sizeof *machine);
+    s->hours[0] =
+        (fw_schedule_calendar){.open_s = 60.0 * open, .close_s = 60.0 * close, .weekends = true};
+    machine[m].hours = s->hours;
+    machine[m].nhours = 1;
+    s->shop.machine = machine;
+}
+
+/* 120 shops of two or three wafers, a third with a machine that has hours: never better than the best of all schedules,
+   and nearly always equal; the bound never above it. A batch may start together only. */
 static void brute_force(void **state) {
     (void)state;
-    int optimal = 0, all = 0, held = 0;
+    int optimal = 0, all = 0, held = 0, hours = 0;
     int rounds = test_fewest(test_cases(120, 40), 24);
     for (int round = 0; round < rounds; round++) {
         small s = {.best = 3 * MOST};
         fw_schedule got;
         random_small(&s);
+        bool with_hours = round % 3 == 0;
+        if (with_hours) random_hours(&s);
         all_schedules(&s, 0, 0);
         assert_int_equal(fw_schedule_solve(arena, &s.shop, 300, &got), FW_OK);
         if (s.best == 3 * MOST) continue; /* beyond the horizon of this search */
         all++;
+        hours += with_hours;
         held += s.shop.nhold > 0;
         if (!got.feasible) {
             print_message("not found: best %d, %s\n", s.best, got.why);
@@ -164,7 +184,7 @@ static void brute_force(void **state) {
         optimal += got.makespan_s <= 60.0 * s.best + 1e-6;
     }
 
-    assert_true(4 * all > 3 * rounds && 12 * held > 5 * rounds);
+    assert_true(4 * all > 3 * rounds && 12 * held > 5 * rounds && 4 * hours > rounds);
     assert_true(optimal >= 0.97 * all);
 }
 

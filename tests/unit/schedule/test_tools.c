@@ -3,7 +3,7 @@
    search by quarters of an hour; what a laboratory writes, and what it may not. */
 #include "../process/pack_fixture.h"
 #include "process/calibrate.h"
-#include "schedule/schedule.h"
+#include "schedule/place.h"
 
 enum { HOUR = 3600, DAY = 86400 };
 
@@ -91,7 +91,7 @@ static void every_run(void **state) {
     for (int i = 0; i < 3; i++)
         for (int wafers = 1; wafers <= 4; wafers += 3) {
             fw_process_flow *f = with(tools[i], FW_OK);
-            const fw_schedule *s, *free;
+            const fw_schedule *s, *open;
             fw_schedule_options options = {.wafers = wafers, .day = "08:00-18:00 from 2026-11-23"};
             assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
             assert_true(s->feasible);
@@ -103,10 +103,52 @@ static void every_run(void **state) {
                 assert_true(inside(m, s->run[k].start_s, s->run[k].end_s));
             }
             assert_true(touched > 0);
-            f->ntool_time = 0; /* without hours it is not later */
-            assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &free), FW_OK);
-            assert_true(free->makespan_s <= s->makespan_s + 1e-6);
+            assert_true(s->bound.best_s <= s->makespan_s + 1e-6);
+            f->ntool_time = 0; /* without hours it is not later, and not bound to be */
+            assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &open), FW_OK);
+            assert_true(open->makespan_s <= s->makespan_s + 1e-6);
+            assert_true(open->bound.best_s <= s->bound.best_s + 1e-6);
+            if (i == 0) { /* the etcher decides: one wafer a Tuesday or Thursday */
+                assert_true(s->optimal && s->gap == 0.0);
+                assert_true(s->bound.best_s > (wafers > 1 ? 4.0 : 1.5) * open->makespan_s);
+            }
         }
+}
+
+/* the open time of a machine, quarter by quarter */
+static void worked(void **state) {
+    (void)state;
+    const int cases = test_cases(400, 100);
+    for (int i = 0; i < cases; i++) {
+        double closed[1][2] = {{DAY * (double)below(7), 0.0}};
+        closed[0][1] = closed[0][0] + DAY * (1.0 + below(2));
+        int open = below(12);
+        fw_schedule_calendar hours = {.open_s = open * HOUR,
+                                      .close_s = (open + 4 + below(9)) * HOUR,
+                                      .weekends = true,
+                                      .closed_days = (unsigned)below(127)};
+        fw_schedule_machine m = {
+            .hours = &hours, .nhours = 1, .closed_s = closed, .nclosed = below(2)};
+        double from = 900.0 * below(4 * 24 * 10), t = from, left = 900.0 * (1 + below(4 * 24));
+        double got = fw_schedule_machine_worked(&m, from, left, 900.0);
+        for (; left > 0.0; t += 900.0)
+            if (inside(&m, t, t + 900.0)) left -= 900.0;
+        assert_near(got, t, 1e-6);
+    }
+}
+
+/* people are there when the machine is not: no date is named as if there were a schedule */
+static void hours_that_never_meet(void **state) {
+    (void)state;
+    fw_process_flow *f = with("<tool equipment=\"rie\" open=\"19:00-23:00\"/>", FW_OK);
+    fw_schedule_options options = {.wafers = 1};
+    const fw_schedule *s;
+    assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+    assert_false(s->feasible);
+    assert_non_null(strstr(s->why, "never meet"));
+    options.day = "12:00-22:00"; /* somebody starts it in time */
+    assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+    assert_true(s->feasible);
 }
 
 static void refused(void **state) {
@@ -145,6 +187,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(earliest_fit, setup, teardown),
         cmocka_unit_test_setup_teardown(every_run, setup, teardown),
+        cmocka_unit_test_setup_teardown(worked, setup, teardown),
+        cmocka_unit_test_setup_teardown(hours_that_never_meet, setup, teardown),
         cmocka_unit_test_setup_teardown(refused, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

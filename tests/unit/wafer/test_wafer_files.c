@@ -223,6 +223,18 @@ static void test_map(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* every number ends where the name of its column ends */
+static void columns_below_heading(const char *heading) {
+    static const char *const name[] = {" x", " y", " angle", " CD"};
+    const char *row = strchr(heading, '\n') + 1;
+    for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
+        const char *end = strstr(heading, name[i]) + strlen(name[i]);
+        const char *last = row + (end - heading);
+        if (!strchr("0123456789", last[-1]) || last[0] != ' ')
+            fail_msg("'%s' stands beside its numbers:\n%.180s", name[i], heading);
+    }
+}
+
 /* places to measure: on the die nearest to the middle, where its own order sheet has them */
 static void test_order(void **state) {
     (void)state;
@@ -252,6 +264,8 @@ static void test_order(void **state) {
     const char *there = strstr(own.data, "CD sites");
     int sites = 0, a, b;
     double x, y, x0, y0;
+    columns_below_heading(strstr(line, "site  layer"));
+    columns_below_heading(strstr(there, "site  layer"));
     line = strchr(strstr(line, "site  layer"), '\n'); /* behind the heading */
     there = strchr(strstr(there, "site  layer"), '\n');
     while (sscanf(line + 1, "%d %*s %*s %lf %lf", &a, &x, &y) == 3 &&
