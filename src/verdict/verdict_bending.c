@@ -73,7 +73,8 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, con
                                    const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *v) {
     fw_verdict_arm *arm;
-    if (v->arm || !layout || !layout->drawn || options->at_a_glance) return FW_OK;
+    const bool trial = options->at_a_glance && options->coarse_first; /* settled by a whole look */
+    if (v->arm || !layout || !layout->drawn || trial) return FW_OK;
     FW_TRY(fw_verdict_body_arms(arena, m, layout, &arm));
     v->arm = arm;
     return FW_OK;

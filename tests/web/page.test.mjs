@@ -232,6 +232,10 @@ describe("the six-bar", () => {
         assert.ok((await page.locator(".step").count()) > 15);
         assert.match(await page.locator(".step.missing .not-computable").first().textContent(), /NOT COMPUTABLE, missing: \w/);
         assert.ok((await page.locator(".section-picture svg").count()) >= 10); // of the steps that change the wafer
+        assert.match(await page.locator(".worth summary").textContent(), /^Measure the .* first \(\w.*of the limit, of [\d.]+ % in all\.$/);
+        await page.click(".worth summary");
+        const worth = page.locator(".worth tbody tr").first();
+        assert.match(await worth.textContent(), /[\d.]+ % → [\d.]+ %/); // what it brings now, and once it is measured
         await page.waitForFunction(() => document.querySelector(".schedule img")?.naturalWidth > 300);
         const [sheet] = await Promise.all([page.context().waitForEvent("page"), page.click('a:has-text("Run sheet")')]);
         await sheet.waitForLoadState();

@@ -2,7 +2,7 @@
 // Recipes: steps with cross-sections, computed times and what is missing; the schedule; the run sheet.
 import { get, request as fetchText } from "./api.js";
 import { h, icon, select, setOptions } from "./dom.js";
-import { duration, number } from "./format.js";
+import { duration, number, percent } from "./format.js";
 import { fileOf, forceTick, hasFile, JobView, REJECTED, rejection } from "./jobs.js";
 
 export class Recipe {
@@ -45,9 +45,10 @@ export class Recipe {
         const r = this.recipes?.find((x) => x.flow === this.flow.value);
         if (!r) return;
         const base = `recipes/${r.flow}`;
-        const [sheet, schedule] = await Promise.all([
+        const [sheet, schedule, worth] = await Promise.all([
             hasFile(job, `${base}.html`) ? fetchText("GET", fileOf(job, `${base}.html`), undefined, { as: "text" }).catch(() => "") : "",
             hasFile(job, `${base}.schedule.json`) ? get(fileOf(job, `${base}.schedule.json`)).catch(() => null) : null,
+            hasFile(job, `${base}.measurements.json`) ? get(fileOf(job, `${base}.measurements.json`)).catch(() => null) : null,
         ]);
         if (job !== this.done) return;
         const link = (path, text) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), target: "_blank", rel: "noopener" }, icon("open"), text) : null);
@@ -62,11 +63,24 @@ export class Recipe {
                 fact("this device", made[0], made[1]),
                 h("div", { class: "recipe-links" }, link(`${base}.html`, "Run sheet"), save(`${base}.csv`, "CSV"), save(`${base}.ics`, "Calendar"))),
             r.reasons?.length ? h("details", { class: "reasons" }, h("summary", {}, `${r.reasons.length} remarks on making it`), h("ul", {}, r.reasons.map((x) => h("li", {}, x)))) : "",
+            measurements(worth?.measurements),
             picture(job, `${base}.schedule.svg`, "Schedule", `Schedule of ${r.flow}: machines over days`),
             folded("Release: when every place is free", picture(job, `${base}.release.svg`, "When every place is free", `When every place of the device is free in ${r.flow}, what is free last and what is lost first`)),
             folded("The wafer after every step, in space", picture(job, `${base}.stack.svg`, "The wafer after every step", `The wafer after every step of ${r.flow}, in space`)),
             h("ol", { class: "steps" }, r.steps.map((x) => step(x, sectionOf(sheet, x.id)))));
     }
+}
+
+/** What each input would be worth if it were measured alone: the first in a sentence, all of them in a table. */
+function measurements(m) {
+    if (!m?.ranked?.length) return "";
+    const now = (q) => (q.value === null ? "not known" : `${q.known ? "" : "assumed "}${number(q.value, 4)} ± ${number(q.u, 2)} ${q.unit === "1" ? "" : q.unit}`);
+    const brings = (q) => (q.share > 0 ? `${percent(q.share, 2)} → ${percent(q.share_measured, 2)}` : "–");
+    const steps = (q) => [q.windows.length ? `narrower in ${q.windows.map((w) => w.step).join(", ")}` : "", q.needed_for ? `needed for ${q.needed_for}` : ""].filter(Boolean).join("; ");
+    return h("details", { class: "reasons worth" }, h("summary", {}, m.first ?? "What to measure first: nothing narrows the verdict"),
+        h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["input", "now", "read by", m.of ? `uncertainty that it brings to ${m.of}, of the limit` : "uncertainty that it brings", "times"].map((x) => h("th", {}, x)))),
+            h("tbody", {}, m.ranked.map((q) => h("tr", {}, h("td", {}, q.id ? `${q.name} (${q.id})` : q.name), h("td", { class: "n" }, now(q)), h("td", {}, q.read_by ?? "nothing in this flow"),
+                h("td", { class: "n" }, brings(q)), h("td", {}, steps(q)))))));
 }
 
 /** A picture of the job, wide: it scrolls by itself. */
