@@ -25,6 +25,8 @@ export async function theBrowser() {
 export const closeBrowser = () => browser?.close();
 
 /** {url, port, file, directory, stop(), restart()}; device: a directory of docs/gallery, null: no file. */
+const running = new Set(); // a test that fails leaves its own, and node would wait for it
+
 export async function serve(device, { port = 0 } = {}) {
     const directory = mkdtempSync(join(tmpdir(), "flexwright-web-"));
     const file = join(directory, "device.xml");
@@ -49,7 +51,9 @@ export async function serve(device, { port = 0 } = {}) {
         server.child.kill("SIGTERM");
     });
     server.restart = (at = server.port) => start(at);
+    running.add(server);
     server.stop = async () => {
+        running.delete(server);
         if (server.child.exitCode === null && server.child.signalCode === null) await server.halt();
         rmSync(directory, { recursive: true, force: true });
     };
@@ -89,9 +93,10 @@ export async function close(page) {
     await page.context().close();
 }
 
-/** At the end of a file of tests: the browser is closed, and nothing was wrong meanwhile. */
+/** At the end of a file of tests: the browser is closed, so are servers of tests that failed, and nothing was wrong meanwhile. */
 export async function finish() {
     await closeBrowser();
+    for (const server of running) await server.stop();
     assert.deepEqual(wrongs, [], "errors, refused content or requests to elsewhere");
 }
 
@@ -106,7 +111,7 @@ export async function answered(page, act) {
         return globalThis.answers;
     });
     await act();
-    await page.waitForFunction((n) => globalThis.answers > n, before);
+    await page.waitForFunction((n) => globalThis.answers > n, before, { timeout: 40000 }); // of a machine that others use, too
 }
 
 export const view = async (page, id) => {
