@@ -50,12 +50,15 @@ static double mass_of(const fw_mechanism *m, int body) {
    in: s, 1; out: s. Test: test_material_damping.c what_is_stiff_rings_on */
 static const double fw_least_ringing_loss = 5e-3;
 
-static void lose(const fw_mechanism *m, const fw_mechanism_pin *pin, const fw_flexure_hinge_at *at,
-                 double tau_s, double loss, double out[2]) {
+/* Where bodies may touch it is that of the rotation: every impact sets off what is stiff, and following
+   it took twenty times as long (docs/decisions/0054-what-is-stiff-rings-on.md) */
+static void lose(const fw_effect_case *c, const fw_mechanism_pin *pin,
+                 const fw_flexure_hinge_at *at, double tau_s, double out[2]) {
     const double k[2] = {at->kx_N_per_m.value, at->ky_N_per_m.value};
-    double mass = fmin(mass_of(m, pin->body_a), mass_of(m, pin->body_b));
+    const double loss = fmax(fw_effects_loss(c), fw_least_ringing_loss);
+    double mass = fmin(mass_of(c->mechanism, pin->body_a), mass_of(c->mechanism, pin->body_b));
     for (int i = 0; i < 2; i++)
-        out[i] = fmin(tau_s, fmax(loss, fw_least_ringing_loss) * sqrt(mass / k[i]));
+        out[i] = c->scene->ncontact > 0 ? tau_s : fmin(tau_s, loss * sqrt(mass / k[i]));
 }
 
 fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *loads, int hinge) {
@@ -84,7 +87,7 @@ fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *lo
     f->rest = fw_flexure_hinge_rest_of(&f->law);
     fw_flexure_hinge_at at;
     fw_flexure_hinge_law_at(&f->law, 0, &at);
-    lose(m, pin, &at, tau, fw_effects_loss(c), f->loss_s);
+    lose(c, pin, &at, tau, f->loss_s);
     e->data = f;
     e->id = pin->id;
     e->pin = h->pin;

@@ -249,6 +249,8 @@ static fw_status not_through(fw_process_judge *j, const fw_process_cut *c,
                              const fw_process_edge_class *k, bool firm) {
     fw_process_numbers t = {0};
     double times = k->reach_m / c->planned_m;
+    /* in hundredths, upwards: the mask follows the time, and the opening with it, by less than that */
+    double proposed = ceil(100 * (times - 1) + 0.1) / 100;
     fw_diag_warning(j->diags, 183, c->step->place,
                     "in flow %s the %s (%s um drawn, %s um in the masking layer) is not etched "
                     "through within the time of step %s, over-etch included: it needs %s times "
@@ -263,7 +265,7 @@ static fw_status not_through(fw_process_judge *j, const fw_process_cut *c,
         "through",
         k->name, c->step->id, fw_process_judge_number(&t, times, 4),
         fw_process_judge_number(&t, 1.0 + c->overrun, 4),
-        fw_process_judge_number(&t, times - 1.0, 3)));
+        fw_process_judge_number(&t, proposed, 3)));
     j->flow->fails = j->flow->reason[j->flow->nreason - 1];
     return FW_OK;
 }

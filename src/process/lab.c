@@ -71,6 +71,9 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
     old->range = was.range;
     old->replaced = true;
     FW_TRY(amount(arena, old, &o.is));
+    /* what a step allows, and texts that name the value, are in the pack's unit; prices keep the
+       laboratory's currency */
+    if (!fw_quantity_unit_currency(old->unit)) old->unit = was.unit;
     fw_diag_note(diags, 198, id->place, "%s: %s = %s replaces %s; %s", flow->id, o.id, o.is, o.was,
                  o.source);
     fw_process_override *grown = fw_arena_grow(arena, flow->override, (size_t)flow->noverride,

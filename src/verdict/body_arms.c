@@ -12,7 +12,9 @@
 #include "geometry/segment.h"
 #include <string.h>
 
-enum { ACROSS = 100, FINEST = 3, CELLS = 400000 };
+enum { ACROSS = 100, FINEST = 4, CELLS = 1000000 };
+/* the narrowest place of a way has as many, or cells are halved: a coarse way misses a slender bar */
+static const double fw_cells_across = 2;
 /* a cell is not below this: what is narrower is no part of a body */
 static const double fw_least_cell = 2e-6;
 
@@ -279,14 +281,30 @@ static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
 
 /* ---- along a way ---- */
 
-/* twice the largest distance to the edge here and a cell to either side, square to the way */
+/* in one of the pieces: a line to the right crosses it an odd number of times */
+static bool is_inside(const grid *g, fw_geometry_vec2 p) {
+    bool in = false;
+    for (int i = 0; i < g->nline; i++) {
+        fw_geometry_vec2 a = g->line[i].a, b = g->line[i].b;
+        if (i > 0 && g->line[i].piece != g->line[i - 1].piece) {
+            if (in) return true;
+            in = false;
+        }
+        if ((a.y <= p.y) == (b.y <= p.y)) continue;
+        if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) in = !in;
+    }
+    return in;
+}
+
+/* twice the largest distance to the edge here and a cell to either side, square to the way; 0: all of
+   that is outside, the cells are too coarse */
 static double width(const grid *g, fw_geometry_vec2 *at, fw_geometry_vec2 along) {
     fw_geometry_vec2 side = vec_left(along), from = *at;
     double most = 0;
     for (int k = -2; k <= 2; k++) {
         fw_geometry_vec2 p = vec_along(from, 0.5 * k * g->cell, side);
         double d = distance(g, p);
-        if (d > most) most = d, *at = p;
+        if (d > most && is_inside(g, p)) most = d, *at = p;
     }
     return 2 * most;
 }
@@ -364,10 +382,8 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
             fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
             int begin = cell_at(&g, ends[i].root, 0);
             *to = (fw_verdict_arm){.known = false};
-            if (g.cost[begin] < HUGE_VAL)
-                follow(&g, begin, ends[i].pin, to);
-            else
-                all = false;
+            if (g.cost[begin] < HUGE_VAL) follow(&g, begin, ends[i].pin, to);
+            if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }
     return FW_OK;

@@ -140,17 +140,28 @@ static double beyond(const fw_verdict_search *s, int e, unsigned bits) {
     return isnan(off) ? -HUGE_VAL : off / fmax(size, DBL_MIN);
 }
 
+/* at a corner that was run it is not met for certain: whether others are as bad decides nothing */
+static bool is_settled(const fw_verdict_search *s, int e) {
+    for (int p = 0; p < s->fabricated->ncorner; p++) {
+        const fw_verdict_requirement *list = s->fabricated->corner[p].requirement;
+        if (list && list[e / 2].decision != FW_ACCEPT) return true;
+    }
+    return false;
+}
+
 unsigned fw_verdict_ends_next(const fw_verdict_search *s) {
     const unsigned fixed = fw_verdict_search_without_range(s->v);
     unsigned next = FW_NO_CORNER;
     double most = 0;
-    for (int e = 0; e < 2 * s->v->nrequirement; e++) {
+    const bool trial = s->options.corners == FW_CORNERS_FIRST; /* nobody sees its bands */
+    for (int e = 0; e < 2 * s->v->nrequirement && !trial; e++) {
         if (!is_known(s, e)) continue;
         unsigned bits = end_corner(s, e, e % 2);
         if (run_like(s, bits, account(s, e)) == FW_NONE) return bits;
     }
     for (int e = 0; e < 2 * s->v->nrequirement; e++)
-        for (unsigned bits = 0; is_known(s, e) && bits < 1u << s->v->ninput; bits++) {
+        for (unsigned bits = 0; is_known(s, e) && !is_settled(s, e) && bits < 1u << s->v->ninput;
+             bits++) {
             if ((bits & fixed) || fw_verdict_search_find(s, bits) != FW_NONE) continue;
             double off = beyond(s, e, bits);
             if (off > most) most = off, next = bits;
