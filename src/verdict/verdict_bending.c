@@ -70,11 +70,9 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
 }
 
 fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
-                                   const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *v) {
     fw_verdict_arm *arm;
-    const bool trial = options->at_a_glance && options->coarse_first; /* settled by a whole look */
-    if (v->arm || !layout || !layout->drawn || trial) return FW_OK;
+    if (v->arm || !layout || !layout->drawn) return FW_OK;
     FW_TRY(fw_verdict_body_arms(arena, m, layout, &arm));
     v->arm = arm;
     return FW_OK;
