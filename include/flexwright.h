@@ -132,9 +132,9 @@ typedef struct fw_design_options {
        which costs little, where recipes or the report are written. "all": bands after fw_design_judge in any case,
        some ten devices more a flow. "none" */
     const char *measurements;
-    const char
-        *layers; /* file with the laboratory's own layer numbers and names, a line for each layer:
-                           "structure 7/0 name POLY2"; default: those of the layer tables */
+    /* file with the laboratory's own layer numbers and names, a line for each layer: "structure 7/0
+       name POLY2"; default: those of the layer tables */
+    const char *layers;
     const char *directory; /* for fw_design_read_memory: where the drawings lie that the description
                               names; default: none are opened */
 } fw_design_options;

@@ -65,8 +65,8 @@ typedef struct fw_chance_estimate {
     size_t evaluations;      /* all, pilots and gradients included */
     size_t unevaluated;      /* NaN among them */
     size_t points;
-    const fw_chance_design_point
-        *point; /* (points), nearest first; none where they were not looked for */
+    /* (points), nearest first; none where they were not looked for */
+    const fw_chance_design_point *point;
 } fw_chance_estimate;
 
 /* FW_INPUT: options out of range (*why, of the arena, says which). FW_LIMIT: quasi beyond FW_CHANCE_SOBOL_MOST

@@ -13,8 +13,8 @@ enum { FW_CHANCE_LEVELS = 30 };
 typedef struct fw_chance_subset {
     size_t points; /* per level */
     size_t repetitions, capacity;
-    size_t
-        stuck; /* repetitions that ended on level ground: no value is higher than those of a tenth */
+    /* repetitions that ended on level ground: no value is higher than those of a tenth */
+    size_t stuck;
     double *low,
         *high; /* (repetitions) estimates, what was not evaluated counted as safe and as failed */
     size_t planned; /* evaluations of a repetition, with a level to spare */

@@ -32,9 +32,9 @@ typedef struct fw_chance_indices {
     size_t groups, responses, evaluations;
     double level;
     double *mean, *variance; /* (responses) */
-    size_t
-        *rows; /* (responses) of the N rows those in which all was evaluated: what was not is left
-                                       out, so that the indices are those of the part where the model answers */
+    /* (responses) of the N rows those in which all was evaluated: what was not is left out, so that
+       the indices are those of the part where the model answers */
+    size_t *rows;
     fw_chance_index *first, *total; /* (responses x groups); NaN where the variance is 0 */
 } fw_chance_indices;
 

@@ -160,8 +160,8 @@ typedef struct fw_dynamics_motion {
                                   a sequence of equilibria has no such run) */
     struct fw_dynamics_late *late; /* rows that wait (fw_dynamics_motion_rows); NULL: none does */
     const fw_effects_loads *loads; /* what acted, for those who look at it again */
-    const struct fw_statics_level_step
-        *level; /* statics/level.h; NULL: not looked for, or no hinges */
+    /* statics/level.h; NULL: not looked for, or no hinges */
+    const struct fw_statics_level_step *level;
 } fw_dynamics_motion;
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too

@@ -28,8 +28,8 @@ typedef struct fw_dynamics_peaks {
     fw_dynamics_strip *strip; /* (nstrip) */
     double *rest;             /* (3 nbody) assembled pose, scaled */
     double displaced;         /* the largest at any step's end */
-    const struct fw_dynamics_peaks
-        *marked; /* the run that set the instants; NULL: this one sets them */
+    /* the run that set the instants; NULL: this one sets them */
+    const struct fw_dynamics_peaks *marked;
 } fw_dynamics_peaks;
 enum { FW_MARKS = 16 };
 fw_status fw_dynamics_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,

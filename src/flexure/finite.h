@@ -17,8 +17,8 @@ typedef struct fw_flexure_hinge_law {
     double axial_m_per_N, shear_m_per_N; /* L/(2 EA), L/(2 kGA) */
     double uneven_x,
         uneven_y; /* of a crystal: share that bend_m_per_N is larger along and across */
-    const struct fw_flexure_hinge_table
-        *table; /* of a path (path.h): this instead of the above; else NULL */
+    /* of a path (path.h): this instead of the above; else NULL */
+    const struct fw_flexure_hinge_table *table;
 } fw_flexure_hinge_law;
 
 /* what the free arc gives at every rotation: sinc(a), share sinc'(a), sin(a), cos(a) */

@@ -39,10 +39,10 @@ typedef struct fw_flexure_input {
     double width_middle_m;                /* csfh, leaf: 0 uniform, as in fw_device_flexure */
     const fw_geometry_strip_piece *piece; /* (npiece) of a path; must live as long */
     int npiece;
-    fw_flexure_crystal
-        crystal; /* {.known = false}: isotropic, youngs_Pa and poisson hold; else they are
-                           only what strains are counted in: strain = stress/youngs_Pa */
-    bool ends;   /* isotropic: with what the ends lose (13a), as a crystal always has it; else the
+    /* {.known = false}: isotropic, youngs_Pa and poisson hold; else they are only what strains are
+       counted in: strain = stress/youngs_Pa */
+    fw_flexure_crystal crystal;
+    bool ends; /* isotropic: with what the ends lose (13a), as a crystal always has it; else the
                   printed formula, whose stiffness keeps its digits and has (13a) in its error */
 } fw_flexure_input;
 
@@ -50,10 +50,10 @@ typedef struct fw_flexure_input {
    was found on 23 shapes, of this shape; wider outside of what was compared (flexure_errors.c) */
 typedef struct fw_flexure_error {
     double stiffness, kx, ky; /* relative */
-    double
-        softer; /* relative, by which K may be below: no more than stiffness, which the ends have */
-    double
-        strain; /* relative, by which a solid's peak may be below strain_per_rad, which bounds it */
+    /* relative, by which K may be below: no more than stiffness, which the ends have */
+    double softer;
+    /* relative, by which a solid's peak may be below strain_per_rad, which bounds it */
+    double strain;
     double above;    /* by which it may be above: the solids' own error, and shapes not compared */
     double centre_m; /* of W, on and across the axis */
     bool outside;    /* of the range that was compared */
@@ -77,8 +77,8 @@ typedef struct fw_flexure_result {
     double limit_angle_rad;    /* strength / safety factor / stress_per_rad */
     double limit_uncertainty;  /* relative standard uncertainty of limit_angle from the model */
     double depth_factor, root_length_m; /* EI_eff/EI, dL */
-    double
-        ends_stiffer; /* K with what the ends lose (13a) over K: 1 where K has it, as of a crystal */
+    /* K with what the ends lose (13a) over K: 1 where K has it, as of a crystal */
+    double ends_stiffer;
     double concentration;      /* strain_per_rad over that of the beam, t/2 over length and roots */
     double fibre;              /* the same between the roots: of curvature and depth, no fillet */
     double youngs_Pa, poisson; /* effective: of this arc; nu out of the plane */

@@ -20,8 +20,8 @@ typedef struct fw_geometry_merge_term { /* sets are joined from the left; the fi
 } fw_geometry_merge_term;
 
 typedef struct fw_geometry_merged {
-    fw_geometry_polygon
-        *polygon; /* (n) simple, counter-clockwise, no straight vertices but at cuts */
+    /* (n) simple, counter-clockwise, no straight vertices but at cuts */
+    fw_geometry_polygon *polygon;
     int n;
     int outlines, holes; /* of the region that they cover */
     int cuts;     /* edges that two polygons share: where a hole, or too many vertices, needs it */

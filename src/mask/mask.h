@@ -88,9 +88,9 @@ typedef struct fw_mask_table {
     int nlayer;
     const char *order; /* what is on the device's plate, for the mask shop; may be NULL */
     const char *plate; /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
-    fw_mask_plate_row *
-        plates; /* (nplate) rows <plate>, in the order of printing; 0: the table has one plate, which is
-                                  that of reading, order and plate above */
+    /* (nplate) rows <plate>, in the order of printing; 0: the table has one plate, which is that of
+       reading, order and plate above */
+    fw_mask_plate_row *plates;
     int nplate,
         device_plate; /* the one that draws the structure: reading, order and plate above are its own */
     const fw_mask_content *content; /* (ncontent) what other plates draw below or upon the device */
@@ -180,8 +180,8 @@ typedef struct fw_mask {
     int nfinding;
     int nbroken; /* of them those that forbid the mask */
     bool whole;  /* every polygon is there and proven */
-    const fw_wiring
-        *wiring; /* nets as drawn; NULL: they were not asked for, and `wired` is empty */
+    /* nets as drawn; NULL: they were not asked for, and `wired` is empty */
+    const fw_wiring *wiring;
     fw_wiring_on_mask wired; /* the same on the mask */
 } fw_mask;
 
@@ -304,8 +304,8 @@ typedef struct fw_mask_plate {
     const char *top, *title, *flow;
     bool rejected;
     double edge_m; /* of the square */
-    const fw_mask_plate_cell
-        *cell; /* (ncell) each different die once; all have layers of `table` */
+    /* (ncell) each different die once; all have layers of `table` */
+    const fw_mask_plate_cell *cell;
     int ncell;
     const fw_mask_plate_place *place; /* (nplace) in the top cell */
     int nplace;

@@ -59,8 +59,8 @@ typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
     int pin, flexure;
     fw_flexure_input input; /* what the closed form was asked, for other levels */
     fw_flexure_result closed_form;
-    fw_flexure_limits
-        limits; /* what it bears; closed_form.limit_angle_rad is that of the governing one */
+    /* what it bears; closed_form.limit_angle_rad is that of the governing one */
+    fw_flexure_limits limits;
     /* strain along it and its law at finite rotation, both with the stated stiffness, if any: all
        of the flexure's forces are its own times `scale` */
     fw_flexure_path_strain section;
@@ -94,16 +94,16 @@ typedef struct fw_mechanism {
     fw_mechanism_mass *body;   /* (nbody) */
     fw_mechanism_shape *shape; /* (nbody) or NULL: nothing is drawn */
     fw_mechanism_pin *pin;     /* (npin) */
-    fw_device_joint
-        *joint; /* (njoint) all values known (angle, length: as drawn where the file leaves them
-                        open; 0 where they mean nothing); local points refer to centres of mass */
+    /* (njoint) all values known (angle, length: as drawn where the file leaves them open; 0 where
+       they mean nothing); local points refer to centres of mass */
+    fw_device_joint *joint;
     fw_device_driver *driver;  /* (ndriver) joint is an index of pin, joint of joint */
     fw_device_spring *spring;  /* (nspring) local points refer to centres of mass */
     fw_mechanism_hinge *hinge; /* (nhinge) */
     int nbody, npin, njoint, ndriver, nspring, nhinge;
     const fw_layout *layout; /* what it was built from; NULL: nothing is drawn */
-    const fw_mechanism_mass
-        *drawn; /* (nbody) the bodies there, wherever assembly has moved `body` */
+    /* (nbody) the bodies there, wherever assembly has moved `body` */
+    const fw_mechanism_mass *drawn;
 } fw_mechanism;
 
 /* the same scene of the mechanism's own description, whose points go with centres of mass; a scene

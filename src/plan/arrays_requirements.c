@@ -129,8 +129,9 @@ static requirement_row row_of_requirement(const fw_verdict_variant_verdict *v, i
                            NULL};
     if (!made) return row;
     row.made = made->value;
-    row.made_low = isnan(made->all_low) ? made->low : made->all_low;
-    row.made_high = isnan(made->all_high) ? made->high : made->all_high;
+    double band[2];
+    fw_verdict_requirement_band(made, band);
+    row.made_low = band[0], row.made_high = band[1];
     row.made_used = made->utilisation;
     row.made_decision = fw_verdict_decision_text(made->decision);
     row.made_corner = v->fabricated->corner[corner].what;

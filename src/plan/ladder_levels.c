@@ -20,19 +20,24 @@ static void take_printed(const fw_flexure_input *in, fw_flexure_result *r) {
     r->strain_per_rad = r->strain_fit_per_rad;
 }
 
+/* what a closed form says for small rotations; W is where the mechanism has it */
+static fw_report_level linear_row(const fw_flexure_result *r) {
+    return (fw_report_level){.stiffness_Nm_per_rad = r->stiffness_Nm_per_rad,
+                             .kx_N_per_m = r->kx_N_per_m,
+                             .ky_N_per_m = r->ky_N_per_m,
+                             .strain_per_rad = r->strain_per_rad,
+                             .limit_angle_rad = r->limit_angle_rad,
+                             .moment_Nm = r->stiffness_Nm_per_rad * r->limit_angle_rad,
+                             .drift_m = (double)NAN,
+                             .error = r->error};
+}
+
 /* linear, roots and depth included: flexure/flexure_table.c */
 static fw_status closed_form(const fw_plan_ladder_case *c, fw_report_level *row) {
     fw_flexure_result r;
     fw_flexure_closed_form(&c->hinge->input, &r);
     take_printed(&c->hinge->input, &r);
-    *row = (fw_report_level){.stiffness_Nm_per_rad = r.stiffness_Nm_per_rad,
-                             .kx_N_per_m = r.kx_N_per_m,
-                             .ky_N_per_m = r.ky_N_per_m,
-                             .strain_per_rad = r.strain_per_rad,
-                             .limit_angle_rad = r.limit_angle_rad,
-                             .moment_Nm = r.stiffness_Nm_per_rad * r.limit_angle_rad,
-                             .drift_m = (double)NAN,
-                             .error = r.error};
+    *row = linear_row(&r);
     return FW_OK;
 }
 
@@ -47,15 +52,8 @@ static fw_status with_ends(const fw_plan_ladder_case *c, fw_report_level *row) {
     in.ends = true;
     fw_flexure_closed_form(&in, &r);
     const double *offset = c->hinge->closed_form.offset_m;
-    *row = (fw_report_level){.stiffness_Nm_per_rad = r.stiffness_Nm_per_rad,
-                             .at_m = {r.offset_m[0] - offset[0], r.offset_m[1] - offset[1]},
-                             .kx_N_per_m = r.kx_N_per_m,
-                             .ky_N_per_m = r.ky_N_per_m,
-                             .strain_per_rad = r.strain_per_rad,
-                             .limit_angle_rad = r.limit_angle_rad,
-                             .moment_Nm = r.stiffness_Nm_per_rad * r.limit_angle_rad,
-                             .drift_m = (double)NAN,
-                             .error = r.error};
+    *row = linear_row(&r);
+    row->at_m[0] = r.offset_m[0] - offset[0], row->at_m[1] = r.offset_m[1] - offset[1];
     return FW_OK;
 }
 

@@ -74,11 +74,11 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_measuring *measuring; /* NULL: not asked for */
     const fw_wafer *measured_on;   /* whose times it is about; NULL: those of the die alone */
     const char *release_change;    /* what opens a window for it; NULL: it has one */
-    const fw_release
-        *release; /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+    /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+    const fw_release *release;
     const fw_release_hold *hold; /* the same: what its bodies hang on meanwhile */
-    const fw_statics_tethers
-        *tethers;            /* what breaks them; NULL: there are none, or nothing is judged */
+    /* what breaks them; NULL: there are none, or nothing is judged */
+    const fw_statics_tethers *tethers;
     const fw_wiring *wiring; /* after judging; NULL: nothing is drawn */
     fw_text release_svg;     /* its picture as a fragment, composed once; empty: none */
 } fw_plan_flow;

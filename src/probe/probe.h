@@ -18,8 +18,8 @@ typedef struct fw_probe_state {
     const double *reaction_N; /* (2 npin) on body b; NULL: not known */
     const double *joint_N;    /* (3 njoint) likewise */
     const double *driver_N;   /* (ndriver) likewise */
-    const bool
-        *on;    /* (all switches of the loads' elements) as held; NULL: as they say themselves */
+    /* (all switches of the loads' elements) as held; NULL: as they say themselves */
+    const bool *on;
     bool still; /* an equilibrium: laws have values, but no rates */
 } fw_probe_state;
 fw_probe_state fw_probe_state_of(const fw_dynamics_instant *instant);

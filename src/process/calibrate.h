@@ -50,8 +50,8 @@ fw_status fw_process_measurement_check(const fw_process_measurement *row, fw_dia
 /* ---- coupons of several wafers, at several sites of each ---- */
 
 typedef struct fw_process_reading {
-    fw_process_measurement
-        row;                 /* value: mean of the sites; uncertainty: the instrument's, 0: none */
+    /* value: mean of the sites; uncertainty: the instrument's, 0: none */
+    fw_process_measurement row;
     const char *wafer;       /* "": of the lot */
     const char *step, *date; /* where it was logged, "2026-11-20" */
     double squares;          /* sum of the squared distances of its sites from their mean, SI */

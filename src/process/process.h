@@ -105,16 +105,16 @@ typedef struct fw_process_setting {
 typedef struct fw_process_change {
     const char *kind, *material;  /* add remove convert pattern */
     const fw_quantity *thickness; /* may be NULL */
-    const char
-        *where; /* "all", "structure" (what stays of the device), "field", a part of a plate */
-    bool spans; /* lies on the highest ground, hollows below it stay hollow */
+    /* "all", "structure" (what stays of the device), "field", a part of a plate */
+    const char *where;
+    bool spans;                    /* lies on the highest ground, hollows below it stay hollow */
     const char *from;              /* convert: the material that is turned into `material`; "" */
     bool back;                     /* on the back of the wafer */
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
     const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
     const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
-    const fw_quantity
-        *across;              /* the change is made inside a circle of this diameter; may be NULL */
+    /* the change is made inside a circle of this diameter; may be NULL */
+    const fw_quantity *across;
     const fw_quantity *reach; /* of a removal: so far sideways from every opening, below what stays;
                                  may be NULL */
     fw_process_face compensate; /* the face that the mask brings to where it is drawn */
@@ -230,8 +230,8 @@ typedef struct fw_process_step {
     int nchange, nexposed, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag,
         nfinish, nrequired, nuse;
     fw_process_time time; /* computed */
-    const fw_quantity *
-        *derived; /* (nderived) computed on the way: current, charge, mass, rpm ... */
+    /* (nderived) computed on the way: current, charge, mass, rpm ... */
+    const fw_quantity **derived;
     int nderived;
     fw_place place;
     const char *shape; /* of the law: "slot", "cylinder", "linear" or "" */
@@ -363,8 +363,8 @@ typedef struct fw_process_flow {
     bool no_window;              /* what must stay is lost before all that moves is free */
     bool tight;                  /* something on the mask prints in perfect contact only */
     fw_process_plate plate[FW_PROCESS_PLATES]; /* (nplate) in the order of printing */
-    unsigned
-        column_code[FW_STACK_MOST]; /* (ncolumn) what the columns of its stacks are: regions.c */
+    /* (ncolumn) what the columns of its stacks are: regions.c */
+    unsigned column_code[FW_STACK_MOST];
     int nplate, ncolumn;
     fw_process_wait *wait; /* (nwait) computed */
     fw_process_text *text; /* (ntext) */
@@ -378,9 +378,9 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     double perimeter_m;
     double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
-    double
-        widest_hollow_m; /* side of the largest square within a hollow below the device; 0: it has none */
-    int dies;            /* on the wafer or coupon */
+    /* side of the largest square within a hollow below the device; 0: it has none */
+    double widest_hollow_m;
+    int dies; /* on the wafer or coupon */
     /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
        die's own */
     double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;

@@ -82,8 +82,8 @@ typedef struct fw_process_law_use { /* a law with what it is applied to */
 
 typedef struct fw_process_law {
     const char *name, *formula;
-    const fw_process_law_argument
-        *argument; /* (nargument); NULL: any names, and an <expr> says it */
+    /* (nargument); NULL: any names, and an <expr> says it */
+    const fw_process_law_argument *argument;
     int nargument;
     /* x in the order of `argument`, NaN where not given. FW_INPUT with call->why when outside. */
     fw_status (*evaluate)(fw_process_law_call *call, const double *x, double *result);

@@ -14,8 +14,8 @@ typedef struct parser {
     fw_quantity_token token; /* the one not yet used */
     const fw_quantity_names *names;
     fw_quantity_expression_error *error;
-    fw_quantity_program
-        *program; /* what varies with time is compiled to this; NULL: time is not known */
+    /* what varies with time is compiled to this; NULL: time is not known */
+    fw_quantity_program *program;
     int depth;
 } parser;
 

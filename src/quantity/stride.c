@@ -168,8 +168,8 @@ typedef struct piece {
     int cells;       /* a power of two */
     sample *sampled; /* (cells + 1) */
     int *found;      /* (cells + 1) first look inside each cell, in scan.found */
-    double
-        *miss; /* (2 cells) of blocks, in heap order: 1, its halves 2 and 3, theirs 4 to 7, ... */
+    /* (2 cells) of blocks, in heap order: 1, its halves 2 and 3, theirs 4 to 7, ... */
+    double *miss;
 } piece;
 
 static fw_status look_over(fw_arena *arena, scan *s, piece *p, double wanted) {

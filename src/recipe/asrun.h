@@ -29,8 +29,8 @@ typedef struct fw_recipe_set { /* what was set, or measured of what was set */
 
 typedef struct fw_recipe_coupon {
     const char *text;
-    fw_process_measurement
-        row; /* value: mean of the sites; uncertainty: the instrument's, 0: not given */
+    /* value: mean of the sites; uncertainty: the instrument's, 0: not given */
+    fw_process_measurement row;
     double site[FW_RECIPE_SITES]; /* SI */
     int nsite;                    /* 0: looked at, not measured */
 } fw_recipe_coupon;

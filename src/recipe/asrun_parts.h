@@ -8,8 +8,8 @@ typedef struct fw_recipe_asrun_reader {
     fw_arena *arena;
     const fw_process_flow *flow;
     const fw_recipe_asrun *run; /* whose wafers there are */
-    bool
-        bound; /* the flow is the computed one of the log's own plan: what a step sets is all known */
+    /* the flow is the computed one of the log's own plan: what a step sets is all known */
+    bool bound;
     fw_diags *diags;
     fw_place place;
 } fw_recipe_asrun_reader;

@@ -27,8 +27,8 @@ typedef struct fw_recipe_slicer {
     fw_recipe_outline_at *at; /* (nat) */
     int nat, capacity;
     double bias_m; /* of what the plate draws, against what is drawn */
-    struct fw_recipe_slicer
-        *further[FW_PROCESS_PLATES]; /* of the flow's other plates; NULL: not asked for yet */
+    /* of the flow's other plates; NULL: not asked for yet */
+    struct fw_recipe_slicer *further[FW_PROCESS_PLATES];
     struct fw_recipe_region *region; /* solved so far (block_region.c) */
 } fw_recipe_slicer;
 

@@ -212,7 +212,8 @@ static void bound_text(fw_text *out, const fw_verdict_requirement *r) {
 }
 
 static void row(fw_text *out, const fw_verdict_requirement *r, const char *at) {
-    const bool all = at && !isnan(r->all_low); /* of what is made over all corners */
+    double band[2];
+    fw_verdict_requirement_band(r, band);
     char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT];
     fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td>", r->probe,
               r->measure ? r->measure : r->kind);
@@ -220,9 +221,8 @@ static void row(fw_text *out, const fw_verdict_requirement *r, const char *at) {
         fw_markup(out, "<td colspan=\"2\">not known: {s}</td>", r->why);
     else
         fw_markup(out, "<td class=\"n\">{s}</td><td class=\"n\">{s} to {s}</td>",
-                  fw_probe_text(value, r->value, r->unit),
-                  fw_probe_text(low, all ? r->all_low : r->low, r->unit),
-                  fw_probe_text(high, all ? r->all_high : r->high, r->unit));
+                  fw_probe_text(value, r->value, r->unit), fw_probe_text(low, band[0], r->unit),
+                  fw_probe_text(high, band[1], r->unit));
     fw_text_add(out, "<td class=\"n\">");
     bound_text(out, r);
     fw_markup(out, "</td><td class=\"n\">{s}</td><td>{s}</td><td>{s}</td><td>{s}</td></tr>\n",

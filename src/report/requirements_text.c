@@ -6,15 +6,15 @@
 
 /* at: what is made, with its band over all corners; NULL: as drawn */
 static void row(fw_text *out, const fw_verdict_requirement *r, const char *at) {
-    const bool all = at && !isnan(r->all_low);
+    double reach[2];
+    fw_verdict_requirement_band(r, reach);
     char text[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT], band[2 * FW_PROBE_TEXT + 4];
     fw_text_printf(out, "  %-12s %-13s ", r->probe, r->measure ? r->measure : r->kind);
     if (r->why) {
         fw_text_printf(out, "%-12s  %-24s  ", "not known", "");
     } else {
-        snprintf(band, sizeof band, "%s..%s",
-                 fw_probe_text(low, all ? r->all_low : r->low, r->unit),
-                 fw_probe_text(high, all ? r->all_high : r->high, r->unit));
+        snprintf(band, sizeof band, "%s..%s", fw_probe_text(low, reach[0], r->unit),
+                 fw_probe_text(high, reach[1], r->unit));
         fw_text_printf(out, "%-12s  %-24s  ", fw_probe_text(text, r->value, r->unit), band);
     }
     bool both = !isnan(r->min) && !isnan(r->max);

@@ -56,9 +56,9 @@ typedef struct fw_statics_equilibrium {
     const fw_device_scene *scene;
     fw_diags *diags;
     fw_effect_ledger ledger;
-    const fw_effects_loads
-        *loads; /* what was compiled, for the mechanism `plain`, before anything was
-                              done to it; NULL: not by fw_statics_equilibrium_new */
+    /* what was compiled, for the mechanism `plain`, before anything was done to it; NULL: not by
+       fw_statics_equilibrium_new */
+    const fw_effects_loads *loads;
     const fw_mechanism *plain;
     const fw_multibody_model *model;
     fw_multibody_system *system;

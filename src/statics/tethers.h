@@ -22,8 +22,8 @@ typedef struct fw_statics_tether {
     const fw_layout_tether *drawn;
     double probe_m; /* from the cut, along the finger: where the probe pushes */
     fw_statics_tether_break first, last; /* all others hold; it is the only one */
-    double
-        toward_m; /* how far the body goes towards the finger once it is broken, at most; 0: it does not */
+    /* how far the body goes towards the finger once it is broken, at most; 0: it does not */
+    double toward_m;
     const char *scene; /* in this one */
 } fw_statics_tether;
 

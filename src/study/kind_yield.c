@@ -40,8 +40,8 @@ typedef struct yielding {
     double *key;   /* (room x values) */
     cached *value; /* (room) */
     size_t room, filled;
-    fw_arena
-        *chance; /* of the estimators, which give back what they took: nothing of ours is in it */
+    /* of the estimators, which give back what they took: nothing of ours is in it */
+    fw_arena *chance;
 } yielding;
 
 /* ---- one batch of devices, in threads ---- */

@@ -93,8 +93,8 @@ typedef struct fw_study_search {
     double (*objective)(const void *context, const fw_study_sample *sample);
     double (*constraint)(const void *context, const fw_study_sample *sample);
     const void *context;
-    double
-        *start; /* shares 0..1 of the ranges of the ranged inputs; listed ones keep their texts */
+    /* shares 0..1 of the ranges of the ranged inputs; listed ones keep their texts */
+    double *start;
     const fw_study_sample *from; /* texts of listed inputs */
     int most;                    /* evaluations */
     int digits;                  /* of the values that are tried */

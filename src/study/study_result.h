@@ -63,8 +63,8 @@ typedef struct fw_study_result {
     fw_study_derivative *derivative; /* (nresponse x ninput) sensitivity */
     fw_study_index *index;           /* (nresponse x ninput) sensitivity; NULL: not asked for */
     fw_study_end *end;               /* (nresponse x 2) worst case: least, largest */
-    fw_study_found
-        *found; /* (nfound) size: the best; of two goals the Pareto front, by the first */
+    /* (nfound) size: the best; of two goals the Pareto front, by the first */
+    fw_study_found *found;
     int nfound;
     fw_study_found nearest;     /* where nothing was found; text NULL: nothing was run */
     const char *how;            /* a sentence: what was tried */

@@ -239,9 +239,11 @@ static double stiff(const grid *g, int cell) {
 }
 
 static fw_status spread(grid *g, int middle) {
-    size_t n = (size_t)g->nx * (size_t)g->ny;
-    queue q = {fw_arena_array(g->arena, int, 8 * n + 1),
-               fw_arena_array(g->arena, double, 8 * n + 1), 0};
+    size_t n = (size_t)g->nx * (size_t)g->ny,
+           most = 1; /* a cell of the material has 8 neighbours */
+    for (size_t i = 0; i < n; i++)
+        most += g->inside[i] ? 8 : 0;
+    queue q = {fw_arena_array(g->arena, int, most), fw_arena_array(g->arena, double, most), 0};
     FW_NEED(q.cell && q.key ? q.cell : NULL);
     for (size_t i = 0; i < n; i++)
         g->cost[i] = HUGE_VAL;
@@ -369,10 +371,12 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
     if (g.nline == 0) return FW_OK;
     double across = vec_length((fw_geometry_vec2){g.box.x1 - g.box.x0, g.box.y1 - g.box.y0});
     double cell = fw_greater(across / ACROSS, fw_least_cell);
+    fw_mark lines = fw_arena_mark(scratch);
     bool all = false;
     for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
         double cells = across * across / (cell * cell);
         if (cells > CELLS) break;
+        fw_arena_rewind(scratch, lines); /* the former cells */
         FW_TRY(lay(&g, cell));
         int middle = cell_at(&g, layout->body[body].centroid, 2);
         if (middle < 0) continue;

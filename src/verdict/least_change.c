@@ -75,8 +75,8 @@ typedef struct way { /* from the device as described to `full` */
 
 typedef struct place { /* on the way */
     double s;
-    double
-        over; /* ln of the largest utilisation: above 0 where it is not accepted; NaN: other reasons */
+    /* ln of the largest utilisation: above 0 where it is not accepted; NaN: other reasons */
+    double over;
 } place;
 
 /* by what the trial's last run says */

@@ -223,3 +223,8 @@ const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_varia
     *corner = f->requirement_corner[k];
     return &f->requirement[k];
 }
+
+void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]) {
+    band[0] = isnan(r->all_low) ? r->low : r->all_low;
+    band[1] = isnan(r->all_high) ? r->high : r->all_high;
+}

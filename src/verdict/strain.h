@@ -31,9 +31,9 @@ enum { FW_FACES = 4 }; /* two of either root */
 
 typedef struct fw_verdict_hinge_strains {
     double peak; /* largest |strain|, fillets included */
-    double
-        least; /* what the peak is at least (fw_flexure_strip_strains); where the axis is not known
-                     the least that any direction of it has */
+    /* what the peak is at least (fw_flexure_strip_strains); where the axis is not known the least that
+       any direction of it has */
+    double least;
     double root[2][2]; /* at both faces of both roots, signed: their sign is what makes cycles */
     bool held; /* false: beyond the strip's buckling load, of which the closed form knows nothing */
 } fw_verdict_hinge_strains;

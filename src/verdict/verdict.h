@@ -156,8 +156,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     /* (nscene) of a device much like it, or NULL: what acts there by far acts here
        (fw_effect_choice.like) */
     const fw_dynamics_motion *const *like;
-    bool
-        corner; /* of what the flow makes: bent strips were looked at as drawn, with an allowance */
+    /* of what the flow makes: bent strips were looked at as drawn, with an allowance */
+    bool corner;
     /* NULL: not asked for, or the drawn device is not accepted */
     fw_verdict_fabricated_verdict *fabricated;
     fw_verdict_decision drawn; /* decision of the drawn geometry alone */
@@ -171,8 +171,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     bool beyond_pull_in;                /* a scene may ask for more than its pull-in voltage */
     fw_verdict_reason *reason;          /* (nreason) */
     int nreason;
-    const struct fw_verdict_arm
-        *arm; /* (2 nhinge) how bodies give (body_arms.h); NULL: not asked for */
+    /* (2 nhinge) how bodies give (body_arms.h); NULL: nothing is drawn */
+    const struct fw_verdict_arm *arm;
     const fw_clearance_things *things; /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */
     int nclearance;
@@ -350,11 +350,11 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
                                   const fw_verdict_fabrication_input *input, int ninput, int hinge,
                                   fw_verdict_ranges *out);
 typedef struct fw_verdict_made { /* one device that a flow may make */
-    double
-        ln; /* logarithm of the largest share of a limit that any check uses; above 0 is too much; NaN: it
-                        could not be run */
-    double up,
-        down;  /* how far the band of the hinge that governs reaches, as logarithms, both >= 0 */
+    /* logarithm of the largest share of a limit that any check uses; above 0 is too much; NaN: it could
+       not be run */
+    double ln;
+    /* how far the band of the hinge that governs reaches, as logarithms, both >= 0 */
+    double up, down;
     int hinge; /* that governs, of v; FW_NONE: none */
     fw_verdict_decision decision;
     const char *why; /* what speaks against it beside its hinges, or NULL */
@@ -369,6 +369,8 @@ fw_status fw_verdict_made_at(fw_arena *arena, const fw_device *device, const fw_
 /* the worst of a requirement over the corners that were run, with its band over all; NULL: none was */
 const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
                                                           int k, int *corner);
+/* band[0], band[1]: over all corners where that is known of what is made, else its own */
+void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]);
 /* lays out, builds and judges the device in every variant; verdict->variant must be an array of
    nvariant with `variant` set. *layout: the drawing, or what can be shown of one that cannot be made
    (its faults), which is not judged; NULL where there is neither. */

@@ -112,11 +112,10 @@ typedef struct fw_verdict_search {
     int judged;    /* points that were run, and not known */
     int first;     /* how many points there were when the slopes were known */
     double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
-    int slope_like
-        [FW_FABRICATION_INPUTS]; /* the input whose slopes were taken, scaled by the edges */
-    int slope_point
-        [FW_FABRICATION_INPUTS]; /* where it was off its nominal value; FW_NONE: no range */
-    fw_verdict_end *end;         /* (2 nrequirement) low and high of each band */
+    /* of each input: that whose slopes were taken, scaled by the edges, and the point where it was off
+       its nominal value; FW_NONE: no range */
+    int slope_like[FW_FABRICATION_INPUTS], slope_point[FW_FABRICATION_INPUTS];
+    fw_verdict_end *end; /* (2 nrequirement) low and high of each band */
 } fw_verdict_search;
 
 enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) };

@@ -140,9 +140,9 @@ static void read_attributes(fw_xml_reader *r, fw_xml_record *record) {
 typedef struct walk {
     fw_xml_reader *r;
     int met[FW_ELEMENTS_MOST]; /* per row of the table */
-    const fw_xml_element
-        *once[FW_ELEMENTS_MOST]; /* the last one of a row that may stand once in its parent */
-    bool needs;                  /* some row of the table is one that must be there */
+    /* the last one of a row that may stand once in its parent */
+    const fw_xml_element *once[FW_ELEMENTS_MOST];
+    bool needs; /* some row of the table is one that must be there */
 } walk;
 
 /* how often an element may stand: once in its parent, or `most` in the file */

@@ -5,8 +5,7 @@
    (tools/solids/errors.c). */
 #ifndef FW_TEST_ERROR_SOLIDS_H
 #define FW_TEST_ERROR_SOLIDS_H
-#include "flexure/flexure.h"
-#include <math.h>
+#include "solid_input.h"
 
 typedef struct error_solid {
     double radius, width, angle, fillet, depth, poisson; /* um, deg; angle 0: leaf of that length */
@@ -42,18 +41,8 @@ static const error_solid SOLID[] = {
 enum { SOLIDS = sizeof SOLID / sizeof SOLID[0] };
 
 static inline fw_flexure_result error_solid_form(const error_solid *s) {
-    double a = s->angle * M_PI / 180;
-    fw_flexure_input in = {.kind = a > 0 ? FW_FLEXURE_CSFH : FW_FLEXURE_LEAF,
-                           .length_m = (a > 0 ? a : 1) * s->radius * 1e-6,
-                           .angle_rad = a,
-                           .radius_m = s->radius * 1e-6,
-                           .width_m = s->width * 1e-6,
-                           .fillet_m = s->fillet * 1e-6,
-                           .depth_m = s->depth * 1e-6,
-                           .youngs_Pa = 150e9,
-                           .poisson = s->poisson,
-                           .strength_Pa = 500e6,
-                           .safety_factor = 1};
+    const fw_flexure_input in =
+        solid_input(&(solid_shape){s->radius, s->width, s->angle, s->fillet, s->depth, s->poisson});
     fw_flexure_result out;
     fw_flexure_closed_form(&in, &out);
     return out;

@@ -9,15 +9,16 @@
    E 150 GPa or silicon (165.7, 63.9, 79.6 GPa), of silicon the peak stress over 150 GPa; of an arc
    of silicon that is not its own mirror image either half.
  */
-#include "flexure/flexure.h"
+#include "solid_input.h"
 #include "test.h"
 #include <stdlib.h>
 
 typedef struct row {
-    bool leaf, silicon;
-    double size, width, angle, fillet, depth, poisson, axis, strain; /* um, deg, 1/rad */
-    double coarser;                                                  /* 0: one mesh only */
-    double stiffness; /* N m/rad; 0: not in the table */
+    bool silicon;
+    solid_shape shape;
+    double axis, strain; /* deg, 1/rad */
+    double coarser;      /* 0: one mesh only */
+    double stiffness;    /* N m/rad; 0: not in the table */
 } row;
 
 enum { MOST = 800 };
@@ -32,13 +33,15 @@ static int rows_in(const char *path, row *rows) {
         int read = 0;
         r->coarser = r->stiffness = 0;
         assert_int_equal(sscanf(line, "%15[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%*d,%n",
-                                kind, material, &r->size, &r->width, &r->angle, &r->fillet,
-                                &r->depth, &r->poisson, &r->axis, &r->strain, &read),
+                                kind, material, &r->shape.size, &r->shape.width, &r->shape.angle,
+                                &r->shape.fillet, &r->shape.depth, &r->shape.poisson, &r->axis,
+                                &r->strain, &read),
                          10);
         char *next = line + read;
         if (*next != ',') r->coarser = strtod(next, &next);
         if (*next == ',') r->stiffness = strtod(next + 1, NULL);
-        r->leaf = strcmp(kind, "leaf") == 0, r->silicon = strcmp(material, "silicon") == 0;
+        r->silicon = strcmp(material, "silicon") == 0;
+        assert_true((strcmp(kind, "leaf") == 0) == (r->shape.angle == 0));
     }
     fclose(file);
     return n;
@@ -59,27 +62,17 @@ static int unseen(row *rows) {
 }
 
 static fw_flexure_input input_of(const row *r) {
-    double angle = r->angle * M_PI / 180, size = r->size * 1e-6;
-    fw_flexure_input in = {.kind = r->leaf ? FW_FLEXURE_LEAF : FW_FLEXURE_CSFH,
-                           .length_m = r->leaf ? size : size * angle,
-                           .angle_rad = angle,
-                           .radius_m = r->leaf ? 0 : size,
-                           .width_m = r->width * 1e-6,
-                           .fillet_m = r->fillet * 1e-6,
-                           .depth_m = r->depth * 1e-6,
-                           .youngs_Pa = 150e9,
-                           .poisson = r->poisson,
-                           .strength_Pa = 500e6,
-                           .safety_factor = 1};
+    fw_flexure_input in = solid_input(&r->shape);
     if (r->silicon)
-        in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, r->axis * M_PI / 180);
+        in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, r->axis * FW_PI / 180);
     return in;
 }
 
 /* of the narrow band: fillets from t/10 (silicon 0.15 t) to 1.25 t, no deeper than 10 t */
 static bool inside(const row *r) {
-    double x = r->fillet / r->width;
-    return x > (r->silicon ? 0.1499 : 0.0999) && x < 1.2501 && r->depth < 10.001 * r->width;
+    double x = r->shape.fillet / r->shape.width;
+    return x > (r->silicon ? 0.1499 : 0.0999) && x < 1.2501 &&
+           r->shape.depth < 10.001 * r->shape.width;
 }
 
 static double above(const row *r, const fw_flexure_result *o) {
@@ -153,8 +146,8 @@ static void solids_that_no_fit_has_seen(void **state) {
         if (!(solid < 0 && solid > -o.error.strain))
             fail_msg("row %d: %.4f beside the bound, stated %.4f", i + 2, solid, o.error.strain);
         assert_true(o.error.strain < (r->silicon ? 0.0256 : 0.0211) ||
-                    (r->silicon && r->depth < r->width));
-        silicon += r->silicon, shallow += r->silicon && r->depth < r->width;
+                    (r->silicon && r->shape.depth < r->shape.width));
+        silicon += r->silicon, shallow += r->silicon && r->shape.depth < r->shape.width;
     }
     assert_true(n > 50 && silicon > 40 && shallow > 3);
 }
@@ -179,22 +172,14 @@ static void solids_agree_with_themselves(void **state) {
    direction: test_crystal.c */
 static void never_below_the_reference(void **state) {
     (void)state;
-    const row fe[] = {
-        {.size = 100, .width = 8, .angle = 270, .depth = 50, .poisson = 0.22, .strain = 0.01162555},
-        {.size = 100, .width = 10, .angle = 180, .depth = 50, .poisson = 0.22, .strain = 0.0225749},
-        {.size = 100,
-         .width = 10,
-         .angle = 270,
-         .depth = 9,
-         .poisson = 0.34,
-         .strain = 0.01443857}};
+    const row fe[] = {{.shape = {100, 8, 270, 4, 50, 0.22}, .strain = 0.01162555},
+                      {.shape = {100, 10, 180, 4, 50, 0.22}, .strain = 0.0225749},
+                      {.shape = {100, 10, 270, 4, 9, 0.34}, .strain = 0.01443857}};
     for (int i = 0; i < 3; i++) {
-        row r = fe[i];
-        r.fillet = 4;
-        const fw_flexure_input in = input_of(&r);
+        const fw_flexure_input in = input_of(&fe[i]);
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
-        assert_true(o.strain_per_rad >= r.strain && o.strain_per_rad <= 1.04 * r.strain);
+        assert_true(o.strain_per_rad >= fe[i].strain && o.strain_per_rad <= 1.04 * fe[i].strain);
     }
 }
 
@@ -209,7 +194,7 @@ static void fit_is_beside(void **state) {
         const fw_flexure_input in = input_of(&rows[i]);
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
-        if (rows[i].silicon || rows[i].depth > 10.001 * rows[i].width) continue;
+        if (rows[i].silicon || rows[i].shape.depth > 10.001 * rows[i].shape.width) continue;
         double t = in.width_m, ended = o.ends_stiffer / (in.length_m + 2 * o.root_length_m);
         double beam = 0.5 * t * ended;
         assert_relative(o.strain_per_rad, beam * o.concentration, 1e-13);
@@ -230,7 +215,7 @@ static void mirrored(void **state) {
         if (!rows[i].silicon) continue;
         fw_flexure_result a, b;
         other.crystal =
-            fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, -rows[i].axis * M_PI / 180);
+            fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, -rows[i].axis * FW_PI / 180);
         fw_flexure_closed_form(&in, &a);
         fw_flexure_closed_form(&other, &b);
         assert_relative(a.strain_per_rad, b.strain_per_rad, 1e-12);

@@ -33,6 +33,28 @@ static fw_flexure_input strip_of(double angle_deg, double slender, double fillet
                               .safety_factor = 1};
 }
 
+typedef struct strip { /* of the closed form, with what its strains need */
+    fw_flexure_result c;
+    fw_flexure_hinge_law law;
+    fw_flexure_path_strain path;
+} strip;
+
+static strip strip_made(fw_arena *arena, const fw_flexure_input *in) {
+    strip s;
+    fw_flexure_closed_form(in, &s.c);
+    fw_flexure_hinge_law_of(in, &s.c, &s.law);
+    assert_int_equal(fw_flexure_path_strain_new(arena, in, &s.c, &s.path), FW_OK);
+    return s;
+}
+
+/* the law at rest */
+static void strains_of(const strip *s, double th, const double F[2], fw_flexure_strip_load *load,
+                       fw_flexure_strip_strains *own) {
+    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&s->law);
+    fw_flexure_strip_load_of(&s->path, &s->law, &rest, th, F, NULL, load);
+    fw_flexure_strip_strain(&s->path, load, own);
+}
+
 /* Rotations to 20 degrees under forces that strain up to 0.6 %: peak and roots of the closed form
    within 2 % of the exact beam's at the same load, in the median within 0.1 % */
 static void as_the_exact_beam(void **state) {
@@ -44,20 +66,14 @@ static void as_the_exact_beam(void **state) {
         fw_arena *arena = fw_arena_new(0);
         const fw_flexure_input in =
             strip_of(angle[i % 7], 1 / (40 + 7.0 * (i % 6)), i % 3 ? 0.4 : -1);
-        fw_flexure_result c;
-        fw_flexure_hinge_law law;
-        fw_flexure_path_strain strip;
+        const strip s = strip_made(arena, &in);
         fw_flexure_beam beam;
         fw_flexure_elastica *solver;
-        fw_flexure_closed_form(&in, &c);
-        fw_flexure_hinge_law_of(&in, &c, &law);
-        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &strip), FW_OK);
-        assert_int_equal(fw_flexure_beam_of_input(arena, &in, &c, &beam), FW_OK);
-        assert_int_equal(fw_flexure_elastica_new(arena, &beam, strip.W_m, false, &solver), FW_OK);
-        const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
+        assert_int_equal(fw_flexure_beam_of_input(arena, &in, &s.c, &beam), FW_OK);
+        assert_int_equal(fw_flexure_elastica_new(arena, &beam, s.path.W_m, false, &solver), FW_OK);
         double th = 20 * degree * sin(1.7 * i), u = in.width_m * (i % 11), turn = 0.31 * i;
-        const double F[2] = {u * c.kx_N_per_m * cos(turn),
-                             u * fmin(c.ky_N_per_m, 8 * c.kx_N_per_m) * sin(turn)};
+        const double F[2] = {u * s.c.kx_N_per_m * cos(turn),
+                             u * fmin(s.c.ky_N_per_m, 8 * s.c.kx_N_per_m) * sin(turn)};
         double co = cos(0.5 * th), si = sin(0.5 * th);
         const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
                                                {th, co * F[0] - si * F[1], si * F[0] + co * F[1]}};
@@ -65,10 +81,9 @@ static void as_the_exact_beam(void **state) {
         fw_flexure_elastica_solve(solver, &task, 1e-9, false, &r);
         fw_flexure_strip_strains exact, own;
         fw_flexure_strip_load load;
-        fw_flexure_strip_load_of(&strip, &law, &rest, th, F, NULL, &load);
-        fw_flexure_strip_strain(&strip, &load, &own);
+        strains_of(&s, th, F, &load, &own);
         if (r.code == FW_ELASTICA_OK || r.code == FW_ELASTICA_ROUGH) {
-            fw_flexure_strip_strain_exact(&strip, solver, &exact);
+            fw_flexure_strip_strain_exact(&s.path, solver, &exact);
             if (exact.peak > 1e-6 && exact.peak < 0.006 && load.held) {
                 double off = fabs(own.peak / exact.peak - 1);
                 for (int k = 0; k < 4; k++)
@@ -93,24 +108,17 @@ static void pressed(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     const fw_flexure_input in = strip_of(0, 0.004, -1);
-    fw_flexure_result c;
-    fw_flexure_hinge_law law;
-    fw_flexure_path_strain strip;
-    fw_flexure_closed_form(&in, &c);
-    fw_flexure_hinge_law_of(&in, &c, &law);
-    assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &strip), FW_OK);
-    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
-    double th = 0.03, EI_per_L2 = c.stiffness_Nm_per_rad / in.length_m;
+    const strip s = strip_made(arena, &in);
+    double th = 0.03, EI_per_L2 = s.c.stiffness_Nm_per_rad / in.length_m;
     for (double y = -0.5; y > -9.8; y -= 0.1) {
         const double F[2] = {0, y * EI_per_L2};
         fw_flexure_strip_load load;
         fw_flexure_strip_strains own;
-        fw_flexure_strip_load_of(&strip, &law, &rest, th, F, NULL, &load);
-        fw_flexure_strip_strain(&strip, &load, &own);
-        double z = 0.5 * sqrt(-y), M = c.stiffness_Nm_per_rad * th * z / sin(z);
-        double press = strip.point[0].strain_per_N * fabs(F[1]);
-        double bend =
-            fmax(strip.point[1].strain_per_Nm * M, strip.point[0].strain_per_Nm * fabs(M * cos(z)));
+        strains_of(&s, th, F, &load, &own);
+        double z = 0.5 * sqrt(-y), M = s.c.stiffness_Nm_per_rad * th * z / sin(z);
+        const fw_flexure_path_point *end = s.path.point;
+        double press = end[0].strain_per_N * fabs(F[1]);
+        double bend = fmax(end[1].strain_per_Nm * M, end[0].strain_per_Nm * fabs(M * cos(z)));
         assert_near(own.peak - press, bend, 0.01 * bend);
     }
     fw_arena_free(arena);
@@ -126,14 +134,10 @@ static void between_the_roots(void **state) {
     for (int i = 0; i < 5 * 4 * 3; i++) {
         fw_flexure_input in =
             strip_of(angle[i % 5], 0.015 + 0.02 * (i / 20 % 3), fillet[i / 5 % 4]);
-        fw_flexure_result c;
-        fw_flexure_path_strain even, varying;
         in.depth_m = 5 * in.width_m;
-        fw_flexure_closed_form(&in, &c);
-        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &even), FW_OK);
+        const fw_flexure_path_strain even = strip_made(arena, &in).path;
         in.width_middle_m = in.width_m * (1 + 1e-9);
-        fw_flexure_closed_form(&in, &c);
-        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &varying), FW_OK);
+        const fw_flexure_path_strain varying = strip_made(arena, &in).path;
         const double middle = varying.point[varying.n / 2].strain_per_Nm;
         assert_near(even.point[even.n / 2].strain_per_Nm, middle, 1e-3 * middle);
     }
@@ -149,23 +153,16 @@ static void least_strain(void **state) {
     fw_arena *arena = fw_arena_new(0);
     for (int i = 0; i < 24; i++) {
         const fw_flexure_input in = strip_of(0, 0.01 + 0.005 * (i % 4), i % 3 ? 0.3 * (i % 3) : -1);
-        fw_flexure_result c;
-        fw_flexure_hinge_law law;
-        fw_flexure_path_strain strip;
-        fw_flexure_closed_form(&in, &c);
-        fw_flexure_hinge_law_of(&in, &c, &law);
-        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &strip), FW_OK);
-        const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
-        double L = in.length_m, t = in.width_m, EI_per_L2 = c.stiffness_Nm_per_rad / L;
+        const strip s = strip_made(arena, &in);
+        double L = in.length_m, t = in.width_m, EI_per_L2 = s.c.stiffness_Nm_per_rad / L;
         double rho = fmax(in.fillet_m, 0), g = rho > 0 ? 3.2 * t / (L + 3.2 * t) : 0;
         for (int k = 0; k < 3; k++) {
             double push = k == 1 ? 0 : 0.02 * EI_per_L2, pull = k == 0 ? 0 : 12 * EI_per_L2;
             const double F[2] = {push, pull};
             fw_flexure_strip_load load;
             fw_flexure_strip_strains own;
-            fw_flexure_strip_load_of(&strip, &law, &rest, 0, F, NULL, &load);
-            fw_flexure_strip_strain(&strip, &load, &own);
-            double stretch = strip.point[0].strain_per_N * pull, z = 0.5 * sqrt(12);
+            strains_of(&s, 0, F, &load, &own);
+            double stretch = s.path.point[0].strain_per_N * pull, z = 0.5 * sqrt(12);
             double falls = k == 0 ? 1 - 2 * rho / L : sinh(z * (1 - 2 * rho / L)) / sinh(z);
             double give = k == 0 ? 1 : 1 - 0.5 * g * 12 / (12 + 10);
             double expected = (own.peak - stretch) * falls * give + stretch * (1 - g);
@@ -182,11 +179,8 @@ static void faces_of_an_arc(void **state) {
     fw_arena *arena = fw_arena_new(0);
     for (int i = 0; i < 12; i++) {
         fw_flexure_input in = strip_of(i % 2 ? 140 : 250, 1 / (18.0 + i), 0.3);
-        fw_flexure_result c;
-        fw_flexure_path_strain strip;
+        const fw_flexure_path_strain strip = strip_made(arena, &in).path;
         fw_flexure_strip_strains pressed, pulled, plain;
-        fw_flexure_closed_form(&in, &c);
-        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &strip), FW_OK);
         const fw_flexure_path_point *p = &strip.point[0];
         double u = in.width_m / (3 * in.radius_m), k = p->strain_per_Nm, M = 1e-8;
         assert_near(p->face[0], 1 - u,
@@ -211,10 +205,7 @@ static void faces_of_an_arc(void **state) {
     }
     /* a leaf's fillets are alike */
     fw_flexure_input leaf = strip_of(0, 1 / 20.0, 0.3);
-    fw_flexure_result c;
-    fw_flexure_path_strain strip;
-    fw_flexure_closed_form(&leaf, &c);
-    assert_int_equal(fw_flexure_path_strain_new(arena, &leaf, &c, &strip), FW_OK);
+    const fw_flexure_path_strain strip = strip_made(arena, &leaf).path;
     assert_near(strip.point[0].face[0], 1, 0);
     assert_near(strip.point[strip.n - 1].face[1], 1, 0);
     fw_arena_free(arena);

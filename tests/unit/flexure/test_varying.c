@@ -3,12 +3,12 @@
    tools/solids as those of one width are (test_root_strain.c), E 150 GPa, nothing fitted to them.
    Peak strain per radian and stiffness lie within what the closed form states of its own errors, and
    these are not so wide that they say nothing. */
-#include "flexure/flexure.h"
+#include "solid_input.h"
 #include "test.h"
 
 typedef struct row { /* um, deg, 1/rad, N m/rad */
-    bool leaf;
-    double size, width, angle, fillet, depth, poisson, middle, strain, stiffness;
+    solid_shape shape;
+    double middle, strain, stiffness;
 } row;
 
 enum { MOST = 200 };
@@ -20,31 +20,20 @@ static int rows_of(row *rows) {
     assert_non_null(file);
     assert_non_null(fgets(line, sizeof line, file));
     for (row *r = rows; n < MOST && fgets(line, sizeof line, file); r++, n++) {
-        assert_int_equal(sscanf(line,
-                                "%15[^,],isotropic,%lf,%lf,%lf,%lf,%lf,%lf,%*f,%lf,%*d,%lf,%lf",
-                                kind, &r->size, &r->width, &r->angle, &r->fillet, &r->depth,
-                                &r->poisson, &r->strain, &r->stiffness, &r->middle),
-                         10);
-        r->leaf = strcmp(kind, "leaf") == 0;
+        assert_int_equal(
+            sscanf(line, "%15[^,],isotropic,%lf,%lf,%lf,%lf,%lf,%lf,%*f,%lf,%*d,%lf,%lf", kind,
+                   &r->shape.size, &r->shape.width, &r->shape.angle, &r->shape.fillet,
+                   &r->shape.depth, &r->shape.poisson, &r->strain, &r->stiffness, &r->middle),
+            10);
+        assert_true((strcmp(kind, "leaf") == 0) == (r->shape.angle == 0));
     }
     fclose(file);
     return n;
 }
 
 static fw_flexure_result closed_form(const row *r) {
-    double angle = r->angle * acos(-1.0) / 180, size = r->size * 1e-6;
-    const fw_flexure_input in = {.kind = r->leaf ? FW_FLEXURE_LEAF : FW_FLEXURE_CSFH,
-                                 .length_m = r->leaf ? size : size * angle,
-                                 .angle_rad = angle,
-                                 .radius_m = r->leaf ? 0 : size,
-                                 .width_m = r->width * 1e-6,
-                                 .width_middle_m = r->middle * 1e-6,
-                                 .fillet_m = r->fillet * 1e-6,
-                                 .depth_m = r->depth * 1e-6,
-                                 .youngs_Pa = 150e9,
-                                 .poisson = r->poisson,
-                                 .strength_Pa = 500e6,
-                                 .safety_factor = 1};
+    fw_flexure_input in = solid_input(&r->shape);
+    in.width_middle_m = r->middle * 1e-6;
     fw_flexure_result out;
     fw_flexure_closed_form(&in, &out);
     return out;
@@ -66,7 +55,7 @@ static void solids_lie_within_the_errors(void **state) {
             fail_msg("row %d: stiffness %.4f, stated -%.4f to %.4f", i + 2, stiffness,
                      o.error.softer, o.error.stiffness);
         down = fmin(down, strain), up = fmax(up, strain), sum += o.error.stiffness;
-        wider += rows[i].middle > rows[i].width;
+        wider += rows[i].middle > rows[i].shape.width;
     }
     assert_true(n > 50 && wider > 15 && n - wider > 15);
     assert_true(down < -0.05 && up < 0.008); /* a strip that opens is far below, none far above */
