@@ -76,6 +76,9 @@ endforeach()
 # The kernel of the right-hand side once more for lanes of designs, chosen at run time. These may contract
 # products and sums; the kernel of one design, which the room has compiled above, may not.
 set(kernel_level -O3)
+if(CMAKE_C_FLAGS MATCHES "-fsanitize=") # tests/build/threads.sh: nothing of its own in what is unrolled
+    set(kernel_level -O0)
+endif()
 if(FW_SANITIZE)
     # unrolled lines with a check at each take clang nine minutes; AddressSanitizer sees where a wrong pointer goes
     set(kernel_level -O0)

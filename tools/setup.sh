@@ -57,6 +57,8 @@ configure_and_build() {
     ! command -v ccache >/dev/null || export CMAKE_C_COMPILER_LAUNCHER="${CMAKE_C_COMPILER_LAUNCHER-ccache}"
     target=all
     options=
+    # links in a third of the time that the usual one takes, of some 150 programs
+    ! command -v ld.lld >/dev/null || options="'-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld' '-DCMAKE_SHARED_LINKER_FLAGS=-fuse-ld=lld'"
     while [ $# -gt 0 ]; do
         case $1 in
         --target) target=$2 && shift 2 ;;

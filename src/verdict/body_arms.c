@@ -7,14 +7,15 @@
 
    with m the moment, a the axial and s the shear force of a unit wrench, 3.2 >= 2.4 (1 + nu). The way is
    that of the least integral of 1/w^3 over a grid of cells (Dijkstra), w there from the distance to the
-   nearest cell that an edge crosses; along it w is exact, at the best of places a cell to either side. */
+   nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
+   circle is largest to a hundredth of it, and there w is exact. */
 #include "verdict/body_arms.h"
 #include "geometry/segment.h"
 #include <string.h>
 
 enum { ACROSS = 100, FINEST = 4, CELLS = 1000000 };
-/* the narrowest place of a way has as many, or cells are halved: a coarse way misses a slender bar */
-static const double fw_cells_across = 2;
+/* the narrowest place of a way has as many, or cells are halved: a coarse grid misses a slender bar */
+static const double fw_cells_across = 1;
 /* a cell is not below this: what is narrower is no part of a body */
 static const double fw_least_cell = 2e-6;
 
@@ -32,9 +33,10 @@ typedef struct grid {
     double cell;
     int nx, ny;
     bool *inside;
-    double *away; /* m, about, to the nearest edge */
-    double *cost; /* from the middle; HUGE_VAL: not reached */
-    int *from;    /* the cell before; -1 */
+    double *away;  /* m, about, to the nearest edge */
+    double *stiff; /* cell^3/away^3: what a cell adds to a way's cost */
+    double *cost;  /* from the middle; HUGE_VAL: not reached */
+    int *from;     /* the cell before; -1 */
 } grid;
 
 /* ---- lines ---- */
@@ -75,14 +77,10 @@ static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
     return FW_OK;
 }
 
-static double distance(const grid *g, fw_geometry_vec2 at) {
-    double least = HUGE_VAL, t;
-    for (int i = 0; i < g->nline; i++) {
-        if (!g->line[i].edge) continue;
-        fw_geometry_vec2 off = vec_sub(vec_line_foot(g->line[i].a, g->line[i].b, at, &t), at);
-        least = fw_lesser(least, vec_dot(off, off));
-    }
-    return sqrt(least);
+static double distance_squared(const line *l, fw_geometry_vec2 at) {
+    double t;
+    fw_geometry_vec2 off = vec_sub(vec_line_foot(l->a, l->b, at, &t), at);
+    return vec_dot(off, off);
 }
 
 /* ---- cells ---- */
@@ -181,8 +179,11 @@ static fw_status measure(grid *g) {
         envelope(g->away + i, g->ny, g->nx, copy, on, until);
     for (int j = 0; j < g->ny; j++)
         envelope(g->away + j * g->nx, g->nx, 1, copy, on, until);
-    for (int i = 0; i < g->nx * g->ny; i++)
-        g->away[i] = g->cell * sqrt(g->away[i]);
+    for (int i = 0; i < g->nx * g->ny; i++) {
+        double cells = sqrt(g->away[i]), w = fw_greater(cells, 0.5);
+        g->away[i] = g->cell * cells;
+        g->stiff[i] = 1 / (w * w * w);
+    }
     return FW_OK;
 }
 
@@ -193,6 +194,7 @@ static fw_status lay(grid *g, double cell) {
     size_t n = (size_t)g->nx * (size_t)g->ny;
     FW_NEED(g->inside = fw_arena_array(g->arena, bool, n));
     FW_NEED(g->away = fw_arena_array(g->arena, double, n));
+    FW_NEED(g->stiff = fw_arena_array(g->arena, double, n));
     FW_NEED(g->cost = fw_arena_array(g->arena, double, n));
     FW_NEED(g->from = fw_arena_array(g->arena, int, n));
     FW_TRY(fill(g));
@@ -233,11 +235,6 @@ static int pop(queue *q, double *key) {
 /* along columns and rows, and across */
 static const int step_x[8] = {1, -1, 0, 0, 1, 1, -1, -1}, step_y[8] = {0, 0, 1, -1, 1, -1, 1, -1};
 
-static double stiff(const grid *g, int cell) {
-    double w = fw_greater(g->away[cell], 0.5 * g->cell) / g->cell;
-    return 1 / (w * w * w);
-}
-
 static fw_status spread(grid *g, int middle) {
     size_t n = (size_t)g->nx * (size_t)g->ny,
            most = 1; /* a cell of the material has 8 neighbours */
@@ -258,7 +255,7 @@ static fw_status spread(grid *g, int middle) {
             int i = x + step_x[k], j = y + step_y[k], to = j * g->nx + i;
             if (i < 0 || j < 0 || i >= g->nx || j >= g->ny || !g->inside[to]) continue;
             double far = k < 4 ? 1 : sqrt(2),
-                   cost = key + 0.5 * far * (stiff(g, at) + stiff(g, to));
+                   cost = key + 0.5 * far * (g->stiff[at] + g->stiff[to]);
             if (cost >= g->cost[to]) continue;
             g->cost[to] = cost;
             g->from[to] = at;
@@ -283,6 +280,12 @@ static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
 
 /* ---- along a way ---- */
 
+typedef struct edges { /* those around a place */
+    int *line;         /* (n) */
+    double *off;       /* (nline) squared distances from it */
+    int n;
+} edges;
+
 /* in one of the pieces: a line to the right crosses it an odd number of times */
 static bool is_inside(const grid *g, fw_geometry_vec2 p) {
     bool in = false;
@@ -298,21 +301,63 @@ static bool is_inside(const grid *g, fw_geometry_vec2 p) {
     return in;
 }
 
-/* twice the largest distance to the edge here and a cell to either side, square to the way; 0: all of
-   that is outside, the cells are too coarse */
-static double width(const grid *g, fw_geometry_vec2 *at, fw_geometry_vec2 along) {
-    fw_geometry_vec2 side = vec_left(along), from = *at;
-    double most = 0;
-    for (int k = -2; k <= 2; k++) {
-        fw_geometry_vec2 p = vec_along(from, 0.5 * k * g->cell, side);
-        double d = distance(g, p);
-        if (d > most && is_inside(g, p)) most = d, *at = p;
+/* the edges that may be the nearest of any place within a cell and a half */
+static void look_around(const grid *g, fw_geometry_vec2 at, edges *around) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < g->nline; i++) {
+        if (!g->line[i].edge) continue;
+        around->off[i] = distance_squared(&g->line[i], at);
+        least = fw_lesser(least, around->off[i]);
     }
-    return 2 * most;
+    double most = sqrt(least) + 3 * g->cell;
+    around->n = 0;
+    for (int i = 0; i < g->nline; i++)
+        if (g->line[i].edge && around->off[i] <= most * most) around->line[around->n++] = i;
 }
 
+static double distance(const grid *g, const edges *around, fw_geometry_vec2 at) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < around->n; i++)
+        least = fw_lesser(least, distance_squared(&g->line[around->line[i]], at));
+    return sqrt(least);
+}
+
+static bool is_cut(const grid *g, const edges *around, fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    fw_geometry_vec2 along = vec_sub(q, p);
+    for (int i = 0; i < around->n; i++) {
+        const line *l = &g->line[around->line[i]];
+        fw_geometry_vec2 edge = vec_sub(l->b, l->a);
+        double a = vec_cross(along, vec_sub(l->a, p)), b = vec_cross(along, vec_sub(l->b, p));
+        double c = vec_cross(edge, vec_sub(p, l->a)), d = vec_cross(edge, vec_sub(q, l->a));
+        if ((a > 0) != (b > 0) && (c > 0) != (d > 0)) return true;
+    }
+    return false;
+}
+
+/* a place square to the way where the circle is largest, from one in the material and nowhere beyond an
+   edge; returns its diameter */
+static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geometry_vec2 side) {
+    const fw_geometry_vec2 from = *at;
+    look_around(g, from, around);
+    double best = distance(g, around, from), where = 0;
+    for (double step = 0.5; step * g->cell > 0.02 * best; step /= 2) {
+        const double middle = where;
+        for (int k = step < 0.5 ? 1 : 2; k != 0; k = k > 0 ? -k : -k - 1) {
+            double to = middle + k * step;
+            fw_geometry_vec2 p = vec_along(from, to * g->cell, side);
+            double d = distance(g, around, p);
+            if (d > best && !is_cut(g, around, from, p)) best = d, where = to, *at = p;
+        }
+    }
+    return 2 * best;
+}
+
+/* of a piece of the way around a place */
 static void add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
-                fw_geometry_vec2 along, double length, double w) {
+                fw_geometry_vec2 from, fw_geometry_vec2 until, double w) {
+    double length = vec_distance(from, until);
+    if (!(length > 0)) return;
+    fw_geometry_vec2 along = vec_unit(vec_sub(until, from));
     fw_geometry_vec2 r = vec_sub(at, pin), side = vec_left(along);
     /* moment, axial and shear force of M, Fx, Fy there */
     const double m[3] = {1, -r.y, r.x}, a[3] = {0, along.x, along.y}, s[3] = {0, side.x, side.y};
@@ -326,20 +371,30 @@ static void add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
     if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
 }
 
-/* two cells at a time; the flexure's own root is in its closed form: the way begins where it is a
-   cell inside */
-static void follow(const grid *g, int begin, fw_geometry_vec2 pin, fw_verdict_arm *arm) {
+/* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
+   root is in its closed form: the way begins where it is a cell inside */
+static fw_status follow(const grid *g, int begin, fw_geometry_vec2 pin, fw_verdict_arm *arm) {
+    edges around = {fw_arena_array(g->arena, int, (size_t)g->nline),
+                    fw_arena_array(g->arena, double, (size_t)g->nline), 0};
+    FW_NEED(around.line && around.off ? around.line : NULL);
     arm->known = true;
     arm->narrow_m = HUGE_VAL;
+    fw_geometry_vec2 from = place(g, begin), here = from;
+    double w = 0;
     for (int at = begin; g->from[at] >= 0;) {
         int to = g->from[at];
         if (g->from[to] >= 0) to = g->from[to];
-        fw_geometry_vec2 p = place(g, at), q = place(g, to), off = vec_sub(q, p);
-        fw_geometry_vec2 along = vec_unit(off), middle = vec_along(p, 0.5, off);
-        double w = width(g, &middle, along);
-        add(arm, pin, middle, along, vec_length(off), fw_greater(w, 1e-3 * g->cell));
-        at = to;
+        fw_geometry_vec2 p = place(g, at), off = vec_sub(place(g, to), p);
+        fw_geometry_vec2 next = vec_along(p, 0.5, off);
+        if (!is_inside(g, next)) next = p;
+        double wide = widest(g, &around, &next, vec_left(vec_unit(off)));
+        fw_geometry_vec2 until = w > 0 ? vec_along(here, 0.5, vec_sub(next, here)) : from;
+        add(arm, pin, here, from, until, w);
+        from = until, here = next, at = to;
+        w = fw_greater(wide, 1e-3 * g->cell);
+        if (g->from[at] < 0) add(arm, pin, here, from, place(g, at), w);
     }
+    return FW_OK;
 }
 
 /* ---- bodies ---- */
@@ -386,7 +441,7 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
             fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
             int begin = cell_at(&g, ends[i].root, 0);
             *to = (fw_verdict_arm){.known = false};
-            if (g.cost[begin] < HUGE_VAL) follow(&g, begin, ends[i].pin, to);
+            if (g.cost[begin] < HUGE_VAL) FW_TRY(follow(&g, begin, ends[i].pin, to));
             if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }

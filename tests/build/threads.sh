@@ -4,10 +4,7 @@
 # share without an order between them. Some twenty times slower: fewer moments of cancelling.
 set -eu
 cd "$(dirname "$0")/../.."
-cmake -S . -B build-threads -G Ninja -DCMAKE_C_COMPILER=clang -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug \
-    -DCMAKE_C_FLAGS_DEBUG="-g1 -O0" -DCMAKE_C_FLAGS=-fsanitize=thread >/dev/null
-cmake --build build-threads --target cancel_threads >build-threads/log 2>&1 || {
-    tail -40 build-threads/log
-    exit 1
-}
+. tools/setup.sh
+configure_and_build build-threads -DCMAKE_C_COMPILER=clang -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug \
+    -DCMAKE_C_FLAGS_DEBUG="-g1 -O0" -DCMAKE_C_FLAGS=-fsanitize=thread --target cancel_threads
 FW_CANCEL_MOMENTS=1 TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build-threads/tests/cancel_threads
