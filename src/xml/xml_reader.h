@@ -8,7 +8,7 @@
    of it for files whose expressions know no names. */
 #ifndef FW_XML_XML_READER_H
 #define FW_XML_XML_READER_H
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 #include "xml/xml_table.h"
 #include "xml/xml.h"
 
