@@ -12,7 +12,6 @@
 #include "flexure/flexure.h"
 #include "flexure/limit.h"
 #include "flexure/path.h"
-#include "flexure/strip_strain.h"
 #include "layout/layout.h"
 
 typedef struct fw_mechanism_variant { /* what the device is made of, in one flow */
