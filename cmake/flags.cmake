@@ -7,7 +7,7 @@ add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Wstrict-prototypes -Wvl
                     -ffp-contract=off -fno-math-errno)
 add_compile_definitions(_GNU_SOURCE FW_VERSION="${PROJECT_VERSION}")
 # in one file alone: what is compiled with it is another file in another directory
-set_source_files_properties(${PROJECT_SOURCE_DIR}/src/base/data_path.c PROPERTIES COMPILE_DEFINITIONS
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/base/input.c PROPERTIES COMPILE_DEFINITIONS
                             "FW_SOURCE_DATA_DIR=\"${PROJECT_SOURCE_DIR}\";FW_INSTALL_DATA_DIR=\"${CMAKE_INSTALL_PREFIX}/share/flexwright\"")
 include_directories(${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
 # the rooms go into the program and into the shared library, which shows only what FW_API marks

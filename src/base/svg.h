@@ -1,8 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The canvas of all pictures: nothing else in the program writes an element of SVG (tests/arch
-   looks).
+/* Markup: text from templates for HTML and SVG, and the canvas of all pictures. */
+#ifndef FW_BASE_SVG_H
+#define FW_BASE_SVG_H
+#include "base/text.h"
+#include <stdarg.h>
+#include <stdbool.h>
 
-   An element is a template as in base/markup.h, without its brackets: the name, its attributes with
+/* ---- templates ----
+
+   Text from templates, and numbers as people read them: for HTML and SVG.
+
+   A directive of a template is a letter or digit in braces:
+
+     {s}        const char *   escaped; NULL: nothing
+     {r}        const char *   as it is, for markup of our own
+     {i}        int
+     {l}        long
+     {c}        double         coordinate of a picture, at most 2 decimals
+     {1} ... {9} double        coordinate with at most 1, 2, 3, 4, 6 or 9 decimals
+     {n}        double         4 significant digits
+     {e}        double         2 significant digits
+     {u}        double, const char *   value with SI prefix and unit, 4 digits
+     {d}        double         rad, shown in degrees with their sign, 4 digits
+     {D}        double         the same for columns: no sign, zeros at the end are kept
+     {p}        double         ratio, shown in per cent
+     {h}        double         seconds, shown as a duration
+
+   A number that is not finite becomes a dash; a coordinate that is not, 0. */
+
+void fw_markup(fw_text *out, const char *format, ...);
+/* the first n bytes of a template; `quote` is written wherever it has an apostrophe */
+void fw_markup_part(fw_text *out, const char *format, size_t n, char quote, va_list *arguments);
+
+void fw_markup_number(fw_text *out, double value, int digits);
+
+/* ---- the canvas ----
+
+   Nothing else in the program writes an element of SVG (tests/arch looks).
+
+   An element is a template as above, without its brackets: the name, its attributes with
    apostrophes for quotes and, after a '>', its content:
 
      fw_svg_put(out, "circle cx='{c}' cy='{c}' r='3' fill='{r}'\n", x, y, colour);
@@ -15,10 +51,6 @@
 
    What an open element or attribute holds is written by fw_markup and the functions of base/text.h.
    A picture is fw_svg_begin, a title, often paper, elements, fw_svg_end. */
-#ifndef FW_BASE_SVG_H
-#define FW_BASE_SVG_H
-#include "base/markup.h"
-#include <stdbool.h>
 
 /* ---- the document ---- */
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "chance/evaluate.h"
 #include "maths/cdf.h"
-#include "maths/student.h"
 #include <math.h>
 
 fw_status fw_chance_evaluate(fw_chance_run *run, size_t count, const double *u, double *value) {

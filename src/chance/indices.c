@@ -3,7 +3,6 @@
 #include "chance/random.h"
 #include "chance/sobol.h"
 #include "maths/cdf.h"
-#include "maths/student.h"
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "chance/joint.h"
-#include "maths/brent.h"
 #include "maths/cdf.h"
 #include <math.h>
 

@@ -1,50 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The profile of a flexure: centre line of lines and arcs, edges, fillets, blocks. Private. */
+/* The mesh of one flexure, and what an input deck is made of. Private to the room. */
 #ifndef FW_CONTINUUM_MESH_H
 #define FW_CONTINUUM_MESH_H
 #include "continuum/continuum.h"
 #include "geometry/contour.h"
 
-typedef struct
-    fw_continuum_profile_frame { /* on the centre line: point, unit tangent; left normal (-ty, tx)
-                                    */
-    double x, y, tx, ty;
-} fw_continuum_profile_frame;
+/* ---- the mesh ----
 
-/* seen along the way out of the strip into the block */
-typedef struct fw_continuum_profile_fillet {
-    double before_m; /* of its start from the root, along the centre line */
-    fw_geometry_vec2 centre;
-    double from_rad, sweep_rad; /* from the edge of the strip to the face of the root */
-} fw_continuum_profile_fillet;
-
-typedef struct fw_continuum_profile {
-    const fw_continuum_shape *shape;
-    double length_m, s0_m[FW_CONTINUUM_PIECES]; /* where each piece starts */
-    fw_continuum_profile_frame start[FW_CONTINUUM_PIECES];
-    fw_continuum_profile_fillet fillet[2][2]; /* [end][side: 0 right, 1 left of the way out] */
-} fw_continuum_profile;
-
-/* a point of an edge and the unit normal there, into the material */
-typedef struct fw_continuum_profile_edge {
-    fw_geometry_vec2 p, n;
-} fw_continuum_profile_edge;
-
-fw_status fw_continuum_profile_build(const fw_continuum_shape *shape, fw_continuum_profile *profile,
-                                     const char **why);
-/* at `side` (0 right, 1 left of the way from first to second root), u in [0, 1] along the strip
-   between its fillets, or along a fillet from the strip to the face */
-fw_continuum_profile_edge fw_continuum_profile_strip_edge(const fw_continuum_profile *p, int side,
-                                                          double u);
-fw_continuum_profile_edge fw_continuum_profile_fillet_edge(const fw_continuum_profile *p, int end,
-                                                           int side, double u);
-/* outer boundary of the block from the right to the left of the way out, v in [0, 1]: the first
-   `corner` and the last belong to the sides */
-fw_geometry_vec2 fw_continuum_profile_block_edge(const fw_continuum_profile *p, int end,
-                                                 double corner, double v);
-
-/* Structured mesh of one flexure: a single lattice of quadratic bricks from the far face of the
-   first root block to that of the second. Private to the room. */
+   Structured mesh of one flexure: a single lattice of quadratic bricks from the far face of the
+   first root block to that of the second. */
 
 /* Lattice i along (0 .. 2 ni), j across, right to left (0 .. 2 nj), k up (0 .. 2 nk), half steps;
    nodes where at most one index is odd. The plane k = 0 is the middle of the depth. */
@@ -88,9 +52,10 @@ fw_continuum_quality fw_continuum_mesh_quality(const fw_continuum_mesh *mesh);
 fw_status fw_continuum_outline(fw_arena *arena, const fw_continuum_shape *shape,
                                fw_geometry_contour *contour, const char **why);
 
-/* CalculiX input decks: um, uN, MPa. Not mm and N: there CalculiX stops with
-   moments off by a percent at finite rotation, whatever residual is asked for. Private to the room.
- */
+/* ---- CalculiX input decks: um, uN, MPa ----
+
+   Not mm and N: there CalculiX stops with moments off by a percent at finite rotation, whatever
+   residual is asked for. */
 
 /* numbers as CalculiX reads them: at most 20 characters a field */
 void fw_continuum_deck_number(fw_text *deck, double value);
@@ -112,13 +77,5 @@ bool fw_continuum_deck_root_second(const fw_continuum_mesh *mesh, int i, int j, 
 /* but no rigid face */
 bool fw_continuum_deck_middle(const fw_continuum_mesh *mesh, int i, int j, int k);
 bool fw_continuum_deck_field(const fw_continuum_mesh *mesh, int i, int j, int k);
-
-/* ---- one hinge ---- */
-typedef enum fw_continuum_deck_steps { FW_DECK_LINEAR, FW_DECK_LARGE } fw_continuum_deck_steps;
-fw_status fw_continuum_deck_hinge(const fw_continuum_shape *shape,
-                                  const fw_continuum_material *material,
-                                  const fw_continuum_options *options,
-                                  const fw_continuum_mesh *mesh, fw_continuum_deck_steps steps,
-                                  fw_text *deck);
 
 #endif

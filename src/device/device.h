@@ -10,7 +10,7 @@
 #include "device/device_probe.h"
 #include "device/device_study.h"
 #include "device/material.h"
-#include "geometry/strip.h"
+#include "geometry/contour.h"
 #include "quantity/quantity_law.h"
 #include "quantity/quantity.h"
 #include <stdbool.h>

@@ -5,7 +5,7 @@
 #ifndef FW_DEVICE_DEVICE_TABLE_H
 #define FW_DEVICE_DEVICE_TABLE_H
 #include "base/constants.h"
-#include "xml/xml_table.h"
+#include "xml/xml_reader.h"
 
 typedef enum fw_device_space { /* ids are unique within one of these */
                                FW_SPACE_NONE,

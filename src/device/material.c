@@ -2,7 +2,7 @@
 /* Materials, and what they are known to bear (limit data). */
 #include "base/text.h"
 #include "device/material.h"
-#include "xml/xml_quantity.h"
+#include "xml/xml_reader.h"
 #include <math.h>
 #include <stddef.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 /* From the edges of a DXF file to closed outlines: its unit, chains of lines and arcs, and which of
    the closed lines are holes in others. */
 #include "base/text.h"
-#include "drawing/dxf.h"
+#include "drawing/drawing.h"
 #include "geometry/segment.h"
 #include <math.h>
 

@@ -4,7 +4,7 @@
    sweep, so arcs of polylines are exact. Source: AutoCAD DXF Reference, u18_1_h. */
 #include "base/constants.h"
 #include "base/text.h"
-#include "drawing/dxf.h"
+#include "drawing/drawing.h"
 #include "geometry/segment.h"
 #include <math.h>
 #include <string.h>

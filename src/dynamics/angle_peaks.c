@@ -5,7 +5,7 @@
    has a deflection that errors of angles are relative to. Errors of the displacement itself show in
    the joint forces and in the strains. Test: test_peak.c. */
 #include "dynamics/run.h"
-#include "maths/brent.h"
+#include "maths/cdf.h"
 #include <math.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "dynamics/run.h"
 #include "base/constants.h"
 #include "multibody/system.h"
-#include "maths/brent.h"
+#include "maths/cdf.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

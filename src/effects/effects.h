@@ -25,7 +25,7 @@ typedef enum fw_effects_hinge_model {
     FW_HINGE_AUTO,
     FW_HINGE_REVOLUTE,   /* pins at the elastic centres */
     FW_HINGE_COMPLIANCE, /* three degrees of freedom at finite rotation in closed form (finite.h) */
-    FW_HINGE_ELASTICA    /* geometrically exact beams (elastica.h) */
+    FW_HINGE_ELASTICA    /* geometrically exact beams (beam.h) */
 } fw_effects_hinge_model;
 size_t fw_effects_hinge_model_count(void);
 const char *fw_effects_hinge_model_text(fw_effects_hinge_model model);

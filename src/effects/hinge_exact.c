@@ -19,7 +19,7 @@
    search can turn back). Error: relative 1e-8, told by the solver. Cost 6 us per pose. Source:
    docs/theory/hinge-models.md. Test: test_hinge_exact.c, test_hinge_models.c. */
 #include "effects/hinge_element.h"
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include <math.h>
 #include <string.h>
 

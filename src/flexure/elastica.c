@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solver of the elastica: a solution on one mesh, a finer one for the error, the result. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "flexure/elastica_core.h"
 #include "maths/dense.h"
 #include <float.h>

@@ -3,7 +3,7 @@
    without units: lengths over that of the beam l, moments times C_theta, forces times C_theta l. */
 #ifndef FW_FLEXURE_ELASTICA_CORE_H
 #define FW_FLEXURE_ELASTICA_CORE_H
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 
 enum { FW_NODES = 8, FW_LEVELS = 5, FW_UNKNOWN = 3 };
 

@@ -47,7 +47,7 @@ typedef struct fw_flexure_input {
 } fw_flexure_input;
 
 /* What the closed form may be off by, against 3-D finite elements with real roots: a bound of what
-   was found on 23 shapes, of this shape; wider outside of what was compared (flexure_errors.c) */
+   was found on 23 shapes, of this shape; wider outside of what was compared (flexure.c) */
 typedef struct fw_flexure_error {
     double stiffness, kx, ky; /* relative */
     /* relative, by which K may be below: no more than stiffness, which the ends have */

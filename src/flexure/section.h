@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws that arcs, leaves and paths share: root compliance, fillet concentration, depth factor,
-   what the ends of a crystal lose, peak strain at a root. Private to the room. */
+   what the ends of a crystal lose, peak strain at a root; the kinds, and the sections of a path.
+   Private to the room. */
 #ifndef FW_FLEXURE_SECTION_H
 #define FW_FLEXURE_SECTION_H
 #include "flexure/flexure.h"
+#include "flexure/path.h"
 
 /* root length dL and fillet concentration for fillet rho and width t; rho/t is clamped to the
    range [0.05, 2] of the laws; rho < 0: an ideal end, 0 and 1 */
@@ -54,8 +56,7 @@ typedef struct fw_flexure_root_case {
 } fw_flexure_root_case;
 double fw_flexure_root_peak(const fw_flexure_root_case *root, const fw_flexure_crystal *crystal);
 
-/* Two functions per hinge kind, whose rows are in flexure_table.c, and what they share. Private to
-   the room. */
+/* ---- two functions per hinge kind, whose rows are in flexure.c, and what they share ---- */
 
 void fw_flexure_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_csfh(const fw_flexure_shape *shape, const fw_flexure_input *in,
@@ -68,7 +69,7 @@ void fw_flexure_path(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
 fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *shape, const fw_flexure_input *in);
 
-/* of all kinds and materials; flexure_errors.c */
+/* of all kinds and materials */
 void fw_flexure_shape_marks(fw_flexure_shape *shape);
 fw_flexure_error fw_flexure_errors(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                    const fw_flexure_result *result);
@@ -82,5 +83,51 @@ void fw_flexure_peak_strain(const fw_flexure_shape *shape, double beam, double i
 /* dL/E of a root whose tangent has cos 4 psi, psi from [100] */
 double fw_flexure_root_m_per_Pa(const fw_flexure_shape *shape, const fw_flexure_crystal *crystal,
                                 double cos4);
+
+/* ---- sections of a path: one of them with all that its closed form corrects ---- */
+
+/* of what: uniform modulus 1 without depth (outline alone), or a material */
+typedef struct fw_flexure_path_stuff {
+    fw_flexure_crystal elastic; /* of fw_flexure_elastic_of; not known: youngs_Pa alone */
+    double youngs_Pa, poisson;  /* poisson: out of the plane; of a crystal its mean */
+    double depth_m;             /* 0: no depth factor, unit depth */
+    double end_depth_m;         /* of what ends lose, whatever depth_m is */
+} fw_flexure_path_stuff;
+
+typedef struct fw_flexure_path_section {
+    fw_geometry_pose pose;
+    double neutral_x_m, neutral_y_m; /* where a moment leaves the section in place */
+    double width_m, curved;          /* t; t/3R, signed to the left */
+    double stretch_per_N, shear_per_N;
+    double bend_per_Nm2;  /* 1/(EI D g): of rotation and of W */
+    double force_per_Nm2; /* 1/(E A e D R): of forces; 1/(EI D) where straight */
+    double thin_per_Nm2;  /* 1/EI */
+    fw_flexure_depth depth;
+    double golovin;
+} fw_flexure_path_section;
+void fw_flexure_path_section_at(const fw_flexure_course *path, const fw_flexure_path_stuff *stuff,
+                                int piece, double s_m, fw_flexure_path_section *out);
+/* dL/(EI) of an end without and with depth: per N m */
+void fw_flexure_path_root(const fw_flexure_course *path, const fw_flexure_path_stuff *stuff,
+                          int end, fw_flexure_path_section *at, double *root_m);
+/* of the second kind: d of fw_flexure_end_loss_of; neutral_*: where it counts */
+void fw_flexure_path_end_loss(const fw_flexure_course *path, const fw_flexure_path_stuff *stuff,
+                              int end, fw_flexure_path_section *at, double *loss_m);
+fw_flexure_path_stuff fw_flexure_path_stuff_of(const fw_flexure_course *path,
+                                               const fw_flexure_input *in);
+/* strain of the fibre over that of the beam: max((1 + t/3R) F_inner, (1 - t/3R) F_outer) */
+double fw_flexure_path_fibre_factor(const fw_flexure_path_section *at);
+/* strain per section moment at a section: t/2 of that over (E I D g), no fillet */
+double fw_flexure_path_fibre(const fw_flexure_path_section *at, double youngs_Pa,
+                             const fw_flexure_path_stuff *stuff);
+
+/* at a root over that of the beam there, fillet and all (fw_flexure_root_peak); ideal ends: as
+   between them
+ */
+double fw_flexure_path_root_factor(const fw_flexure_input *in, const fw_flexure_path_stuff *stuff,
+                                   int end, const fw_flexure_path_section *at);
+/* (w(rho)/w(0))^2 of an end: the peak strain of a root stands where its fillet ends, and by that it
+   is less or more than with the width at the face. Test: test_varying.c */
+double fw_flexure_path_root_opens(const fw_flexure_course *path, int end, double fillet_m);
 
 #endif

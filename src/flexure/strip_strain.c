@@ -19,9 +19,9 @@
    tests/judge/tension.py, whose own error is 2 %. Error of M between the roots: a tenth of what the
    strip's displacement takes of its arms. Cost 0.2 us (17 places). Source: docs/theory/verdict.md;
    stability functions as in finite_force.c. Test: test_strip_strain.c. */
-#include "flexure/strip_strain.h"
+#include "flexure/path.h"
 #include "base/constants.h"
-#include "flexure/path_sections.h"
+#include "flexure/section.h"
 #include <math.h>
 
 double fw_flexure_tension_concentration(double width_m, double fillet_m) {
@@ -111,7 +111,7 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
 fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in,
                                      const fw_flexure_result *closed_form,
                                      fw_flexure_path_strain *out) {
-    const double give = in->fillet_m < 0 ? 0 : 3.2 * in->width_m; /* flexure_errors.c, axial */
+    const double give = in->fillet_m < 0 ? 0 : 3.2 * in->width_m; /* flexure.c, axial */
     *out = (fw_flexure_path_strain){
         .length_m = in->length_m,
         .fillet_m = in->fillet_m,

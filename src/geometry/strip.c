@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "geometry/strip.h"
+#include "geometry/contour.h"
 #include "geometry/segment.h"
 
 enum { SAMPLES = 64 };

@@ -7,7 +7,6 @@
 #include "base/output.h"
 #include "geometry/contour.h"
 #include "geometry/polygon.h"
-#include "geometry/tessellate.h"
 #include "layout/content.h"
 #include "wiring/wiring.h"
 

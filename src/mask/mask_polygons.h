@@ -4,7 +4,7 @@
 #ifndef FW_MASK_MASK_POLYGONS_H
 #define FW_MASK_MASK_POLYGONS_H
 #include "geometry/segment.h"
-#include "geometry/tessellate.h"
+#include "geometry/polygon.h"
 #include "mask/mask.h"
 
 /* Finds the partner of every JOINT segment among the shapes of each layer (drawn outlines, bit for

@@ -4,7 +4,7 @@
 #ifndef FW_MASK_OCTETS_H
 #define FW_MASK_OCTETS_H
 #include "base/arena.h"
-#include "geometry/tessellate.h"
+#include "geometry/polygon.h"
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -15,7 +15,7 @@
    Dynamics 18 (2007). Cost: an evaluation and a solution of n x n per iteration, n the number of u.
    Tests: test_ode_*.c, test_ode_stiff.c */
 #include "maths/dense.h"
-#include "maths/ode_steps.h"
+#include "maths/ode.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

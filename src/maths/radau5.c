@@ -11,7 +11,7 @@
    Quadratures do not enter Newton's iteration: they are summed over the converged stages.
    Source: Hairer and Wanner, Solving ODEs II, 2nd ed., IV.8; Gustafsson, ACM TOMS 20 (1994).
    Tests: test_ode_*.c, test_ode_stiff.c */
-#include "maths/ode_steps.h"
+#include "maths/ode.h"
 #include "maths/ode_tables.h"
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What joins bodies beside pins: point-to-point springs, joints and drivers. Values that the file
    leaves open are those of the drawn pose. */
-#include "mechanism/builder.h"
 #include "mechanism/mechanism.h"
 #include "quantity/law_kind.h"
 #include <float.h>

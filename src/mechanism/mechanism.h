@@ -12,7 +12,6 @@
 #include "flexure/flexure.h"
 #include "flexure/limit.h"
 #include "flexure/path.h"
-#include "flexure/strip_strain.h"
 #include "layout/layout.h"
 
 typedef struct fw_mechanism_variant { /* what the device is made of, in one flow */
@@ -164,5 +163,29 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
 fw_status fw_mechanism_build_hinges(fw_arena *arena, const fw_device *device,
                                     const fw_layout *shown, const fw_mechanism_variant *variant,
                                     fw_diags *diags, const fw_mechanism **mechanism);
+
+/* ---- what the parts of fw_mechanism_build share; private to mechanism/ ---- */
+
+typedef struct fw_mechanism_builder {
+    fw_arena *arena;
+    const fw_device *device;
+    const fw_layout *layout; /* may be NULL */
+    const fw_mechanism_variant *variant;
+    fw_diags *diags;
+    fw_mechanism *mechanism;
+} fw_mechanism_builder;
+
+const char *fw_mechanism_name_or_none(const char *id);
+bool fw_mechanism_all_finite(const double *value, int count);
+/* a message of this number for this place exists: flows share the file, but one message is enough
+ */
+bool fw_mechanism_said_already(const fw_diags *diags, int number, fw_place place);
+/* world position, in the drawn pose, of a local point; body NULL: the ground */
+fw_geometry_vec2 fw_mechanism_body_point(const fw_mechanism_mass *body, fw_geometry_vec2 local);
+
+/* link.c: bodies, joints and pins are built */
+fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i);
+fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i);
+fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i);
 
 #endif

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A mechanism from a description, its layout and one variant: bodies, pins with their flexures, and what probes need. */
 #include "base/constants.h"
 #include "flexure/flexure.h"
-#include "mechanism/builder.h"
+#include "mechanism/mechanism.h"
 #include <math.h>
+#include <string.h>
 
 /* ---- the variant ---- */
 
@@ -458,6 +460,41 @@ static fw_status build_pin(const fw_mechanism_builder *b, int j) {
     return FW_OK;
 }
 
+/* ---- probes between outlines need what is drawn of both sides ---- */
+
+static const char *name_of(const fw_device *d, int body) {
+    return body < 0 ? "ground" : d->body[body].id;
+}
+
+/* of a layout that cannot be made nothing is said here: its own errors say why */
+static fw_status check_outlines(const fw_mechanism_builder *b) {
+    const fw_device *d = b->device;
+    const fw_layout *layout = b->layout;
+    fw_status status = FW_OK;
+    if (!layout || layout->nfault > 0) return FW_OK;
+    for (int i = 0; i < d->nprobe; i++) {
+        const fw_device_probe *p = &d->probe[i];
+        if (fw_device_probe_kinds[p->row].takes != FW_PROBE_OUTLINES) continue;
+        const int side[2] = {p->body, p->body_b};
+        for (int k = 0; k < 2; k++) {
+            if (layout->drawn && fw_layout_has_outline(layout, side[k])) continue;
+            status = FW_INPUT;
+            if (fw_mechanism_said_already(b->diags, 323, p->place)) break;
+            fw_diag_error(
+                b->diags, 323, p->place,
+                "probe '%s': nothing is drawn of %s%s%s, so that it has no outline; draw it, or "
+                "give points: kind=\"distance\" or \"opening\"",
+                p->id ? p->id : "", fw_mechanism_name_or_none(name_of(d, side[k])),
+                !layout->drawn && layout->why_not ? ": " : "",
+                !layout->drawn && layout->why_not ? layout->why_not : "");
+            break;
+        }
+    }
+    return status;
+}
+
+/* ---- all of it ---- */
+
 /* goes on after mistakes, so that all of them are reported in one run */
 static fw_status keep_going(fw_status so_far, fw_status now) {
     return so_far == FW_OK || now == FW_NOMEM ? now : so_far;
@@ -486,7 +523,7 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     m->nspring = device->nspring;
     m->njoint = device->njoint;
     m->ndriver = device->ndriver;
-    fw_status status = fw_mechanism_check_outlines(&b);
+    fw_status status = check_outlines(&b);
     for (int i = 0; i < m->nbody; i++)
         status = keep_going(status, build_body(&b, i));
     if (status != FW_OK) return status; /* the rest would only repeat what is missing here */
@@ -501,4 +538,47 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
         status = keep_going(status, fw_mechanism_build_driver(&b, i));
     if (status == FW_OK) *mechanism = m;
     return status;
+}
+
+/* ---- hinges alone ----
+
+   Those of a device whose layout cannot be made: their figures follow from flexures, material
+   and thickness, and no mass is asked for. */
+
+/* the middle of a body's joints that have a place; the origin where none has */
+static fw_geometry_vec2 middle_of(const fw_device *device, int body) {
+    fw_geometry_vec2 sum = {0, 0};
+    int n = 0;
+    for (int j = 0; j < device->nrevolute; j++) {
+        const fw_device_revolute *r = &device->revolute[j];
+        if ((r->body_a != body && r->body_b != body) || !isfinite(r->x_m + r->y_m)) continue;
+        sum.x += r->x_m, sum.y += r->y_m, n++;
+    }
+    return n > 0 ? (fw_geometry_vec2){sum.x / n, sum.y / n} : sum;
+}
+
+/* a mass, and a place, that nothing states and nothing of the hinge depends on */
+static void stand_in(const fw_device *device, int i, fw_device_body *body) {
+    const fw_geometry_vec2 at = middle_of(device, i);
+    if (isnan(body->mass_kg)) body->mass_kg = 1;
+    if (isnan(body->inertia_kg_m2)) body->inertia_kg_m2 = 1;
+    if (isnan(body->x_m)) body->x_m = at.x;
+    if (isnan(body->y_m)) body->y_m = at.y;
+}
+
+fw_status fw_mechanism_build_hinges(fw_arena *arena, const fw_device *device,
+                                    const fw_layout *shown, const fw_mechanism_variant *variant,
+                                    fw_diags *diags, const fw_mechanism **mechanism) {
+    fw_device *with = fw_arena_one(arena, fw_device);
+    fw_layout *layout = fw_arena_one(arena, fw_layout);
+    fw_device_body *body = fw_arena_array(arena, fw_device_body, (size_t)device->nbody);
+    FW_NEED(with && layout ? body : NULL);
+    *with = *device;
+    *layout = *shown;
+    layout->drawn = true; /* what is not has neither an area nor a hinge */
+    if (device->nbody > 0) memcpy(body, device->body, (size_t)device->nbody * sizeof *body);
+    with->body = body;
+    for (int i = 0; i < device->nbody; i++)
+        if (!(layout->body[i].area_m2 > 0)) stand_in(device, i, &body[i]);
+    return fw_mechanism_build(arena, with, layout, variant, diags, mechanism);
 }

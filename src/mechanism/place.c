@@ -2,7 +2,7 @@
 /* Where points of a mechanism are: in the drawn pose, and on bodies and ground that have become
    longer. */
 #include "geometry/segment.h"
-#include "mechanism/builder.h"
+#include "mechanism/mechanism.h"
 #include <math.h>
 
 fw_geometry_vec2 fw_mechanism_body_point(const fw_mechanism_mass *body, fw_geometry_vec2 local) {

@@ -3,7 +3,7 @@
    and its row in the table at the end. docs/theory/flexure-errors.md. */
 #include "base/constants.h"
 #include "continuum/continuum.h"
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "plan/ladder.h"
 #include <math.h>
 
@@ -32,7 +32,7 @@ static fw_report_level linear_row(const fw_flexure_result *r) {
                              .error = r->error};
 }
 
-/* linear, roots and depth included: flexure/flexure_table.c */
+/* linear, roots and depth included: flexure/flexure.c */
 static fw_status closed_form(const fw_plan_ladder_case *c, fw_report_level *row) {
     fw_flexure_result r;
     fw_flexure_closed_form(&c->hinge->input, &r);
@@ -151,7 +151,7 @@ static void errors_of(const fw_plan_ladder_case *c, const fw_flexure_elastica_re
     row->error = e;
 }
 
-/* The geometrically exact beam of the hinge (flexure/elastica.h): roots as point rotations, depth
+/* The geometrically exact beam of the hinge (flexure/beam.h): roots as point rotations, depth
    factor, crystal by direction. At rest its centre of elastic weights W and compliance there:
      K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy
    and by rotations under a pure moment the limit angle, strain(theta) = strength/safety factor/E,

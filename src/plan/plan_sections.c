@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "geometry/segment.h"
 #include "plan/stages.h"
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 /* Time laws of no particular process: a stated time, a constant rate, an expression, a laboratory's
    table. */
 #include "process/process_law.h"
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 #include <math.h>
 #include <string.h>
 

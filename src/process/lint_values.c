@@ -3,7 +3,7 @@
    when a laboratory has replaced some (fw_process_flow_lint_values). */
 #include "process/films.h"
 #include "process/pack.h"
-#include "xml/xml_quantity.h"
+#include "xml/xml_reader.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,6 @@
 #ifndef FW_PROCESS_PACK_H
 #define FW_PROCESS_PACK_H
 #include "process/process_law.h"
-#include "xml/xml_quantity.h"
 #include "xml/xml_reader.h"
 
 typedef enum fw_process_id_kind {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/pack.h"
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 #include <math.h>
 #include <string.h>
 

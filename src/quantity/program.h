@@ -3,7 +3,7 @@
  */
 #ifndef FW_QUANTITY_PROGRAM_H
 #define FW_QUANTITY_PROGRAM_H
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 #include "quantity/quantity_law.h"
 
 typedef enum fw_quantity_token_kind {

@@ -9,7 +9,7 @@
    What a law is, its row says (law_kind.h); laws.def lists them. */
 #ifndef FW_QUANTITY_QUANTITY_LAW_H
 #define FW_QUANTITY_QUANTITY_LAW_H
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 
 /* ---- an expression in t, compiled ---- */
 

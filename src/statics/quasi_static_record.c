@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read off a sequence of equilibria: peaks of angles, rows, instants, extremes of
    forces. */
-#include "maths/brent.h"
+#include "maths/cdf.h"
 #include "multibody/system.h"
 #include "statics/quasi_static.h"
 #include <float.h>

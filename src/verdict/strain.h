@@ -4,7 +4,7 @@
 #ifndef FW_VERDICT_STRAIN_H
 #define FW_VERDICT_STRAIN_H
 #include "dynamics/dynamics.h"
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "flexure/limit.h"
 #include "layout/layout.h"
 #include "maths/rainflow.h"

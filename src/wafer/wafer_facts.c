@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of a wafer say of it: names, values of sweeps, notes for the documentation layer,
    sums over the plate. */
-#include "geometry/tessellate.h"
+#include "geometry/polygon.h"
 #include "mask/mask_writers.h"
 #include "wafer/wafer_parts.h"
 #include <math.h>

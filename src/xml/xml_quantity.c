@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "xml/xml_quantity.h"
+#include "xml/xml_reader.h"
 #include "base/text.h"
 #include "quantity/law_kind.h"
-#include "xml/xml_table.h"
 #include <math.h>
 #include <string.h>
 

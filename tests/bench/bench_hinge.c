@@ -6,7 +6,7 @@
    beam, warm from the state a hundredth of the loop before. Tolerance 1e-8.
 
    cmake --build DIR --target bench_hinge && DIR/tests/bench/bench_hinge */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "flexure/finite.h"
 #include <math.h>
 #include <stdio.h>

@@ -7,7 +7,7 @@
    Without names all of them in the order of the table. A line each: name, 1 when it went well. The
    first line says which of the processor's instructions the program sees, because kernels are
    chosen by them. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "flexure/flexure.h"
 #include "dynamics/models.h"
 #include "maths/ode.h"

@@ -3,6 +3,7 @@
    cent, in brackets what the closed form says of its own error; W in um. Last columns: the bound,
    and (5). */
 #include "../../tests/unit/flexure/error_solids.h"
+#include <math.h>
 #include <stdio.h>
 
 static void cell(double solid, double form, double error, int digits) {

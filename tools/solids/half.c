@@ -9,7 +9,7 @@
    half depth by half of it) about the wafer's normal, free to move and to change its width. um, uN,
    MPa. Cost: some ms, the solver's some seconds. tools/solids/README.md */
 #include "continuum/mesh.h"
-#include "geometry/strip.h"
+#include "geometry/contour.h"
 #include "row.h"
 #include <stdlib.h>
 

@@ -161,6 +161,6 @@ class Silicon(Rows):
 
 
 def table(name, texts, constants):
-    """a table as src/flexure/root_peak.c has it"""
+    """a table as src/flexure/flexure_section.c has it"""
     rows = [f"    {{{c:.5g}, {{{', '.join(str(k) for k in powers(t))}}}}}," for t, c in zip(texts, constants)]
     return [f"static const root_term {name}[] = {{"] + rows + ["};"]

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
-#include "base/markup.h"
+#include "base/svg.h"
 
 #define NB "\u00a0"
 

@@ -103,7 +103,7 @@ static plain form_of(const fw_flexure_input *in) {
     p.terms[2] = bend * rn * (r * 2 * a + 4 * fabsl(p.W * s) + 2 * a * p.W * p.W / rn) +
                  fabsl(end) * (r * r + p.W * p.W) + shear * 2 * a;
 
-    /* flexure_errors.c */
+    /* flexure.c */
     long double rho = larger(0, (long double)fmin(in->fillet_m, in->width_m));
     long double lost = 0.35L * h * larger(0, 1 - (1 - nu * nu) * d.D) + 0.006L * t +
                        2.3L * (t / r) * (t / r) * rho * rho / t;

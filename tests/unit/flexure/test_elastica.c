@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The geometrically exact beam: against tables of hinges (mpmath, 28 digits; um, uN, rad there),
    against an integration of its own equations by another method, and identities on random beams. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "test.h"
 
 static const double degree = M_PI / 180, um = 1e-6;

@@ -2,7 +2,7 @@
 /* The beam at large deflection against tables computed with 30 digits (Taylor shooting; elliptic
    integrals where they exist): cantilevers, columns, frames and arches, 83 cases, in units of L,
    EI. tests/data/hinge/bench_elastica.csv; the 12 rows of the arch and of Lee's frame are here. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "test.h"
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the beam's solver gets to its results: errors it tells, warm starts, the primary branch and
    its end, states inside, and what it refuses. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "test.h"
 
 static const double um = 1e-6;

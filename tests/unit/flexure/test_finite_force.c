@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The closed form under forces of any size: its derivatives against differences, its small forces
    against finite.c, and forces and displacements up to ten widths against the exact beam. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "flexure/finite.h"
 #include "flexure/path.h"
 #include "test.h"

@@ -44,7 +44,7 @@ static void csfh_matches_the_reference_ladder(void **state) {
         assert_relative(out.stiffness_Nm_per_rad * 1e12, row[i].corrected, 1e-7);
         assert_near(out.centre_m * 1e6, row[i].centre_um, 6e-5);
         assert_near(out.strain_fit_per_rad, row[i].strain, 6e-6);
-        /* what the header of csfh.c promises against finite elements */
+        /* what the header of flexure_even.c promises against finite elements */
         assert_relative(out.stiffness_Nm_per_rad * 1e12, row[i].fe_stiffness, 0.0051);
         assert_near(out.centre_m * 1e6, row[i].fe_centre_um, 0.2);
         assert_relative(out.strain_per_rad, row[i].fe_strain, 0.03);

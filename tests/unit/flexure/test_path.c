@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flexures of any centre line and width: against arcs and leaves, against quadrature written out
    here, against the exact beam, and what must hold of any. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "flexure/path.h"
 #include "test.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Paths at finite rotation: against the law of plain arcs, against the exact beam, derivatives. */
-#include "flexure/elastica.h"
+#include "flexure/beam.h"
 #include "flexure/path.h"
 #include "test.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strain along a strip: the closed form's section forces against those of the exact beam, and the
    concentration of tension against its solids. */
-#include "flexure/strip_strain.h"
+#include "flexure/path.h"
 #include "test.h"
 #include <math.h>
 
@@ -179,14 +179,14 @@ static void faces_of_an_arc(void **state) {
     fw_arena *arena = fw_arena_new(0);
     for (int i = 0; i < 12; i++) {
         fw_flexure_input in = strip_of(i % 2 ? 140 : 250, 1 / (18.0 + i), 0.3);
-        const fw_flexure_path_strain strip = strip_made(arena, &in).path;
+        const fw_flexure_path_strain arc = strip_made(arena, &in).path;
         fw_flexure_strip_strains pressed, pulled, plain;
-        const fw_flexure_path_point *p = &strip.point[0];
+        const fw_flexure_path_point *p = &arc.point[0];
         double u = in.width_m / (3 * in.radius_m), k = p->strain_per_Nm, M = 1e-8;
         assert_near(p->face[0], 1 - u,
                     1e-12); /* outside: to the right of a strip that turns left */
         assert_near(p->face[1], 1, 0);
-        const fw_flexure_path_point *middle = &strip.point[strip.n / 2];
+        const fw_flexure_path_point *middle = &arc.point[arc.n / 2];
         assert_near(middle->face[0], 1, 0);
         /* along the strip's tangent at its first root, with little else there than at the root */
         double N = 0.25 * k * M / p->strain_per_N;
@@ -196,7 +196,7 @@ static void faces_of_an_arc(void **state) {
                                           .force_N = {way * N * p->cosine, way * N * p->sine},
                                           .drawn = true,
                                           .held = true};
-            fw_flexure_strip_strain(&strip, &load, out);
+            fw_flexure_strip_strain(&arc, &load, out);
             assert_near(out->root[0][0], k * M * (1 - u) + way * p->strain_per_N * N, 1e-9);
             assert_near(out->root[0][1], -k * M + way * p->strain_per_N * N, 1e-9);
         }
@@ -205,9 +205,9 @@ static void faces_of_an_arc(void **state) {
     }
     /* a leaf's fillets are alike */
     fw_flexure_input leaf = strip_of(0, 1 / 20.0, 0.3);
-    const fw_flexure_path_strain strip = strip_made(arena, &leaf).path;
-    assert_near(strip.point[0].face[0], 1, 0);
-    assert_near(strip.point[strip.n - 1].face[1], 1, 0);
+    const fw_flexure_path_strain faces = strip_made(arena, &leaf).path;
+    assert_near(faces.point[0].face[0], 1, 0);
+    assert_near(faces.point[faces.n - 1].face[1], 1, 0);
     fw_arena_free(arena);
 }
 

@@ -5,7 +5,7 @@
 #include "test.h"
 #include "geometry/contour.h"
 #include "geometry/segment.h"
-#include "geometry/tessellate.h"
+#include "geometry/polygon.h"
 #include <stdlib.h>
 
 static inline uint64_t *seed(void) {

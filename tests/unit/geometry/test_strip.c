@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strips of lines and arcs with varying width: edges, widths, crossings. */
 #include "geometry/segment.h"
-#include "geometry/strip.h"
+#include "geometry/contour.h"
 #include "test.h"
 
 static uint64_t seed = 0x51a7;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The coefficients of dop853, dopri5 and radau5, and the vector kernels. */
 #include "maths/ode_tables.h"
-#include "maths/ode_steps.h"
+#include "maths/ode.h"
 #include "test.h"
 
 /* row sums; quadrature conditions of b (order 8), of the fifth and the third order error; trees of

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 #include "test.h"
 
 static const fw_quantity_dimension pure = {0}, length = {.m = 1}, angle = {.rad = 1},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "quantity/expression.h"
+#include "quantity/quantity.h"
 #include "test.h"
 
 static void names_in_order_once(void **state) {

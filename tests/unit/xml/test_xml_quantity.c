@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "xml/xml_quantity.h"
+#include "xml/xml_reader.h"
 #include "test.h"
 
 static const fw_xml_source_text sources[] = {{"s", "a source"}, {"t", "another"}};

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers with a dimension, in words: the names of dimensions, the unit that a misspelt one was meant to be, and
+   what is known of a quantity beside its value. */
+#include "quantity/quantity.h"
 #include "base/text.h"
 #include "quantity/program.h"
 #include <string.h>
+
+/* ---- dimensions ---- */
 
 typedef struct named {
     fw_quantity_dimension dimension;
@@ -96,27 +101,7 @@ const char *fw_quantity_dimension_phrase(fw_arena *arena, fw_quantity_dimension 
     return phrase ? phrase : name;
 }
 
-static const char *const status_text[] = {"measured", "stated", "derived", "typical", "assumed"};
-
-const char *fw_quantity_value_status_text(fw_quantity_value_status status) {
-    return status_text[status];
-}
-
-bool fw_quantity_value_status_parse(const char *text, fw_quantity_value_status *status) {
-    for (int i = 0; i < 5; i++)
-        if (strcmp(text, status_text[i]) == 0) {
-            *status = (fw_quantity_value_status)i;
-            return true;
-        }
-    return false;
-}
-
-double fw_quantity_in_unit(const fw_quantity *q) {
-    fw_quantity_unit unit;
-    if (!q->unit || !fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
-        return q->value;
-    return fw_quantity_unit_from_si(&unit, q->value);
-}
+/* ---- units that were meant ---- */
 
 /* nearest within distance 2; ties as quantity.h says */
 static const char *nearest(const char *word, const char *usual) {
@@ -199,4 +184,36 @@ const char *fw_quantity_unit_suggestion(const char *symbol, size_t n, const char
     memcpy(word, symbol, n);
     word[n] = '\0';
     return nearest(word, usual);
+}
+
+/* ---- a quantity: how well it is known, in its unit, and with which others it errs ---- */
+
+static const char *const status_text[] = {"measured", "stated", "derived", "typical", "assumed"};
+
+const char *fw_quantity_value_status_text(fw_quantity_value_status status) {
+    return status_text[status];
+}
+
+bool fw_quantity_value_status_parse(const char *text, fw_quantity_value_status *status) {
+    for (int i = 0; i < 5; i++)
+        if (strcmp(text, status_text[i]) == 0) {
+            *status = (fw_quantity_value_status)i;
+            return true;
+        }
+    return false;
+}
+
+double fw_quantity_in_unit(const fw_quantity *q) {
+    fw_quantity_unit unit;
+    if (!q->unit || !fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
+        return q->value;
+    return fw_quantity_unit_from_si(&unit, q->value);
+}
+
+/* Numbers that were fitted to the same measurements have errors that go together. */
+
+double fw_quantity_correlation(const fw_quantity *a, const fw_quantity *b) {
+    for (int i = 0; b->id && i < a->ncorrelated; i++)
+        if (strcmp(a->correlated[i].id, b->id) == 0) return a->correlated[i].correlation;
+    return 0.0;
 }
