@@ -7,7 +7,7 @@
 #include "device/material.h"
 #include "process/fixed_point.h"
 #include "quantity/quantity.h"
-#include "release/release_hold.h"
+#include "release/release.h"
 #include "verdict/verdict_fabrication.h"
 #include <stdbool.h>
 
