@@ -80,7 +80,8 @@ static void cells_touch(const cell_grid *cells, const fw_geometry_contour *outli
     }
 }
 
-/* neighbours in a row that no edge parts lie on one side of the outline, so that one of them is asked */
+/* Adds the cells with their middle in the outline that are not in `edge`, a set that holds all that the outline touches.
+   Neighbours in a row that no edge parts lie on one side of the outline, so that one of them is asked. */
 static fw_status cells_inside(fw_arena *arena, const cell_grid *cells,
                               const fw_geometry_contour *outline, const unsigned char *edge,
                               unsigned char *set) {
