@@ -6,7 +6,7 @@
 #ifndef FW_MEASURING_MEASURING_H
 #define FW_MEASURING_MEASURING_H
 #include "base/json.h"
-#include "process/measurable.h"
+#include "process/calibrate.h"
 #include "verdict/verdict.h"
 
 typedef struct fw_measuring_window { /* first look to clear by of a step, s; NaN: not computable */
