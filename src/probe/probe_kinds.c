@@ -28,7 +28,7 @@ static fw_geometry_vec2 arm(const fw_effects_port *at, const double *q) {
     return (fw_geometry_vec2){c * at->x_m - s * at->y_m, s * at->x_m + c * at->y_m};
 }
 
-/* shared by kinds: probe_kinds.c, probe_kinds.c */
+/* where the point on that side of the probe is, world */
 static fw_geometry_vec2 point_of(const fw_probe *p, int side, const fw_probe_state *s) {
     const fw_effects_port *at = &p->point[side];
     if (at->body == FW_GROUND) {
@@ -40,6 +40,7 @@ static fw_geometry_vec2 point_of(const fw_probe *p, int side, const fw_probe_sta
     return (fw_geometry_vec2){s->q[3 * at->body] + r.x, s->q[3 * at->body + 1] + r.y};
 }
 
+/* how it moves */
 static fw_geometry_vec2 speed_of(const fw_probe *p, int side, const fw_probe_state *s) {
     const fw_effects_port *at = &p->point[side];
     if (at->body == FW_GROUND) {
@@ -224,6 +225,7 @@ static bool element_forces(const fw_probe *p, const fw_probe_state *s,
    drive: on its rotor, along the drive; a contact: the force that presses its surfaces. In: a state in
    SI; out: N. Error: that of the state. Test: test_probe.py. */
 
+/* of any point of a body, and how it moves */
 static fw_geometry_vec2 place_of(const fw_probe *p, const fw_probe_state *s, int body, double x,
                                  double y, fw_geometry_vec2 *speed) {
     fw_probe at = *p;
