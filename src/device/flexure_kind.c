@@ -17,7 +17,7 @@ static void too_stout(fw_device_reader *r, const fw_xml_record *record, fw_place
 
 /* a width above a quarter of the length */
 static void check_slender(fw_device_reader *r, const fw_xml_record *record,
-                               const fw_device_flexure *f) {
+                          const fw_device_flexure *f) {
     if (f->width_m > f->length_m / 4 || f->width_middle_m > f->length_m / 4)
         too_stout(r, record, fw_xml_place_of(record, "width"), f);
 }
@@ -51,7 +51,7 @@ bool fw_device_flexure_edges(fw_device_reader *r, const fw_xml_record *record,
 
 /* width-middle of a csfh or leaf: both edges one arc, the ends as wide as `width` */
 static void check_middle(fw_device_reader *r, const fw_xml_record *record,
-                              const fw_device_flexure *f) {
+                         const fw_device_flexure *f) {
     fw_geometry_strip_piece one;
     if (!(f->width_middle_m > 0 && f->width_m > 0 && f->length_m > 0)) return;
     fw_device_flexure_pieces(f, &one);
