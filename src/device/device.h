@@ -7,8 +7,7 @@
 #ifndef FW_DEVICE_DEVICE_H
 #define FW_DEVICE_DEVICE_H
 #include "base/diag.h"
-#include "device/device_probe.h"
-#include "device/device_study.h"
+#include "device/device_asked.h"
 #include "device/material.h"
 #include "geometry/contour.h"
 #include "quantity/quantity_law.h"

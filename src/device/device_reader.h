@@ -43,7 +43,7 @@ fw_status fw_device_build_mechanism(fw_device_reader *r);
 fw_status fw_device_build_scenes(fw_device_reader *r);
 fw_status fw_device_build_probes(fw_device_reader *r); /* when all that they name is there */
 fw_status fw_device_build_studies(fw_device_reader *r);
-/* close.c: poses whose joints are open by what rounded numbers leave (FW-D132) */
+/* poses.c: poses whose joints are open by what rounded numbers leave (FW-D132) */
 fw_status fw_device_close_rounded(fw_device_reader *r);
 
 /* time_law.c: the law of a load, NULL for one that is constant from the start or was reported */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of device files. A new element or attribute is one row in table_*.c. Private to
-   device/.
- */
+   device/. */
 #ifndef FW_DEVICE_DEVICE_TABLE_H
 #define FW_DEVICE_DEVICE_TABLE_H
 #include "base/constants.h"
+#include "xml/xml.h"
 #include "xml/xml_reader.h"
 
 typedef enum fw_device_space { /* ids are unique within one of these */
@@ -27,20 +27,23 @@ typedef enum fw_device_space { /* ids are unique within one of these */
 
 /* each ends with a row without a name */
 extern const fw_xml_element_row fw_device_table_mechanism[], fw_device_table_shapes[],
-    fw_device_table_scene[], fw_device_table_effects[], fw_device_table_probe[],
-    fw_device_table_study[];
+    fw_device_table_scene[], fw_device_table_effects[], fw_device_table_study[];
 extern const fw_xml_table fw_device_table, fw_device_study_table;
 
 /* the words of a study's attributes, each in the order of its enum, NULL behind the last */
 typedef struct fw_device_study_words {
     const char *const *kind, *const *points, *const *judge, *const *spread, *const *take,
-        *const *goal;
+                                                                                *const *goal;
 } fw_device_study_words;
 extern const fw_device_study_words fw_device_study_words_of;
 
 /* numbers of the mistakes of device and study files */
-#define FW_DEVICE_TABLE_NUMBERS \
-    {.root = 15, .element = 40, .misplaced = 41, .attribute = 42, .missing = 43, .name = 44, .twice = 45, .range = 47, .word = 48, .form = 48, .text = 49, .once = 51, .most = 66, .whole = 96}
+#define FW_DEVICE_TABLE_NUMBERS                                                                    \
+    {                                                                                              \
+        .root = 15, .element = 40, .misplaced = 41, .attribute = 42, .missing = 43, .name = 44,    \
+        .twice = 45, .range = 47, .word = 48, .form = 48, .text = 49, .once = 51, .most = 66,      \
+        .whole = 96                                                                                \
+    }
 
 /* What the rows of the table are written with: dimensions, ranges with their reasons, and the
    attributes that several elements share. Included by table_*.c only. */
@@ -125,5 +128,19 @@ extern const fw_device_study_words fw_device_study_words_of;
 #define ROWS(a)  .attribute = (a), .nattribute = sizeof(a) / sizeof((a)[0])
 /* the same, written in place: effects.def */
 #define ATTRIBUTES(...) ROWS(((const fw_xml_attribute_row[]){__VA_ARGS__}))
+
+/* ---- which element of a description a path names ----
+   Steps ELEMENT, ELEMENT[ID] or ELEMENT[N] with '/' between them, as edit.h says (edit.c). */
+
+typedef struct fw_device_path {
+    const char *attribute; /* behind "/@"; NULL: the element itself */
+    const char *wrong;     /* what is wrong with it; NULL: nothing */
+    const char *word;      /* the name that this is about; NULL: none */
+    char name[64];
+} fw_device_path;
+
+/* false: there is no such element, and out->wrong says why. Test: test_edits.c, test_parameter.c */
+bool fw_device_path_find(fw_xml_element *root, const char *path, fw_xml_element **found,
+                         fw_device_path *out);
 
 #endif

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What kinds of <flexure> share: limits of their widths, and how lines and arcs become one. */
+/* Kinds of <flexure>, a row each, and what they share. */
 #include "device/flexure_kind.h"
 #include <math.h>
+
+/* ---- what kinds share: limits of their widths, and how lines and arcs become one ---- */
 
 static void too_stout(fw_device_reader *r, const fw_xml_record *record, fw_place place,
                       const fw_device_flexure *f) {
@@ -13,8 +15,9 @@ static void too_stout(fw_device_reader *r, const fw_xml_record *record, fw_place
                   fw_xml_in_unit(b, f->length_m, "um"));
 }
 
-void fw_device_flexure_slender(fw_device_reader *r, const fw_xml_record *record,
-                               const fw_device_flexure *f) {
+/* a width above a quarter of the length */
+static void check_slender(fw_device_reader *r, const fw_xml_record *record,
+                          const fw_device_flexure *f) {
     if (f->width_m > f->length_m / 4 || f->width_middle_m > f->length_m / 4)
         too_stout(r, record, fw_xml_place_of(record, "width"), f);
 }
@@ -46,8 +49,9 @@ bool fw_device_flexure_edges(fw_device_reader *r, const fw_xml_record *record,
     return false;
 }
 
-void fw_device_flexure_middle(fw_device_reader *r, const fw_xml_record *record,
-                              const fw_device_flexure *f) {
+/* width-middle of a csfh or leaf: both edges one arc, the ends as wide as `width` */
+static void check_middle(fw_device_reader *r, const fw_xml_record *record,
+                         const fw_device_flexure *f) {
     fw_geometry_strip_piece one;
     if (!(f->width_middle_m > 0 && f->width_m > 0 && f->length_m > 0)) return;
     fw_device_flexure_pieces(f, &one);
@@ -96,3 +100,178 @@ void fw_device_flexure_lay(fw_device_reader *r, const fw_xml_record *record,
     f->width_m = least;
     check_whole(r, record, f);
 }
+
+/* ---- csfh: a circular arc between conjugate surfaces, by two of its length, radius and angle ---- */
+
+/* exactly two of length, radius, angle; the third follows from length = radius angle */
+static bool complete_arc(fw_device_reader *r, const fw_xml_record *record, fw_device_flexure *f) {
+    char label[FW_LABEL];
+    bool length = fw_xml_given(record, "length"), radius = fw_xml_given(record, "radius");
+    bool angle = fw_xml_given(record, "angle");
+    if (length + radius + angle != 2) {
+        fw_diag_error(r->diags, 58, record->element->place,
+                      "%s: a csfh needs exactly two of length, radius and angle (length = radius x "
+                      "angle); %d given",
+                      fw_xml_label(record, label), length + radius + angle);
+        return false;
+    }
+    if (!length)
+        f->length_m = f->radius_m * f->angle_rad;
+    else if (!radius)
+        f->radius_m = f->length_m / f->angle_rad;
+    else
+        f->angle_rad = f->length_m / f->radius_m;
+    return !fw_xml_failed(record, "length") && !fw_xml_failed(record, "radius") &&
+           !fw_xml_failed(record, "angle");
+}
+
+static void check_arc(fw_device_reader *r, const fw_xml_record *record,
+                      const fw_device_flexure *f) {
+    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
+    if (f->angle_rad > 330 * FW_PI / 180 * (1 + 1e-12))
+        fw_diag_error(r->diags, 59, f->length_place,
+                      "%s: length over radius is an angle of %s; it must be at most 330 deg, else "
+                      "the ends of the arc meet; shorten it or take a greater radius",
+                      fw_xml_label(record, label), fw_xml_in_unit(a, f->angle_rad, "deg"));
+    if (f->width_m >= 2 * f->radius_m)
+        fw_diag_error(
+            r->diags, 59, fw_xml_place_of(record, "width"),
+            "%s: width %s is not below twice the radius (%s), so the inner side of the arc "
+            "has no radius left; make it thinner",
+            fw_xml_label(record, label), fw_xml_in_unit(a, f->width_m, "um"),
+            fw_xml_in_unit(b, 2 * f->radius_m, "um"));
+}
+
+static fw_status build_csfh(fw_device_reader *r, int at, fw_device_flexure *f) {
+    const fw_xml_record *record = &r->xml.record[at];
+    f->kind = FW_FLEXURE_CSFH;
+    if (!complete_arc(r, record, f)) return FW_OK;
+    check_arc(r, record, f);
+    if (!(f->width_m < 2 * f->radius_m)) return FW_OK;
+    check_slender(r, record, f);
+    check_middle(r, record, f);
+    return FW_OK;
+}
+
+static const char *const csfh_takes[] = {"length", "radius", "angle", "width-middle", NULL};
+const fw_device_flexure_row fw_device_flexure_csfh = {
+    .name = "csfh", .takes = csfh_takes, .build = build_csfh};
+
+/* ---- leaf: a straight strip of stated length ---- */
+
+static fw_status build_leaf(fw_device_reader *r, int at, fw_device_flexure *f) {
+    const fw_xml_record *record = &r->xml.record[at];
+    char label[FW_LABEL];
+    f->kind = FW_FLEXURE_LEAF;
+    if (!f->length_given)
+        fw_diag_error(r->diags, 58, record->element->place, "%s: a leaf needs its length",
+                      fw_xml_label(record, label));
+    check_slender(r, record, f);
+    check_middle(r, record, f);
+    return FW_OK;
+}
+
+static const char *const leaf_takes[] = {"length", "width-middle", NULL};
+const fw_device_flexure_row fw_device_flexure_leaf = {
+    .name = "leaf",
+    .takes = leaf_takes,
+    .refused = {58, "a leaf is straight and has no ", "; remove it or write kind=\"csfh\""},
+    .build = build_leaf};
+
+/* ---- path: lines and arcs of any width, one after the other, <line> and <arc> ---- */
+
+enum { UNKNOWN = -1 }; /* width where the piece before ends, which was reported */
+
+static bool failed_any(const fw_xml_record *record, const char *const *name, int n) {
+    bool failed = false;
+    for (int i = 0; i < n; i++)
+        failed = failed || fw_xml_failed(record, name[i]);
+    return failed;
+}
+
+/* one <line> or <arc>; `before`: the width where it begins */
+static bool read_piece(fw_device_reader *r, const fw_xml_record *record, double before,
+                       fw_geometry_strip_piece *p) {
+    static const char *const line[] = {"length", "width", "width-middle", "width-end"};
+    static const char *const bent[] = {"radius", "angle", "width", "width-middle", "width-end"};
+    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
+    bool arc = fw_xml_is(record, "arc");
+    if (arc ? failed_any(record, bent, 5) : failed_any(record, line, 4)) return false;
+    double *w = p->width_m;
+    w[0] = fw_xml_number_or(record, "width", before);
+    if (before == UNKNOWN && !(w[0] > 0)) return false;
+    if (before > 0 && fabs(w[0] - before) > 1e-12) {
+        fw_diag_error(
+            r->diags, 263, fw_xml_place_of(record, "width"),
+            "%s: begins with width %s, but the path so far ends with width %s; beam theory does "
+            "not cover the stress concentration of such a step: leave width out, or "
+            "set width-end before (at the first piece: width of the flexure)",
+            fw_xml_label(record, label), fw_xml_in_unit(a, w[0], "um"),
+            fw_xml_in_unit(b, before, "um"));
+        return false;
+    }
+    if (before > 0) w[0] = before;
+    w[2] = fw_xml_number_or(record, "width-end", w[0]);
+    w[1] = fw_xml_number_or(record, "width-middle", 0.5 * (w[0] + w[2]));
+    if (!arc) {
+        p->length_m = fw_xml_number_of(record, "length");
+        return fw_device_flexure_edges(r, record, p);
+    }
+    double radius = fw_xml_number_of(record, "radius"), angle = fw_xml_number_of(record, "angle");
+    if (angle == 0) {
+        fw_diag_error(
+            r->diags, 262, fw_xml_place_of(record, "angle"),
+            "%s: an arc of 0 deg has no length; remove it, or write <line length=\"...\"/>",
+            fw_xml_label(record, label));
+        return false;
+    }
+    p->length_m = radius * fabs(angle);
+    p->curvature_per_m = copysign(1 / radius, angle);
+    return fw_device_flexure_edges(r, record, p);
+}
+
+/* children in their order; what is wrong with one is said there and the whole is not judged */
+static fw_status read_path(fw_device_reader *r, int at, fw_device_flexure *f) {
+    const fw_xml_record *record = &r->xml.record[at];
+    char label[FW_LABEL];
+    fw_geometry_strip_piece *piece;
+    double before = f->width_m;
+    bool ok = true;
+    int n = 0;
+    FW_NEED(piece = fw_arena_array(r->arena, fw_geometry_strip_piece, FW_STRIP_MOST));
+    for (int i = at + 1; i < r->xml.nrecord && r->xml.record[i].parent >= at; i++) {
+        if (r->xml.record[i].parent != at) continue;
+        if (n == FW_STRIP_MOST) {
+            fw_diag_error(r->diags, 262, r->xml.record[i].element->place,
+                          "%s: a path has at most %d pieces; join some",
+                          fw_xml_label(record, label), FW_STRIP_MOST);
+            return FW_OK;
+        }
+        bool good = read_piece(r, &r->xml.record[i], before, &piece[n]);
+        before = good ? piece[n].width_m[2] : UNKNOWN;
+        ok = ok && good;
+        n++;
+    }
+    f->piece = piece, f->npiece = n, f->width_m = (double)NAN;
+    if (ok && n == 0 && !r->xml.unknown_element)
+        fw_diag_error(r->diags, 262, record->element->place,
+                      "%s: a path needs its pieces: <line length=\"...\"/> and "
+                      "<arc radius=\"...\" angle=\"...\"/> in their order",
+                      fw_xml_label(record, label));
+    if (ok && n > 0) fw_device_flexure_lay(r, record, piece, n, f);
+    return FW_OK;
+}
+
+static fw_status build_path(fw_device_reader *r, int at, fw_device_flexure *f) {
+    f->kind = FW_FLEXURE_PATH;
+    f->angle_rad = 0, f->width_middle_m = 0;
+    return fw_xml_failed(&r->xml.record[at], "width") ? FW_OK : read_path(r, at, f);
+}
+
+static const char *const path_takes[] = {NULL};
+const fw_device_flexure_row fw_device_flexure_path = {
+    .name = "path",
+    .takes = path_takes,
+    .refused = {262, "", " belongs to the pieces of a path; move it there"},
+    .pieces = true,
+    .build = build_path};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Kinds of <flexure>: a file kind_*.c and a line in flexures.def each. What is made of lines and
-   arcs needs no more: as a path (fw_device_flexure_lay) it has its mechanics, its outline and its
-   solid. Private to device/. */
+/* Kinds of <flexure>: a row, in flexure_kind.c or in a file of its own, and a line in flexures.def each.
+   What is made of lines and arcs needs no more: as a path (fw_device_flexure_lay) it has its mechanics,
+   its outline and its solid. Private to device/. */
 #ifndef FW_DEVICE_FLEXURE_KIND_H
 #define FW_DEVICE_FLEXURE_KIND_H
 #include "device/device_reader.h"
@@ -20,15 +20,9 @@ typedef struct fw_device_flexure_row {
     fw_status (*build)(fw_device_reader *r, int at, fw_device_flexure *flexure);
 } fw_device_flexure_row;
 
-/* a width above a quarter of the length */
-void fw_device_flexure_slender(fw_device_reader *r, const fw_xml_record *record,
-                               const fw_device_flexure *f);
 /* edges of a piece: each must lie on its side of the centre line all along */
 bool fw_device_flexure_edges(fw_device_reader *r, const fw_xml_record *record,
                              const fw_geometry_strip_piece *piece);
-/* width-middle of a csfh or leaf: both edges one arc, the ends as wide as `width` */
-void fw_device_flexure_middle(fw_device_reader *r, const fw_xml_record *record,
-                              const fw_device_flexure *f);
 /* makes the flexure a path of these pieces (n >= 1, kept), whose edges are right: its length, turn
    and least width. One that meets itself is reported */
 void fw_device_flexure_lay(fw_device_reader *r, const fw_xml_record *record,

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters, evaluated in the order of their dependencies. */
-#include "device/device_path.h"
-#include "device/device_reader.h"
 #include "device/device_table.h"
+#include "device/device_reader.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measuring/measuring.h"
 #include "base/text.h"
-#include "measuring/measuring_rank.h"
 #include <math.h>
 #include <string.h>
 

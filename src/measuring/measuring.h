@@ -6,7 +6,7 @@
 #ifndef FW_MEASURING_MEASURING_H
 #define FW_MEASURING_MEASURING_H
 #include "base/json.h"
-#include "process/measurable.h"
+#include "process/calibrate.h"
 #include "verdict/verdict.h"
 
 typedef struct fw_measuring_window { /* first look to clear by of a step, s; NaN: not computable */
@@ -83,8 +83,6 @@ fw_status fw_measuring_run(fw_arena *arena, const fw_measuring_request *request,
 
 /* ---- for those who write it ---- */
 
-/* a value in the unit of a quantity; a difference of temperatures has no zero point; NaN stays */
-double fw_measuring_in_unit(const fw_quantity *like, double si, bool difference);
 /* what is left of the band, or where there are none what it brings to the uncertainty, now and then;
    nothing where it moves nothing that is made */
 void fw_measuring_put_worth(fw_text *out, const fw_measuring *measuring,
@@ -98,5 +96,11 @@ void fw_measuring_json(fw_json *json, const fw_measuring *measuring);
 void fw_measuring_put_band(fw_text *out, const fw_verdict_band *band);
 /* "0.995 +- 0.0003", in the unit of the quantity, which follows */
 void fw_measuring_put_value(fw_text *out, const fw_measuring_item *item, bool after);
+
+/* ---- private to measuring/ ---- */
+
+/* narrowing and decides of the items (n, in any order); those that change something, ranked, into
+   m->item; the others' names; the sentence */
+fw_status fw_measuring_rank(fw_arena *arena, fw_measuring *m, fw_measuring_item *item, int n);
 
 #endif

@@ -44,8 +44,8 @@ typedef struct fw_probe {
     double walls_m;                          /* by how much walls come nearer than drawn */
 } fw_probe;
 
-/* One row per kind: adding one is a line in device/probes.def, and a file. SI values of the kind's
-   unit; NaN: not known from this state. NULL for what has no course in time. */
+/* One row per kind: adding one is a line in device/probes.def, and its row in probe_kinds.c. SI values
+   of the kind's unit; NaN: not known from this state. NULL for what has no course in time. */
 struct fw_probe_course;
 typedef struct fw_probe_row {
     double (*value)(const fw_probe *p, const fw_probe_state *s);
@@ -82,16 +82,7 @@ double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int 
 double fw_probe_at_equilibrium(const fw_probe *p, const fw_device_scene *scene,
                                const fw_statics *statics);
 
-/* shared by kinds: probe_point.c, probe_carrier.c */
-fw_geometry_vec2 fw_probe_place(const fw_probe *p, int side, const fw_probe_state *s);
-fw_geometry_vec2 fw_probe_speed(const fw_probe *p, int side, const fw_probe_state *s);
-/* along the direction of the probe; where it has none the size */
-double fw_probe_along(const fw_probe *p, double x, double y);
-/* forces on the ports of the element, and where they are: p->f, p->p, p->w. false: there is none */
-bool fw_probe_element_forces(const fw_probe *p, const fw_probe_state *s,
-                             fw_effects_port_state *seen);
-
-/* probe_gap.c: as it is where the mechanism starts; NaN: not known */
+/* of a gap as it is where the mechanism starts; NaN: not known */
 double fw_probe_gap_drawn(const fw_probe *p);
 /* by how much more two outlines that meet as drawn may be apart as made: walls that are etched away
    leave that open */
@@ -176,10 +167,8 @@ double fw_probe_settling_s(const fw_probe_course *course, double band);
 enum { FW_PROBE_TEXT = 48 };
 const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *unit);
 
-/* ---- about an equilibrium: probe_modal.c ---- */
+/* ---- about an equilibrium: probe_kinds.c ---- */
 
-/* u (m) of the point along the probe's direction in a mode, per unit of its shape */
-double fw_probe_mode_along(const fw_probe *p, const fw_statics_modes *modes, int mode);
 /* SI; NaN: there is no such mode, or nothing holds it */
 double fw_probe_small(const fw_probe *p, const fw_statics_modes *modes);
 /* relative: stiffness and compliance go with the square of frequencies; infinite: not known */

@@ -1,9 +1,221 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* cost = sum of amount x price over what the steps take for a lot; see bill.h. */
-#include "process/bill.h"
+/* What a lot uses up: consumables, the baths mixed from them and their prices as a pack says them, and the bill that
+   follows; see bill.h. */
 #include "base/text.h"
+#include "process/bill.h"
+#include "process/pack.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- what a pack says ---- */
+
+static const fw_quantity_dimension number = {0}, volume = {.m = 3}, mass_in = {.m = -3, .kg = 1},
+                                   amount_in = {.m = -3, .mol = 1};
+
+static bool is_of(const fw_quantity *q, fw_quantity_dimension d) {
+    return fw_quantity_dimension_equal(q->dimension, d);
+}
+
+static void want(fw_process_pack *pack, const fw_xml_record *e, const char *attribute,
+                 const fw_quantity *q, fw_quantity_dimension d, const char *what) {
+    if (q && !is_of(q, d))
+        fw_diag_error(pack->diags, 169, fw_process_pack_get(e, attribute)->place, "'%s' is not %s",
+                      q->id, what);
+}
+
+/* ---- its consumables and prices ---- */
+
+static const char *const amount_words[] = {
+    [FW_AMOUNT_L] = "L", [FW_AMOUNT_kg] = "kg", [FW_AMOUNT_PIECE] = "piece"};
+static const char *const price_units[] = {
+    [FW_AMOUNT_L] = "EUR/L", [FW_AMOUNT_kg] = "EUR/kg", [FW_AMOUNT_PIECE] = "EUR"};
+
+static void read_consumable(fw_process_pack *pack, const fw_xml_record *e,
+                            fw_process_consumable *c) {
+    const char *unit = fw_process_pack_text(e, "unit");
+    const fw_xml_attribute *hazard = fw_process_pack_get(e, "hazard");
+    c->name = fw_process_pack_text(e, "name");
+    if (hazard) c->hazard = fw_process_pack_find(pack, hazard, FW_ID_HAZARD);
+    for (int i = 0; i < (int)(sizeof amount_words / sizeof *amount_words); i++)
+        if (strcmp(amount_words[i], unit) == 0) c->amount = (fw_process_amount)i;
+}
+
+/* the quantity "ID.price" of the pack, or an unknown one that a laboratory may replace */
+static fw_status price(fw_process_pack *pack, const char *of, const char *unit, fw_place place,
+                       const fw_quantity **answer) {
+    fw_process_flow *f = pack->flow;
+    fw_quantity_unit parsed = {0};
+    const char *id = fw_arena_printf(pack->arena, "%s.price", of);
+    FW_NEED(id);
+    fw_quantity *q = fw_process_flow_own_quantity(f, id);
+    fw_quantity_unit_parse(unit, strlen(unit), &parsed, NULL, NULL);
+    if (q && !is_of(q, parsed.dimension))
+        fw_diag_error(pack->diags, 169, q->place,
+                      "the price of '%s' has the wrong unit; write it as %s, in any currency", of,
+                      unit);
+    if (!q) {
+        FW_NEED(q = fw_arena_one(pack->arena, fw_quantity));
+        *q = (fw_quantity){.id = id,
+                           .unknown = true,
+                           .unit = unit,
+                           .dimension = parsed.dimension,
+                           .status = FW_ASSUMED,
+                           .u_status = FW_ASSUMED,
+                           .source = "not stated",
+                           .place = place};
+        f->quantity[f->nquantity++] = q;
+    }
+    *answer = q;
+    return FW_OK;
+}
+
+static fw_status prices(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    for (int i = 0; i < f->nconsumable; i++) {
+        fw_process_consumable *c = &f->consumable[i];
+        FW_TRY(price(pack, c->id, price_units[c->amount], c->place, &c->price));
+    }
+    for (int i = 0; i < f->nequipment; i++)
+        FW_TRY(price(pack, f->equipment[i].id, "EUR/h", f->equipment[i].place,
+                     &f->equipment[i].price));
+    return FW_OK;
+}
+
+/* ---- its baths ---- */
+
+/* mass per volume of what is weighed: as it stands, or with a molar mass or a density */
+static void weighed(fw_process_pack *pack, const fw_xml_record *e, fw_process_part *p) {
+    const fw_quantity *molar_mass = fw_process_pack_quantity(pack, e, "molar-mass"),
+                      *density = fw_process_pack_quantity(pack, e, "density");
+    bool mol = is_of(p->q, amount_in), share = is_of(p->q, number);
+    p->factor = mol ? molar_mass : share ? density : NULL;
+    if (!mol && !share && !is_of(p->q, mass_in))
+        fw_diag_error(pack->diags, 370, fw_process_pack_get(e, "q")->place,
+                      "'%s' is counted in kg: a bath takes it as g/L, as mol/L or as a share by "
+                      "mass, and '%s' is none of them",
+                      p->of->id, p->q->id);
+    if (mol != (molar_mass != NULL))
+        fw_diag_error(pack->diags, 370, e->element->place,
+                      mol ? "an amount of substance needs a molar-mass to be weighed"
+                          : "molar-mass belongs to an amount of substance, as mol/L, only");
+    if (share != (density != NULL))
+        fw_diag_error(pack->diags, 370, e->element->place,
+                      share ? "a share by mass needs the density of the bath to be weighed"
+                            : "density belongs to a share by mass only");
+    want(pack, e, "molar-mass", molar_mass, (fw_quantity_dimension){.kg = 1, .mol = -1},
+         "a molar mass; write it in g/mol");
+    want(pack, e, "density", density, mass_in, "a density; write it in kg/m3");
+}
+
+static void read_part(fw_process_pack *pack, const fw_xml_record *e, fw_process_bath *b) {
+    const fw_xml_attribute *of = fw_process_pack_get(e, "of");
+    fw_process_part p = {.of = of ? fw_process_pack_find(pack, of, FW_ID_CONSUMABLE) : NULL,
+                         .q = fw_process_pack_quantity(pack, e, "q")};
+    if (!p.of || !p.q) return;
+    switch (p.of->amount) {
+    case FW_AMOUNT_L:
+        if (!is_of(p.q, number))
+            fw_diag_error(pack->diags, 370, fw_process_pack_get(e, "q")->place,
+                          "'%s' is a liquid: a bath takes it by parts of volume, and '%s' is no "
+                          "plain number",
+                          p.of->id, p.q->id);
+        break;
+    case FW_AMOUNT_kg:
+        weighed(pack, e, &p);
+        break;
+    case FW_AMOUNT_PIECE:
+        fw_diag_error(pack->diags, 370, of->place,
+                      "'%s' is counted in pieces, and no bath is mixed from pieces; give it in L "
+                      "or kg, or use it in a step",
+                      p.of->id);
+        break;
+    }
+    b->part[b->npart++] = p;
+}
+
+static fw_status read_bath(fw_process_pack *pack, const fw_xml_record *e, fw_process_bath *b) {
+    b->name = fw_process_pack_text(e, "name");
+    b->text = e->element->text;
+    b->volume = fw_process_pack_quantity(pack, e, "volume");
+    b->one_part = fw_process_pack_quantity(pack, e, "one-part");
+    b->serves = fw_process_pack_quantity(pack, e, "serves");
+    if ((fw_process_pack_get(e, "volume") != NULL) == (fw_process_pack_get(e, "one-part") != NULL))
+        fw_diag_error(pack->diags, 370, e->element->place,
+                      "<bath> needs the volume of a filling, or one-part, the volume of one part");
+    want(pack, e, "one-part", b->one_part, volume, "a volume; write it in mL or L");
+    want(pack, e, "volume", b->volume, volume, "a volume; write it in mL or L");
+    want(pack, e, "serves", b->serves, number, "a number of wafers");
+    FW_NEED(b->part =
+                fw_arena_array(pack->arena, fw_process_part, (size_t)fw_xml_children(e, "part")));
+    for (const fw_xml_record *c = e->first_child; c; c = c->next)
+        if (fw_xml_is(c, "part")) read_part(pack, c, b);
+    return FW_OK;
+}
+
+/* consumables first: parts of baths are counted as they are */
+fw_status fw_process_pack_baths(fw_process_pack *pack) {
+    const fw_xml_record *root[] = {pack->base, pack->root};
+    int bath = 0, consumable = 0;
+    for (int i = 0; i < 2; i++)
+        for (const fw_xml_record *e = root[i]->first_child; e; e = e->next)
+            if (fw_xml_is(e, "consumable") && fw_process_pack_get(e, "id"))
+                read_consumable(pack, e, &pack->flow->consumable[consumable++]);
+    for (int i = 0; i < 2; i++)
+        for (const fw_xml_record *e = root[i]->first_child; e; e = e->next)
+            if (fw_xml_is(e, "bath") && fw_process_pack_get(e, "id"))
+                FW_TRY(read_bath(pack, e, &pack->flow->bath[bath++]));
+    return prices(pack);
+}
+
+/* ---- of a step, and how its mask is aligned to an earlier one ---- */
+
+static fw_process_taker taker(const char *word) {
+    return strcmp(word, "lot") == 0    ? FW_PER_LOT
+           : strcmp(word, "load") == 0 ? FW_PER_LOAD
+                                       : FW_PER_WAFER;
+}
+
+void fw_process_pack_use(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
+    static const struct {
+        fw_quantity_dimension of;
+        const char *words;
+    } kind[] = {[FW_AMOUNT_L] = {{.m = 3}, "a volume; write it in mL or L"},
+                [FW_AMOUNT_kg] = {{.kg = 1}, "a mass; write it in g or kg"},
+                [FW_AMOUNT_PIECE] = {{0}, "a number of pieces"}};
+    const fw_xml_attribute *bath = fw_process_pack_get(e, "bath"),
+                           *of = fw_process_pack_get(e, "consumable"),
+                           *per = fw_process_pack_get(e, "per");
+    const fw_quantity *q = fw_process_pack_quantity(pack, e, "q");
+    if ((bath != NULL) == (of != NULL) || (of != NULL) != (fw_process_pack_get(e, "q") != NULL)) {
+        fw_diag_error(pack->diags, 370, e->element->place,
+                      "<uses> names a bath, or a consumable with q, how much of it is used");
+        return;
+    }
+    if (bath && per)
+        fw_diag_error(pack->diags, 370, per->place,
+                      "per belongs to a consumable; how long a filling of a bath lasts is its "
+                      "'serves'");
+    fw_process_use u = {.bath = bath ? fw_process_pack_find(pack, bath, FW_ID_BATH) : NULL,
+                        .consumable = of ? fw_process_pack_find(pack, of, FW_ID_CONSUMABLE) : NULL,
+                        .q = q,
+                        .per = taker(fw_process_pack_text(e, "per")),
+                        .place = e->element->place};
+    if (u.consumable)
+        want(pack, e, "q", q, kind[u.consumable->amount].of, kind[u.consumable->amount].words);
+    if (u.bath || (u.consumable && q)) s->use[s->nuse++] = u;
+}
+
+void fw_process_pack_align(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
+    s->align = (fw_process_align){.to = fw_process_pack_text(e, "to"),
+                                  .marks = fw_process_pack_text(e, "marks"),
+                                  .back = strcmp(fw_process_pack_text(e, "side"), "back") == 0,
+                                  .overlay = fw_process_pack_quantity(pack, e, "overlay"),
+                                  .place = e->element->place};
+    want(pack, e, "overlay", s->align.overlay, (fw_quantity_dimension)FW_DIM_LENGTH,
+         "a length; write it in um");
+}
+
+/* ---- the bill: cost = sum of amount x price over what the steps take for a lot ---- */
 
 typedef struct work {
     fw_arena *arena;

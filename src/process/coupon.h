@@ -41,7 +41,7 @@ typedef struct fw_process_coupon_work { /* what a kind reads and fills */
     fw_diags *diags;
     const fw_quantity *used[FW_COUPON_USED]; /* (nused) of the flow, with their uncertainty */
     int nused;
-    const fw_quantity *shifted; /* one of them, counted with this much more: coupon_covariance.c */
+    const fw_quantity *shifted; /* one of them, counted with this much more: process_calibrate.c */
     double shift;
 } fw_process_coupon_work;
 
@@ -58,7 +58,7 @@ typedef struct fw_process_coupon {
     fw_quantity_dimension under[2];
 } fw_process_coupon;
 
-/* coupon_covariance.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the
+/* process_calibrate.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the
    coupons used (id and C are m and m m, made here). u (n): standard uncertainties of the rows; shared: errors of what the
    rows were measured under, and of the flow, too. SI */
 typedef struct fw_process_covariance {
@@ -70,17 +70,12 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
                                        const fw_process_measurement *measurement, int n,
                                        const fw_process_calibration *found, const double *u,
                                        bool shared, fw_process_covariance *out);
-/* coupon_covariance.c: the correlations of those ids that are correlated at all, into `calibration` */
+/* process_calibrate.c: the correlations of those ids that are correlated at all, into `calibration` */
 fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *of,
                                   const double *deviation, fw_process_calibration *calibration);
 
-/* lab_correlation.c: can errors be correlated like this? r (n n), L (n n) is used */
+/* lab.c: can errors be correlated like this? r (n n), L (n n) is used */
 bool fw_process_correlation_possible(const double *r, int n, double *L);
-
-/* process_calibrate.c: of a kind's name, or NULL; all rows through all kinds, into work->out */
-const fw_process_coupon *fw_process_coupon_kind(const char *name);
-fw_status fw_process_coupon_fit_all(fw_process_coupon_work *work,
-                                    const fw_process_measurement *measurement, int n);
 
 #define FW_PROCESS_COUPON(name) extern const fw_process_coupon fw_process_coupon_##name;
 #include "process/coupons.def"
@@ -101,7 +96,6 @@ bool fw_process_coupon_value(fw_process_coupon_work *work, const char *id, doubl
 /* all rows stand under one condition of dimension d, which is set; FW-D211 otherwise */
 fw_status fw_process_coupon_condition(fw_process_coupon_work *work, fw_quantity_dimension d,
                                       const char *what, double *value, double *uncertainty);
-bool fw_process_coupon_has(const fw_process_flow *flow, const char *id);
 typedef struct
     fw_process_etch { /* quantities of the etch that cuts the device layer; each may be NULL */
     const fw_quantity *rate, *lag, *anisotropy;

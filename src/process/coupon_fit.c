@@ -114,7 +114,7 @@ fw_status fw_process_coupon_wrong(fw_process_coupon_work *w, const fw_process_me
     return fw_diag_error(w->diags, 211, at->place, "%s", text);
 }
 
-bool fw_process_coupon_has(const fw_process_flow *flow, const char *id) {
+static bool has(const fw_process_flow *flow, const char *id) {
     return fw_process_flow_quantity(flow, id) != NULL;
 }
 
@@ -184,7 +184,7 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
     double p = fw_process_chi_square_above(fit->chi_square, fit->freedom);
     const char *coupon = w->measurement[0]->coupon;
     char a[32], b[32];
-    if (!fw_process_coupon_has(w->flow, id))
+    if (!has(w->flow, id))
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "%s gives %s, which flow '%s' does not have", coupon, id,
                                        w->flow->id);
@@ -233,5 +233,5 @@ fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
 
 const char *fw_process_coupon_edge(const fw_process_flow *flow) {
     static const char etched[] = "made.al-edge";
-    return fw_process_coupon_has(flow, etched) ? etched : FW_PROCESS_PRINTED_EDGE;
+    return has(flow, etched) ? etched : FW_PROCESS_PRINTED_EDGE;
 }

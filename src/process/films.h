@@ -17,7 +17,7 @@ typedef struct fw_process_cell {
     bool exposed;          /* latent image in resist */
 } fw_process_cell;
 
-/* the first two columns of every flow; with further plates there are more (regions.c) */
+/* the first two columns of every flow; with further plates there are more (stack.c) */
 enum { FW_STACK_STRUCTURE, FW_STACK_FIELD };
 
 typedef struct fw_process_stack {
@@ -25,7 +25,7 @@ typedef struct fw_process_stack {
     int n[FW_STACK_MOST], capacity, columns;
 } fw_process_stack;
 
-/* ---- parts of the wafer: regions.c ---- */
+/* ---- parts of the wafer: stack.c ---- */
 typedef struct
     fw_process_side { /* of what a plate prints; plate 0: the device's, of which set says field */
     int plate;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where edges end up: bias, gaps, time and what the etch takes sideways, solved together (fixed_point.h); and how deep an
+   opening then is. */
+#include "process/films.h"
 #include "process/fixed_point.h"
 #include "process/process_law.h"
-#include "process/films.h"
 #include <math.h>
 #include <string.h>
 
@@ -402,4 +404,25 @@ fw_status fw_process_fixed_point_solve(fw_arena *arena, const fw_process_flow *f
     p->low_m = bias_at(p, high, gap, field);
     place_edges(p, A, low, high);
     return FW_OK;
+}
+
+/* ---- how deep a cut is in an opening ---- */
+
+/* z + lag(w, z) = E by bisection: the left side rises with z. In: the cut with its E, the opening w
+   m. Out: m, error 1e-15 of the depth. Test: test_films.c, depth: z = D and E where they should. */
+double fw_process_cut_depth(const fw_process_cut *cut, double w_m) {
+    double E = cut->etched_m;
+    if (isnan(E)) return cut->depth_m;
+    double lag = fw_process_cut_lag(cut, w_m, cut->depth_m);
+    if (isnan(lag)) return fmin(E, cut->depth_m);
+    if (cut->depth_m + lag <= E) return cut->depth_m;
+    double low = 0.0, high = cut->depth_m;
+    for (int i = 0; i < 50; i++) {
+        double z = 0.5 * (low + high);
+        if (z + fw_process_cut_lag(cut, w_m, z) <= E)
+            low = z;
+        else
+            high = z;
+    }
+    return low;
 }

@@ -67,7 +67,7 @@ fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight,
     return FW_OK;
 }
 
-/* what was judged with the whole flow (nearest.c): in the last pass of fw_process_flow_compute, which the reasons are of */
+/* what was judged with the whole flow (flow.c): in the last pass of fw_process_flow_compute, which the reasons are of */
 fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text) {
     const fw_process_flow *f = j->flow;
     fw_process_numbers t = {0};

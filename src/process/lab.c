@@ -1,9 +1,220 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laboratory packs: values that replace those of a flow by id. */
+/* Laboratory packs. */
+#include "base/text.h"
 #include "process/calibrate.h"
+#include "process/coupon.h"
 #include "process/pack.h"
-#include "process/wafer_state.h"
+#include <math.h>
 #include <string.h>
+
+/* ---- <correlation>: which of its values have errors that go together ---- */
+
+enum { MOST_JOINT = 96 };
+
+typedef struct matrix {
+    fw_arena *arena;
+    fw_diags *diags;
+    fw_process_flow *flow;
+    fw_quantity *q[MOST_JOINT]; /* (n) */
+    fw_place place[MOST_JOINT]; /* of the values of a row */
+    int n;
+    double *r; /* (n n) */
+} matrix;
+
+/* the word at *at, "" at the end; *at moves behind it */
+static const char *word_of(fw_arena *arena, const char **at) {
+    *at += strspn(*at, " \t\r\n");
+    size_t n = strcspn(*at, " \t\r\n");
+    const char *word = fw_arena_strndup(arena, *at, n);
+    *at += n;
+    return word;
+}
+
+static fw_status names_of(matrix *m, const fw_xml_attribute *of) {
+    fw_status status = FW_OK;
+    for (const char *at = of->value, *id;;) {
+        FW_NEED(id = word_of(m->arena, &at));
+        if (!*id) break;
+        fw_quantity *q = (fw_quantity *)fw_process_flow_quantity(m->flow, id);
+        if (!q)
+            status = fw_diag_error(m->diags, 211, of->place, "flow '%s' has no quantity '%s'",
+                                   m->flow->id, id);
+        for (int i = 0; q && i < m->n; i++)
+            if (m->q[i] == q)
+                status = fw_diag_error(m->diags, 211, of->place, "'%s' is named twice", id);
+        if (m->n == MOST_JOINT)
+            return fw_diag_error(m->diags, 211, of->place,
+                                 "more than %d quantities in one <correlation>", MOST_JOINT);
+        m->q[m->n++] = q;
+    }
+    FW_TRY(status);
+    return m->n >= 2 ? FW_OK
+                     : fw_diag_error(m->diags, 211, of->place,
+                                     "a <correlation> is of two quantities or more");
+}
+
+static fw_status read_row(matrix *m, const fw_xml_record *e, int row) {
+    const fw_xml_attribute *of = fw_process_pack_get(e, "of"),
+                           *values = fw_process_pack_get(e, "values");
+    if (!of || !values) return FW_INPUT; /* said */
+    if (row >= m->n || strcmp(of->value, m->q[row]->id) != 0)
+        return fw_diag_error(m->diags, 211, of->place,
+                             "this is row %d, which is %s%s%s; rows stand in the order of the ids",
+                             row + 1, row < m->n ? "of '" : "one too many",
+                             row < m->n ? m->q[row]->id : "", row < m->n ? "'" : "");
+    m->place[row] = values->place;
+    const char *at = values->value, *word;
+    for (int k = 0;; k++) {
+        FW_NEED(word = word_of(m->arena, &at));
+        if (!*word && k == m->n) return FW_OK;
+        if (!*word || k == m->n)
+            return fw_diag_error(m->diags, 211, values->place,
+                                 "the row of '%s' has %s than %d values, one for every id",
+                                 of->value, *word ? "more" : "fewer", m->n);
+        double r;
+        if (!fw_number_parse(word, strlen(word), &r) || !(fabs(r) <= 1.0))
+            return fw_diag_error(m->diags, 211, values->place,
+                                 "'%s' is no correlation: a number between -1 and 1", word);
+        if (k == row && fabs(r - 1.0) > 1e-9)
+            return fw_diag_error(m->diags, 211, values->place,
+                                 "the correlation of '%s' with itself is 1, not %s", of->value,
+                                 word);
+        m->r[row * m->n + k] = r;
+    }
+}
+
+static fw_status check_symmetry(const matrix *m) {
+    fw_status status = FW_OK;
+    char a[32], b[32];
+    for (int i = 0; i < m->n; i++)
+        for (int k = 0; k < i; k++)
+            if (fabs(m->r[i * m->n + k] - m->r[k * m->n + i]) > 1e-9)
+                status = fw_diag_error(
+                    m->diags, 211, m->place[i],
+                    "%s with %s is %s here and %s in the other row; both are one number",
+                    m->q[i]->id, m->q[k]->id, fw_number_text(a, sizeof a, m->r[i * m->n + k], 6),
+                    fw_number_text(b, sizeof b, m->r[k * m->n + i], 6));
+    return status;
+}
+
+/* Is R + e I positive definite? Cholesky's factorization: the first pivot that is not above zero says no. e = 1e-5 stands
+   for what is lost by writing six digits. R (n n) symmetric with a unit diagonal. Cost n^3/3.
+   Source: Golub and Van Loan, Matrix Computations, 4.2. Test: test_correlation.c, wrong_matrices. */
+bool fw_process_correlation_possible(const double *r, int n, double *L) {
+    const double lost = 1e-5;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k <= i; k++) {
+            double sum = r[i * n + k] + (i == k ? lost : 0.0);
+            for (int j = 0; j < k; j++)
+                sum -= L[i * n + j] * L[k * n + j];
+            if (i == k && !(sum > 0.0)) return false;
+            L[i * n + k] = i == k ? sqrt(sum) : sum / L[k * n + k];
+        }
+    return true;
+}
+
+static fw_status add(fw_arena *arena, fw_quantity *q, const char *id, double r) {
+    fw_quantity_correlated *grown =
+        fw_arena_array(arena, fw_quantity_correlated, (size_t)(q->ncorrelated + 1));
+    FW_NEED(grown);
+    int n = 0;
+    for (int i = 0; i < q->ncorrelated; i++)
+        if (strcmp(q->correlated[i].id, id) != 0) grown[n++] = q->correlated[i];
+    if (r != 0.0) grown[n++] = (fw_quantity_correlated){id, r};
+    q->correlated = grown;
+    q->ncorrelated = n;
+    return FW_OK;
+}
+
+/* a <correlation> of a laboratory pack into the quantities of the flow (FW-D211) */
+static fw_status read_correlation(fw_arena *arena, const fw_xml_record *e, fw_process_flow *flow,
+                                  fw_diags *diags) {
+    matrix *m = fw_arena_one(arena, matrix);
+    const fw_xml_attribute *of = fw_process_pack_get(e, "of");
+    FW_NEED(m);
+    if (!of) return FW_INPUT; /* said */
+    m->arena = arena, m->diags = diags, m->flow = flow;
+    FW_TRY(names_of(m, of));
+    double *L = fw_arena_array(arena, double, (size_t)(m->n * m->n));
+    FW_NEED(m->r = fw_arena_array(arena, double, (size_t)(m->n * m->n)));
+    FW_NEED(L);
+    int row = 0;
+    for (const fw_xml_record *c = e->first_child; c; c = c->next)
+        if (fw_xml_is(c, "row")) FW_TRY(read_row(m, c, row++));
+    if (row < m->n)
+        return fw_diag_error(diags, 211, of->place,
+                             "the <correlation> has %d rows for %d quantities", row, m->n);
+    FW_TRY(check_symmetry(m));
+    if (!fw_process_correlation_possible(m->r, m->n, L))
+        return fw_diag_error(diags, 211, of->place,
+                             "no errors can be correlated like this: the matrix is not positive "
+                             "semidefinite; take the one that calibrate wrote");
+    for (int i = 0; i < m->n; i++)
+        for (int k = 0; k < m->n; k++)
+            if (k != i) FW_TRY(add(arena, m->q[i], m->q[k]->id, m->r[i * m->n + k]));
+    return FW_OK;
+}
+
+/* what is known of a quantity that is replaced holds no longer */
+static fw_status forget_correlation(fw_arena *arena, fw_process_flow *flow, const char *id) {
+    for (int i = 0; i < flow->nquantity; i++)
+        if (flow->quantity[i]->ncorrelated > 0) FW_TRY(add(arena, flow->quantity[i], id, 0.0));
+    return FW_OK;
+}
+
+/* ---- when its machines may be used; what the words mean is looked at by schedule/ ---- */
+
+static fw_status known(fw_arena *arena, const fw_process_flow *flow, const fw_xml_attribute *a,
+                       fw_diags *diags) {
+    const char **id = fw_arena_array(arena, const char *, (size_t)flow->nequipment);
+    FW_NEED(id);
+    for (int i = 0; i < flow->nequipment; i++) {
+        id[i] = flow->equipment[i].id;
+        if (strcmp(id[i], a->value) == 0) return FW_OK;
+    }
+    const char *best = fw_did_you_mean(a->value, id, (size_t)flow->nequipment);
+    return fw_diag_error(diags, 376, a->place, "flow '%s' has no equipment '%s'%s%s%s", flow->id,
+                         a->value, best ? "; did you mean '" : "", best ? best : "",
+                         best ? "'?" : "");
+}
+
+/* <tool> of a laboratory pack (FW-D376) */
+static fw_status read_tools(fw_arena *arena, const fw_xml_record *root, fw_process_flow *flow,
+                            fw_diags *diags) {
+    for (const fw_xml_record *e = root->first_child; e; e = e->next) {
+        if (!fw_xml_is(e, "tool")) continue;
+        const fw_xml_attribute *equipment = fw_process_pack_get(e, "equipment"),
+                               *open = fw_process_pack_get(e, "open"),
+                               *days = fw_process_pack_get(e, "days"),
+                               *closed = fw_process_pack_get(e, "closed"),
+                               *to = fw_process_pack_get(e, "to");
+        if (!equipment) continue; /* said by the table */
+        fw_status status = known(arena, flow, equipment, diags);
+        if (status == FW_NOMEM) return status;
+        if ((open != NULL) == (closed != NULL) || (days && !open) || (to && !closed)) {
+            fw_diag_error(diags, 376, e->element->place,
+                          "<tool> says either when it is open, with days, or from when it is "
+                          "closed, with to");
+            continue;
+        }
+        fw_process_tool_time *grown =
+            fw_arena_grow(arena, flow->tool_time, (size_t)flow->ntool_time,
+                          (size_t)flow->ntool_time + 1, sizeof *grown);
+        FW_NEED(grown);
+        flow->tool_time = grown;
+        grown[flow->ntool_time++] = (fw_process_tool_time){.equipment = equipment->value,
+                                                           .open = open ? open->value : NULL,
+                                                           .days = days ? days->value : "",
+                                                           .from = closed ? closed->value : NULL,
+                                                           .to = to       ? to->value
+                                                                 : closed ? closed->value
+                                                                          : NULL,
+                                                           .place = e->element->place};
+    }
+    return FW_OK;
+}
+
+/* ---- values that replace those of a flow by id ---- */
 
 static fw_status amount(fw_arena *arena, const fw_quantity *q, const char **text) {
     fw_text out = fw_text_new(arena);
@@ -63,7 +274,7 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));
     const fw_quantity was = *old;
-    FW_TRY(fw_process_correlation_forget(arena, flow, old->id));
+    FW_TRY(forget_correlation(arena, flow, old->id));
     *old = *new;
     old->id = was.id;
     old->least = was.least; /* what makes sense is the pack's to say */
@@ -104,10 +315,10 @@ static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_proc
     if (diags->errors == before)
         for (const fw_xml_record *e = root->first_child; e; e = e->next) {
             if (!fw_xml_is(e, "correlation")) continue;
-            status = fw_process_correlation_read(arena, e, flow, diags);
+            status = read_correlation(arena, e, flow, diags);
             if (status != FW_OK && status != FW_INPUT) return status;
         }
-    fw_status tools = fw_process_lab_tools(arena, root, flow, diags);
+    fw_status tools = read_tools(arena, root, flow, diags);
     if (tools != FW_OK && tools != FW_INPUT) return tools;
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }

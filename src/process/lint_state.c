@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Can every step be done on the wafer that comes to it? Whether it is wet and with what (wafer_state.h), and whether
+/* Can every step be done on the wafer that comes to it? Whether it is wet and with what (wafer_state.c), and whether
    what the step works on lies open (the layers of films.h). The questions a process engineer asks between two lines of
    a run sheet; each is a function here and a row in lint.c. Theory: docs/theory/process.md, "Lint". */
 #include "process/films.h"
 #include "process/pack.h"
-#include "process/wafer_state.h"
 #include <string.h>
 
 /* ---- what a wafer carries along ---- */

@@ -2,6 +2,7 @@
 /* Reading a pack; private to process/. */
 #ifndef FW_PROCESS_PACK_H
 #define FW_PROCESS_PACK_H
+#include "process/process.h"
 #include "process/process_law.h"
 #include "xml/xml_reader.h"
 
@@ -52,17 +53,11 @@ const fw_quantity *fw_process_pack_quantity(fw_process_pack *pack, const fw_xml_
 /* or wrong */
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent);
 
-/* regions.c: <plate>s, and the words of every `where` (FW-D413) */
+/* stack.c: <plate>s, and the words of every `where` (FW-D413) */
 void fw_process_read_plates(fw_process_pack *pack);
 void fw_process_check_regions(fw_process_pack *pack);
 
-/* lab_correlation.c: a <correlation> of a laboratory pack into the quantities of the flow (FW-D211); what is known of one
-   that is replaced holds no longer */
-fw_status fw_process_correlation_read(fw_arena *arena, const fw_xml_record *e,
-                                      fw_process_flow *flow, fw_diags *diags);
-fw_status fw_process_correlation_forget(fw_arena *arena, fw_process_flow *flow, const char *id);
-
-/* corner_correlation.c: turns correlated inputs (n) into independent ones that make the same device */
+/* process_corners.c: turns correlated inputs (n) into independent ones that make the same device */
 fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication_input *input,
                                          int n);
 
@@ -73,17 +68,11 @@ const fw_quantity *fw_process_step_argument(const fw_process_step *step, const c
 /* the flow's quantity with this id, to be filled in; NULL: it has none */
 fw_quantity *fw_process_flow_own_quantity(const fw_process_flow *flow, const char *id);
 
-/* read_bath.c: baths and prices of both files, once all ids are known and before the steps; then what
+/* bill.c: baths and prices of both files, once all ids are known and before the steps; then what
    a step takes of them, and how its mask is aligned */
 fw_status fw_process_pack_baths(fw_process_pack *pack);
 void fw_process_pack_use(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 void fw_process_pack_align(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
-
-/* lab_tools.c: <tool> of a laboratory pack (FW-D376) */
-fw_status fw_process_lab_tools(fw_arena *arena, const fw_xml_record *root, fw_process_flow *flow,
-                               fw_diags *diags);
-/* alternative.c: lists the alternatives, and puts the chosen ones in the places of their steps */
-fw_status fw_process_pack_choose(fw_process_pack *pack, const fw_process_choice *choice, int n);
 
 fw_status fw_process_pack_steps(fw_process_pack *pack);
 /* after the steps: keeps the texts that name values (FW-D348) */
@@ -139,5 +128,46 @@ double fw_process_exposed_loss(const fw_process_step *step, const fw_process_exp
 /* after fw_process_flow_judge: adds to its reasons what the steps' times do to the layers, and
    derived values above their limits (FW-D270, FW-D273, FW-D279) */
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags);
+
+/* ---- what a wafer is like after every step ----
+   Wet and with what, under resist that is not baked, hot, in a pumped chamber; and how long it may wait like that. Follows
+   from the steps' operations, changes, chemicals and <finish>es alone, so that a pack cannot forget it. Theory:
+   docs/theory/process.md, "What a wafer is like between steps". */
+
+typedef enum fw_process_state {
+#define X(name, key, longest, is, why) FW_STATE_##name,
+#include "process/wafer_states.def"
+#undef X
+    FW_STATES
+} fw_process_state;
+
+typedef struct fw_process_wafer { /* after a step */
+    bool is[FW_STATES];
+    int since[FW_STATES];            /* index of the step that brought it about */
+    const char *with[FW_STATES];     /* id of the chemical, resist or tool */
+    const fw_process_hazard *liquid; /* WET: NULL is deionised water, or what no chemical names */
+    bool released; /* compliant parts are free: a meniscus that dries pulls them down */
+} fw_process_wafer;
+
+/* of every step (nstep); pure */
+fw_status fw_process_flow_wafers(fw_arena *arena, const fw_process_flow *flow,
+                                 fw_process_wafer **wafer);
+/* from one step on: *wafer is that before the step and becomes that after it */
+void fw_process_wafer_pass(const fw_process_flow *flow, int step, fw_process_wafer *wafer);
+/* fills in flow->wait, one for every state that a step brings about: when a flow was read, and again when values were
+   replaced */
+fw_status fw_process_flow_waits(fw_arena *arena, fw_process_flow *flow);
+bool fw_process_step_is_op(const fw_process_step *step, const char *op);
+/* the last of its chemicals that wets; NULL: none does */
+const fw_process_hazard *fw_process_step_liquid(const fw_process_step *step);
+/* does the step work in a liquid? */
+bool fw_process_step_in_liquid(const fw_process_step *step);
+/* may a wet wafer come to the step? */
+bool fw_process_step_takes_wet(const fw_process_step *step);
+/* "wet with phosphoric acid bath (h.pan)" */
+const char *fw_process_wafer_words(fw_arena *arena, const fw_process_flow *flow,
+                                   const fw_process_wafer *wafer, fw_process_state state);
+const char *fw_process_state_why(fw_process_state state);
+const char *fw_process_state_key(fw_process_state state);
 
 #endif

@@ -7,7 +7,7 @@
 #include "device/material.h"
 #include "process/fixed_point.h"
 #include "quantity/quantity.h"
-#include "release/release_hold.h"
+#include "release/release.h"
 #include "verdict/verdict_fabrication.h"
 #include <stdbool.h>
 
@@ -174,7 +174,7 @@ typedef struct fw_process_finish {
     fw_place place;
 } fw_process_finish;
 
-/* how long a wafer may wait between two steps because of what it is like (wafer_state.h) */
+/* how long a wafer may wait between two steps because of what it is like (wafer_state.c) */
 typedef struct fw_process_wait {
     int from, to; /* steps: end of the one, start of the other */
     double max_s;
@@ -276,7 +276,7 @@ typedef struct fw_process_finished {
     fw_place place;
 } fw_process_finished;
 
-/* a text that names values between braces (step_texts.c) */
+/* a text that names values between braces (process_find.c) */
 typedef struct fw_process_text {
     const char **slot; /* where it is shown, filled in */
     const char *raw;
@@ -363,7 +363,7 @@ typedef struct fw_process_flow {
     bool no_window;              /* what must stay is lost before all that moves is free */
     bool tight;                  /* something on the mask prints in perfect contact only */
     fw_process_plate plate[FW_PROCESS_PLATES]; /* (nplate) in the order of printing */
-    /* (ncolumn) what the columns of its stacks are: regions.c */
+    /* (ncolumn) what the columns of its stacks are: stack.c */
     unsigned column_code[FW_STACK_MOST];
     int nplate, ncolumn;
     fw_process_wait *wait; /* (nwait) computed */
@@ -406,15 +406,12 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
 bool fw_process_flow_releases(const fw_process_flow *flow);
 /* the step that does, and how far; NULL and NaN: none does, or nobody knows */
 const fw_process_step *fw_process_flow_release_step(const fw_process_flow *flow, double *reach_m);
-const char *fw_process_duty_word(fw_release_duty duty); /* "moves" */
 /* the window in a sentence, for a run sheet; NULL: the flow has no release, or nothing is drawn. FW_NOMEM */
 fw_status fw_process_release_words(fw_arena *arena, const fw_process_flow *flow, const char **out);
 /* member "release" of an open object: window, and every part with its reach */
 void fw_process_release_json(const fw_process_flow *flow, fw_json *json);
 /* which body lets go when, on what it hangs then, and the anchors: sentences; NULL likewise */
 fw_status fw_process_hold_words(fw_arena *arena, const fw_process_flow *flow, const char **out);
-/* members "lets_go" and "mechanisms" of an open object; nothing where there are none */
-void fw_process_hold_json(const fw_process_flow *flow, fw_json *json);
 /* is that etch to take its layer from below everything, frame and bases too (where="all")? */
 bool fw_process_flow_frees_all(const fw_process_flow *flow);
 /* share of its bond that what must stay has to keep, 0 where the pack does not say */

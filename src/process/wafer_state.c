@@ -7,7 +7,6 @@
      vacuum    after a tool that is pumped, without <finish kind="vent">
      seasoned  from what prepares a pumped chamber (op="mount") to the first step in it
    A resist that is taken off ends its states. Cost: steps times states. Test: test_wafer_state.c. */
-#include "process/wafer_state.h"
 #include "process/pack.h"
 #include <string.h>
 

@@ -81,7 +81,7 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               const fw_recipe_asrun *run, const char *words, fw_place place,
                               double now_s, fw_diags *diags, const char **line);
 
-/* asrun_head.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
+/* asrun.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
    others */
 fw_status fw_recipe_asrun_head(fw_arena *arena, int nentry, const char *chain, const char **line);
 fw_status fw_recipe_asrun_check_head(const fw_recipe_asrun *run, const char *file, const char *text,
@@ -93,7 +93,7 @@ typedef struct fw_recipe_deviation {
     const fw_recipe_asrun_entry *entry;
     const char *what, *planned, *actual; /* "thickness", "8.1 to 9.9 um", "7.9 um" */
 } fw_recipe_deviation;
-/* asrun_deviation.c: what is out of its limits in the last entry of every step and wafer, in the order of the flow */
+/* asrun_compare.c: what is out of its limits in the last entry of every step and wafer, in the order of the flow */
 fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flow,
                                      const fw_recipe_asrun *run, fw_recipe_deviation **list,
                                      int *n);
@@ -106,7 +106,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
 fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out);
 
-/* asrun_calibrate.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers */
+/* asrun_values.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers */
 fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
                                    fw_process_readings *readings);
 

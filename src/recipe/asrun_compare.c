@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Planned against actual: durations against their windows, waiting times against their limits,
-   measured values against what is accepted, settings against what was planned. */
+/* The log against the plan: durations against their windows, waiting times against their limits, measured values against
+   what is accepted, settings against what was planned; as text and as JSON. */
 #include "base/json.h"
 #include "base/text.h"
 #include "recipe/asrun_parts.h"
@@ -8,7 +8,201 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- text ---- */
+/* ---- what of a log is out of its limits ---- */
+
+/* of one wafer, or both of the whole lot */
+static bool same_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return a->wafer == b->wafer || (a->wafer && b->wafer && strcmp(a->wafer, b->wafer) == 0);
+}
+
+bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && same_wafer(later, e)) return false;
+    return true;
+}
+
+/* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
+   end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. */
+static const char *in_time(const fw_process_step *step, double actual_s) {
+    if (!step->time.computable) return "no plan";
+    if (actual_s < step->time.first_look_s) return "short";
+    return actual_s > step->booked_stop_s ? "long" : "in window";
+}
+
+const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
+    for (int i = 0; i < step->naccept; i++)
+        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
+    return NULL;
+}
+
+double fw_recipe_asrun_limit(const char *text, double absent) {
+    double value;
+    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
+}
+
+static bool inside(const char *low, const char *high, double value) {
+    return value >= fw_recipe_asrun_limit(low, -(double)INFINITY) &&
+           value <= fw_recipe_asrun_limit(high, (double)INFINITY);
+}
+
+bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
+    if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
+    for (int i = 0; i < FW_RECIPE_SITES; i++)
+        if (!isnan(m->site[i]) && !inside(a->low, a->high, m->site[i])) return false;
+    return true;
+}
+
+bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
+    return isnan(set->value) || inside(set->low, set->high, set->value);
+}
+
+/* waited from the end of the step that the lag names; NaN: that step is not in the log */
+static double waited(const fw_recipe_asrun *run, const fw_process_lag *lag,
+                     const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *from = NULL;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *other = &run->entry[i];
+        bool of_it = !other->wafer || !e->wafer || strcmp(other->wafer, e->wafer) == 0;
+        if (of_it && strcmp(other->step->id, lag->from) == 0) from = other;
+    }
+    return from ? e->start_s - from->end_s : (double)NAN;
+}
+
+static bool wait_is_fine(const fw_process_lag *lag, double wait_s) {
+    return !(wait_s < lag->min_s) && !(wait_s > lag->max_s); /* NaN: no limit, or not known */
+}
+
+/* ---- the list of what is out ---- */
+
+typedef struct builder {
+    fw_arena *arena;
+    fw_recipe_deviation *item;
+    int n;
+} builder;
+
+static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *what, fw_text *planned,
+                     fw_text *actual) {
+    FW_TRY(fw_text_end(planned));
+    FW_TRY(fw_text_end(actual));
+    FW_NEED(what);
+    fw_recipe_deviation *grown =
+        fw_arena_grow(b->arena, b->item, (size_t)b->n, (size_t)b->n + 1, sizeof *grown);
+    FW_NEED(grown);
+    b->item = grown;
+    b->item[b->n++] = (fw_recipe_deviation){e, what, planned->data, actual->data};
+    return FW_OK;
+}
+
+/* "48 to 52", "any to 52" */
+static void put_span(fw_text *out, const char *low, const char *high) {
+    fw_text_printf(out, "%s to %s", low[0] ? low : "any", high[0] ? high : "any");
+}
+
+/* the limits of a wait */
+static void put_wait(fw_text *out, const fw_process_lag *lag) {
+    fw_schedule_put_duration(out, isnan(lag->min_s) ? 0.0 : lag->min_s);
+    fw_text_add(out, " to ");
+    if (isnan(lag->max_s))
+        fw_text_add(out, "any");
+    else
+        fw_schedule_put_duration(out, lag->max_s);
+}
+
+static void put_unit(fw_text *out, const char *unit) {
+    if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
+}
+
+static fw_status durations_of(builder *b, const fw_recipe_asrun_entry *e) {
+    double actual = e->end_s - e->start_s;
+    const char *judged = in_time(e->step, actual);
+    if (strcmp(judged, "short") != 0 && strcmp(judged, "long") != 0) return FW_OK;
+    fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+    fw_schedule_put_duration(&planned, e->step->booked_s);
+    fw_text_add(&planned, "; ");
+    fw_schedule_put_duration(&planned, e->step->time.first_look_s);
+    fw_text_add(&planned, " to ");
+    fw_schedule_put_duration(&planned, e->step->booked_stop_s);
+    fw_schedule_put_duration(&is, actual);
+    return add(b, e, "duration", &planned, &is);
+}
+
+static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_recipe_measured *m = &e->measured[i];
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+        if (fw_recipe_asrun_accepted(a, m)) continue;
+        fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+        bool word = isnan(m->number);
+        if (word) {
+            fw_text_add(&planned, "yes");
+            fw_text_add(&is, m->value);
+        } else {
+            put_span(&planned, a->low, a->high);
+            put_unit(&planned, a->unit);
+        }
+        for (int k = 0, n = 0; k < FW_RECIPE_SITES && !word; k++) {
+            if (isnan(m->site[k]) || inside(a->low, a->high, m->site[k])) continue;
+            fw_text_add(&is, n++ ? ", " : "");
+            fw_recipe_put_value(&is, m->site[k]);
+            put_unit(&is, a->unit);
+            if (m->nsite > 1) fw_text_printf(&is, " (%s)", fw_recipe_site_name[k]);
+        }
+        FW_TRY(add(b, e, m->measure, &planned, &is));
+    }
+    return FW_OK;
+}
+
+static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < e->nset; i++) {
+        const fw_recipe_set *s = &e->set[i];
+        if (fw_recipe_asrun_allowed(s)) continue;
+        fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+        if (!s->q->unknown) {
+            fw_recipe_put_value(&planned, fw_quantity_in_unit(s->q));
+            fw_text_add(&planned, "; ");
+        }
+        put_span(&planned, s->low, s->high);
+        put_unit(&planned, s->q->unit);
+        fw_recipe_put_value(&is, s->value);
+        put_unit(&is, s->q->unit);
+        FW_TRY(add(b, e, fw_arena_printf(b->arena, "setting %s", s->name), &planned, &is));
+    }
+    return FW_OK;
+}
+
+static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < e->step->nlag; i++) {
+        const fw_process_lag *l = &e->step->lag[i];
+        double wait = waited(run, l, e);
+        if (wait_is_fine(l, wait)) continue;
+        fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+        put_wait(&planned, l);
+        fw_schedule_put_duration(&is, fmax(wait, 0.0));
+        FW_TRY(add(b, e, fw_arena_printf(b->arena, "wait since %s", l->from), &planned, &is));
+    }
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flow,
+                                     const fw_recipe_asrun *run, fw_recipe_deviation **list,
+                                     int *n) {
+    builder b = {.arena = arena};
+    for (int s = 0; s < flow->nstep; s++)
+        for (int i = 0; i < run->nentry; i++) {
+            const fw_recipe_asrun_entry *e = &run->entry[i];
+            if (e->step != &flow->step[s] || !fw_recipe_asrun_is_last(run, e)) continue;
+            FW_TRY(durations_of(&b, e));
+            FW_TRY(values_of(&b, e));
+            FW_TRY(settings_of(&b, e));
+            FW_TRY(waits_of(&b, run, e));
+        }
+    *list = b.item;
+    *n = b.n;
+    return FW_OK;
+}
+
+/* ---- planned against actual, as text ---- */
+
 static void put_cell(fw_text *out, double seconds, int width) {
     fw_text cell = fw_text_new(out->arena);
     if (isnan(seconds))
@@ -38,7 +232,7 @@ static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e,
     if (!fine && yes)
         fw_text_add(out, "yes");
     else if (!fine)
-        fw_recipe_asrun_put_span(out, a->low, a->high);
+        put_span(out, a->low, a->high);
     fw_text_add(out, "\n");
 }
 
@@ -50,7 +244,7 @@ static void put_setting(fw_text *out, const fw_recipe_set *s) {
     }
     if (!fw_recipe_asrun_allowed(s)) {
         fw_text_add(out, ": OUT of ");
-        fw_recipe_asrun_put_span(out, s->low, s->high);
+        put_span(out, s->low, s->high);
     }
     fw_text_add(out, "\n");
 }
@@ -64,12 +258,12 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         fw_text_printf(out, "      coupon %s\n", e->coupon[i].text);
     for (int i = 0; i < e->step->nlag; i++) {
         const fw_process_lag *l = &e->step->lag[i];
-        double wait = fw_recipe_asrun_waited(run, l, e);
-        if (isnan(wait) || fw_recipe_asrun_wait_is_fine(l, wait)) continue;
+        double wait = waited(run, l, e);
+        if (isnan(wait) || wait_is_fine(l, wait)) continue;
         fw_text_printf(out, "      waited ");
         fw_schedule_put_duration(out, fmax(wait, 0.0));
         fw_text_printf(out, " since %s: OUT of ", l->from);
-        fw_recipe_asrun_put_wait(out, l);
+        put_wait(out, l);
         fw_text_add(out, "\n");
     }
     if (e->note) fw_text_printf(out, "      note: %s\n", e->note);
@@ -106,7 +300,7 @@ static fw_status sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
 static int times_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last) {
     int times = 0;
     for (const fw_recipe_asrun_entry *e = run->entry; e <= last; e++)
-        times += e->step == last->step && fw_recipe_asrun_same_wafer(e, last);
+        times += e->step == last->step && same_wafer(e, last);
     return times;
 }
 
@@ -123,7 +317,7 @@ static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
     fw_text_printf(out, "%-5s", s->id);
     for (int k = 0; k < 4; k++)
         put_cell(out, cell[k], 15);
-    fw_text_printf(out, "  %-9s %s", e ? fw_recipe_asrun_in_time(s, cell[3]) : "open", s->title);
+    fw_text_printf(out, "  %-9s %s", e ? in_time(s, cell[3]) : "open", s->title);
     if (e && e->wafer) fw_text_printf(out, ", wafer %s", e->wafer);
     if (e && times_of(run, e) > 1) fw_text_printf(out, " (run %d times)", times_of(run, e));
     fw_text_add(out, "\n");
@@ -158,7 +352,7 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
     return fw_text_end(out);
 }
 
-/* ---- JSON ---- */
+/* ---- planned against actual, as JSON ---- */
 static void put_number(fw_json *out, const char *key, double value) {
     fw_json_number(out, key, value, FW_PLAIN_DIGITS);
 }
@@ -221,7 +415,7 @@ static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry 
     fw_json_list(out, "waited");
     for (int i = 0; i < e->step->nlag; i++) {
         const fw_process_lag *l = &e->step->lag[i];
-        double wait = fw_recipe_asrun_waited(run, l, e);
+        double wait = waited(run, l, e);
         fw_json_object(out, NULL);
         fw_json_text(out, "from", l->from);
         put_number(out, "waited_s", wait);
@@ -230,7 +424,7 @@ static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry 
         if (isnan(wait))
             fw_json_null(out, "accepted");
         else
-            fw_json_truth(out, "accepted", fw_recipe_asrun_wait_is_fine(l, wait));
+            fw_json_truth(out, "accepted", wait_is_fine(l, wait));
         fw_json_end(out);
     }
     fw_json_end(out);
@@ -241,7 +435,7 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_text(out, "start", e->start);
     put_text(out, "end", e->end);
     put_number(out, "actual_s", e->end_s - e->start_s);
-    put_text(out, "judged", fw_recipe_asrun_in_time(e->step, e->end_s - e->start_s));
+    put_text(out, "judged", in_time(e->step, e->end_s - e->start_s));
     put_text(out, "by", e->by);
     put_text(out, "second", e->second);
     put_text(out, "tool", e->tool);

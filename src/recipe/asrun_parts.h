@@ -2,7 +2,9 @@
 /* What the files about the as-run log share. Private to recipe/. */
 #ifndef FW_RECIPE_ASRUN_PARTS_H
 #define FW_RECIPE_ASRUN_PARTS_H
+#include "base/text.h"
 #include "recipe/asrun.h"
+#include <stdbool.h>
 
 typedef struct fw_recipe_asrun_reader {
     fw_arena *arena;
@@ -39,25 +41,47 @@ char *fw_recipe_asrun_word(char **at, char separator);
 /* FW-D282 with the names (n) that there are, and the one that was probably meant */
 fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *what,
                                   const char *name, const char *const *known, int n);
-/* asrun_coupon.c: the value of a word coupon= */
+/* the value of a word coupon= */
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
 
-/* asrun_deviation.c: is it the last entry of its step and wafer, which counts? how long it took; what is accepted of its
-   step; a limit as it is written; does what was measured, set and waited keep its limits? */
+/* asrun_compare.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a limit as it is
+   written; does what was measured and set keep its limits? */
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
-const char *fw_recipe_asrun_in_time(const fw_process_step *step, double actual_s);
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure);
 double fw_recipe_asrun_limit(const char *text, double absent);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
-double fw_recipe_asrun_waited(const fw_recipe_asrun *run, const fw_process_lag *lag,
-                              const fw_recipe_asrun_entry *e);
-bool fw_recipe_asrun_wait_is_fine(const fw_process_lag *lag, double wait_s);
-/* of one wafer, or both of the whole lot */
-bool fw_recipe_asrun_same_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b);
-/* "48 to 52", "any to 52"; the limits of a wait */
-void fw_recipe_asrun_put_span(fw_text *out, const char *low, const char *high);
-void fw_recipe_asrun_put_wait(fw_text *out, const fw_process_lag *lag);
+
+/* ---- control charts of what was measured ---- */
+
+typedef struct fw_recipe_chart_point { /* a subgroup: the sites of one wafer */
+    const char *label;
+    double mean, range; /* range of its sites; of single values the moving range; NaN: none */
+    int n;              /* sites */
+    bool outside;       /* a site of it is not accepted */
+    bool beyond, run,
+        range_beyond; /* of the limits; the eighth and further of one side; of the range's limits */
+} fw_recipe_chart_point;
+
+typedef struct fw_recipe_chart {
+    const char *title, *unit;
+    double low, high; /* what is accepted; NaN: no such limit */
+    fw_recipe_chart_point *point;
+    int npoint;
+    int size; /* of the subgroups that limits are of: the most frequent one; 1: individual values */
+    bool limits; /* there are enough subgroups for limits of their own */
+    int counted; /* subgroups of that size */
+    double centre, lower, upper, range_centre, range_lower, range_upper;
+} fw_recipe_chart;
+
+enum { FW_CHART_LEAST = 8, FW_CHART_FIRM = 20, FW_CHART_RUN = 8 };
+
+/* factors of subgroups of n, 2 to 10; false: no such n */
+bool fw_recipe_chart_factors(int n, double *A2, double *D3, double *D4);
+/* limits and what breaks the rules, from the points' means, ranges and sizes */
+void fw_recipe_chart_judge(fw_recipe_chart *chart);
+/* as an SVG fragment, two panels one above the other */
+void fw_recipe_chart_svg(const fw_recipe_chart *chart, fw_text *out);
 
 #endif

@@ -2,7 +2,6 @@
 /* Planned against actual as a page: deviations in plain words, control charts of what was measured, every entry. */
 #include "base/text.h"
 #include "recipe/asrun_parts.h"
-#include "recipe/control_chart.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>

@@ -104,7 +104,8 @@ static fw_status on_grid(fw_arena *arena, const fw_recipe_ring *r, fw_geometry_p
         fw_geometry_point p = {(int32_t)lround(r->corner[i].x / DBU_M),
                                (int32_t)lround(r->corner[i].y / DBU_M)};
         const fw_geometry_point *last = out->count ? &out->vertex[out->count - 1] : NULL;
-        if (!last || last->x_dbu != p.x_dbu || last->y_dbu != p.y_dbu) out->vertex[out->count++] = p;
+        if (!last || last->x_dbu != p.x_dbu || last->y_dbu != p.y_dbu)
+            out->vertex[out->count++] = p;
     }
     return FW_OK;
 }

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "recipe/control_chart.h"
+/* Control charts of what was measured: their limits by the ranges within subgroups, and their picture. */
+#include "base/svg.h"
+#include "recipe/asrun_parts.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
+
+/* ---- limits, and what breaks the rules ---- */
 
 bool fw_recipe_chart_factors(int n, double *A2, double *D3, double *D4) {
     static const double factor[][3] = {
@@ -82,4 +87,208 @@ void fw_recipe_chart_judge(fw_recipe_chart *c) {
     c->range_lower = D3 * c->range_centre;
     c->range_upper = D4 * c->range_centre;
     mark(c);
+}
+
+/* ---- the picture ----
+   Means above, ranges below. What is accepted is a band, limits are dashed lines, points that break a rule are red and
+   filled. */
+
+enum {
+    WIDTH = 720,
+    LEFT = 78,
+    RIGHT = 120,
+    TOP = 26,
+    MEANS = 170,
+    BETWEEN = 26,
+    RANGES = 84,
+    BELOW = 40
+};
+
+typedef struct named { /* a level and where its value is written */
+    const char *name;
+    double value, y;
+} named;
+
+typedef struct panel {
+    double low, high; /* of the values */
+    double top, height;
+    const fw_recipe_chart *chart;
+    fw_text *out;
+    named named[6];
+    int nnamed;
+} panel;
+
+static double y_of(const panel *p, double value) {
+    return p->top + p->height * (p->high - value) / (p->high - p->low);
+}
+
+static double x_of(const fw_recipe_chart *c, int i) {
+    return LEFT + (WIDTH - LEFT - RIGHT) * (i + 0.5) / c->npoint;
+}
+
+static void take(panel *p, double value) {
+    if (!isfinite(value)) return;
+    p->low = fmin(p->low, value);
+    p->high = fmax(p->high, value);
+}
+
+/* room above and below, and some where all values are one */
+static void widen(panel *p) {
+    double span = p->high - p->low;
+    if (!(span > 1e-9 * fmax(fabs(p->high), fabs(p->low))))
+        span = p->high != 0.0 || p->low != 0.0 ? 0.1 * fmax(fabs(p->high), fabs(p->low)) : 1.0;
+    p->low -= 0.08 * span;
+    p->high += 0.08 * span;
+}
+
+static void put_label(fw_text *out, double x, double y, const char *name, double value) {
+    fw_svg_open(out, "text x='{c}' y='{c}'", x, y);
+    fw_text_printf(out, "%s ", name);
+    fw_recipe_put_value(out, value);
+    fw_svg_close(out, "text\n");
+}
+
+static void frame(const panel *p, const char *name) {
+    fw_text *out = p->out;
+    const double right = WIDTH - RIGHT;
+    double step = fw_svg_nice((p->high - p->low) * MEANS / p->height / 5.0);
+    for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
+        fw_svg_put(out, "path stroke='#ddd' d='M{c} {c}H{c}'\n", (double)LEFT, y_of(p, v), right);
+        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='end'", LEFT - 6.0, y_of(p, v) + 4.0);
+        fw_svg_tick(out, v, step);
+        fw_svg_close(out, "text\n");
+    }
+    fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='none' stroke='#999'\n",
+               (double)LEFT, p->top, right - LEFT, p->height);
+    fw_svg_put(out, "text transform='translate(14 {c}) rotate(-90)' text-anchor='middle'>{s}\n",
+               p->top + 0.5 * p->height, name);
+}
+
+/* a line across the panel; its value is written at the right edge by names() */
+static void level(panel *p, double value, const char *style, const char *name) {
+    if (!isfinite(value)) return;
+    double y = y_of(p, value);
+    fw_svg_put(p->out, "path {r} d='M{c} {c}H{c}'\n", style, (double)LEFT, y,
+               (double)(WIDTH - RIGHT));
+    int at = p->nnamed++;
+    for (; at > 0 && p->named[at - 1].y > y; at--) /* from above to below */
+        p->named[at] = p->named[at - 1];
+    p->named[at] = (named){name, value, y};
+}
+
+/* one below the other where they would meet, and none below the panel */
+static void names(panel *p) {
+    const double line = 12.0;
+    double below = p->top + p->height + 4.0;
+    for (int i = 1; i < p->nnamed; i++)
+        p->named[i].y = fmax(p->named[i].y, p->named[i - 1].y + line);
+    for (int i = p->nnamed - 1; i >= 0; i--) {
+        p->named[i].y = fmin(p->named[i].y, below);
+        below = p->named[i].y - line;
+    }
+    for (int i = 0; i < p->nnamed; i++)
+        put_label(p->out, WIDTH - RIGHT + 5.0, p->named[i].y + 4.0, p->named[i].name,
+                  p->named[i].value);
+}
+
+static const char dashed[] = "stroke='#b00' stroke-dasharray='6 3'";
+static const char solid[] = "stroke='#555'";
+static const char dotted[] = "stroke='#2a7' stroke-dasharray='2 3'";
+static const char green[] = "stroke='#2a7'";
+
+static void points(const panel *p, bool ranges) {
+    const fw_recipe_chart *c = p->chart;
+    char command = 'M';
+    fw_svg_path(p->out, "fill='none' stroke='#357'");
+    for (int i = 0; i < c->npoint; i++) {
+        double value = ranges ? c->point[i].range : c->point[i].mean;
+        if (isnan(value)) continue;
+        fw_svg_point(p->out, command, x_of(c, i), y_of(p, value), 2);
+        command = 'L';
+    }
+    fw_svg_path_end(p->out);
+    for (int i = 0; i < c->npoint; i++) {
+        const fw_recipe_chart_point *q = &c->point[i];
+        double value = ranges ? q->range : q->mean;
+        bool bad = ranges ? q->range_beyond : q->beyond || q->run || q->outside;
+        const char *fill = q->n == c->size ? "#357" : "#fff";
+        if (!isnan(value))
+            fw_svg_put(p->out, "circle cx='{c}' cy='{c}' r='{c}' fill='{r}' stroke='{r}'\n",
+                       x_of(c, i), y_of(p, value), bad ? 5.0 : 3.5, bad ? "#d22" : fill,
+                       bad ? "#800" : "#357");
+    }
+}
+
+static void labels(const fw_recipe_chart *c, double y, fw_text *out) {
+    int every = c->npoint / 16 + 1;
+    for (int i = 0; i < c->npoint; i += every)
+        fw_svg_put(out, "text x='{c}' y='{c}' text-anchor='middle'>{s}\n", x_of(c, i), y,
+                   c->point[i].label);
+    fw_svg_put(out, "text x='{c}' y='{c}'>wafer\n", WIDTH - RIGHT + 5.0, y);
+}
+
+static void means(const fw_recipe_chart *c, fw_text *out) {
+    panel p = {.low = (double)INFINITY,
+               .high = -(double)INFINITY,
+               .top = TOP,
+               .height = MEANS,
+               .chart = c,
+               .out = out};
+    for (int i = 0; i < c->npoint; i++)
+        take(&p, c->point[i].mean);
+    take(&p, c->low), take(&p, c->high);
+    if (c->limits) take(&p, c->lower), take(&p, c->upper);
+    widen(&p);
+    double top = isnan(c->high) ? p.high : c->high, bottom = isnan(c->low) ? p.low : c->low;
+    if (!isnan(c->high) || !isnan(c->low))
+        fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='#e3f4ea'\n",
+                   (double)LEFT, y_of(&p, top), (double)(WIDTH - LEFT - RIGHT),
+                   fmax(y_of(&p, bottom) - y_of(&p, top), 0.0));
+    frame(&p, c->size > 1 ? "mean of the sites" : "value");
+    if (!c->limits) level(&p, 0.5 * (c->low + c->high), dotted, "planned");
+    level(&p, c->high, green, "accept");
+    level(&p, c->low, green, "accept");
+    if (c->limits) {
+        level(&p, c->upper, dashed, "UCL");
+        level(&p, c->centre, solid, "centre");
+        level(&p, c->lower, dashed, "LCL");
+    }
+    names(&p);
+    points(&p, false);
+}
+
+static void ranges(const fw_recipe_chart *c, fw_text *out) {
+    panel p = {.top = TOP + MEANS + BETWEEN, .height = RANGES, .chart = c, .out = out};
+    for (int i = 0; i < c->npoint; i++)
+        take(&p, c->point[i].range);
+    if (c->limits) take(&p, c->range_upper);
+    p.high = p.high > 0.0 ? 1.12 * p.high : 1.0;
+    frame(&p, c->size > 1 ? "range" : "moving range");
+    if (c->limits) {
+        level(&p, c->range_upper, dashed, "UCL");
+        level(&p, c->range_centre, solid, "mean");
+        if (c->range_lower > 0.0) level(&p, c->range_lower, dashed, "LCL");
+    }
+    names(&p);
+    points(&p, true);
+    labels(c, p.top + p.height + 16, out);
+}
+
+void fw_recipe_chart_svg(const fw_recipe_chart *c, fw_text *out) {
+    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
+                                      .height = TOP + MEANS + BETWEEN + RANGES + BELOW,
+                                      .size = FW_SVG_SIZE_NONE,
+                                      .font = fw_svg_font_page,
+                                      .font_size = 11});
+    fw_svg_title(out, "{s}", c->title);
+    fw_svg_open(out, "text x='{c}' y='16' font-size='13'", (double)LEFT);
+    fw_text_escaped(out, c->title);
+    if (c->unit[0]) {
+        fw_text_add(out, ", ");
+        fw_recipe_put_unit(out, c->unit);
+    }
+    fw_svg_close(out, "text\n");
+    means(c, out);
+    ranges(c, out);
+    fw_svg_end(out);
 }

@@ -62,8 +62,6 @@ void fw_recipe_html_wafers(const fw_process_step *step, const fw_recipe_header *
                            fw_text *out);
 void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_step *step,
                                 fw_text *out);
-/* html_measurements.c: the first five of what to measure first; nothing where it was not asked for */
-void fw_recipe_html_measurements(const fw_recipe_header *header, fw_text *out);
 void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out);
 void fw_recipe_html_deviations(fw_text *out);
 

@@ -1,14 +1,277 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hollows below what moves and the ground that is left, on square cells over the drawing. */
+#include "base/constants.h"
+#include "geometry/segment.h"
 #include "release/release_cavity.h"
-#include "release/release_cells.h"
 #include "release/release_field.h"
 #include <math.h>
 #include <string.h>
 
+/* ---- square cells over a drawing ----
+   Which of them a part covers or touches, sets of them grown and closed, and the outlines of such a set. For what need
+   not follow a drawing to the nanometre: hollows in the carrier, places of bond and metal. */
+
+typedef struct cell_grid {
+    fw_geometry_vec2 from; /* lower left corner, a multiple of the step */
+    double step_m;
+    int columns, rows;
+} cell_grid;
+
+static const double HALF_DIAGONAL = FW_SQRT_HALF; /* of a cell of side 1 */
+static const double MOST_CELLS = 16e6;
+
+static size_t number_of(const cell_grid *c) {
+    return (size_t)c->columns * (size_t)c->rows;
+}
+
+/* of a box with room around it; FW_LIMIT: more than 16 million cells */
+static fw_status cells_over(fw_geometry_box box, double room_m, double step_m, cell_grid *cells) {
+    double x0 = floor((box.x0 - room_m) / step_m), y0 = floor((box.y0 - room_m) / step_m);
+    double columns = ceil((box.x1 + room_m) / step_m) - x0 + 1.0,
+           rows = ceil((box.y1 + room_m) / step_m) - y0 + 1.0;
+    if (!(columns > 0.0 && rows > 0.0 && columns * rows <= MOST_CELLS)) return FW_LIMIT;
+    *cells = (cell_grid){
+        {x0 * step_m, y0 * step_m}, .step_m = step_m, .columns = (int)columns, .rows = (int)rows};
+    return FW_OK;
+}
+
+/* a set: one byte a cell, row by row from below */
+static fw_status cells_set(fw_arena *arena, const cell_grid *cells, unsigned char **set) {
+    FW_NEED(*set = fw_arena_array(arena, unsigned char, number_of(cells)));
+    return FW_OK;
+}
+
+static fw_geometry_vec2 middle(const cell_grid *c, int column, int row) {
+    return (fw_geometry_vec2){c->from.x + (column + 0.5) * c->step_m,
+                              c->from.y + (row + 0.5) * c->step_m};
+}
+
+typedef struct span { /* columns and rows that a box meets, both ends included */
+    int c0, c1, r0, r1;
+} span;
+
+static int within(double at, int most) {
+    return at < 0.0 ? 0 : at > most ? most : (int)at;
+}
+
+static span span_of(const cell_grid *c, fw_geometry_box b, double room_m) {
+    double s = c->step_m;
+    return (span){within(floor((b.x0 - room_m - c->from.x) / s), c->columns - 1),
+                  within(floor((b.x1 + room_m - c->from.x) / s), c->columns - 1),
+                  within(floor((b.y0 - room_m - c->from.y) / s), c->rows - 1),
+                  within(floor((b.y1 + room_m - c->from.y) / s), c->rows - 1)};
+}
+
+/* adds the cells that an outline may touch: none that it touches is missing, none is added whose middle is farther than a
+   step from it */
+static void cells_touch(const cell_grid *cells, const fw_geometry_contour *outline,
+                        unsigned char *set) {
+    double reach = HALF_DIAGONAL * cells->step_m * (1.0 + 1e-9), t;
+    fw_geometry_vec2 on;
+    for (int i = 0; i < outline->count; i++) {
+        const fw_geometry_segment *s = &outline->segment[i];
+        span a = span_of(cells, fw_segment_box(s), reach);
+        for (int r = a.r0; r <= a.r1; r++)
+            for (int c = a.c0; c <= a.c1; c++) {
+                unsigned char *cell = &set[(size_t)r * (size_t)cells->columns + (size_t)c];
+                if (!*cell && fw_geometry_segment_nearest(s, middle(cells, c, r), &t, &on) <= reach)
+                    *cell = 1;
+            }
+    }
+}
+
+/* Adds the cells with their middle in the outline that are not in `edge`, a set that holds all that the outline touches.
+   Neighbours in a row that no edge parts lie on one side of the outline, so that one of them is asked. */
+static fw_status cells_inside(fw_arena *arena, const cell_grid *cells,
+                              const fw_geometry_contour *outline, const unsigned char *edge,
+                              unsigned char *set) {
+    (void)arena;
+    span a = span_of(cells, fw_geometry_contour_box(outline), 0.0);
+    for (int r = a.r0; r <= a.r1; r++) {
+        bool known = false, in = false;
+        for (int c = a.c0; c <= a.c1; c++) {
+            size_t at = (size_t)r * (size_t)cells->columns + (size_t)c;
+            if (edge[at]) {
+                known = false;
+                continue;
+            }
+            if (!known) in = fw_geometry_contour_contains(outline, middle(cells, c, r));
+            known = true;
+            if (in) set[at] = 1;
+        }
+    }
+    return FW_OK;
+}
+
+/* along a row or a column: a cell is set where one of the k before or behind it is */
+static void grow_line(unsigned char *line, size_t stride, int n, int k, unsigned char *old) {
+    int last = -1; /* the last one that was set, seen from the left, then from the right */
+    for (int i = 0; i < n; i++)
+        old[i] = line[(size_t)i * stride];
+    for (int i = 0; i < n; i++) {
+        if (old[i]) last = i;
+        if (last >= 0 && i - last <= k) line[(size_t)i * stride] = 1;
+    }
+    last = -1;
+    for (int i = n - 1; i >= 0; i--) {
+        if (old[i]) last = i;
+        if (last >= 0 && last - i <= k) line[(size_t)i * stride] = 1;
+    }
+}
+
+/* every cell within k columns and rows of one of the set; k < 0: away from those that are not in it */
+static fw_status cells_grow(fw_arena *arena, const cell_grid *cells, int k, unsigned char *set) {
+    size_t n = number_of(cells);
+    int longest = cells->columns > cells->rows ? cells->columns : cells->rows;
+    fw_mark mark = fw_arena_mark(arena);
+    unsigned char *old = fw_arena_array(arena, unsigned char, (size_t)longest);
+    FW_NEED(old);
+    for (size_t i = 0; k < 0 && i < n; i++)
+        set[i] = !set[i];
+    for (int r = 0; r < cells->rows; r++)
+        grow_line(set + (size_t)r * (size_t)cells->columns, 1, cells->columns, k < 0 ? -k : k, old);
+    for (int c = 0; c < cells->columns; c++)
+        grow_line(set + c, (size_t)cells->columns, cells->rows, k < 0 ? -k : k, old);
+    for (size_t i = 0; k < 0 && i < n; i++)
+        set[i] = !set[i];
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* the largest square within the set, the first from below; side 0: the set is empty */
+static fw_status cells_square(fw_arena *arena, const cell_grid *cells, const unsigned char *set,
+                              fw_geometry_box *square) {
+    fw_mark mark = fw_arena_mark(arena);
+    int n = cells->columns, best = 0, at_c = 0, at_r = 0, *below, *own;
+    FW_NEED(below = fw_arena_array(arena, int, (size_t)n + 1));
+    FW_NEED(own = fw_arena_array(arena, int, (size_t)n + 1));
+    for (int r = 0; r < cells->rows; r++) { /* side of the largest with its upper right cell here */
+        for (int c = 0; c < n; c++) {
+            int least = below[c] < below[c + 1] ? below[c] : below[c + 1];
+            if (own[c] < least) least = own[c];
+            own[c + 1] = set[(size_t)r * (size_t)n + (size_t)c] ? least + 1 : 0;
+            if (own[c + 1] > best) best = own[c + 1], at_c = c, at_r = r;
+        }
+        memcpy(below, own, ((size_t)n + 1) * sizeof *own);
+        own[0] = 0;
+    }
+    fw_arena_rewind(arena, mark);
+    double s = cells->step_m, x1 = cells->from.x + (at_c + 1) * s,
+           y1 = cells->from.y + (at_r + 1) * s;
+    *square = best ? (fw_geometry_box){x1 - best * s, y1 - best * s, x1, y1} : (fw_geometry_box){0};
+    return FW_OK;
+}
+
+/* numbers of connected parts (over edges) of the cells whose byte is `value`, from 1; others 0 */
+static fw_status cells_label(fw_arena *arena, const cell_grid *cells, const unsigned char *set,
+                             unsigned char value, int **label, int *count) {
+    int columns = cells->columns, n = columns * cells->rows, *stack;
+    *count = 0;
+    FW_NEED(*label = fw_arena_array(arena, int, (size_t)n));
+    FW_NEED(stack = fw_arena_array(arena, int, (size_t)n));
+    for (int first = 0; first < n; first++) {
+        if (set[first] != value || (*label)[first]) continue;
+        int top = 0;
+        (*label)[first] = ++*count;
+        stack[top++] = first;
+        while (top > 0) {
+            int at = stack[--top], c = at % columns;
+            const int next[] = {c > 0 ? at - 1 : -1, c < columns - 1 ? at + 1 : -1, at - columns,
+                                at + columns};
+            for (int k = 0; k < 4; k++) {
+                if (next[k] < 0 || next[k] >= n || set[next[k]] != value || (*label)[next[k]])
+                    continue;
+                (*label)[next[k]] = *count;
+                stack[top++] = next[k];
+            }
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- outlines ---- */
+
+enum { EAST, NORTH, WEST, SOUTH, NOWHERE };
+
+typedef struct lattice { /* corners of the cells: which way the outline leaves each */
+    const cell_grid *cells;
+    unsigned char *way; /* (columns + 1) x (rows + 1) */
+    int across;         /* columns + 1 */
+} lattice;
+
+static bool is_set(const cell_grid *cells, const unsigned char *set, int c, int r) {
+    return c >= 0 && r >= 0 && c < cells->columns && r < cells->rows &&
+           set[(size_t)r * (size_t)cells->columns + (size_t)c];
+}
+
+/* the set is on the left of every way */
+static void find_ways(const lattice *l, const unsigned char *set) {
+    const cell_grid *cells = l->cells;
+    size_t across = (size_t)l->across;
+    memset(l->way, NOWHERE, across * ((size_t)cells->rows + 1));
+    for (int r = 0; r < cells->rows; r++)
+        for (int c = 0; c < cells->columns; c++) {
+            size_t low = (size_t)r * across + (size_t)c, high = low + across;
+            if (!is_set(cells, set, c, r)) continue;
+            if (!is_set(cells, set, c, r - 1)) l->way[low] = EAST;
+            if (!is_set(cells, set, c + 1, r)) l->way[low + 1] = NORTH;
+            if (!is_set(cells, set, c, r + 1)) l->way[high + 1] = WEST;
+            if (!is_set(cells, set, c - 1, r)) l->way[high] = SOUTH;
+        }
+}
+
+static fw_geometry_vec2 corner(const lattice *l, size_t at) {
+    return (fw_geometry_vec2){
+        l->cells->from.x + (double)(at % (size_t)l->across) * l->cells->step_m,
+        l->cells->from.y + (double)(at / (size_t)l->across) * l->cells->step_m};
+}
+
+/* all the way around from `first`, where the outline turns; takes its ways off the lattice */
+static fw_status trace(fw_arena *arena, const lattice *l, size_t first, fw_geometry_contour *out) {
+    fw_geometry_outline o = fw_geometry_outline_start(arena, corner(l, first));
+    size_t at = first;
+    unsigned char way = l->way[at];
+    do {
+        const ptrdiff_t step[] = {1, l->across, -1, -l->across};
+        l->way[at] = NOWHERE;
+        at = (size_t)((ptrdiff_t)at + step[way]);
+        unsigned char next = at == first ? NOWHERE : l->way[at];
+        if (next != way && at != first) fw_geometry_outline_line(&o, corner(l, at), 0);
+        way = next;
+    } while (at != first);
+    return fw_geometry_outline_close(&o, out);
+}
+
+/* Outlines of the set, counter-clockwise around it and clockwise around its holes; no two of its cells may touch in a
+   corner alone. An outline turns where the way that comes in is not the one that goes out; the lowest corner of a set,
+   from the left, always is such a place. */
+static fw_status cells_outlines(fw_arena *arena, const cell_grid *cells, const unsigned char *set,
+                                fw_geometry_region *outlines) {
+    lattice l = {.cells = cells, .across = cells->columns + 1};
+    size_t n = (size_t)l.across * ((size_t)cells->rows + 1);
+    int room = 0;
+    FW_NEED(l.way = fw_arena_array(arena, unsigned char, n));
+    find_ways(&l, set);
+    *outlines = (fw_geometry_region){0};
+    for (size_t at = 0; at < n; at++) {
+        if (l.way[at] == NOWHERE) continue;
+        if (outlines->count == room) {
+            int more = 2 * room + 16;
+            FW_NEED(outlines->contour = fw_arena_grow(arena, outlines->contour, (size_t)room,
+                                                      (size_t)more, sizeof *outlines->contour));
+            room = more;
+        }
+        FW_TRY(trace(arena, &l, at, &outlines->contour[outlines->count++]));
+    }
+    return FW_OK;
+}
+
+/* ---- hollows and ground ---- */
+
 typedef struct maker {
     fw_arena *arena;
     const fw_layout *layout;
-    fw_release_cells cells;
+    cell_grid cells;
     size_t n;
     int *part_of; /* (npiece) */
     fw_release_part *part;
@@ -25,13 +288,12 @@ static bool is_free_to_move(const maker *m, int piece) {
 static fw_status cover(maker *m, bool (*wanted)(const maker *m, int piece), unsigned char *set) {
     unsigned char *edge;
     fw_mark mark = fw_arena_mark(m->arena);
-    FW_TRY(fw_release_cells_set(m->arena, &m->cells, &edge));
+    FW_TRY(cells_set(m->arena, &m->cells, &edge));
     for (int i = 0; i < m->layout->npiece; i++)
-        if (wanted(m, i)) fw_release_cells_touch(&m->cells, &m->layout->piece[i].contour, edge);
+        if (wanted(m, i)) cells_touch(&m->cells, &m->layout->piece[i].contour, edge);
     for (int i = 0; i < m->layout->npiece; i++)
         if (wanted(m, i))
-            FW_TRY(fw_release_cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge,
-                                           set));
+            FW_TRY(cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge, set));
     for (size_t i = 0; i < m->n; i++)
         set[i] = set[i] || edge[i];
     fw_arena_rewind(m->arena, mark);
@@ -60,8 +322,8 @@ static fw_status join_corners(maker *m) {
 static fw_status flatten_nested(maker *m) {
     int *ground, *hole, nground, nhole, columns = m->cells.columns;
     fw_mark mark = fw_arena_mark(m->arena);
-    FW_TRY(fw_release_cells_label(m->arena, &m->cells, m->hollow, 0, &ground, &nground));
-    FW_TRY(fw_release_cells_label(m->arena, &m->cells, m->hollow, 1, &hole, &nhole));
+    FW_TRY(cells_label(m->arena, &m->cells, m->hollow, 0, &ground, &nground));
+    FW_TRY(cells_label(m->arena, &m->cells, m->hollow, 1, &hole, &nhole));
     bool *outer = fw_arena_array(m->arena, bool, (size_t)nhole + 1);
     bool *gone = fw_arena_array(m->arena, bool, (size_t)nground + 1);
     FW_NEED(outer && gone ? gone : NULL);
@@ -91,7 +353,7 @@ static fw_status flatten_nested(maker *m) {
 /* outlines apart: those around hollows, and, turned round, those around ground within them */
 static fw_status sort_outlines(maker *m, fw_release_cavity *cavity) {
     fw_geometry_region all;
-    FW_TRY(fw_release_cells_outlines(m->arena, &m->cells, m->hollow, &all));
+    FW_TRY(cells_outlines(m->arena, &m->cells, m->hollow, &all));
     size_t n = (size_t)all.count;
     FW_NEED(cavity->hollow.contour = fw_arena_array(m->arena, fw_geometry_contour, n));
     FW_NEED(cavity->land.contour = fw_arena_array(m->arena, fw_geometry_contour, n));
@@ -110,14 +372,13 @@ static fw_status sort_outlines(maker *m, fw_release_cavity *cavity) {
 /* cells that lie whole in a part, less those of a set */
 static fw_status whole_cells(maker *m, int part, const unsigned char *without, unsigned char *set) {
     unsigned char *edge;
-    FW_TRY(fw_release_cells_set(m->arena, &m->cells, &edge));
+    FW_TRY(cells_set(m->arena, &m->cells, &edge));
     for (int i = 0; i < m->layout->npiece; i++)
         if (m->part_of[i] == part || m->part_of[i] == FW_RELEASE_OPENING)
-            fw_release_cells_touch(&m->cells, &m->layout->piece[i].contour, edge);
+            cells_touch(&m->cells, &m->layout->piece[i].contour, edge);
     for (int i = 0; i < m->layout->npiece; i++)
         if (m->part_of[i] == part)
-            FW_TRY(fw_release_cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge,
-                                           set));
+            FW_TRY(cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge, set));
     for (size_t i = 0; i < m->n; i++)
         if (without && without[i]) set[i] = 0;
     return FW_OK;
@@ -133,11 +394,11 @@ static fw_status find_ground(maker *m, fw_release_cavity *cavity) {
             .label = p->label, .role = p->role, .body = p->body, .area_m2 = p->area_m2};
         unsigned char *set;
         fw_mark mark = fw_arena_mark(m->arena);
-        FW_TRY(fw_release_cells_set(m->arena, &m->cells, &set));
+        FW_TRY(cells_set(m->arena, &m->cells, &set));
         FW_TRY(whole_cells(m, part, m->hollow, set));
         for (size_t i = 0; i < m->n; i++)
             g->bonded_m2 += set[i] ? m->cells.step_m * m->cells.step_m : 0.0;
-        FW_TRY(fw_release_cells_square(m->arena, &m->cells, set, &g->square));
+        FW_TRY(cells_square(m->arena, &m->cells, set, &g->square));
         fw_arena_rewind(m->arena, mark);
     }
     return FW_OK;
@@ -146,7 +407,7 @@ static fw_status find_ground(maker *m, fw_release_cavity *cavity) {
 static fw_status start(fw_arena *arena, const fw_layout *layout, double room_m, double step_m,
                        maker *m) {
     *m = (maker){.arena = arena, .layout = layout};
-    FW_TRY(fw_release_cells_over(layout->die, room_m, step_m, &m->cells));
+    FW_TRY(cells_over(layout->die, room_m, step_m, &m->cells));
     m->n = (size_t)m->cells.columns * (size_t)m->cells.rows;
     return fw_release_parts(arena, layout, true, &m->part_of, &m->part, &m->npart);
 }
@@ -158,14 +419,14 @@ fw_status fw_release_cavity_make(fw_arena *arena, const fw_layout *layout,
         w = (int)ceil(0.5 * asked->wall_m / asked->step_m - 1e-9);
     *cavity = (fw_release_cavity){0};
     FW_TRY(start(arena, layout, asked->margin_m + 2.0 * asked->wall_m, asked->step_m, &m));
-    FW_TRY(fw_release_cells_set(arena, &m.cells, &m.hollow));
+    FW_TRY(cells_set(arena, &m.cells, &m.hollow));
     FW_TRY(cover(&m, is_free_to_move, m.hollow));
-    FW_TRY(fw_release_cells_grow(arena, &m.cells, k + w, m.hollow)); /* what is narrower than */
-    FW_TRY(fw_release_cells_grow(arena, &m.cells, -w, m.hollow));    /* a wall is closed */
+    FW_TRY(cells_grow(arena, &m.cells, k + w, m.hollow)); /* what is narrower than */
+    FW_TRY(cells_grow(arena, &m.cells, -w, m.hollow));    /* a wall is closed */
     FW_TRY(join_corners(&m));
     FW_TRY(flatten_nested(&m));
     FW_TRY(sort_outlines(&m, cavity));
-    FW_TRY(fw_release_cells_square(arena, &m.cells, m.hollow, &cavity->widest));
+    FW_TRY(cells_square(arena, &m.cells, m.hollow, &cavity->widest));
     return find_ground(&m, cavity);
 }
 
@@ -177,10 +438,10 @@ fw_status fw_release_square_in(fw_arena *arena, const fw_layout *layout, int pie
     fw_layout own = *layout; /* cells over the part alone */
     own.die = fw_geometry_contour_box(&layout->piece[piece].contour);
     FW_TRY(start(arena, &own, 2.0 * step_m, step_m, &m));
-    FW_TRY(fw_release_cells_set(arena, &m.cells, &set));
+    FW_TRY(cells_set(arena, &m.cells, &set));
     FW_TRY(whole_cells(&m, m.part_of[piece], NULL, set));
-    FW_TRY(fw_release_cells_grow(arena, &m.cells, -(int)ceil(clear_m / step_m - 1e-9), set));
-    FW_TRY(fw_release_cells_square(arena, &m.cells, set, square));
+    FW_TRY(cells_grow(arena, &m.cells, -(int)ceil(clear_m / step_m - 1e-9), set));
+    FW_TRY(cells_square(arena, &m.cells, set, square));
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }

@@ -105,10 +105,8 @@ fw_geometry_vec2 fw_release_edge_foot(const fw_release_edge *e, fw_geometry_vec2
 const fw_release_edge *fw_release_nearest(const fw_release_field *field, const int *list, int n,
                                           fw_geometry_vec2 p, double most_m, double *near_m);
 /* Field->start: boxes of equal size over all that is not opening, each with the edges that may be nearest to
-   any point of it, or run through it (release_start.c) */
+   any point of it, or run through it */
 fw_status fw_release_field_start(fw_release_field *field);
-/* room for one more box of so many edges, and for their distances */
-fw_status fw_release_level_room(fw_release_level *level, fw_arena *arena, size_t edges);
 /* the four quarters of a box, added to the next level; parts are kept where the box has one */
 fw_status fw_release_level_split(const fw_release_field *field, const fw_release_level *level,
                                  const fw_release_box *box, fw_release_level *next);

@@ -80,10 +80,4 @@ double fw_schedule_alone_fit(const fw_schedule_shop *shop, int task, double from
 double fw_schedule_machine_worked(const fw_schedule_machine *machine, double from_s, double work_s,
                                   double least_s);
 
-/* ---- lower bounds of the end of all schedules ---- */
-
-/* earliest_s (ntask): of a wafer alone */
-void fw_schedule_lower_bounds(const fw_schedule_shop *shop, const double *earliest_s,
-                              double start_s, fw_schedule_bound *bound);
-
 #endif

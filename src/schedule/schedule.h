@@ -143,8 +143,6 @@ double fw_schedule_calendar_fit(const fw_schedule_calendar *calendar, double fro
 /* earliest time by which people have been there for work_s since from_s */
 double fw_schedule_calendar_worked(const fw_schedule_calendar *calendar, double from_s,
                                    double work_s);
-/* end of the stretch that is open at t */
-double fw_schedule_calendar_closes(const fw_schedule_calendar *calendar, double t);
 bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round the clock */
 extern const fw_schedule_calendar fw_schedule_round_the_clock;
 /* when the first working day begins, s from 0:00 of day 1 */

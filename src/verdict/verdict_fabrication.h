@@ -18,7 +18,7 @@ typedef struct fw_verdict_fabrication_input {
     double even;      /* at which edges are where they are drawn: what the mask compensates */
     double nominal, low, high, sigma; /* low <= nominal <= high; sigma: standard uncertainty */
     double edge_m, flare_m, thickness, youngs; /* per unit of x */
-    /* the same at drawn and even: 0, but where an input goes with others (process/corner_correlation.c) */
+    /* the same at drawn and even: 0, but where an input goes with others (process/process_corners.c) */
     double edge_at_m, flare_at_m, thickness_at, youngs_at;
     const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
                             NULL: it is known */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The order of measurements and what is said of them, of items whose worth is known. What they are worth
    is tested where it is found: test_ranges.c, test_measurable.c, tests/cli/test_measurements.py. */
-#include "measuring/measuring_rank.h"
+#include "measuring/measuring.h"
 #include "test.h"
 
 enum { MOST = 8 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can be read in a flow, and how exactly: against the coupons' own formulas. */
 #include "pack_fixture.h"
-#include "process/measurable.h"
+#include "process/calibrate.h"
 
 static const double WIDTH = 0.05e-6, DEPTH = 0.25e-6, STEP = 0.02e-6, TIME = 1.0;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts of packs that name values (step_texts.c), and that no text repeats a value of its step: what changes, changes
+/* Texts of packs that name values (process_find.c), and that no text repeats a value of its step: what changes, changes
    everywhere. */
 #include "base/text.h"
 #include "pack_fixture.h"

@@ -3,7 +3,7 @@
    of the pack's own. */
 #include "pack_fixture.h"
 #include "process/calibrate.h"
-#include "process/wafer_state.h"
+#include "process/pack.h"
 
 static const fw_process_wait *wait_of(const fw_process_flow *f, const char *from, const char *to) {
     for (int i = 0; i < f->nwait; i++)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Control charts: limits against worked examples and against the definition of their factors, rules, and charts that have
    too few points. */
-#include "recipe/control_chart.h"
+#include "recipe/asrun_parts.h"
 #include "test.h"
 #include <math.h>
 #include <stdlib.h>

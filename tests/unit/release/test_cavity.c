@@ -2,7 +2,6 @@
 /* Hollows below what moves, and the ground that is left below what is held. */
 #include "fixture.h"
 #include "release/release_cavity.h"
-#include "release/release_cells.h"
 
 static uint64_t seed = 5;
 static double uniform(void) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What holds a body when it lets go: narrow links before a wide one, bases at their hinges, tethers. */
 #include "layout/fixture.h"
-#include "release/release_hold.h"
+#include "release/release.h"
 #include "test.h"
 #include <string.h>
 
