@@ -8,7 +8,6 @@
 #define FW_WAFER_WAFER_H
 #include "device/device.h"
 #include "mask/mask.h"
-#include "mask/mask_merge.h"
 
 enum { FW_WAFER_MOST_DIES = 20000 };
 
