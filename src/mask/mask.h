@@ -8,7 +8,7 @@
 #include "geometry/contour.h"
 #include "geometry/polygon.h"
 #include "geometry/tessellate.h"
-#include "layout/content.h"
+#include "layout/pattern.h"
 #include "wiring/wiring.h"
 
 typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
