@@ -39,7 +39,7 @@ double fw_mask_rule_row_shown(const fw_mask_rule_kind_row *kind, double value) {
     return value;
 }
 
-const char *fw_mask_rule_unit_name(const fw_mask_rule_kind_row *kind) {
+static const char *unit_name(const fw_mask_rule_kind_row *kind) {
     static const char *const name[] = {"um", "deg", "um2", "of the window"};
     return name[kind->unit];
 }
@@ -49,7 +49,7 @@ double fw_mask_rule_shown(const fw_mask_rule *rule, double value) {
 }
 
 const char *fw_mask_rule_unit(const fw_mask_rule *rule) {
-    return rule->kind->unit == FW_UNIT_SHARE ? "" : fw_mask_rule_unit_name(rule->kind);
+    return rule->kind->unit == FW_UNIT_SHARE ? "" : unit_name(rule->kind);
 }
 
 /* All rules of one mask. The union of pieces that share joints is bounded by their other segments,
@@ -248,7 +248,7 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
                             const fw_mask_finding *f) {
     const fw_mask_rule *rule = f->rule;
     const fw_mask_rule_kind_row *kind = rule->kind;
-    const char *who = pieces(arena, f), *unit = fw_mask_rule_unit_name(kind);
+    const char *who = pieces(arena, f), *unit = unit_name(kind);
     char at[80], value[32], needed[32], limit[32];
     fw_mask_place_text(at, sizeof at, vec_scale(0.5, vec_add(f->at[0], f->at[1])));
     fw_number_text(value, sizeof value, fw_mask_rule_row_shown(kind, f->value), 6);
@@ -482,7 +482,7 @@ static void category(fw_text *out, const fw_mask *mask, const fw_mask_finding *f
     xml(out, f->rule->kind->name);
     fw_text_add(out, ", limit ");
     fw_text_number(out, fw_mask_rule_row_shown(f->rule->kind, f->limit), 6);
-    fw_text_printf(out, " %s; ", fw_mask_rule_unit_name(f->rule->kind));
+    fw_text_printf(out, " %s; ", unit_name(f->rule->kind));
     xml(out, f->rule->source);
     fw_text_add(out, "</description>\n   <categories>\n   </categories>\n  </category>\n");
 }

@@ -37,7 +37,6 @@ typedef struct fw_mask_content_kind { /* a row: one for each line of contents.de
     fw_status (*judge)(const fw_mask_content *content, const fw_mask_table *table,
                        const fw_layout *layout, fw_mask_verdict *verdict);
 } fw_mask_content_kind;
-const fw_mask_content_kind *fw_mask_content_kind_at(size_t i); /* NULL behind the last row */
 
 extern const fw_xml_element_row fw_mask_plate_rows[];
 fw_status fw_mask_plates_build(fw_xml_reader *r, fw_mask_table *table);

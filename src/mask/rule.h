@@ -172,7 +172,6 @@ const fw_mask_rule_kind_row *fw_mask_rule_kind_at(size_t i); /* NULL behind the 
 
 /* length in um, angle in degrees, area in um2 */
 double fw_mask_rule_row_shown(const fw_mask_rule_kind_row *kind, double value);
-const char *fw_mask_rule_unit_name(const fw_mask_rule_kind_row *kind);
 
 /* ---- for the kinds: rules_kinds.c ---- */
 void fw_mask_rules_add(fw_mask_rules *rules, fw_mask_finding finding);

@@ -34,7 +34,7 @@ fw_status fw_wafer_plate(fw_wafer_maker *m);
 fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask);
 fw_status fw_wafer_ids(fw_wafer_maker *m);
 
-/* ---- what the files of a wafer say of it: wafer_json.c ---- */
+/* ---- what the files of a wafer say of it: wafer_facts.c ---- */
 
 /* lines "key=value" for the documentation layer, ASCII */
 fw_status fw_wafer_notes(fw_arena *arena, const fw_wafer *wafer, const char ***line, int *count);

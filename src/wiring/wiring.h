@@ -132,8 +132,6 @@ typedef struct fw_wiring_on_mask {
 fw_status fw_wiring_compare(fw_arena *arena, const fw_wiring *wiring, const fw_layout *layout,
                             const fw_geometry_contour *contour, fw_wiring_on_mask *found);
 
-const char *fw_wiring_kind_word(fw_wiring_kind kind);         /* "rotor" */
-const char *fw_wiring_fault_word(fw_wiring_fault fault);      /* "shorted"; NULL: none */
 const char *fw_wiring_contact_word(const fw_wiring_net *net); /* "probed", "edge", "none" */
 /* where a net is contacted, and what a gap bears, in words */
 fw_status fw_wiring_contact_words(fw_arena *arena, const fw_wiring_net *net, const char **out);

@@ -57,7 +57,7 @@ fw_status fw_wiring_gap_words(fw_arena *arena, const fw_wiring *w, const fw_wiri
 /* ---- JSON ----
    docs/reference/json.md explains every member. */
 
-const char *fw_wiring_kind_word(fw_wiring_kind kind) {
+static const char *kind_word(fw_wiring_kind kind) {
     switch (kind) {
     case FW_WIRING_ROTOR:
         return "rotor";
@@ -69,7 +69,7 @@ const char *fw_wiring_kind_word(fw_wiring_kind kind) {
     return "";
 }
 
-const char *fw_wiring_fault_word(fw_wiring_fault fault) {
+static const char *fault_word(fw_wiring_fault fault) {
     switch (fault) {
     case FW_WIRING_FINE:
         return NULL;
@@ -98,7 +98,7 @@ static void place(fw_json *json, const char *key, fw_geometry_vec2 at) {
 static void net(fw_json *json, const fw_wiring_net *n) {
     fw_json_object(json, NULL);
     fw_json_text(json, "net", n->name);
-    fw_json_text(json, "kind", fw_wiring_kind_word(n->kind));
+    fw_json_text(json, "kind", kind_word(n->kind));
     fw_json_whole(json, "pieces", n->pieces);
     fw_json_real(json, "area_m2", n->area_m2);
     fw_json_truth(json, "needed", n->needed);
@@ -129,7 +129,7 @@ static void drive(fw_json *json, const fw_wiring *w, const fw_wiring_drive *d) {
     fw_json_text(json, "stator", name_of(w, d->stator));
     fw_json_real(json, "low_V", d->low_V);
     fw_json_real(json, "high_V", d->high_V);
-    fw_json_text(json, "fault", fw_wiring_fault_word(d->fault));
+    fw_json_text(json, "fault", fault_word(d->fault));
     fw_json_text(json, "why", d->why);
     fw_json_end(json);
 }
