@@ -3,7 +3,7 @@
    drawing of the device does not know the flow, so they are added to a copy of its list of pieces.
  */
 #include "geometry/segment.h"
-#include "layout/content.h"
+#include "layout/pattern.h"
 #include "layout/layout_text.h"
 #include <math.h>
 #include <stdio.h>

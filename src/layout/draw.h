@@ -217,12 +217,6 @@ typedef struct fw_layout_drawing {
     int nattachment;
 } fw_layout_drawing;
 
-/* ---- layout_missing.c: what finds no room, and that it is said ---- */
-fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item);
-/* one place of the drawing, whichever scenes it is in */
-bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q);
-bool fw_layout_same_eyelet(const fw_device_eyelet *p, const fw_device_eyelet *q);
-
 /* index into raw, plain and held; the joint tells bases apart */
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint);
 /* held, else plain */
@@ -373,4 +367,57 @@ fw_layout_fault fw_layout_fault_at(fw_geometry_vec2 at);
 extern const fw_geometry_vec2 fw_layout_nowhere;
 /* pieces of everything that has an outline; bodies without one by their shapes, plates and bars */
 fw_status fw_layout_show(fw_layout_drawing *d);
+
+/* ---- what finds no room, and that it is said ---- */
+fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item);
+/* one place of the drawing, whichever scenes it is in */
+bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q);
+bool fw_layout_same_eyelet(const fw_device_eyelet *p, const fw_device_eyelet *q);
+
+/* ---- fingers of the frame that tethers are made of: where one may reach a body ---- */
+
+/* nothing but its own body is nearer than the rules have it */
+bool fw_layout_finger_is_clear(const fw_layout_drawing *d, const fw_geometry_contour *finger,
+                               int body);
+/* the finger may leave its own body only once: everything from a little outside on is free */
+bool fw_layout_finger_leaves_once(const fw_layout_drawing *d, const fw_layout_attachment *a,
+                                  fw_geometry_vec2 from);
+/* Depth of the neck's cut. The stub's corners at a body's edge of slope m (against the side) are
+   rounded by r; the farther one ends r sqrt(1 + m2) outside the edge at r from the stub. A little
+   more stays straight, so that the cut is square. Exact for a straight edge. test_layout.c
+   tethers_break_at_the_body */
+double fw_layout_finger_cut(const fw_layout_drawing *d, const fw_layout_attachment *a, double at,
+                            double deep);
+void fw_layout_sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
+                                 fw_layout_window_side order[4]);
+/* where a line straight inwards from a side meets the body, if its edge is one there and beside; a
+   stub near a corner that somebody drew would leave a slit. Segment -1: it is not */
+fw_layout_ray_hit fw_layout_finger_edge(const fw_layout_drawing *d, int body,
+                                        fw_layout_window_side side, double along);
+/* what stands in the way of the finger that comes nearest to having room, and by how much it would have
+   to stand aside: a clause (tether_finger.c) */
+fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_geometry_vec2 *at,
+                                const char **why, const char **room);
+
+/* ---- release holes of one body while they are made ---- */
+
+typedef struct fw_layout_release_grid {
+    fw_layout_drawing *d;
+    int body;
+    const char *label;
+    fw_geometry_contour outline; /* as it is now */
+    fw_geometry_contour before;  /* without holes */
+    fw_geometry_box box;         /* of that */
+    fw_geometry_vec2 origin, x, y;
+    double pitch_m, hole_m, rim_m; /* hole: diameter */
+    fw_geometry_vec2 *hole;        /* (nhole) middles of those made */
+    int nhole, room;
+    fw_geometry_vec2 far; /* the farthest place for which no cut was found, */
+    double far_m;         /* and how far from an opening it stays; 0: none */
+} fw_layout_release_grid;
+
+fw_status fw_layout_note_hole(fw_layout_release_grid *g, fw_geometry_vec2 middle);
+/* holes where the grid has left any point too far from an opening: heads, necks, ends of bars (release_rest.c) */
+fw_status fw_layout_release_rest(fw_layout_release_grid *g);
+
 #endif

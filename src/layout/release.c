@@ -19,8 +19,9 @@
 #include "base/constants.h"
 #include "layout/draw.h"
 #include "layout/pattern.h"
-#include "layout/release_grid.h"
 #include <math.h>
+
+typedef fw_layout_release_grid grid;
 
 static const double LEAST_RIM_M = 10e-6, LEAST_HOLE_M = 8e-6;
 static const double SAME_M = 1e-9;

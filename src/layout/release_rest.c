@@ -13,10 +13,12 @@
    the holes of its grid. Out: the same with more. Error: a point of the body where holes may lie is at most
    half the pitch and a lattice step's diagonal from an opening. Cost: lattice points times edges near the
    grid's gaps. Test: test_release.c, holes_keep_away. */
-#include "layout/release_grid.h"
+#include "layout/draw.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include <math.h>
+
+typedef fw_layout_release_grid grid;
 
 enum { FINER = 8, TRIES = 6, MOST_HOLES = 4000 };
 static const double BESIDE_LINE_M = 6e-6, BESIDE_ARC_M = 1.0e-6, SEAM_M = 4e-6;

@@ -2,7 +2,8 @@
 /* Tethers: fingers of the frame that hold the moving bodies by a neck until it is broken. The body
    keeps a short stub; everything beyond the neck stays on the frame. */
 #include "geometry/segment.h"
-#include "layout/tether_finger.h"
+#include "layout/draw.h"
+#include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
 

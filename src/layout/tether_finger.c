@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a finger of the frame may reach a body, before anything of it is drawn. */
+/* Where a finger of the frame may reach a body, before anything of it is drawn, and what stands in its way where none
+   may. */
 #include "geometry/segment.h"
-#include "layout/tether_finger.h"
+#include "layout/draw.h"
+#include "layout/layout_text.h"
 #include <math.h>
+
+/* ---- where one may ---- */
 
 bool fw_layout_finger_is_clear(const fw_layout_drawing *d, const fw_geometry_contour *finger,
                                int body) {
@@ -133,4 +137,181 @@ fw_layout_ray_hit fw_layout_finger_edge(const fw_layout_drawing *d, int body,
     }
     if (hit[0].segment != hit[1].segment || hit[2].segment != hit[1].segment) hit[1].segment = -1;
     return hit[1];
+}
+
+/* ---- a body without a tether ----
+   A body without a tether: of all straight fingers that could reach its edge were it alone, the one
+   whose way has the least in it.
+
+   Fingers are looked at every 20 um along the body on all four sides. Of each part in the way counted
+   is how far it has to stand aside, along the side of the window: beyond the finger and its clearance
+   with all that it has in the finger's depth. Arcs by 16 chords and their rise, so that a part may be
+   asked to go farther than it must, by 1 % of its radius at most. In: a drawing with its base and its
+   rings and stators. Out: clauses. Cost: some ms, only for what is refused.
+   Test: tests/unit/layout/test_missing.c */
+
+typedef struct way { /* of one finger */
+    fw_layout_window_side side;
+    double along, deep; /* deep: of the cut, in the window */
+    double aside_m;     /* what all in the way have to move together */
+    int parts;
+    const char *first; /* of them the one that is most in the way */
+    double first_m;
+} way;
+
+typedef struct extent { /* along the side, of what lies in the depth of a finger */
+    double low, high;
+} extent;
+
+static bool is_upright(fw_layout_window_side side) {
+    return side == FW_LEFT || side == FW_RIGHT;
+}
+
+/* metres inwards from the window's edge */
+static double depth_of(const fw_layout *l, fw_layout_window_side side, fw_geometry_vec2 p) {
+    return fw_dot(fw_sub(fw_layout_window_point(l, side, 0.0, 0.0), p),
+                  fw_layout_window_outward(side));
+}
+
+static void take_chord(extent *e, double a0, double d0, double a1, double d1, double most,
+                       double more) {
+    double t0 = 0.0, t1 = 1.0;
+    if (fmin(d0, d1) > most) return;
+    if (d0 > most) t0 = (most - d0) / (d1 - d0);
+    if (d1 > most) t1 = (most - d0) / (d1 - d0);
+    double p = a0 + t0 * (a1 - a0), q = a0 + t1 * (a1 - a0);
+    e->low = fmin(e->low, fmin(p, q) - more);
+    e->high = fmax(e->high, fmax(p, q) + more);
+}
+
+/* of an outline less deep than `most`; low > high: nothing of it */
+static extent extent_of(const fw_layout *l, fw_layout_window_side side, double most,
+                        const fw_geometry_contour *c) {
+    enum { CHORDS = 16 };
+    extent e = {HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < c->count; i++) {
+        const fw_geometry_segment *s = &c->segment[i];
+        bool line = s->kind == FW_LINE;
+        double rise = line ? 0.0 : s->radius * (1.0 - cos(0.5 * s->sweep_rad / CHORDS));
+        fw_geometry_vec2 p = s->a;
+        for (int k = 1; k <= (line ? 1 : CHORDS); k++) {
+            fw_geometry_vec2 q = s->b;
+            if (!line && k < CHORDS) {
+                double turn = k * s->sweep_rad / CHORDS, x = cos(turn), y = sin(turn);
+                fw_geometry_vec2 r = fw_sub(s->a, s->centre);
+                q = fw_v(s->centre.x + x * r.x - y * r.y, s->centre.y + y * r.x + x * r.y);
+            }
+            bool up = is_upright(side);
+            take_chord(&e, up ? p.y : p.x, depth_of(l, side, p), up ? q.y : q.x,
+                       depth_of(l, side, q), most + rise, rise);
+            p = q;
+        }
+    }
+    return e;
+}
+
+/* e: of a part that keeps space_m from the finger */
+static void take_part(way *w, extent e, double space_m, const char *name) {
+    double half = 0.5 * fw_layout_rule.tether_m + space_m;
+    double aside = fmin(e.high - (w->along - half), (w->along + half) - e.low);
+    if (e.low > e.high || aside <= 0.0) return;
+    w->aside_m += aside;
+    w->parts++;
+    if (aside <= w->first_m) return;
+    w->first_m = aside;
+    w->first = name;
+}
+
+static fw_status take_all(fw_layout_drawing *d, int body, way *w) {
+    const double space = fw_layout_rule.strip_clear_m;
+    const fw_layout *l = d->layout;
+    const double most = w->deep + space;
+    for (int s = 0; s < d->nslot; s++) {
+        if (s == body || d->plain[s].count == 0) continue;
+        const char *name = fw_layout_body_label(d, s < d->device->nbody ? s : FW_GROUND);
+        FW_NEED(name);
+        take_part(w, extent_of(l, w->side, most, &d->plain[s]), space, name);
+    }
+    for (int i = 0; i < d->nlug; i++)
+        take_part(w, extent_of(l, w->side, most, &d->lug[i]), space, "an eyelet or a stator");
+    for (int i = 0; i < d->nattachment; i++)
+        if (d->attachment[i].finger.count > 0)
+            take_part(w, extent_of(l, w->side, most, &d->attachment[i].finger),
+                      fw_layout_rule.fingers_apart_m, "another tether");
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        const fw_layout_hinge_layout *h = &l->hinge[j];
+        const double r = h->keep_out_m + fw_layout_rule.strip_disc_m;
+        double along = is_upright(w->side) ? h->centre.y : h->centre.x;
+        const char *name = fw_arena_printf(d->arena, "hinge %s", d->device->revolute[j].id);
+        FW_NEED(name);
+        if (depth_of(l, w->side, h->centre) - r < w->deep)
+            take_part(w, (extent){along - r, along + r}, 0.0, name);
+    }
+    return FW_OK;
+}
+
+/* the finger at `along`, if the body alone would take it */
+static fw_status look_at(fw_layout_drawing *d, int body, fw_layout_window_side side, double along,
+                         way *best) {
+    const double into = 30e-6;
+    fw_layout_attachment a = {.body = body};
+    fw_layout_ray_hit hit = fw_layout_finger_edge(d, body, side, along);
+    if (hit.segment < 0) return FW_OK;
+    fw_geometry_vec2 from = fw_add(hit.at, -into, fw_layout_window_outward(side));
+    double start = is_upright(side) ? from.x : from.y;
+    FW_TRY(fw_layout_strip_draw(d, side, start, start, along, 0.5 * fw_layout_rule.tether_m,
+                                fw_layout_rule.tether_stub_m, &a));
+    if (!fw_layout_finger_leaves_once(d, &a, from)) return FW_OK;
+    double deep = depth_of(d->layout, side, from);
+    double cut = fw_layout_finger_cut(d, &a, fw_layout_to_grid(along), deep);
+    if (cut < fw_layout_rule.finger_least_m) return FW_OK;
+    way w = {.side = side, .along = along, .deep = cut};
+    FW_TRY(take_all(d, body, &w));
+    if (w.parts > 0 && w.aside_m < best->aside_m) *best = w;
+    return FW_OK;
+}
+
+fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_geometry_vec2 *at,
+                                const char **why, const char **room) {
+    static const char *const side_name[] = {
+        [FW_LEFT] = "left", [FW_RIGHT] = "right", [FW_BOTTOM] = "lower", [FW_TOP] = "upper"};
+    const double step = 20e-6;
+    fw_geometry_box box = fw_geometry_contour_box(&d->plain[body]);
+    way best = {.aside_m = HUGE_VAL};
+    char um[2][32];
+    *at = d->layout->body[body].centroid;
+    for (int s = FW_LEFT; s <= FW_TOP; s++) {
+        bool up = is_upright((fw_layout_window_side)s);
+        for (double p = up ? box.y0 : box.x0; p < (up ? box.y1 : box.x1); p += step)
+            FW_TRY(look_at(d, body, (fw_layout_window_side)s, p, &best));
+    }
+    *why =
+        "no straight finger of the frame reaches it without crossing another part, so that nothing "
+        "holds it between release and use";
+    *room = "no straight edge of the body faces the frame at all: give it one 60 um long, or say "
+            "<die tethers=\"no\"/> and handle the released device with care";
+    if (best.parts == 0) return FW_OK;
+    *at = fw_layout_window_point(d->layout, best.side, best.along, best.deep);
+    FW_NEED(*why = fw_arena_printf(
+                d->arena,
+                "no straight finger of the frame reaches it without crossing another part (from "
+                "the "
+                "%s side, where the way is clearest, %s), so that nothing holds it between release "
+                "and use",
+                side_name[best.side], best.first));
+    const char *others = best.parts > 1
+                             ? fw_arena_printf(d->arena,
+                                               ", and %d more beside it, %s um "
+                                               "altogether",
+                                               best.parts - 1, fw_layout_um(um[1], best.aside_m))
+                             : "";
+    FW_NEED(others);
+    FW_NEED(*room = fw_arena_printf(
+                d->arena,
+                "a finger from the %s side at %s = %s um, were %s %s um farther aside%s; or "
+                "<die tethers=\"no\"/>, and the released device is handled with care",
+                side_name[best.side], is_upright(best.side) ? "y" : "x",
+                fw_layout_um(um[0], best.along), best.first,
+                fw_number_text((char[32]){0}, 32, ceil(best.first_m * 1e6), 6), others));
+    return FW_OK;
 }

@@ -2,12 +2,12 @@
 /* Masks: layers from masks/FLOW.xml, exact biased outlines, polygons on the 1 nm grid, writers. */
 #ifndef FW_MASK_MASK_H
 #define FW_MASK_MASK_H
-#include "base/json.h"
 #include "base/diag.h"
+#include "base/json.h"
 #include "base/output.h"
 #include "geometry/contour.h"
 #include "geometry/polygon.h"
-#include "layout/content.h"
+#include "layout/pattern.h"
 #include "wiring/wiring.h"
 
 typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
@@ -59,7 +59,7 @@ typedef struct fw_mask_finding { /* one place where a rule is broken */
 } fw_mask_finding;
 
 /* <content>: what a plate draws besides the device, found from the device's drawing; kinds are rows of
-   contents.def (mask_plates.h) */
+   contents.def (mask_table.h) */
 struct fw_mask_content_kind;
 enum { FW_CONTENT_PARAMETERS = 4 };
 typedef struct fw_mask_content {
@@ -440,5 +440,37 @@ typedef struct fw_mask_outlines {
 fw_status fw_mask_outlines_of(fw_arena *arena, const fw_mask *mask, fw_mask_outlines *out);
 /* the picture of fw_mask_write_outlines as a part of an HTML document: ids begin with the flow */
 fw_status fw_mask_outlines_part(const fw_mask *mask, fw_text *out);
+
+/* ---- as the shop writes it ----
+   The layers of the order joined to one, mirrored where asked for. */
+
+typedef struct fw_mask_window { /* dbu, in coordinates of the cell; x1 <= x0: none */
+    int32_t x0, y0, x1, y1;
+} fw_mask_window;
+
+typedef struct fw_mask_merge_options {
+    const fw_mask_table *written; /* of one layer: fw_mask_written_table */
+    fw_mask_window window;        /* a part of the cell that another cell draws */
+    int under; /* -1: the window is left out; else this is the other cell: all that lies in the window,
+                     where layer `under` of the mask's table is whole */
+    bool mirror;  /* x becomes -x */
+    int vertices; /* most of a polygon */
+} fw_mask_merge_options;
+
+typedef struct fw_mask_merge_sums { /* added up over calls, each so many times */
+    double polygons, vertices, cuts, holes, area_m2;
+    int rounded;
+} fw_mask_merge_sums;
+
+/* The plate's expression over the polygons of a mask (fw_geometry_merge), as a mask of one layer whose
+   writers are those of any other. FW_LIMIT: coordinates of more than 268 mm, or more layers in the
+   expression than FW_MERGE_SETS - 1. FW_GEOMETRY: a polygon that is not simple, or has too many vertices
+   and no cut. Test: tests/accept/wafer.sh, against KLayout */
+fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *options,
+                         const fw_mask **out, fw_mask_merge_sums *sums);
+/* the one layer: number and name of the laboratory for "plate", else those of the first layer of the
+   order, and its tone */
+fw_status fw_mask_written_table(fw_arena *arena, const fw_mask_table *table,
+                                const fw_mask_table **out);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/mask_merge.h"
+#include "mask/mask.h"
 #include "geometry/merge.h"
 #include "mask/mask_polygons.h"
 #include <math.h>

@@ -5,7 +5,6 @@
 
    Same mask, same zlib, same bytes: no dates, fixed order. */
 #include "mask/mask_writers.h"
-#include "mask/octets.h"
 #include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>

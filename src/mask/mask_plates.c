@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <plate>: one row for each plate that a flow prints, in the order of printing; a table with one plate says the same in
    attributes of its root. <content>: what they draw besides the device. Page: docs/theory/plates.md. */
-#include "mask/mask_plates.h"
+#include "mask/mask_table.h"
 #include "layout/layout_text.h"
 #include "mask/rule.h"
 #include <math.h>
@@ -19,13 +19,13 @@ static const fw_mask_content_kind *const kinds[] = {
 #undef FW_MASK_CONTENT
 };
 
-const fw_mask_content_kind *fw_mask_content_kind_at(size_t i) {
+static const fw_mask_content_kind *content_kind_at(size_t i) {
     return i < sizeof kinds / sizeof kinds[0] ? kinds[i] : NULL;
 }
 
 static const fw_mask_content_kind *kind_of(const char *name) {
     const fw_mask_content_kind *kind;
-    for (size_t i = 0; (kind = fw_mask_content_kind_at(i)); i++)
+    for (size_t i = 0; (kind = content_kind_at(i)); i++)
         if (name && strcmp(kind->name, name) == 0) return kind;
     return NULL;
 }
@@ -78,7 +78,7 @@ static fw_status content_row(fw_xml_reader *r, const fw_xml_element *e,
     *row = NULL;
     if (!kind) {
         fw_text known = fw_text_new(r->arena);
-        for (size_t i = 0; (kind = fw_mask_content_kind_at(i)); i++)
+        for (size_t i = 0; (kind = content_kind_at(i)); i++)
             fw_text_printf(&known, "%s%s", i ? " " : "", kind->name);
         fw_diag_error(r->diags, 410, a ? a->place : e->place,
                       "<content> needs a kind; there are: %s",

@@ -1,6 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The kinds of design rules: one line each, in the order of docs/theory/masks.md. */
+/* All rules of one mask: the kinds that there are, the check, and what it found, in messages and files. */
+#include "base/constants.h"
+#include "base/text.h"
+#include "mask/mask_polygons.h"
 #include "mask/rule.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the kinds ----
+   One line each, in the order of docs/theory/masks.md. */
 
 #define FW_MASK_RULE(name) &fw_mask_kind_##name,
 static const fw_mask_rule_kind_row *const kinds[] = {
@@ -30,7 +39,7 @@ double fw_mask_rule_row_shown(const fw_mask_rule_kind_row *kind, double value) {
     return value;
 }
 
-const char *fw_mask_rule_unit_name(const fw_mask_rule_kind_row *kind) {
+static const char *unit_name(const fw_mask_rule_kind_row *kind) {
     static const char *const name[] = {"um", "deg", "um2", "of the window"};
     return name[kind->unit];
 }
@@ -40,14 +49,14 @@ double fw_mask_rule_shown(const fw_mask_rule *rule, double value) {
 }
 
 const char *fw_mask_rule_unit(const fw_mask_rule *rule) {
-    return rule->kind->unit == FW_UNIT_SHARE ? "" : fw_mask_rule_unit_name(rule->kind);
+    return rule->kind->unit == FW_UNIT_SHARE ? "" : unit_name(rule->kind);
 }
 
 /* All rules of one mask. The union of pieces that share joints is bounded by their other segments,
    with the material on the left. So width and space of the union need no boolean: every two
    boundary edges that are near enough are looked at, and the side on which the chord leaves tells
-   material from empty space. Edges: rules_edges.c; which pairs: rules_search.c; a pair:
-   rules_pair.c; places: rules_places.c. What a rule makes of it: rule_*.c. */
+   material from empty space. Edges: rules_edges.c; which pairs, and a pair:
+   rules_pair.c; places: rules_kinds.c. What a rule makes of it: rule_*.c. */
 
 /* ---- the rules: rows of the table, and what layers say in a word ---- */
 
@@ -155,4 +164,377 @@ fw_status fw_mask_rules_check(fw_mask_rules *r, bool polygons) {
         if ((r->rule[i].of == FW_OF_POLYGON) == polygons)
             FW_TRY(r->rule[i].kind->check(r, &r->rule[i]));
     return r->no_memory ? FW_NOMEM : FW_OK;
+}
+
+/* ---- what a place belongs to ----
+   Of one that cannot be drawn: mostly a hinge whose two heads were given
+   no room, and then neither bias nor tolerance is what to change. Test: test_causes.c. */
+
+/* of a hinge's keep-out disc: necks and root blocks reach a little beyond it */
+static const double REACH = 1.25;
+
+static const fw_layout_hinge_layout *hinge_at(const fw_layout *layout, int nhinge,
+                                              fw_geometry_vec2 at) {
+    const fw_layout_hinge_layout *best = NULL;
+    double least = 1;
+    for (int j = 0; j < nhinge; j++) {
+        const fw_layout_hinge_layout *h = &layout->hinge[j];
+        if (!h->drawn || !(h->keep_out_m > 0)) continue;
+        double share = vec_distance(h->centre, at) / (REACH * h->keep_out_m);
+        if (share < least) least = share, best = h;
+    }
+    return best;
+}
+
+/* the highest joint that a piece belongs to: others are not drawn */
+static int hinges_of(const fw_layout *layout) {
+    int n = 0;
+    for (int i = 0; i < layout->npiece; i++)
+        n = layout->piece[i].joint >= n ? layout->piece[i].joint + 1 : n;
+    return n;
+}
+
+const char *fw_mask_cause(fw_arena *arena, const fw_layout *layout, fw_geometry_vec2 at) {
+    if (!isfinite(at.x + at.y)) return "";
+    const fw_layout_hinge_layout *h = hinge_at(layout, hinges_of(layout), at);
+    if (!h || !h->id) return "";
+    char axis[32];
+    fw_number_text(axis, sizeof axis, h->axis_rad * 180 / FW_PI, 6);
+    return h->axis_stated
+               ? fw_arena_printf(
+                     arena,
+                     "; the place belongs to hinge %s, whose flexure bulges towards %s "
+                     "deg because the file says so: its two sides have no room for each "
+                     "other there, so turn its axis, or leave axis out to have one "
+                     "chosen",
+                     h->id, axis)
+               : fw_arena_printf(arena,
+                                 "; the place belongs to hinge %s, whose flexure bulges towards %s "
+                                 "deg: state another axis for it, or move what is beside it",
+                                 h->id, axis);
+}
+
+/* ---- findings as messages ----
+   The worst few of each rule, with their number. */
+
+enum { MOST_TOLD = 4 }; /* of one rule */
+
+/* < 1: the smaller the worse */
+static double badness(const fw_mask_finding *f) {
+    if (f->value > f->needed) return f->needed / f->value; /* a density that is too high */
+    return f->needed > 0 ? f->value / f->needed : 0;
+}
+
+static int by_badness(const void *left, const void *right) {
+    const fw_mask_finding *p = *(const fw_mask_finding *const *)left,
+                          *q = *(const fw_mask_finding *const *)right;
+    int order = fw_order_doubles(badness(p), badness(q));
+    return order ? order : (p > q) - (p < q); /* of one array */
+}
+
+static const char *piece(fw_arena *arena, const char *label, int edge) {
+    return edge < 0 ? label : fw_arena_printf(arena, "%s (edge %d)", label, edge);
+}
+
+static const char *pieces(fw_arena *arena, const fw_mask_finding *f) {
+    if (!f->label[0]) return "the layer";
+    const char *p = piece(arena, f->label[0], f->edge[0]);
+    if (!f->label[1]) return p;
+    const char *q = piece(arena, f->label[1], f->edge[1]);
+    return p && q ? fw_arena_printf(arena, "%s and %s", p, q) : NULL;
+}
+
+static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_mask_layer *layer,
+                            const fw_mask_finding *f) {
+    const fw_mask_rule *rule = f->rule;
+    const fw_mask_rule_kind_row *kind = rule->kind;
+    const char *who = pieces(arena, f), *unit = unit_name(kind);
+    char at[80], value[32], needed[32], limit[32];
+    fw_mask_place_text(at, sizeof at, vec_scale(0.5, vec_add(f->at[0], f->at[1])));
+    fw_number_text(value, sizeof value, fw_mask_rule_row_shown(kind, f->value), 6);
+    fw_number_text(needed, sizeof needed, fw_mask_rule_row_shown(kind, f->needed), 6);
+    if (strcmp(value, needed) == 0) /* less than one part in a million: all digits */
+        fw_number_text(value, sizeof value, fw_mask_rule_row_shown(kind, f->value), 12);
+    fw_number_text(limit, sizeof limit, fw_mask_rule_row_shown(kind, f->limit), 6);
+    if (!who) return NULL;
+    const char *cause =
+        layout ? fw_mask_cause(arena, layout, vec_scale(0.5, vec_add(f->at[0], f->at[1]))) : "";
+    if (!cause) return NULL;
+    if (kind->built_in)
+        return fw_arena_printf(arena, "%s meet at %s on layer %s without a shared joint; %s%s", who,
+                               at, layer->name, kind->advice, cause);
+    return fw_arena_printf(
+        arena, "%s: %s of %s %s at %s; layer %s %s %s %s (rule %s %s%s%s; %s); %s", who, f->what,
+        value, unit, at, layer->name, f->value > f->needed ? "takes at most" : "needs", needed,
+        unit, limit, unit, rule->formula ? ", " : "", rule->formula ? rule->formula : "",
+        rule->source, kind->advice);
+}
+
+static fw_status tell(fw_mask_rules *r, const fw_mask_finding *f, fw_diags *diags) {
+    const char *text = sentence(r->arena, r->layout, &r->table->layer[f->rule->layer], f);
+    FW_NEED(text);
+    fw_place place = {0};
+    if (f->rule->severity == FW_ERROR)
+        fw_diag_error(diags, f->rule->kind->number, place, "%s", text);
+    else
+        fw_diag_warning(diags, f->rule->kind->number, place, "%s", text);
+    return FW_OK;
+}
+
+static void tell_rest(const fw_mask_rules *r, const fw_mask_rule *rule, int more, fw_diags *diags) {
+    fw_place place = {0};
+    const char *layer = r->table->layer[rule->layer].name, *flow = r->table->flow;
+    fw_diag_note(diags, 159, place,
+                 "%d more place(s) on layer %s break the rule \"%s\"; all of them are in "
+                 "%s.violations.lyrdb, .gds and .json, or in the mask's certificate where the rule "
+                 "is a warning",
+                 more, layer, rule->kind->name, flow);
+}
+
+fw_status fw_mask_rules_tell(fw_mask_rules *r, fw_diags *diags, int *nbroken) {
+    *nbroken = 0;
+    const fw_mask_finding **list =
+        fw_arena_alloc(r->arena, (size_t)r->nfinding, sizeof(const fw_mask_finding *));
+    FW_NEED(list);
+    for (int i = 0; i < r->nrule; i++) {
+        const fw_mask_rule *rule = &r->rule[i];
+        int n = 0;
+        for (int k = 0; k < r->nfinding; k++)
+            if (r->finding[k].rule == rule) list[n++] = &r->finding[k];
+        if (n) qsort(list, (size_t)n, sizeof *list, by_badness);
+        if (rule->severity == FW_ERROR) *nbroken += n;
+        for (int k = 0; k < n && k < MOST_TOLD; k++)
+            FW_TRY(tell(r, list[k], diags));
+        if (n > MOST_TOLD) tell_rest(r, rule, n - MOST_TOLD, diags);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* A mask to look at: what is drawn, and a rectangle for each finding on a layer that the table does
+   not use, with a data type for each kind of rule. A marker is the place itself where that is a
+   window, an island or a hole; else the shortest chord, edge or corner with its own length, at
+   least 1 um, on all sides. */
+
+enum { HIGHEST = 60 };
+static const double GRID_M = 1e-9, LEAST_M = 1e-6;
+
+int fw_mask_marker_layer(const fw_mask_table *table) {
+    for (int layer = HIGHEST; layer > 0; layer--) {
+        bool used = false;
+        for (int k = 0; k < table->nlayer; k++)
+            used = used || table->layer[k].layer == layer;
+        if (!used) return layer;
+    }
+    return HIGHEST;
+}
+
+/* what a marker covers: the chord, edge, corner or window, and at least 1 um around it */
+static fw_geometry_box marker_of(const fw_mask_finding *f) {
+    const fw_mask_rule_kind_row *kind = f->rule->kind;
+    if (kind->unit == FW_UNIT_SHARE || kind->unit == FW_UNIT_AREA) return f->box;
+    double more = fmax(LEAST_M, vec_distance(f->at[0], f->at[1]));
+    fw_geometry_box b = fw_mask_box_around(f->at[0], f->at[1]);
+    return (fw_geometry_box){b.x0 - more, b.y0 - more, b.x1 + more, b.y1 + more};
+}
+
+/* what lies beyond 2^30 nm is refused, but there can be findings all the same */
+static int32_t on_grid(double x_dbu) {
+    return (int32_t)fmax(-1073741823.0, fmin(1073741823.0, x_dbu));
+}
+
+static fw_status mark(fw_arena *arena, const fw_mask_finding *f, int layer, fw_mask_shape *out) {
+    fw_geometry_box b = marker_of(f);
+    int32_t x0 = on_grid(floor(b.x0 / GRID_M)), x1 = on_grid(ceil(b.x1 / GRID_M));
+    int32_t y0 = on_grid(floor(b.y0 / GRID_M)), y1 = on_grid(ceil(b.y1 / GRID_M));
+    fw_layout_piece *piece = fw_arena_one(arena, fw_layout_piece);
+    FW_NEED(piece);
+    *piece = (fw_layout_piece){
+        .role = FW_ROLE_MARK, .body = FW_NONE, .joint = FW_NONE, .label = f->what};
+    fw_geometry_point *v = fw_arena_array(arena, fw_geometry_point, 4);
+    FW_NEED(v);
+    v[0] = (fw_geometry_point){x0, y0}, v[1] = (fw_geometry_point){x1, y0};
+    v[2] = (fw_geometry_point){x1, y1}, v[3] = (fw_geometry_point){x0, y1};
+    *out = (fw_mask_shape){.layer = layer, .piece = piece, .polygon = {v, 4}};
+    fw_geometry_box grid = {x0 * GRID_M, y0 * GRID_M, x1 * GRID_M, y1 * GRID_M};
+    return fw_geometry_contour_rectangle(arena, grid, &out->contour);
+}
+
+/* the table with a marker layer for each kind that was found; by[kind's marker]: its index */
+static fw_status marked_table(fw_arena *arena, const fw_mask *mask, int by[64],
+                              fw_mask_table *table) {
+    size_t nkind = 0;
+    while (fw_mask_rule_kind_at(nkind))
+        nkind++;
+    *table = *mask->table;
+    table->layer = fw_arena_array(arena, fw_mask_layer, (size_t)table->nlayer + nkind);
+    FW_NEED(table->layer);
+    memcpy(table->layer, mask->table->layer, (size_t)table->nlayer * sizeof *table->layer);
+    int number = fw_mask_marker_layer(mask->table);
+    for (size_t i = 0; i < nkind; i++) {
+        const fw_mask_rule_kind_row *kind = fw_mask_rule_kind_at(i);
+        by[kind->marker] = -1;
+        for (int k = 0; k < mask->nfinding && by[kind->marker] < 0; k++)
+            if (mask->finding[k].rule->kind == kind) by[kind->marker] = table->nlayer;
+        if (by[kind->marker] < 0) continue;
+        const char *name = fw_arena_printf(arena, "BAD_%s", kind->name);
+        FW_NEED(name);
+        table->layer[table->nlayer++] =
+            (fw_mask_layer){.layer = number,
+                            .datatype = kind->marker,
+                            .id = name,
+                            .name = name,
+                            .purpose = "places where this rule is broken, not on the plate",
+                            .tone = "data dark",
+                            .colour = "#d01020"};
+    }
+    return FW_OK;
+}
+
+fw_status fw_mask_marked(fw_arena *arena, const fw_mask *mask, const fw_mask **marked) {
+    fw_mask_table *table = fw_arena_one(arena, fw_mask_table);
+    fw_mask *m = fw_arena_one(arena, fw_mask);
+    int by[64];
+    FW_NEED(table);
+    FW_NEED(m);
+    FW_TRY(marked_table(arena, mask, by, table));
+    *m = *mask;
+    m->table = table;
+    m->measure = NULL; /* of what is drawn only */
+    m->nshape = 0;
+    m->shape = fw_arena_array(arena, fw_mask_shape, (size_t)(mask->nshape + mask->nfinding));
+    FW_NEED(m->shape);
+    for (int i = 0; i < mask->nshape; i++) /* one that could not be flattened has no polygon */
+        if (mask->shape[i].polygon.count > 0) m->shape[m->nshape++] = mask->shape[i];
+    for (int i = 0; i < mask->nfinding; i++) {
+        const fw_mask_finding *f = &mask->finding[i];
+        fw_mask_shape *shape = &m->shape[m->nshape++];
+        FW_TRY(mark(arena, f, by[f->rule->kind->marker], shape));
+        m->box = fw_box_join(m->box, fw_geometry_contour_box(&shape->contour));
+    }
+    *marked = m;
+    return FW_OK;
+}
+
+/* KLayout's report database, for its marker browser: a category for each rule that is broken, and
+   in it an item for each place, with the shortest chord as an edge, the whole place as a box (um),
+   and what it is. Texts are in apostrophes with \ before ' and \. Format: as KLayout 0.28 writes it
+   (class ReportDatabase of its reference); accepted by ReportDatabase#load, which
+   tests/cli/test_violations.py does. */
+
+static void xml(fw_text *out, const char *s) {
+    for (; *s; s++) {
+        const char *instead = *s == '&' ? "&amp;" : *s == '<' ? "&lt;" : *s == '>' ? "&gt;" : NULL;
+        if (instead)
+            fw_text_add(out, instead);
+        else
+            fw_text_bytes(out, s, 1);
+    }
+}
+
+static void text_value(fw_text *out, const char *name, const char *s) {
+    fw_text_add(out, "    <value>text: '");
+    xml(out, name);
+    for (const char *at = s; *at; at++) {
+        if (*at == '\'' || *at == '\\') fw_text_add(out, "\\");
+        char one[2] = {*at, '\0'};
+        xml(out, one);
+    }
+    fw_text_add(out, "'</value>\n");
+}
+
+static void numbers(fw_text *out, fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    fw_text_add(out, "(");
+    fw_text_number(out, p.x * 1e6, 12);
+    fw_text_add(out, ",");
+    fw_text_number(out, p.y * 1e6, 12);
+    fw_text_add(out, ";");
+    fw_text_number(out, q.x * 1e6, 12);
+    fw_text_add(out, ",");
+    fw_text_number(out, q.y * 1e6, 12);
+    fw_text_add(out, ")");
+}
+
+/* of a rule: "width 1/0", "enclosure 2/0 1/0 warning"; no two rules have the same */
+static void category_name(fw_text *out, const fw_mask *mask, const fw_mask_rule *rule) {
+    const fw_mask_layer *l = &mask->table->layer[rule->layer];
+    fw_text_printf(out, "%s %d/%d", rule->kind->name, l->layer, l->datatype);
+    if (rule->other >= 0) {
+        l = &mask->table->layer[rule->other];
+        fw_text_printf(out, " %d/%d", l->layer, l->datatype);
+    }
+    if (rule->of == FW_OF_POLYGON) fw_text_add(out, " polygon");
+    if (rule->of == FW_OF_ISLAND) fw_text_add(out, " island");
+    if (rule->of == FW_OF_HOLE) fw_text_add(out, " hole");
+    if (rule->kind->unit == FW_UNIT_SHARE) {
+        fw_text_add(out, " in ");
+        fw_text_number(out, rule->window_m * 1e6, 6);
+        fw_text_add(out, " um");
+    }
+    if (rule->severity != FW_ERROR) fw_text_add(out, " warning");
+}
+
+static void category(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
+    fw_text_add(out, "  <category>\n   <name>");
+    category_name(out, mask, f->rule);
+    fw_text_add(out, "</name>\n   <description>layer ");
+    xml(out, mask->table->layer[f->rule->layer].name);
+    fw_text_add(out, ": ");
+    xml(out, f->rule->kind->name);
+    fw_text_add(out, ", limit ");
+    fw_text_number(out, fw_mask_rule_row_shown(f->rule->kind, f->limit), 6);
+    fw_text_printf(out, " %s; ", unit_name(f->rule->kind));
+    xml(out, f->rule->source);
+    fw_text_add(out, "</description>\n   <categories>\n   </categories>\n  </category>\n");
+}
+
+static void item(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
+    fw_text_add(out, "  <item>\n   <tags/>\n   <category>'");
+    category_name(out, mask, f->rule);
+    fw_text_printf(out,
+                   "'</category>\n   <cell>%s</cell>\n   <visited>false</visited>\n"
+                   "   <multiplicity>1</multiplicity>\n   <image/>\n   <values>\n",
+                   mask->cell);
+    fw_geometry_box b = marker_of(f);
+    fw_geometry_vec2 low = {b.x0, b.y0}, high = {b.x1, b.y1};
+    bool chord = !vec_same(f->at[0], f->at[1]) && f->rule->kind->unit == FW_UNIT_LENGTH;
+    fw_text_add(out, chord ? "    <value>edge: " : "    <value>box: ");
+    numbers(out, chord ? f->at[0] : low, chord ? f->at[1] : high);
+    fw_text_add(out, "</value>\n");
+    if (chord) {
+        fw_text_add(out, "    <value>box: ");
+        numbers(out, (fw_geometry_vec2){f->box.x0, f->box.y0},
+                (fw_geometry_vec2){f->box.x1, f->box.y1});
+        fw_text_add(out, "</value>\n");
+    }
+    char value[32];
+    fw_number_text(value, sizeof value, fw_mask_rule_row_shown(f->rule->kind, f->value), 9);
+    text_value(out, f->what, "");
+    fw_text_printf(out, "    <value>float: %s</value>\n", value);
+    for (int i = 0; i < 2 && f->label[i]; i++)
+        text_value(out, "piece: ", f->label[i]);
+    fw_text_add(out, "   </values>\n  </item>\n");
+}
+
+fw_status fw_mask_write_lyrdb(const fw_mask *mask, fw_text *out) {
+    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<report-database>\n "
+                     "<description>Design rules of flow ");
+    xml(out, mask->flow);
+    fw_text_add(out, ", device ");
+    xml(out, mask->device);
+    fw_text_printf(out,
+                   "</description>\n <original-file>%s.violations.gds</original-file>\n "
+                   "<generator>flexwright " FW_VERSION "</generator>\n "
+                   "<top-cell>%s</top-cell>\n <tags>\n </tags>\n <categories>\n",
+                   mask->flow, mask->cell);
+    for (int i = 0; i < mask->nfinding; i++) /* those of one rule follow each other */
+        if (i == 0 || mask->finding[i].rule != mask->finding[i - 1].rule)
+            category(out, mask, &mask->finding[i]);
+    fw_text_printf(out,
+                   " </categories>\n <cells>\n  <cell>\n   <name>%s</name>\n   <variant/>\n"
+                   "   <references>\n   </references>\n  </cell>\n </cells>\n <items>\n",
+                   mask->cell);
+    for (int i = 0; i < mask->nfinding; i++)
+        item(out, mask, &mask->finding[i]);
+    fw_text_add(out, " </items>\n</report-database>\n");
+    return fw_text_end(out);
 }

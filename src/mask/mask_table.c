@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/rule.h"
-#include "mask/layer_map.h"
+#include "mask/mask_table.h"
 #include "mask/mask.h"
-#include "mask/mask_plates.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

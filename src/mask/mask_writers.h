@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the writers of files share: the parts of a GDSII library, and the lines of text. */
+/* What the writers of files share: the parts of a GDSII library, the integers of OASIS, and the lines of text. */
 #ifndef FW_MASK_MASK_WRITERS_H
 #define FW_MASK_MASK_WRITERS_H
+#include "base/arena.h"
+#include "geometry/polygon.h"
 #include "mask/mask.h"
+#include <stdbool.h>
+#include <stdint.h>
 
 /* one writer for each line of formats.def: same mask, same bytes */
 #define FW_MASK_FORMAT(name, ...) fw_status fw_mask_write_##name(const fw_mask *mask, fw_text *out);
@@ -33,5 +37,47 @@ int fw_mask_notes_layer(const fw_mask_table *table);
 void fw_mask_wiring_json(fw_json *json, const fw_mask *mask);
 void fw_mask_wiring_order_json(fw_json *json, const fw_mask *mask);
 fw_status fw_mask_wiring_order_text(const fw_mask *mask, fw_text *out);
+
+/* ---- bytes of an OASIS file: octets.c ----
+   A buffer that is made large enough once per record and then filled
+   without further checks, and the format's integers. */
+
+typedef struct fw_mask_octets {
+    fw_arena *arena;
+    unsigned char *data;
+    size_t length, capacity;
+    bool failed; /* out of memory: sticks */
+} fw_mask_octets;
+
+enum { FW_OCTETS_INTEGER = 10 }; /* the longest integer: ten times 7 bits */
+
+/* room for `more` bytes behind the last one; false: failed */
+bool fw_mask_octets_room(fw_mask_octets *octets, size_t more);
+void fw_mask_octets_bytes(fw_mask_octets *octets, const void *data, size_t n);
+void fw_mask_octets_number(fw_mask_octets *octets, uint64_t value); /* makes room itself */
+void fw_mask_octets_signed(fw_mask_octets *octets, int64_t value);
+void fw_mask_octets_string(fw_mask_octets *octets, const char *text); /* length, bytes */
+
+/* where to write next, the new end; 7 bits per byte, low ones first, high bit set but in the last
+ */
+static inline unsigned char *fw_octets_put(unsigned char *at, uint64_t value) {
+    while (value > 0x7f) {
+        *at++ = (unsigned char)(0x80 | (value & 0x7f));
+        value >>= 7;
+    }
+    *at++ = (unsigned char)value;
+    return at;
+}
+
+/* the sign is the lowest bit */
+static inline uint64_t fw_octets_folded(int64_t value) {
+    return value < 0 ? (uint64_t)(-value) << 1 | 1 : (uint64_t)value << 1;
+}
+
+/* a displacement of any direction ("g-delta"); at most 2 FW_OCTETS_INTEGER bytes */
+unsigned char *fw_mask_octets_displacement(unsigned char *at, int64_t dx, int64_t dy);
+
+/* the vertices of a polygon behind its first one, in the shortest kind of point list */
+void fw_mask_octets_points(fw_mask_octets *octets, const fw_geometry_polygon *polygon);
 
 #endif

@@ -91,7 +91,7 @@ fw_status fw_mask_rule_edges(fw_mask_rule_search *in, int nshape, double toleran
 /* which edges begin at a place, by the bits of its coordinates: the next one after edge `after`, or
    -1 for the first; -1: there is none. In the order of the edges. Cost O(1). */
 int fw_mask_rule_start_at(const fw_mask_rule_search *in, fw_geometry_vec2 at, int after);
-/* rules_search.c: every pair of edges that may matter */
+/* rules_pair.c: every pair of edges that may matter */
 void fw_mask_rule_search_run(fw_mask_rule_search *in);
 /* rules_written.c */
 void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f);
@@ -107,10 +107,7 @@ void fw_mask_rule_judge(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_r
    where it is not below the limit */
 double fw_mask_rule_apart(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q,
                           double limit_m, fw_geometry_vec2 at[2]);
-/* rules_pair.c */
-void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q);
-void fw_mask_rule_own(fw_mask_rule_search *in, fw_mask_rule_edge *e);
-/* rules_places.c: the chords of one kind that are below a limit, as places: the shortest chord of
+/* rules_kinds.c: the chords of one kind that are below a limit, as places: the shortest chord of
    each, in the order of shapes. Sorts `list`. */
 fw_status fw_mask_rule_places(fw_arena *arena, fw_mask_rule_finding *list, int n, double limit_m,
                               fw_mask_rule_finding **out, int *nout);
@@ -175,7 +172,6 @@ const fw_mask_rule_kind_row *fw_mask_rule_kind_at(size_t i); /* NULL behind the 
 
 /* length in um, angle in degrees, area in um2 */
 double fw_mask_rule_row_shown(const fw_mask_rule_kind_row *kind, double value);
-const char *fw_mask_rule_unit_name(const fw_mask_rule_kind_row *kind);
 
 /* ---- for the kinds: rules_kinds.c ---- */
 void fw_mask_rules_add(fw_mask_rules *rules, fw_mask_finding finding);

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Width and space between two edges of the outlines.
+/* Width and space between edges of the outlines: between which of them they are asked for, and what lies
+   between two. */
+#include "mask/rule.h"
+#include <math.h>
+
+/* ---- two edges ----
      - The rule is judged on what is written (rules_written.c). Here is said between which edges:
    those that face each other somewhere and are nearer than the rule and what flattening may take on
    both sides. Concentric arcs that face each other have their distance in closed form, R1 - R2; an
@@ -10,7 +15,6 @@
    In: two edges, m. Error: a few ulp of the coordinates. Cost O(1), but O(n m) of what is written
    near edges that may break a rule. Theory: docs/theory/masks.md. Test: test_mask_rules.c,
    test_rules_search.c, test_rules_written.c. */
-#include "mask/rule.h"
 
 /* cosine between normals: below it they enclose more than 90 degrees. Not 0, so that the sides of a
    right angle do not face each other by rounding. */
@@ -174,7 +178,7 @@ static bool may_break(const fw_mask_rule_search *in, const fw_mask_rule_edge *e,
 
 /* An arc and itself. It faces itself where it turns by more than 90 degrees. For the measure the
    diameter counts, and the chord between its ends where both are corners. */
-void fw_mask_rule_own(fw_mask_rule_search *in, fw_mask_rule_edge *e) {
+static void look_at_own(fw_mask_rule_search *in, fw_mask_rule_edge *e) {
     static const double half_turn = FW_PI * (1 - 1e-12);
     double sweep = fabs(e->s.sweep_rad);
     if (e->s.kind != FW_ARC || !(cos(fw_lesser(sweep, FW_PI)) < FACING))
@@ -232,7 +236,7 @@ static bool look_away(const fw_mask_rule_edge *p, const fw_mask_rule_edge *q) {
     return cosine > 1e-3 && vec_dot(p->along, q->along) >= sine - 4e-7 * cosine;
 }
 
-void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q) {
+static void look_at_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q) {
     bool touch = fw_box_gap(p->box, q->box) <= FW_COINCIDENT_M, square = false;
     bool away = look_away(p, q);
     if (!in->everything && away) {
@@ -252,4 +256,69 @@ void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_ru
     int n = fw_geometry_segment_chords(&p->s, &q->s, chord);
     measure_pair(in, p, q, chord, n);
     if (!away) judge_pair(in, p, q, chord, n, meet, square);
+}
+
+/* ---- which pairs ----
+   Which pairs of edges are looked at: shapes whose boxes are near enough, by a sweep along x, and
+   of those the edges whose boxes are. Cost O(n log n + pairs of neighbours). Test:
+   test_rules_search.c. */
+
+static double reach(const fw_mask_rule_search *in) {
+    return fw_greater(fw_mask_rule_bound(in, FW_RULE_WIDTH), fw_mask_rule_bound(in, FW_RULE_SPACE));
+}
+
+static void look_inside(fw_mask_rule_search *in, const fw_mask_rule_range *r) {
+    fw_mask_rule_edge *e = in->edge + r->first;
+    for (int i = 0; i < r->count; i++) {
+        look_at_own(in, &e[i]);
+        double far = reach(in); /* only a pair that was looked at changes it */
+        fw_geometry_box own = e[i].box;
+        for (int j = i + 1; j < r->count && e[j].box.x0 - own.x1 <= far; j++) {
+            if (fw_box_gap(own, e[j].box) > far) continue;
+            look_at_pair(in, &e[i], &e[j]);
+            far = reach(in);
+        }
+    }
+}
+
+static void look_between(fw_mask_rule_search *in, const fw_mask_rule_range *r,
+                         const fw_mask_rule_range *s) {
+    for (int i = 0; i < r->count; i++) {
+        fw_mask_rule_edge *p = &in->edge[r->first + i], *q = &in->edge[s->first];
+        fw_geometry_box own = p->box;
+        double far = reach(in);
+        if (fw_box_gap(own, s->box) > far) continue;
+        for (int j = 0; j < s->count && q[j].box.x0 - own.x1 <= far; j++) {
+            if (fw_box_gap(own, q[j].box) > far) continue;
+            look_at_pair(in, p, &q[j]);
+            far = reach(in);
+        }
+    }
+}
+
+static void search_pairs(fw_mask_rule_search *in) {
+    for (int i = 0; i < in->nrange; i++) /* first: what a shape measures bounds the rest */
+        look_inside(in, &in->range[i]);
+    for (int i = 0; i < in->nrange; i++)
+        for (int j = i + 1; j < in->nrange; j++) {
+            const fw_mask_rule_range *r = &in->range[i], *s = &in->range[j];
+            double far = reach(in);
+            if (s->box.x0 - r->box.x1 > far) break;
+            if (fw_box_gap(r->box, s->box) <= far) look_between(in, r, s);
+        }
+}
+
+/* Near pairs first: most layers have a width and a space of some um, and then nothing beyond these
+   is looked at. Where they have not, again up to what was found, or with a larger cap. What stands
+   in the end is what the last round alone finds, in its order. */
+void fw_mask_rule_search_run(fw_mask_rule_search *in) {
+    for (double cap_m = 12e-6;;) {
+        in->cap_m = fw_lesser(cap_m, FW_MASK_LOOK_M);
+        in->measure->width_m = in->measure->space_m = HUGE_VAL;
+        in->nfound = 0;
+        search_pairs(in);
+        double found_m = fw_greater(in->measure->width_m, in->measure->space_m);
+        if (in->everything || found_m <= in->cap_m || in->cap_m >= FW_MASK_LOOK_M) return;
+        cap_m = isinf(found_m) ? 3 * cap_m : found_m;
+    }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Width and space between edges as they are written: chords of arcs and rounded lines, from grid
    point to grid point. Nothing is allowed for flattening; this is the verdict, and what comes before
-   it (rules_search.c, rules_pair.c) says only between which edges of the outlines it is asked for.
+   it (rules_pair.c) says only between which edges of the outlines it is asked for.
      - Two written edges face each other when the scalar product of their directions is below 0, in
    exact integers: their outward normals enclose more than 90 degrees. Of either one only the part
    counts that lies on the other one's side: of its material for widths, of the empty space for

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows <rule> of a layer table; docs/theory/masks.md lists the kinds and their attributes. */
 #include "mask/rule.h"
-#include "mask/layer_map.h"
+#include "mask/mask_table.h"
 #include <string.h>
 
 /* ---- what rows of other elements have too ---- */

@@ -4,7 +4,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/output.h"
-#include "mask/layer_map.h"
+#include "mask/mask_table.h"
 #include "plan/stages.h"
 #include "process/calibrate.h"
 #include <math.h>

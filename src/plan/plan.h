@@ -45,7 +45,7 @@ typedef struct fw_plan_options {
     size_t memory_cap;            /* 0: 512 MiB */
     const char *cut; /* of the sections: "x1,y1,x2,y2" or "flexure:ID"; NULL: the narrowest gap */
     fw_plan_measurements measurements;
-    const char *layers; /* file of the laboratory's layer numbers (mask/layer_map.h); NULL: none */
+    const char *layers; /* file of the laboratory's layer numbers (mask/mask_table.h); NULL: none */
     const char *directory; /* of drawings, for fw_plan_load_memory; NULL: none are opened */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);

@@ -2,7 +2,7 @@
 /* The smallest change of several values at once that satisfies every check.
 
    In: a device that is not accepted; n values that may be changed, each with its ends. z: their
-   changes (fw_verdict_variable_z), 0 as described; g(z): the checks (trial_checks.c), accepted
+   changes (fw_verdict_variable_z), 0 as described; g(z): the checks (trial.c), accepted
    where all are below 0.
 
    Out: z with the least sum |z_i| that was found, at which the whole verdict accepts, or none.
@@ -32,7 +32,7 @@
    succession); C. G. Broyden, Math. Comp. 19 (1965) 577.
 
    Test: tests/cli/test_advice.py, test_two_at_once, test_of_mixed_reasons. */
-#include "verdict/advice_several.h"
+#include "verdict/advice.h"
 #include "maths/linear_programme.h"
 #include <math.h>
 #include <string.h>

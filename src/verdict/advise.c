@@ -4,7 +4,7 @@
    as its settings say and accepted; the least change comes first. */
 #include "base/sort.h"
 #include "effects/effects.h"
-#include "verdict/advice_several.h"
+#include "verdict/advice.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

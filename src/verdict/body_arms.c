@@ -9,7 +9,7 @@
    that of the least integral of 1/w^3 over a grid of cells (Dijkstra), w there from the distance to the
    nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
    circle is largest to a hundredth of it, and there w is exact. */
-#include "verdict/body_arms.h"
+#include "verdict/strain.h"
 #include "geometry/segment.h"
 #include <string.h>
 

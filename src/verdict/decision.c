@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Decisions, their order, and the errors of the model that they allow for. */
+/* Decisions, their order, the errors of the model that they allow for, and what a refined computation may decide. */
 #include "verdict/verdict_parts.h"
 #include <math.h>
 
@@ -57,4 +57,72 @@ void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hin
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other) {
     if (h->decision != other->decision) return fw_verdict_is_worse(h->decision, other->decision);
     return h->utilisation > other->utilisation;
+}
+
+/* ---- what a refined computation may decide ----
+   Whether a refined computation can decide an undecided device. A hinge uses U with the band
+     U (1 - m) - n to U (1 + m') + n,   m, m': model, n: numbers,
+   and of either a part l stays whatever is computed. What the refined computation finds lies within
+   n + U (m - l) of U, and its band is U' (1 - l) to U' (1 + l'); with tighter numbers alone within
+   n, and of the same m. It pays where all undecided hinges may then be accepted, or one of them rejected.
+   Test: test_closer.c. */
+
+/* numbers that are known better than this decide nothing */
+static const double fw_known = 1e-5;
+const double fw_verdict_tightest = 1e-6;
+
+typedef struct reach { /* lowest upper end and highest lower end that a band may come to have */
+    double high, low;
+} reach;
+
+static reach reach_of(const fw_verdict_hinge_verdict *h, bool hinges) {
+    double u = h->utilisation, n = h->numeric;
+    if (!(u > 0)) return (reach){h->utilisation_high, h->utilisation_low};
+    double up = (h->utilisation_high - n) / u - 1, down = 1 - (h->utilisation_low + n) / u;
+    double stays_up = hinges ? fmin(up, h->lasting) : up;
+    double stays_down = hinges ? fmin(down, h->lasting_low) : down;
+    return (reach){(u - n - u * (up - stays_up)) * (1 + stays_up),
+                   (u + n + u * (down - stays_down)) * (1 - stays_down)};
+}
+
+/* with numbers (and hinges) as good as they get */
+static bool may_decide(const fw_verdict_hinge_verdict *hinge, int nhinge, bool hinges) {
+    bool accept = true, reject = false, any = false;
+    for (int k = 0; k < nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &hinge[k];
+        if (!h->scene || h->decision != FW_INCONCLUSIVE) continue;
+        reach r = reach_of(h, hinges);
+        accept = accept && !h->touches && r.high < 1;
+        reject = reject || r.low > 1;
+        any = any || hinges || h->numeric > fw_known;
+    }
+    return any && (accept || reject);
+}
+
+fw_verdict_refinement fw_verdict_refinement_of(const fw_verdict_hinge_verdict *hinge, int nhinge) {
+    if (may_decide(hinge, nhinge, false)) return FW_REFINE_NUMBERS;
+    return may_decide(hinge, nhinge, true) ? FW_REFINE_HINGES : FW_REFINE_NOTHING;
+}
+
+/* half of what lies between 1 and the nearer end of a band without numbers; these are taken to go
+   with the accuracy */
+double fw_verdict_enough(const fw_verdict_hinge_verdict *hinge, int nhinge, double accuracy) {
+    double share = 1;
+    for (int k = 0; k < nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &hinge[k];
+        if (!h->scene || h->decision != FW_INCONCLUSIVE || !(h->numeric > 0)) continue;
+        double n = h->numeric, high = h->utilisation_high - n, low = h->utilisation_low + n;
+        share = fmin(share, 0.5 * fmin(fabs(1 - high), fabs(1 - low)) / n);
+    }
+    return accuracy * share;
+}
+
+fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
+                                      fw_verdict_refinement refinement) {
+    fw_verdict_options tight = *options;
+    double asked = options->motion.accuracy > 0 ? options->motion.accuracy : 1e-3;
+    tight.motion.accuracy = fmin(asked, fw_verdict_tightest);
+    tight.motion.rtol = 0.0;
+    if (refinement == FW_REFINE_HINGES) tight.motion.hinge_accuracy = asked;
+    return tight;
 }

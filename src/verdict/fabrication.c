@@ -127,7 +127,7 @@ static void change_joint(const fw_device *was, const fw_layout *drawn,
         move_hinge_point(d, j, now.centre_m - before.centre_m, drawn->hinge[j].axis_rad);
 }
 
-/* ---- bodies: what is drawn grows by e along every edge (layout_mass.c); what is stated goes with it.
+/* ---- bodies: what is drawn grows by e along every edge (fw_layout_body_measure); what is stated goes with it.
    A frame whose place is not stated stays where it was drawn. ---- */
 
 static void change_body(const fw_layout_body_layout *shape, double edge_m, fw_device_body *body,

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which check a verdict rests on: of all flows, as each makes the device, or as it is drawn. */
+/* Which check a verdict rests on, and why a design is rejected. */
+#include "verdict/verdict.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- which check ----
+   Of all flows, as each makes the device, or as it is drawn. */
 
 static const char *limit_of(const fw_verdict_hinge_verdict *h) {
     bool tires = h->limit && strcmp(h->limit->criterion, "fatigue") == 0;
@@ -100,5 +104,48 @@ fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int k
                     : fw_arena_printf(arena, "hinge %s", check->hinge->id);
     FW_NEED(check->what);
     if (r) FW_NEED(check->of = fw_verdict_requirement_text(arena, r));
+    return FW_OK;
+}
+
+/* ---- why it is rejected ----
+   Each reason once: what stands on certificates, order sheets and run sheets
+   that are written all the same. */
+
+static bool said(const char *const *text, int n, const char *what) {
+    for (int i = 0; i < n; i++)
+        if (strcmp(text[i], what) == 0) return true;
+    return false;
+}
+
+static fw_status rejection_of_hinge(fw_arena *arena, const fw_verdict_hinge_verdict *h,
+                                    const char **text) {
+    char used[32];
+    fw_percent_text(used, sizeof used, h->utilisation);
+    FW_NEED(*text =
+                fw_arena_printf(arena, "hinge %s uses %s %% of its limit in %s%s%s", h->id, used,
+                                h->scene, h->flow ? ", flow " : "", h->flow ? h->flow : ""));
+    return FW_OK;
+}
+
+fw_status fw_verdict_rejections(fw_arena *arena, const fw_verdict *verdict, const char ***text,
+                                int *n) {
+    int most = verdict->nhinge;
+    const char *one;
+    *n = 0;
+    for (int i = 0; i < verdict->nvariant; i++)
+        most += verdict->variant[i].nreason;
+    FW_NEED(*text = fw_arena_alloc(arena, (size_t)most, sizeof **text));
+    for (int k = 0; k < verdict->nhinge; k++) {
+        if (verdict->hinge[k].decision != FW_REJECT || !verdict->hinge[k].scene) continue;
+        FW_TRY(rejection_of_hinge(arena, &verdict->hinge[k], &one));
+        (*text)[(*n)++] = one;
+    }
+    for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < verdict->variant[i].nreason; k++) {
+            const fw_verdict_reason *r = &verdict->variant[i].reason[k];
+            if (r->decision != FW_REJECT) continue;
+            FW_NEED(one = fw_arena_printf(arena, "%s [FW-D%03d]", r->text, r->number));
+            if (!said(*text, *n, one)) (*text)[(*n)++] = one;
+        }
     return FW_OK;
 }

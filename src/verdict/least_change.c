@@ -15,7 +15,7 @@
 
    Cost: 5 to 12 glances for each whole judgement, of which one or two are usual, MOST_JUDGED at most.
    Test: tests/cli/test_advice.py, test_lengths_are_the_least. */
-#include "verdict/trial.h"
+#include "verdict/advice.h"
 #include "effects/effects.h"
 #include <math.h>
 

@@ -33,7 +33,7 @@
 
    Test: tests/unit/plan/test_advice.c, tests/cli/test_advice.py. */
 #include "base/sort.h"
-#include "verdict/trial_value.h"
+#include "verdict/advice.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

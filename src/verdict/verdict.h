@@ -171,7 +171,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     bool beyond_pull_in;                /* a scene may ask for more than its pull-in voltage */
     fw_verdict_reason *reason;          /* (nreason) */
     int nreason;
-    /* (2 nhinge) how bodies give (body_arms.h); NULL: nothing is drawn */
+    /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */
     const struct fw_verdict_arm *arm;
     const fw_clearance_things *things; /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */

@@ -4,9 +4,11 @@
    Castigliano the place where a load acts goes further by U_b/U_h, to first order, and a frequency is
    lower by half of it. Theory: docs/theory/verdict.md. Test: test_body_arms.c */
 #include "base/text.h"
+#include "geometry/segment.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
+#include <string.h>
 
 static double turned(const fw_mechanism *m, const fw_dynamics_instant *now, int body) {
     return body == FW_GROUND ? 0 : now->q[3 * body + 2] - m->drawn[body].phi_rad;

@@ -46,7 +46,7 @@ double fw_verdict_clearance_used(const fw_verdict_clearance *clearance);
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                      const fw_layout *layout, bool brief,
                                      fw_verdict_variant_verdict *v);
-/* verdict_strip.c: every flexure against its own two bodies; after the hinges */
+/* every flexure against its own two bodies; after the hinges */
 fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
                                       fw_verdict_variant_verdict *v);
 

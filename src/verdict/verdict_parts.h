@@ -5,7 +5,7 @@
 #define FW_VERDICT_VERDICT_PARTS_H
 #include "verdict/verdict.h"
 
-/* ---- decision.c: which of two hinges matters more; refinement.c: what may still decide ---- */
+/* ---- decision.c: which of two hinges matters more, what may still decide ---- */
 
 void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other);
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other);
@@ -45,7 +45,7 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);
 
-/* ---- verdict_missing.c: what the motion has and the masks lack ---- */
+/* ---- verdict_scene.c: what the motion has and the masks lack ---- */
 
 int fw_verdict_missing_most(const fw_device *device); /* reasons of one flow */
 /* reasons of v */

@@ -385,7 +385,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
 
 /* ---- what may still decide ---- */
 
-/* as refinement.c sees a hinge */
+/* as decision.c sees a hinge */
 static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
     double relative = r->value != 0 ? r->numeric / fabs(r->value) : 0;
     return (fw_verdict_hinge_verdict){.scene = r->scene ? r->scene : "at rest",

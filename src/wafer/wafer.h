@@ -8,7 +8,6 @@
 #define FW_WAFER_WAFER_H
 #include "device/device.h"
 #include "mask/mask.h"
-#include "mask/mask_merge.h"
 
 enum { FW_WAFER_MOST_DIES = 20000 };
 
@@ -157,7 +156,7 @@ fw_status fw_wafer_write_csv(const fw_wafer *wafer, fw_text *out); /* one line p
 fw_status fw_wafer_write_map(const fw_wafer *wafer, fw_text *out); /* SVG for people */
 fw_status fw_wafer_write_json(const fw_wafer *wafer, const char *gds_sha256, fw_text *out);
 
-/* ---- the plate as the shop writes it: wafer_written.c ---- */
+/* ---- the plate as the shop writes it: wafer_write.c ---- */
 typedef struct fw_wafer_written {
     fw_mask_plate plate;     /* one layer */
     fw_mask_merge_sums sums; /* over all places */

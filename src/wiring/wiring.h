@@ -132,8 +132,6 @@ typedef struct fw_wiring_on_mask {
 fw_status fw_wiring_compare(fw_arena *arena, const fw_wiring *wiring, const fw_layout *layout,
                             const fw_geometry_contour *contour, fw_wiring_on_mask *found);
 
-const char *fw_wiring_kind_word(fw_wiring_kind kind);         /* "rotor" */
-const char *fw_wiring_fault_word(fw_wiring_fault fault);      /* "shorted"; NULL: none */
 const char *fw_wiring_contact_word(const fw_wiring_net *net); /* "probed", "edge", "none" */
 /* where a net is contacted, and what a gap bears, in words */
 fw_status fw_wiring_contact_words(fw_arena *arena, const fw_wiring_net *net, const char **out);
@@ -141,5 +139,36 @@ fw_status fw_wiring_gap_words(fw_arena *arena, const fw_wiring *wiring, const fw
                               const char **out);
 /* member "wiring" of an open object; NULL: null */
 void fw_wiring_json(const fw_wiring *wiring, fw_json *json);
+
+/* ---- between the files of the room ---- */
+
+/* Which pieces hang together: part[i] is the lowest index of a piece of the same conductor, -1: no conductor.
+   contour: of each piece, count 0: not there. Joined are pieces with a common cut, and, where `touching`, those
+   whose outlines meet. */
+fw_status fw_wiring_parts(fw_arena *arena, const fw_layout *layout,
+                          const fw_geometry_contour *contour, bool islands, bool touching,
+                          int *part);
+bool fw_wiring_conducts(const fw_layout_piece *piece, bool islands);
+/* do two outlines share a JOINT? */
+bool fw_wiring_share_cut(const fw_geometry_contour *p, const fw_geometry_contour *q);
+/* the least distance of two parts, and where, but for tethers and the bodies that they hold; HUGE_VAL: one is not
+   there. boxes: (npiece) */
+typedef struct fw_wiring_near {
+    double m;
+    fw_geometry_vec2 at[2];
+    int piece[2];
+} fw_wiring_near;
+fw_wiring_near fw_wiring_least(const fw_layout *layout, const fw_geometry_contour *contour,
+                               const fw_geometry_box *box, const int *part, int a, int b);
+
+/* gaps, fields, and what there is to say of them (wiring_gaps.c) */
+fw_status fw_wiring_gaps(fw_arena *arena, const fw_layout *layout, const fw_wiring_asked *asked,
+                         fw_wiring *w);
+
+/* adds a sentence to a list with room for it; NULL: FW_NOMEM */
+fw_status fw_wiring_say(fw_arena *arena, const char ***list, int *n, const char *sentence);
+static inline bool fw_wiring_is_driven(const fw_wiring_net *net) {
+    return net->low_V < 0.0 || net->high_V > 0.0;
+}
 
 #endif

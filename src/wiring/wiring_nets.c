@@ -7,7 +7,7 @@
    its conductor. Error: none, cuts within TOGETHER_M of each other at both ends are one. Cost: n log n in the
    cuts; where touching pieces are looked for besides, the pairs of edges whose boxes are nearer than that.
    Test: test_wiring_nets.c, against the flood of a raster. */
-#include "wiring/wiring_nets.h"
+#include "wiring/wiring.h"
 #include "geometry/segment.h"
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
    the frame, out of everybody's way, and as much as the formulas say. */
 #include "fixture.h"
 #include "geometry/segment.h"
-#include "layout/content.h"
+#include "layout/pattern.h"
 #include "test.h"
 
 static const double KEEP_M = 150e-6;

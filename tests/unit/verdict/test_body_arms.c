@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How bodies give between their hinges, against beams in closed form. */
-#include "verdict/body_arms.h"
+#include "verdict/strain.h"
 #include "geometry/segment.h"
 #include "test.h"
 

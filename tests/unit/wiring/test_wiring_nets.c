@@ -2,7 +2,7 @@
 /* Nets against the flood of a raster: random lattices of plates with arms between them, joined by cuts or only
    touching; and the least distance of two nets against all pairs. */
 #include "test.h"
-#include "wiring/wiring_nets.h"
+#include "wiring/wiring.h"
 #include <math.h>
 #include <stdlib.h>
 

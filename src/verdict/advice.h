@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What advice is made with: a changed copy of the device, judged again; what of a description may change, as
+   settings of it; and the searches for the least change that is accepted. Private to the room. */
+#ifndef FW_VERDICT_ADVICE_H
+#define FW_VERDICT_ADVICE_H
+#include "verdict/verdict.h"
+
+/* ---- a changed copy of the device, judged again ---- */
+
+typedef struct fw_verdict_trial_hinge { /* what a change needs to know of a hinge's verdict */
+    int joint; /* FW_NONE: no hinge, but a reason against the scene: utilisation_high is then 1 over
+                  the share of its loads that it may bear */
+    fw_verdict_decision decision;
+    double utilisation_high;
+    double likely;     /* the same without what closer numbers would take away */
+    double reach;      /* peak angle / angle at which the drawn solids meet; 0: never */
+    const char *scene; /* of the device, or "workspace" */
+    const char *flow;
+    bool not_by_loads, not_by_width; /* less load, or wider flexures, are no help */
+} fw_verdict_trial_hinge;
+
+/* how closely a trial is judged */
+typedef enum fw_verdict_look {
+    FW_LOOK_GLANCE, /* coarsely, as drawn and at the corners that were not accepted last; what that
+                       rejects is rejected */
+    FW_LOOK_VALUES, /* the same, with a value of every check that can have one */
+    FW_LOOK_WHOLE   /* as closely as any verdict */
+} fw_verdict_look;
+
+typedef struct fw_verdict_trial {
+    double work;                /* fw_verdict_options.work of the trials so far */
+    double excess_as_described; /* fw_verdict_trial_excess before anything was changed */
+    fw_arena *arena;            /* of the plan: outlives the trial */
+    const fw_device *device;    /* as described */
+    fw_device *changed;         /* a copy; flexures, loads and workspaces are its own */
+    const fw_verdict_options *options;
+    const fw_verdict *verdict;     /* of the device as described */
+    fw_verdict_trial_hinge *hinge; /* (nhinge) of the last run */
+    int nhinge;
+    double *suspect; /* (nvariant x FW_FABRICATION_INPUTS) corner of each flow that governed last */
+    bool *suspected; /* (nvariant) there is one */
+    double *share;   /* (device->nscene) of each scene's loads that is left */
+    fw_verdict_decision decision;
+    int round; /* of a change that is repeated; its caller's */
+    bool drawn;
+    int fabricated; /* flows whose making of it the last run looked at, too */
+    /* (ncheck) of the last run, in an order that no change of a value alters: trial.c */
+    double *check;
+    double *made; /* (ncheck) the largest at the corners that were run; NaN: none was */
+    int ncheck;
+    bool brief; /* clearances that are enough have no value */
+} fw_verdict_trial;
+
+/* copies the device and takes over the verdict that it has */
+fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
+                                 const fw_verdict_options *options, const fw_verdict *verdict,
+                                 fw_verdict_trial *trial);
+/* `changed` is the device as described once more, with all of its loads */
+fw_status fw_verdict_trial_reset(fw_verdict_trial *trial);
+/* judges `changed`; what could not be run is a rejection that is not drawn */
+fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look);
+
+/* judges the description read again with `set` instead of `changed` */
+fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
+                                   fw_verdict_look look);
+/* the largest `likely` (or reach) of the last run; NaN: it was not run */
+double fw_verdict_trial_excess(const fw_verdict_trial *trial);
+
+/* states `changed` as settings and judges them; *accepted: they are proposed */
+typedef fw_status fw_verdict_propose(void *context, bool *accepted);
+
+/* least_change.c: an accepted change, made as small as it may be in its own direction, and proposed.
+   *added: it was */
+fw_status fw_verdict_least_change(fw_verdict_trial *trial, fw_verdict_propose *propose,
+                                  void *context, bool *added);
+
+/* parameters.c: every declared parameter alone */
+fw_status fw_verdict_change_parameters(fw_verdict_trial *trial, fw_verdict *out);
+
+/* ---- a number of the description, as somebody would type it ---- */
+
+typedef struct fw_verdict_value { /* all in the unit as written */
+    const char *path;             /* what --set takes */
+    fw_quantity_unit unit;
+    const char *unit_text;
+    double now, low, high;
+    double range; /* to the farther end */
+    double digit; /* no value is finer */
+} fw_verdict_value;
+
+/* of a parameter; *ok false: nothing says how far it may go, or it may not go anywhere */
+fw_status fw_verdict_value_of_parameter(fw_verdict_trial *trial, const fw_device_parameter *p,
+                                        fw_verdict_value *value, bool *ok);
+/* "12.4 um" */
+const char *fw_verdict_value_text(fw_arena *arena, const fw_verdict_value *value, double x,
+                                  int digits);
+/* the power of ten at or below x, not finer than the finest digit */
+double fw_verdict_value_step(const fw_verdict_value *value, double x);
+/* the nearest whole number of steps, which are a power of ten */
+double fw_verdict_value_rounded(double x, double step);
+
+/* ---- what may change: parameters, attributes of flexures, shares of loads and of required poses ---- */
+
+typedef struct fw_verdict_part { /* an attribute that a share multiplies */
+    const char *path, *unit;     /* SI, with a prefix where that takes one */
+    double value;
+    bool squared;  /* it goes with the root of the share */
+    bool prefixed; /* the unit takes one */
+} fw_verdict_part;
+
+typedef struct fw_verdict_variable {
+    fw_verdict_value value; /* of a share: 1, without unit */
+    const char *name;       /* "width", "width of flexure A", "loads of scene push" */
+    fw_verdict_proposal_kind kind;
+    const fw_verdict_part *part; /* (npart) */
+    int npart;                   /* 0: the value itself is set */
+} fw_verdict_variable;
+
+/* How large a change is: |ln(x/now)|, so that twice as much and half as much are the same, whatever
+   the unit; of a value that is 0, or changes its sign, |x - now| over the range that it has. With
+   its sign: z. A change of several is the sum of theirs: of two ways to the same end the one that
+   changes fewer things is the smaller. */
+double fw_verdict_variable_z(const fw_verdict_variable *variable, double x);
+double fw_verdict_variable_x(const fw_verdict_variable *variable, double z);
+double fw_verdict_variable_size(const fw_verdict_variable *variable, double x);
+/* x as it would be typed: to 0.4 % of the change, 0.01 % of the value */
+double fw_verdict_variable_typed(const fw_verdict_variable *variable, double x);
+
+/* every parameter that has room */
+fw_status fw_verdict_variables_of_parameters(fw_verdict_trial *trial,
+                                             fw_verdict_variable **variable, int *count);
+/* lengths and widths of flexures, loads of scenes, required poses */
+fw_status fw_verdict_variables_of_attributes(fw_verdict_trial *trial,
+                                             fw_verdict_variable **variable, int *count);
+/* the loads of a scene, a required box; *ok false: nothing of it can be set */
+fw_status fw_verdict_variable_of_loads(fw_verdict_trial *trial, int scene,
+                                       fw_verdict_variable *variable, bool *ok);
+fw_status fw_verdict_variable_of_box(fw_verdict_trial *trial, int box,
+                                     fw_verdict_variable *variable, bool *ok);
+
+/* settings of all that differ from what they are now */
+fw_status fw_verdict_variables_settings(fw_arena *arena, const fw_verdict_variable *variable,
+                                        int count, const double *x, const fw_device_set **set,
+                                        int *nset);
+/* "width 9.2 um (now 8 um) and leg 2.3 mm (now 2.2 mm) together: accepted" */
+fw_status fw_verdict_variables_text(fw_arena *arena, const fw_verdict_variable *variable, int count,
+                                    const double *x, const char **text);
+
+/* ---- several values at once ---- */
+
+typedef struct fw_verdict_several {
+    bool accepted; /* the device at x was read, drawn, run and accepted */
+    bool ended;    /* the search was ended before it was done */
+    double *x;     /* (count) in the units of the variables */
+    double size;   /* sum of the sizes of all changes */
+    int looks;
+} fw_verdict_several;
+
+/* smaller_than: the size of a change that is known; what is not clearly smaller is not looked for.
+   most_work: trial->work may come to */
+fw_status fw_verdict_change_several(fw_verdict_trial *trial, const fw_verdict_variable *variable,
+                                    int count, double smaller_than, double most_work,
+                                    fw_verdict_several *out);
+
+#endif
