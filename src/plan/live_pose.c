@@ -7,7 +7,7 @@
 #include "plan/design.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
-#include "report/preview.h"
+#include "report/report.h"
 #include "workspace/workspace.h"
 #include <math.h>
 #include <string.h>
