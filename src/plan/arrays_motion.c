@@ -115,8 +115,6 @@ static void add_forces(fw_plan_arrays *to, const mechanism_axes *b, size_t rows,
         unit[i] = b->mechanism->driver[i].revolute != FW_NONE ? "N m" : "N";
 }
 
-/* ---- motions and small motions ---- */
-
 /* ---- probes of a scene, by row or at one pose ---- */
 
 typedef struct seen_probes {
@@ -308,8 +306,6 @@ fw_status fw_plan_numbers_modes(fw_design *d, fw_plan_arrays *to) {
              one, &m->frequency_error);
     return mode_probes(d, to);
 }
-
-/* ---- equilibria, the assembled position and the workspace ---- */
 
 /* ---- equilibrium ---- */
 

@@ -113,7 +113,7 @@ static int narrowest(const fw_plan *plan) {
     return best == FW_NONE ? any : best;
 }
 
-/* ---- as asked for ---- */
+/* ---- as --cut asks for it ---- */
 
 static fw_status refuse(fw_plan *plan, const char *why) {
     FW_NEED(why);
@@ -194,8 +194,6 @@ static fw_status cut_wafer(fw_plan *plan, fw_plan_flow *pf) {
     if (there) pf->cut = cut;
     return FW_OK;
 }
-
-/* ---- masks, test dies and schedules ---- */
 
 /* ---- the test die of a flow, as large as the device's ----
    What keeps it from being drawn never keeps the device's own mask. */

@@ -243,7 +243,7 @@ fw_status fw_plan_pose_solve(fw_arena *arena, const fw_mechanism *m, int body,
     return closing(arena, m, body, asked, from, out);
 }
 
-/* ---- requests and answers ---- */
+/* ---- the mechanisms of a text ---- */
 
 typedef struct fw_plan_live_posed {
     fw_design *design; /* its arena holds this struct and the mechanisms */
@@ -255,8 +255,6 @@ typedef struct fw_plan_live_posed {
 void fw_plan_live_posed_free(fw_plan_live_posed *posed) {
     if (posed) fw_design_free(posed->design);
 }
-
-/* ---- the mechanisms of a text ---- */
 
 static fw_status build(fw_design *d, void *argument) {
     fw_plan_live_posed *posed = argument;

@@ -49,7 +49,7 @@ static fw_status pack_meant(fw_plan *plan, const char *wrong, const char **words
     return FW_OK;
 }
 
-/* ---- reading ---- */
+/* ---- files and laboratory packs ---- */
 
 enum {
     MOST_BYTES = 8 * 1024 * 1024,

@@ -217,7 +217,7 @@ static const char *unit_of(const fw_verdict_fabrication_input *in) {
     return pure ? "" : in->q.unit;
 }
 
-/* ---- terminal ---- */
+/* ---- what the flows may make of it: on the terminal ---- */
 
 static void assumed(fw_text *out, const fw_verdict_variant_verdict *v) {
     for (int i = 0; i < v->ninput; i++) {
@@ -256,7 +256,7 @@ void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict) {
     }
 }
 
-/* ---- page ---- */
+/* ---- what the flows may make of it: on the page ---- */
 
 static void ranges(fw_text *out, const fw_verdict_variant_verdict *v) {
     fw_text_add(out, "<div class=\"wide\"><table><caption>What is not fabricated exactly as "
@@ -363,9 +363,7 @@ fw_status fw_report_section_fabricated(fw_report_page *page) {
     return fw_text_end(page->out);
 }
 
-/* ---- which measurement pays: the section, and the line on the terminal ---- */
-
-/* ---- page ---- */
+/* ---- which measurement pays: on the page ---- */
 
 bool fw_report_has_measurements(const fw_report_page *page) {
     for (int i = 0; i < page->in->nflow; i++)
@@ -451,7 +449,7 @@ fw_status fw_report_section_measurements(fw_report_page *page) {
     return fw_text_end(page->out);
 }
 
-/* ---- terminal ---- */
+/* ---- which measurement pays: on the terminal ---- */
 
 /* where it is undecided what a flow makes; the whole list stands in the report */
 void fw_report_measurements_text(fw_text *out, const fw_report_input *in) {

@@ -6,8 +6,6 @@
 #include "workspace/pose_load.h"
 #include <stdio.h>
 
-/* ---- the position and the workspace ---- */
-
 /* ---- the assembled position ---- */
 
 static const char *known(const char *id) {

@@ -7,8 +7,6 @@
 
 /* ---- probes and requirements ---- */
 
-/* ---- JSON ---- */
-
 static void value(fw_json *json, const fw_verdict_requirement *r) {
     fw_json_real(json, "value", r->value);
     fw_report_json_pair(json, "band", r->low, r->high);

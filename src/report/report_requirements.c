@@ -8,9 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- probes and requirements ---- */
-
-/* ---- curves ---- */
+/* ---- curves of probes ---- */
 
 typedef struct curve {
     const fw_verdict_variant_verdict *v;
@@ -206,7 +204,7 @@ fw_status fw_report_probe_panels(fw_arena *arena, const fw_verdict_variant_verdi
     return fw_text_end(out);
 }
 
-/* ---- the table ---- */
+/* ---- the table of requirements ---- */
 
 static void bound_text(fw_text *out, const fw_verdict_requirement *r) {
     char text[FW_PROBE_TEXT];

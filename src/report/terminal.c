@@ -98,8 +98,6 @@ fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_dev
     return FW_OK;
 }
 
-/* ---- the verdict ---- */
-
 static double degrees(double rad) {
     return rad * 180.0 / FW_PI;
 }

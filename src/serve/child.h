@@ -4,7 +4,6 @@
 #ifndef FW_SERVE_CHILD_H
 #define FW_SERVE_CHILD_H
 #include "base/diag.h"
-#include "serve/request.h"
 #include <poll.h>
 #include <stdint.h>
 #include <sys/types.h>
@@ -65,6 +64,7 @@ void fw_serve_scratch_remove(fw_serve_scratch *scratch, const char *name);
    status, uint32 n} and n bytes. */
 
 typedef struct fw_serve_pool fw_serve_pool;
+struct fw_serve_request;
 
 enum { FW_SERVE_WORKERS = 2, FW_SERVE_MOST_QUESTION = 1024 * 1024 }; /* bytes of a question */
 
@@ -85,9 +85,10 @@ fw_status fw_serve_pool_open(fw_arena *arena, const char *data_directory, fw_ser
 void fw_serve_pool_close(fw_serve_pool *pool);
 /* the request's body goes to a worker as soon as one is free; the answer comes by
    fw_serve_request_answer */
-void fw_serve_pool_ask(fw_serve_pool *pool, fw_serve_request *request, fw_serve_compute what);
+void fw_serve_pool_ask(fw_serve_pool *pool, struct fw_serve_request *request,
+                       fw_serve_compute what);
 /* nobody waits for its answer any more, when it is one of them */
-void fw_serve_pool_forget(fw_serve_pool *pool, fw_serve_request *request);
+void fw_serve_pool_forget(fw_serve_pool *pool, struct fw_serve_request *request);
 /* what to poll, at most `most`; and what to do afterwards */
 size_t fw_serve_pool_poll(const fw_serve_pool *pool, struct pollfd *poll, size_t most);
 void fw_serve_pool_run(fw_serve_pool *pool);

@@ -3,6 +3,7 @@
 #include "base/arena.h"
 #include "plan/live.h"
 #include "serve/child.h"
+#include "serve/request.h"
 #include "serve/serve.h"
 #include <errno.h>
 #include <fcntl.h>

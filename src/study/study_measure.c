@@ -13,10 +13,6 @@
 #include <string.h>
 #include <time.h>
 
-/* of the budget; and a program under callgrind does so many times fewer instructions a second */
-static const double count_share = 0.4, slower = 6, one = 0.12;
-enum { MOST_WORDS = 300 };
-
 /* ---- medians ---- */
 
 /* rank k of that interval, from 1; 0: n is too small */
@@ -49,6 +45,10 @@ bool fw_study_median_told(const fw_study_median *m) {
 }
 
 /* ---- which settings ---- */
+
+/* of the budget; and a program under callgrind does so many times fewer instructions a second */
+static const double count_share = 0.4, slower = 6, one = 0.12;
+enum { MOST_WORDS = 300 };
 
 typedef struct wishes {
     int *point; /* (n) indices */

@@ -222,7 +222,7 @@ fw_status fw_study_tradeoff_text(const fw_study_tradeoff *t, fw_text *out) {
     return fw_text_end(out);
 }
 
-/* ---- JSON and CSV ----
+/* ---- JSON ----
    What is measured on this machine (times, counted instructions) stands in keys of its own. */
 
 static const char *const state_text[] = {"done", "skipped", "failed"};
