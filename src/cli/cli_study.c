@@ -3,9 +3,7 @@
 #include "cli/session.h"
 #include "plan/design.h"
 #include "study/study.h"
-#include "study/study_merge.h"
 #include "study/study_store.h"
-#include "study/study_write.h"
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>

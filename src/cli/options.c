@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/options.h"
-#include "cli/options_log.h"
-#include "cli/options_masks.h"
-#include "cli/options_study.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
 #include "plan/ladder.h"
@@ -136,13 +133,6 @@ static const char *take_force(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
-/* what a value is wrong for: "needs {names}" */
-static const char *needs(const char *(*of)(void)) {
-    static char text[640];
-    snprintf(text, sizeof text, "needs %s", of());
-    return text;
-}
-
 /* ---- of recipe and plan: the schedule ---- */
 
 static const char *whole(const char *v, int32_t *to) {
@@ -235,7 +225,7 @@ static const char *take_hinge_model(fw_cli_options *o, const char *v) {
     o->design.hinge_model = v;
     for (size_t i = 0; i < fw_effects_hinge_model_count(); i++)
         if (strcmp(v, fw_effects_hinge_model_text((fw_effects_hinge_model)i)) == 0) return NULL;
-    return needs(fw_cli_hinge_model_names);
+    return fw_cli_needs(fw_cli_hinge_model_names);
 }
 
 static const char *take_rtol(fw_cli_options *o, const char *v) {

@@ -102,5 +102,34 @@ const char *fw_cli_option_help(const fw_cli_option_row *row);
 const char *fw_cli_mask_format_names(void);
 const char *fw_cli_hinge_model_names(void);
 const char *fw_cli_level_names(void);
+/* what is said of a value that is none of these: "needs gds, svg ..."; until the next call */
+const char *fw_cli_needs(const char *(*names)(void));
+
+/* ---- what options of masks, study and log take (option_values.c) ----
+   NULL or what is wrong with the value */
+
+const char *fw_cli_take_tolerance(fw_cli_options *o, const char *v);
+const char *fw_cli_take_mask_format(fw_cli_options *o, const char *v);
+const char *fw_cli_take_mask_flatten(fw_cli_options *o, const char *v);
+const char *fw_cli_take_layers(fw_cli_options *o, const char *v);
+const char *fw_cli_take_mask_vertices(fw_cli_options *o, const char *v);
+
+const char *fw_cli_take_study(fw_cli_options *o, const char *v);
+const char *fw_cli_take_jobs(fw_cli_options *o, const char *v);
+const char *fw_cli_take_shard(fw_cli_options *o, const char *v);
+const char *fw_cli_take_resume(fw_cli_options *o, const char *v);
+const char *fw_cli_take_plan_only(fw_cli_options *o, const char *v);
+
+const char *fw_cli_take_run(fw_cli_options *o, const char *v);
+const char *fw_cli_take_entry(fw_cli_options *o, const char *v);
+const char *fw_cli_take_entries(fw_cli_options *o, const char *v);
+const char *fw_cli_take_lot(fw_cli_options *o, const char *v);
+const char *fw_cli_take_wafer_ids(fw_cli_options *o, const char *v);
+const char *fw_cli_take_wafer(fw_cli_options *o, const char *v);
+const char *fw_cli_take_instrument(fw_cli_options *o, const char *v);
+const char *fw_cli_take_report(fw_cli_options *o, const char *v);
+const char *fw_cli_take_site(fw_cli_options *o, const char *v);
+const char *fw_cli_take_setting(fw_cli_options *o, const char *v);
+const char *fw_cli_take_coupon(fw_cli_options *o, const char *v);
 
 #endif

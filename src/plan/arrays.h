@@ -53,39 +53,12 @@ const char **fw_plan_labels(fw_plan_arrays *to, size_t n);
 typedef fw_status fw_plan_compose(fw_design *design, fw_plan_arrays *to);
 /* arrays_verdict.c */
 fw_plan_compose fw_plan_numbers_parameters, fw_plan_numbers_scenes, fw_plan_numbers_hinges,
-    fw_plan_numbers_flow_hinges, fw_plan_numbers_flows, fw_plan_numbers_governing;
-/* arrays_requirements.c */
-fw_plan_compose fw_plan_numbers_clearances, fw_plan_numbers_requirements, fw_plan_numbers_probes,
+    fw_plan_numbers_flow_hinges, fw_plan_numbers_flows, fw_plan_numbers_governing,
+    fw_plan_numbers_clearances, fw_plan_numbers_requirements, fw_plan_numbers_probes,
     fw_plan_numbers_motion_probes;
 /* arrays_motion.c */
-fw_plan_compose fw_plan_numbers_motion, fw_plan_numbers_peaks, fw_plan_numbers_modes;
-/* arrays_poses.c */
-fw_plan_compose fw_plan_numbers_statics, fw_plan_numbers_load_path, fw_plan_numbers_assembly,
+fw_plan_compose fw_plan_numbers_motion, fw_plan_numbers_peaks, fw_plan_numbers_modes,
+    fw_plan_numbers_statics, fw_plan_numbers_load_path, fw_plan_numbers_assembly,
     fw_plan_numbers_workspace;
-
-/* ---- shared by them: arrays_bodies.c ---- */
-
-typedef struct fw_plan_bodies { /* the axes of a mechanism */
-    const fw_mechanism *mechanism;
-    fw_plan_axis body, pin, joint, driver;
-} fw_plan_bodies;
-fw_status fw_plan_bodies_of(fw_plan_arrays *to, const fw_mechanism *mechanism, fw_plan_bodies *out);
-extern const char *const fw_plan_pose_labels[3]; /* x, y, phi */
-extern const char *const fw_plan_xy_labels[2];
-/* (rows x body x 3) of reference frames, from (rows x 3 nbody) of centres of mass; rows 0: one pose,
-   without that axis. What is NULL has no array */
-void fw_plan_array_poses(fw_plan_arrays *to, const fw_plan_bodies *b, fw_plan_array_name name,
-                         size_t rows, const double *q);
-void fw_plan_array_velocities(fw_plan_arrays *to, const fw_plan_bodies *b, fw_plan_array_name name,
-                              size_t rows, const double *q, size_t q_rows, const double *v);
-/* "com" (rows x body x 2): centres of mass */
-void fw_plan_array_centres(fw_plan_arrays *to, const fw_plan_bodies *b, size_t rows,
-                           const double *q);
-/* "force" (pin x 2), "joint_force" (joint x 3), "driver_force" (driver) and "driver_unit" */
-void fw_plan_array_forces(fw_plan_arrays *to, const fw_plan_bodies *b, size_t rows,
-                          const double *reaction_N, const double *joint_N, const double *driver_N);
-/* (rows x n) copied */
-void fw_plan_array_copy(fw_plan_arrays *to, fw_plan_array_name name, size_t rows, fw_plan_axis axis,
-                        const double *value);
 
 #endif

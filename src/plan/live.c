@@ -4,7 +4,7 @@
 #include "dynamics/dynamics.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
-#include "report/preview.h"
+#include "report/report.h"
 #include <math.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include "plan/ladder.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
-#include "report/preview.h"
+#include "report/report.h"
 #include <string.h>
 
 /* a preview shows all of a motion */

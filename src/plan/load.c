@@ -1,14 +1,55 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A description and the packs that it refers to, read: laboratory packs once, applied to every
-   flow. */
+/* A description and the packs that it refers to, read: laboratory packs once, applied to every flow. */
 #include "base/constants.h"
-#include "base/text.h"
 #include "base/output.h"
+#include "base/text.h"
 #include "mask/mask_table.h"
 #include "plan/stages.h"
 #include "process/calibrate.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- what was probably meant by a name that is not there ---- */
+
+static fw_status words_of(fw_plan *plan, const char *wrong, const char *const *name, size_t n,
+                          const char **words) {
+    const char *near = fw_did_you_mean(wrong, name, n);
+    FW_NEED(*words = near ? fw_arena_printf(plan->arena, " (did you mean '%s'?)", near) : "");
+    return FW_OK;
+}
+
+/* " (did you mean 'X'?)" of the device's flows; "": nothing is near */
+static fw_status flow_meant(fw_plan *plan, const char *wrong, const char **words) {
+    const fw_device *d = plan->device;
+    const char **name = fw_arena_array(plan->arena, const char *, (size_t)d->nflow);
+    size_t n = 0;
+    FW_NEED(name);
+    for (int i = 0; i < d->nflow; i++)
+        if (d->flow[i].ref) name[n++] = d->flow[i].ref;
+    return words_of(plan, wrong, name, n, words);
+}
+
+/* the same of all process packs, else which there are */
+static fw_status pack_meant(fw_plan *plan, const char *wrong, const char **words) {
+    const char *const *all;
+    size_t n, flows = 0;
+    FW_TRY(fw_data_names(plan->arena, plan->options.data_directory, "processes", &all, &n));
+    const char **name = fw_arena_array(plan->arena, const char *, n);
+    FW_NEED(name);
+    fw_text list = fw_text_new(plan->arena);
+    for (size_t i = 0; i < n; i++) {
+        if (strcmp(all[i], "base") == 0) continue; /* what all flows share */
+        fw_text_printf(&list, "%s%s", flows ? ", " : "", all[i]);
+        name[flows++] = all[i];
+    }
+    FW_TRY(words_of(plan, wrong, name, flows, words));
+    if (**words || flows == 0) return fw_text_end(&list);
+    FW_TRY(fw_text_end(&list));
+    FW_NEED(*words = fw_arena_printf(plan->arena, " (there are %s)", list.data));
+    return FW_OK;
+}
+
+/* ---- files and laboratory packs ---- */
 
 enum {
     MOST_BYTES = 8 * 1024 * 1024,
@@ -359,35 +400,6 @@ static fw_mechanism_variant mechanism_alone(void) {
                                   .explicit_damping_scale = 1};
 }
 
-static bool on_test_die(const fw_mask_table *table, const char *id, size_t n) {
-    for (int i = 0; i < table->npattern; i++)
-        if (strlen(table->pattern[i].id) == n && memcmp(table->pattern[i].id, id, n) == 0)
-            return true;
-    return false;
-}
-
-/* what steps read off a pattern, and marks that they align by, are on the test die */
-static void check_coupons(fw_plan *plan, const fw_process_flow *flow, const fw_mask_table *table) {
-    for (int i = 0; i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        for (int k = 0; k < s->naccept; k++) {
-            const fw_process_accept *a = &s->accept[k];
-            if (a->coupon[0] && !on_test_die(table, a->coupon, strlen(a->coupon)))
-                fw_diag_error(&plan->diags, 372, a->place,
-                              "step %s reads coupon '%s', which masks/%s.xml does not have", s->id,
-                              a->coupon, flow->id);
-        }
-        for (const char *at = s->align.to ? s->align.marks : ""; *at;) {
-            size_t n = strcspn(at, " ");
-            if (n > 0 && !on_test_die(table, at, n))
-                fw_diag_error(&plan->diags, 372, s->align.place,
-                              "step %s aligns by '%.*s', which masks/%s.xml does not have", s->id,
-                              (int)n, at, flow->id);
-            at += n + strspn(at + n, " ");
-        }
-    }
-}
-
 /* as the laboratory packs of the options have it */
 static fw_status read_flow(fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow) {
     fw_process_choice *choice = NULL;
@@ -419,8 +431,7 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     if (plan->layers)
         FW_TRY(fw_mask_layer_map_apply(plan->arena, plan->layers, table, &plan->diags));
     size_t errors = plan->diags.errors;
-    check_coupons(plan, pf->flow, table);
-    fw_plan_check_plates(&plan->diags, pf->flow, table);
+    fw_plan_check_table(&plan->diags, pf->flow, table);
     return plan->diags.errors > errors ? FW_INPUT : FW_OK;
 }
 
@@ -462,7 +473,7 @@ static fw_status load_flows(fw_plan *plan) {
     }
     if (plan->nflow > 0) return FW_OK;
     const char *meant;
-    FW_TRY(fw_plan_flow_meant(plan, plan->options.flow, &meant));
+    FW_TRY(flow_meant(plan, plan->options.flow, &meant));
     return fw_diag_error(&plan->diags, 228, (fw_place){.file = d->file},
                          "the device has no flow '%s': %s%s", plan->options.flow, flow_names(plan),
                          meant);
@@ -530,7 +541,7 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
         if (*name) FW_TRY(fw_data_path(plan->arena, plan->options.data_directory, name, &path));
         if (!path) {
             const char *meant;
-            FW_TRY(fw_plan_pack_meant(plan, use->ref, &meant));
+            FW_TRY(pack_meant(plan, use->ref, &meant));
             status = fw_diag_error(&plan->diags, 224, use->place,
                                    "there is no process pack %s%s; correct the name, or set "
                                    "FLEXWRIGHT_DATA to the directory that holds it",

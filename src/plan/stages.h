@@ -20,18 +20,14 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
                                 fw_verdict_variant_verdict *v);
 /* the flow of a pack read once more, with the laboratory's values: to be changed by whoever asks */
 fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow);
-/* plan_names.c: " (did you mean 'X'?)" of the device's flows, or of all process packs (else which there
-   are); "": nothing is near */
-fw_status fw_plan_flow_meant(fw_plan *plan, const char *wrong, const char **words);
-fw_status fw_plan_pack_meant(fw_plan *plan, const char *wrong, const char **words);
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* (nlayer of its table) what layers with shrink or grow get at every edge, m; FW_INPUT (FW-D411): not a known length */
 fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double **bias_m);
-/* do the steps and plates of a flow and the rows of its layer table speak of the same plates? FW-D412, FW-D421
-   (plates_agree.c) */
-void fw_plan_check_plates(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table);
+/* do the steps and plates of a flow and the rows of its layer table speak of the same plates and patterns?
+   FW-D372, FW-D412, FW-D421 (plates.c) */
+void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table);
 /* is what moves over its hollow wherever it goes, and is the hollow as deep as the scenes' air? Reasons of the flow,
-   FW-D422; once the verdict is there (hollows.c) */
+   FW-D422; once the verdict is there (plates.c) */
 fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags *diags);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
@@ -42,19 +38,11 @@ fw_status fw_plan_find_drives(fw_arena *arena, const fw_device *d, const char *f
                               fw_process_drive_facts **drive, int *n);
 /* edges of the material: a joint is a cut between two pieces, not an edge */
 double fw_plan_free_perimeter(const fw_geometry_contour *contour);
-/* distances of a drawing from its openings, with the flow's own marks (plan_release.c) */
-fw_status fw_plan_release_solve(fw_plan *plan, const fw_plan_flow *pf, const fw_layout *layout,
-                                const fw_release **release);
-/* of a flow without a window for its release: what opens one, in words (plan_release.c). The flow is
-   computed again by the caller */
-fw_status fw_plan_release_change(fw_plan *plan, fw_plan_flow *pf, const char **out);
-/* nets, contacts and gaps in a flow, once, and what they add to its judgement (plan_wiring.c) */
+/* nets, contacts and gaps in a flow, once, and what they add to its judgement (plan_facts.c) */
 fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
-/* what the times and the judgement of a flow are computed with: of the wafer where it is laid out */
-fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts);
-/* what measuring is worth, of the flows that the options name (plan_measurements.c). written: for a
+/* what measuring is worth, of the flows that the options name (plan_flows.c). written: for a
    recipe or a report that is about to be */
 fw_status fw_plan_measurements_find(fw_plan *plan, bool written);
 /* once the plate is laid out: currents and rates for what is really on it. What there is to say of
@@ -91,9 +79,5 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
    drawn if possible. *scene becomes that of the mechanism */
 fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
                         const fw_device_scene **scene, double *moved_m);
-
-/* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through
-   the narrowest gap of a hinge; stays NULL where there is neither (plan_sections.c) */
-fw_status fw_plan_cut(fw_plan *plan, fw_plan_flow *pf);
 
 #endif

@@ -2,7 +2,7 @@
 /* Colours, the view that holds a device, and its drawing: what all pictures of the room share. */
 #include "geometry/geometry_svg.h"
 #include "report/figure.h"
-#include "report/report_marks.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 

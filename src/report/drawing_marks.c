@@ -2,7 +2,7 @@
 /* What a picture of a device marks: the places at which its layout cannot be made, and what a
    rejection is about. */
 #include "base/constants.h"
-#include "report/report_marks.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 

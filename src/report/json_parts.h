@@ -5,7 +5,7 @@
 #define FW_REPORT_JSON_PARTS_H
 #include "base/json.h"
 #include "dynamics/dynamics.h"
-#include "report/preview.h"
+#include "report/report.h"
 #include "statics/level.h"
 #include "statics/statics.h"
 
@@ -38,10 +38,12 @@ void fw_report_json_hinge_model(fw_json *json, const fw_mechanism *mechanism,
 /* one probe of a motion, as an object in a list; scene NULL: the document is of one scene */
 void fw_report_json_probe(fw_json *json, const fw_device_probe *probe, const char *scene,
                           const char *flow, const fw_probe_result *result);
-/* "probes", where the device has any, and "requirements" of all flows */
 /* keys of one requirement, as it was run */
 void fw_report_json_requirement(fw_json *json, const fw_verdict_requirement *requirement);
+/* "probes", where the device has any, and "requirements" of all flows */
 void fw_report_json_requirements(fw_json *json, const fw_report_input *in);
+/* the list "clearances" of every scene and required box */
+void fw_report_json_clearances(fw_json *json, const fw_verdict *verdict);
 
 /* ---- the preview: lengths are in um with y up, to 1 nm; keys as in base/json.h ---- */
 
@@ -61,15 +63,10 @@ void fw_report_preview_factors(const fw_device_scene *scene, const fw_dynamics_m
 fw_status fw_report_preview_tensions(fw_arena *arena, const fw_mechanism *mechanism,
                                      const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                      fw_json *out);
-/* "probes" of the motion, nothing where the device has none */
-fw_status fw_report_preview_probes(fw_arena *arena, const fw_report_preview *in, fw_json *out);
 /* the box, where it holds anything, with springs and joints; with cables and electrodes of a
    scene */
 void fw_report_preview_attached_box(const fw_mechanism *mechanism, fw_geometry_box *box);
 void fw_report_preview_scene_box(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                  fw_geometry_box *box);
-
-/* json_clearance.c: the list "clearances" of every scene and required box */
-void fw_report_json_clearances(fw_json *json, const fw_verdict *verdict);
 
 #endif

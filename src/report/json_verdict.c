@@ -2,7 +2,7 @@
 /* The verdict as JSON: hinges as drawn and as the flows make them, flows, effects, advice. */
 #include "report/report.h"
 #include "report/json_parts.h"
-#include "report/summary.h"
+#include "report/report_page.h"
 #include <math.h>
 
 static const char *word(fw_verdict_decision decision) {

@@ -2,7 +2,7 @@
 /* Preview picture by cairo. No text: cairo's text engine neither survives a lack of memory nor
    gives the same picture on two machines. Never geometry of record: cairo keeps 1/256 of a
    pixel. */
-#include "report/report_marks.h"
+#include "report/report_page.h"
 #include "base/constants.h"
 #include <errno.h>
 #include <cairo.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The preview as JSON: its documents, motions and probes. */
 #include "base/json.h"
 #include "report/json_parts.h"
-#include "report/report_marks.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 
@@ -257,6 +258,32 @@ static void ledger(const fw_dynamics_motion *x, fw_json *out) {
     fw_json_text(out, "hinge_model_why", x->ledger.hinge.why);
 }
 
+/* a column each, in SI; nothing where the device has none */
+static fw_status probes(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
+    const fw_dynamics_motion *x = in->motion;
+    const int n = fw_probe_count(in->mechanism);
+    fw_probe *probe;
+    if (n == 0 || !in->scene) return FW_OK;
+    FW_TRY(fw_probe_bind(arena, in->mechanism, in->scene, x->loads, &probe));
+    fw_json_list(out, "probes");
+    for (int i = 0; i < n; i++) {
+        if (!fw_report_probe_moves(&probe[i])) continue;
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", probe[i].asked->id);
+        fw_json_text(out, "kind", probe[i].kind->name);
+        fw_json_text(out, "unit", probe[i].kind->unit);
+        fw_json_list(out, "value");
+        for (int k = 0; k < x->nsample; k++)
+            fw_json_number(out, NULL, fw_probe_at_row(&probe[i], x, k), 7);
+        fw_json_end(out);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    fw_json_line(out, 0);
+    return FW_OK;
+}
+
 static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
     const fw_dynamics_motion *x = in->motion;
     if (!x || !in->mechanism || x->nsample < 1) {
@@ -291,7 +318,7 @@ static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *o
     fw_json_line(out, 0);
     FW_TRY(fw_report_preview_tensions(arena, in->mechanism, in->scene, x, out));
     fw_json_line(out, 0);
-    FW_TRY(fw_report_preview_probes(arena, in, out));
+    FW_TRY(probes(arena, in, out));
     states(in->mechanism, x, out);
     fw_json_end(out);
     fw_json_line(out, 0);

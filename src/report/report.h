@@ -6,15 +6,16 @@
 #define FW_REPORT_REPORT_H
 #include "assembly/assembly.h"
 #include "assembly/kinematics.h"
+#include "base/json.h"
 #include "base/text.h"
 #include "device/device.h"
 #include "dynamics/dynamics.h"
 #include "flexure/finite.h"
 #include "layout/layout.h"
 #include "mask/mask.h"
+#include "measuring/measuring.h"
 #include "mechanism/mechanism.h"
 #include "probe/probe.h"
-#include "measuring/measuring.h"
 #include "process/process.h"
 #include "recipe/recipe.h"
 #include "statics/modes.h"
@@ -123,12 +124,7 @@ typedef struct fw_report_terminal_style {
 /* decision, governing hinge, hinges, advice, flows */
 fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_terminal_style style,
                                  fw_text *out);
-/* what is required of probes: value, band, bound, margin, as drawn and at the worst corner */
-void fw_report_requirements_text(fw_text *out, const fw_verdict *verdict);
-/* peaks of a motion that fw_probe_monitor has observed, values at an equilibrium; nothing without
-   probes */
-void fw_report_probes_text(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
-                           fw_text *out);
+/* values of probes at an equilibrium; nothing without probes */
 fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                      const fw_statics *statics, fw_text *out);
 /* what each flow makes of the device, at its corners */
@@ -245,5 +241,44 @@ fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in
 /* the slices and shares of one flow as the inside of an <svg> of FW_SLICES_WIDTH, from `top` down;
  *height 0: there is nothing to draw */
 enum { FW_SLICES_WIDTH = 910 };
+
+/* ---- the preview ----
+   What an interactive page draws: the mechanism's shapes, to be put where its bodies are, and one motion of
+   it. Compact JSON: numbers are rounded to what a picture needs, those of record are in the other
+   documents. */
+
+typedef struct fw_report_left_out { /* what a quick answer is without */
+    const char *what, *sentence;
+    bool could_reject;
+} fw_report_left_out;
+
+typedef struct fw_report_preview {
+    const char *status;                 /* "ok", "invalid", "failed" */
+    int exit_status;                    /* that of the program for the same question */
+    bool provisional;                   /* the verdict may still become worse by what is left out */
+    const fw_report_left_out *left_out; /* (nleft_out) */
+    int nleft_out;
+    const fw_diags *diags;
+    const char *file; /* whose name stands for the text in diagnostics */
+    /* from here on NULL where it is not there */
+    const fw_device *device;
+    const fw_layout *layout;
+    const fw_mechanism *mechanism; /* of the shapes */
+    const fw_dynamics_motion *motion;
+    const fw_device_scene *scene;
+    const fw_verdict *verdict;
+    const char *verdict_json;   /* flexwright.verdict/1 */
+    const fw_report_flow *flow; /* (nflow) */
+    int nflow;
+    double read_s, judge_s, simulate_s; /* CPU time */
+} fw_report_preview;
+
+/* schema flexwright.preview/1 */
+fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *out);
+
+/* parts of it that other documents have too, each with its key */
+fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_json *out);
+/* "diagnostics": each once */
+void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_json *out);
 
 #endif

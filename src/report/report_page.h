@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inside the report room: colours, drawing in picture coordinates, sections of the page. */
+/* Inside the report room: colours, drawing in picture coordinates, what pictures mark, the summary, sections
+   of the page. */
 #ifndef FW_REPORT_REPORT_PAGE_H
 #define FW_REPORT_REPORT_PAGE_H
 #include "base/svg.h"
@@ -129,7 +130,7 @@ double fw_report_axes_x(const fw_report_axes *a, double t_s);
 double fw_report_axes_y(const fw_report_axes *a, double value);
 void fw_report_axes_draw(const fw_report_axes *a, fw_text *out);
 
-/* ---- probe_plot.c: probes of a scene against time, with what is required of them ---- */
+/* ---- report_requirements.c: probes of a scene against time, with what is required of them ---- */
 /* nothing where the scene has none */
 fw_status fw_report_probe_panels(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                  const fw_report_figure *figure, fw_text *out);
@@ -182,9 +183,9 @@ void fw_report_advice(fw_report_page *page);
 void fw_report_mechanics(fw_report_page *page);
 fw_status fw_report_section_device(fw_report_page *page);
 fw_status fw_report_section_hinges(fw_report_page *page);
-fw_status fw_report_section_clearance(fw_report_page *page); /* report_clearance.c */
+fw_status fw_report_section_clearance(fw_report_page *page); /* report_requirements.c */
 fw_status fw_report_section_fabricated(fw_report_page *page);
-fw_status fw_report_section_measurements(fw_report_page *page); /* report_measurements.c */
+fw_status fw_report_section_measurements(fw_report_page *page); /* banner.c */
 bool fw_report_has_measurements(const fw_report_page *page);
 bool fw_report_has_requirements(const fw_report_page *page);
 fw_status fw_report_section_requirements(fw_report_page *page);
@@ -206,7 +207,62 @@ void fw_report_hinge_table(fw_text *out, const fw_verdict_hinge_verdict *hinge, 
 void fw_report_hinge_model(const fw_mechanism *mechanism, const fw_effects_hinge_use *use,
                            const fw_statics_level_step *level, fw_text *out);
 
-/* ---- report_wiring.c: nets of a flow, their contacts and gaps; nothing where nothing is driven ---- */
-fw_status fw_report_wiring(fw_text *out, const fw_wiring *wiring);
+/* ---- drawing_marks.c: what pictures mark in the warning colour ----
+   Why a layout cannot be made, and why a device is rejected, each with a number in the picture and a row
+   below it. */
+
+typedef struct fw_report_mark {
+    int number;          /* FW-Dnnn; 0: the hinge's own limit */
+    const char *label;   /* a few words */
+    const char *text;    /* a sentence */
+    const char *of;      /* probe; NULL */
+    fw_geometry_vec2 at; /* world; NaN: no one place */
+    int body[2], nbody;  /* concerned; FW_GROUND, FW_ISLAND */
+    int joint[2], njoint;
+    const fw_geometry_region *overlap; /* NULL or empty: none */
+} fw_report_mark;
+
+typedef struct fw_report_marks {
+    fw_report_mark *item; /* (count) in the order of their numbers, from 1 */
+    int count;
+} fw_report_marks;
+
+/* layout and verdict may be NULL; none of a device that is not rejected and can be drawn */
+fw_status fw_report_marks_of(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_verdict *verdict, fw_report_marks *marks);
+extern const char fw_report_mark_colour[];
+/* over the drawing; and over its names, the numbers beside their places */
+void fw_report_marks_tags(const fw_device *device, const fw_layout *layout,
+                          const fw_report_marks *marks, const fw_report_view *view, fw_text *out);
+void fw_report_marks_svg(const fw_device *device, const fw_layout *layout,
+                         const fw_report_marks *marks, const fw_report_view *view, fw_text *out);
+/* the rows below it, and how high they are */
+fw_status fw_report_marks_legend(fw_arena *arena, const fw_report_marks *marks, double width,
+                                 double top, fw_text *out);
+double fw_report_marks_height(const fw_report_marks *marks);
+
+/* ---- summary.c: the top of every result ----
+   For the terminal, the page, the report and programs alike: the decision, why, what governs as it will be
+   fabricated and as drawn, what to do, and what is not guaranteed with the measurement that would settle
+   it. */
+
+typedef struct fw_report_summary_line {
+    const char *label; /* "rejected because", "as made, at worst", "do", "nearest", ... */
+    const char *text;  /* a sentence without its full stop */
+} fw_report_summary_line;
+
+typedef struct fw_report_summary {
+    fw_verdict_decision decision;
+    fw_verdict_check made, drawn; /* of the hinges, those that govern */
+    bool has_made, has_drawn;     /* has_made: a flow was judged as it makes it */
+    /* of all checks, as made where that was judged, and as drawn */
+    fw_verdict_check governing, governing_drawn;
+    bool governs;                 /* something was run */
+    fw_report_summary_line *line; /* (nline) in the order in which they are read */
+    int nline;
+} fw_report_summary;
+
+fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *input,
+                              fw_report_summary *summary);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/summary.h"
+#include "report/report_page.h"
 #include "base/text.h"
 #include <math.h>
 #include <string.h>

@@ -92,9 +92,7 @@ void fw_serve_jobs_forget(fw_serve_request *request);
 fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
                                const char **kind, const char *const **argv, const char **why);
 
-/* ---- job_files.c ---- */
-/* what is below out/ of the directory `fd`, by path */
-fw_status fw_serve_job_list(fw_serve_job *job);
+/* ---- files ---- */
 /* a file of the list: its descriptor, or -1 */
 int fw_serve_job_open(const fw_serve_job *job, const fw_serve_job_file *file);
 /* in a process of its own, in the job's directory: archive.zip of out/ */

@@ -51,7 +51,7 @@ typedef struct fw_serve_connection { /* a slot of the server's table */
 } fw_serve_connection;
 
 struct fw_serve_request {
-    struct fw_serve_server *server; /* for the handlers of routes.c and for http.c */
+    struct fw_serve_server *server; /* for handlers and callbacks */
     fw_serve_connection *connection;
     fw_arena *arena; /* freed with the request */
     const struct fw_serve_route *route;
@@ -90,7 +90,7 @@ void fw_serve_reply_no_memory(fw_serve_request *request);
 /* hands request->reply over, with the headers that every answer has */
 enum MHD_Result fw_serve_reply_queue(fw_serve_request *request, struct MHD_Connection *mhd);
 
-/* ---- serve_events.c: server-sent events, what changed, for at most FW_SERVE_STREAMS pages ---- */
+/* ---- server-sent events, what changed, for at most FW_SERVE_STREAMS pages ---- */
 typedef struct fw_serve_stream { /* events for one page */
     fw_serve_request *request;   /* NULL: free */
     char *waiting;               /* (capacity) bytes not yet taken */

@@ -6,8 +6,8 @@
 #include "serve/jobs.h"
 #include "serve/serve.h"
 #include "serve/serve_guard.h"
-#include "serve/watch.h"
-#include "serve/worker.h"
+#include "serve/document.h"
+#include "serve/child.h"
 
 typedef struct fw_serve_server {
     fw_serve_options options;
@@ -23,12 +23,6 @@ typedef struct fw_serve_server {
     fw_serve_scratch *scratch;
     bool asked; /* something was asked for since workers and jobs were looked at */
 } fw_serve_server;
-
-/* ---- http.c ---- */
-bool fw_serve_http_start(fw_serve_server *server, fw_diags *diags);
-void fw_serve_http_stop(fw_serve_server *server);
-/* cuts clients that are too slow, and notices those that went away */
-void fw_serve_http_reap(fw_serve_server *server);
 
 /* ---- routes.c: one row for everything that can be asked for ---- */
 typedef struct fw_serve_route {

@@ -2,7 +2,7 @@
 /* fw_design_study of the public library: a study with the options and settings of a design. */
 #include "plan/design.h"
 #include "study/study_store.h"
-#include "study/study_write.h"
+#include "study/study.h"
 #include <string.h>
 
 typedef struct asked {

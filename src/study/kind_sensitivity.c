@@ -9,7 +9,6 @@
 #include "chance/indices.h"
 #include "maths/cdf.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
 #include <math.h>
 #include <string.h>
 

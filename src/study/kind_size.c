@@ -9,7 +9,6 @@
    proved: a better one may be where nobody looked. Test: tests/cli/test_study.py */
 #include "chance/sobol.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
 #include <math.h>
 #include <string.h>
 

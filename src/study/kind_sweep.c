@@ -3,7 +3,6 @@
    has the digits of i in mixed radix, the last input the fastest. */
 #include "chance/sobol.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
 #include <math.h>
 
 enum { SOBOL_USUAL = 256, SWEEP_MOST = 100000000, SOBOL_DIGITS = 9 };

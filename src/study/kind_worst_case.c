@@ -5,7 +5,6 @@
    Test: tests/cli/test_study.py */
 #include "chance/sobol.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
 #include <math.h>
 #include <string.h>
 

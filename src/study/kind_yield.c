@@ -14,7 +14,6 @@
 #include "plan/design.h"
 #include "plan/stages.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
 #include <math.h>
 #include <string.h>
 

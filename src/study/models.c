@@ -3,7 +3,7 @@
    the flow may make of the device. All by the program's own numbers, whose error is far below. */
 #include "plan/stages.h"
 #include "process/process.h"
-#include "study/problem.h"
+#include "study/tradeoff_parts.h"
 #include <math.h>
 #include <string.h>
 

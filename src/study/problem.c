@@ -4,7 +4,7 @@
 
    The model of costs depends on counts alone, so that the same settings are run on every
    machine: how large a part of the budget something takes, where nothing counts instructions. */
-#include "study/problem.h"
+#include "study/tradeoff_parts.h"
 #include "maths/ode.h"
 #include "multibody/method.h"
 #include "plan/stages.h"

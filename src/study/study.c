@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A study from its file to its result. */
-#include "study/study.h"
+/* A study from its file to its result, and shards of it put together. */
 #include "base/output.h"
 #include "plan/design.h"
 #include "plan/stages.h"
+#include "study/study.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
 #include "xml/xml.h"
 #include <math.h>
 #include <string.h>
@@ -393,7 +392,7 @@ static fw_status open_all(fw_study *study) {
     return run_as_it_stands(study);
 }
 
-fw_study *fw_study_new(const fw_study_options *options) {
+static fw_study *new_study(const fw_study_options *options) {
     fw_arena *arena = fw_arena_new(options->design.memory_cap);
     fw_study *study = arena ? fw_arena_one(arena, fw_study) : NULL;
     if (!study) {
@@ -405,12 +404,12 @@ fw_study *fw_study_new(const fw_study_options *options) {
     return study;
 }
 
-fw_status fw_study_open_in(fw_study *study) {
+static fw_status open_in(fw_study *study) {
     return open_all(study);
 }
 
 fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
-    *study = fw_study_new(options);
+    *study = new_study(options);
     FW_NEED(*study);
     return open_all(*study);
 }
@@ -507,4 +506,30 @@ long fw_study_count(const fw_study *study) {
 int fw_study_decision(const fw_study *study) {
     const fw_study_result *r = study->result;
     return study->asked && study->asked->kind == FW_STUDY_IS_size && r && r->nfound == 0 ? 1 : 0;
+}
+
+/* ---- shards ---- */
+
+fw_status fw_study_open_merge(const fw_study_options *options, const char *directory,
+                              fw_study **out) {
+    fw_study *study = new_study(options);
+    *out = study;
+    FW_NEED(study);
+    const char *file, *name;
+    FW_TRY(fw_study_store_said(study->arena, &study->diags, directory, "file", &file));
+    FW_TRY(fw_study_store_said(study->arena, &study->diags, directory, "study", &name));
+    if (!file || !name)
+        return fw_diag_error(&study->diags, 497, (fw_place){.file = directory},
+                             "its store does not say which study it is of");
+    study->options.file = file;
+    study->options.study = name;
+    return open_in(study);
+}
+
+fw_status fw_study_merge(fw_study *study, const char *const *directory, int n) {
+    mkdir(study->options.output, 0777); /* what is wrong with it, the store will say */
+    FW_TRY(fw_study_store_open(study, &study->store));
+    FW_TRY(fw_study_store_merge(study->store, directory, n));
+    study->stored_only = true;
+    return fw_study_run(study);
 }

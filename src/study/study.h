@@ -110,4 +110,23 @@ fw_status fw_study_plan_text(const fw_study *study, fw_text *out);
 /* 1 where nothing was found that holds every limit (of a size), else 0 */
 int fw_study_decision(const fw_study *study);
 
+/* ---- shards ----
+   Run apart without a word between them, and put together. */
+
+/* as fw_study_open, of the file and the study that the store of a shard names */
+fw_status fw_study_open_merge(const fw_study_options *options, const char *directory,
+                              fw_study **study);
+/* the rows of all shards into options.output, then the result: the same bytes as of one run. FW-D497: a
+   shard is missing, twice, not complete or of another study */
+fw_status fw_study_merge(fw_study *study, const char *const *directory, int n);
+
+/* ---- the results as documents ----
+   JSON (schema flexwright.study/1), CSV (a row each sample), a text for a terminal, pictures and one page. After
+   fw_study_run. */
+
+fw_status fw_study_json(const fw_study *study, fw_text *out);
+fw_status fw_study_text(const fw_study *study, fw_text *out);
+/* study.json, study.csv, study.html and pictures/ into the output directory, each whole or not at all */
+fw_status fw_study_write(fw_study *study);
+
 #endif

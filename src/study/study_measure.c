@@ -1,24 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Instructions by callgrind, and CPU time.
+/* Instructions by callgrind, and CPU time: medians with intervals.
 
    For the count this program is started again under callgrind, runs a list of settings, and one
    dump is written behind each. Exactly repeatable, and the same whatever else the machine does. */
 #include "base/sort.h"
 #include "continuum/continuum.h"
 #include "continuum/solver.h"
-#include "study/problem.h"
-#include "study/study_numbers.h"
+#include "study/tradeoff_parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+/* ---- medians ---- */
+
+/* rank k of that interval, from 1; 0: n is too small */
+static int interval_rank(int n) {
+    double term = pow(0.5, n), below = 0; /* P(fewer than k of n samples lie below the median) */
+    int k = 0;
+    while (k < n / 2 && below + term <= 0.025) {
+        below += term;
+        term *= (double)(n - k) / (double)(k + 1);
+        k++;
+    }
+    return k;
+}
+
+fw_study_median fw_study_median_of(double *sample, int n) {
+    fw_study_median m = {(double)NAN, (double)NAN, (double)NAN};
+    if (n < 1) return m;
+    fw_sort_doubles(sample, (size_t)n);
+    m.value = 0.5 * (sample[(n - 1) / 2] + sample[n / 2]);
+    int k = interval_rank(n);
+    if (k < 1) return m;
+    m.low = sample[k - 1];
+    m.high = sample[n - k];
+    return m;
+}
+
+bool fw_study_median_told(const fw_study_median *m) {
+    return isfinite(m->low) && isfinite(m->high) && m->value > 0 &&
+           m->high - m->low <= fw_interval_most * m->value;
+}
+
+/* ---- which settings ---- */
+
 /* of the budget; and a program under callgrind does so many times fewer instructions a second */
 static const double count_share = 0.4, slower = 6, one = 0.12;
 enum { MOST_WORDS = 300 };
-
-/* ---- which settings ---- */
 
 typedef struct wishes {
     int *point; /* (n) indices */

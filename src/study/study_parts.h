@@ -33,7 +33,7 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
                             char *why, size_t n);
 
-/* ---- study_input.c: values of inputs as text and back ---- */
+/* ---- study_samples.c: values of inputs as text and back ---- */
 
 /* the text of a value (SI), so many digits in the input's unit, and the value that this text has */
 fw_status fw_study_input_write(const fw_study_input *input, double value, int digits,
@@ -86,6 +86,13 @@ typedef struct fw_study_work {
 /* FW_CANCELLED: what was taken before is whole */
 fw_status fw_study_pool_run(fw_study *study, const fw_study_work *work);
 
+/* `one` for 0 to n - 1 in the study's threads, in the "C" locale, each once, until one of them is not
+   FW_OK: that is the answer */
+fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *context, long i),
+                        void *context);
+/* threads of the study: options.jobs, or the processors that there are */
+int fw_study_jobs(const fw_study *study);
+
 /* ---- study_search.c: optimisers over the inputs ---- */
 
 typedef struct fw_study_search {
@@ -115,19 +122,6 @@ bool fw_study_search_better(double fa, double ca, double fb, double cb);
 /* weights (n <= 7) of the first derivative at `at` by values at the nodes x (kind_sensitivity.c) */
 void fw_study_derivative_weights(const double *x, int n, double at, double *weight);
 
-/* study.c: the two steps of fw_study_open. NULL: memory is short */
-fw_study *fw_study_new(const fw_study_options *options);
-fw_status fw_study_open_in(fw_study *study);
-
-/* ---- study_threads.c ---- */
-
-/* `one` for 0 to n - 1 in the study's threads, in the "C" locale, each once, until one of them is not
-   FW_OK: that is the answer */
-fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *context, long i),
-                        void *context);
-/* threads of the study: options.jobs, or the processors that there are */
-int fw_study_jobs(const fw_study *study);
-
 /* ---- what kinds of studies share ---- */
 
 /* keeps a sample in the store, where there is one */
@@ -142,10 +136,102 @@ void fw_study_sort_samples(fw_study_sample *sample, int n);
    a response that has a limit has no value */
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample);
 
+/* ---- parts of the documents ---- */
+
+/* inputs and responses as they were asked for; before it runs, too */
+fw_status fw_study_asked_text(const fw_study *study, fw_text *out);
+/* rows go to the file as they are read: memory does not grow with them */
+fw_status fw_study_csv_save(fw_study *study, const char *path);
+
+typedef struct fw_study_picture {
+    const char *name;  /* "map-C", of its file NAME.svg */
+    const char *title; /* a sentence */
+    fw_text svg;
+} fw_study_picture;
+/* what there is to look at, by kind */
+fw_status fw_study_pictures(fw_study *study, const fw_study_picture **picture, int *n);
+
+/* the page: the pictures, which are also files of their own, and the numbers; it needs nothing beside it */
+fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, int n,
+                        fw_text *out);
+
+/* ---- the kinds ---- */
+
 #define FW_STUDY(name, word, sentence)                                                             \
     fw_status fw_study_kind_##name(fw_study *study, struct fw_study_result *result);               \
     long fw_study_count_##name(const fw_study *study); /* devices, at most */
 #include "device/studies.def"
 #undef FW_STUDY
+
+/* ---- what the samples of a study say together, by kind ----
+   Numbers are in SI; NaN: none. */
+
+typedef struct fw_study_extreme { /* of one response over all samples that were run */
+    double least, largest;
+    long least_at, largest_at; /* numbers of their samples; -1: none */
+    long n;                    /* samples with a value */
+    double sum, square;        /* of the values less the first one, for mean and deviation */
+    double first;
+} fw_study_extreme;
+
+typedef struct
+    fw_study_derivative { /* of a response by an input, at the description as it stands */
+    double value;         /* SI over SI; NaN: not there */
+    double error;         /* of it, estimated by halving the step */
+    double spread;        /* value times half the input's range: what the tornado shows */
+} fw_study_derivative;
+
+typedef struct fw_study_index { /* share of a response's variance, with its interval */
+    double first, first_low, first_high, total, total_low, total_high;
+} fw_study_index;
+
+typedef struct fw_study_end { /* worst case: one end of a response */
+    double value;
+    char (*text)[FW_STUDY_TEXT]; /* (ninput) where */
+    bool known;
+} fw_study_end;
+
+typedef struct fw_study_found {  /* size: a design */
+    char (*text)[FW_STUDY_TEXT]; /* (ninput) */
+    double *value;               /* (ninput) */
+    double *response;            /* (nresponse) */
+    double excess;               /* <= 0: every limit holds */
+    int decision;
+    long i; /* its sample */
+} fw_study_found;
+
+typedef struct fw_study_flow_yield { /* yield of one flow */
+    const char *flow;                /* may be NULL */
+    double low, high;                /* interval of the yield, the model's own band in it */
+    double value;                    /* by the utilisations themselves; the range's middle */
+    double sampled_low,
+        sampled_high; /* interval of sampling alone, by the utilisations themselves */
+    const char *method, *reason, *caution; /* sentences; caution may be NULL */
+    long evaluations, unevaluated;
+    double band; /* of the model at the governing check: factor between best and worst reading */
+    int ninput;
+    const char *const *input; /* (ninput) names of what differs */
+    const double *share;      /* (ninput) alpha^2 of the nearest design point; NULL: none found */
+    const double *at;         /* (ninput) SI: the nearest device that fails; NULL: none found */
+    const char *const *unit;  /* (ninput) */
+    double beta;              /* its distance in standard deviations; NaN */
+} fw_study_flow_yield;
+
+typedef struct fw_study_result {
+    long run, accepted, rejected, inconclusive, failed; /* samples */
+    fw_study_extreme *extreme;                          /* (nresponse) */
+    const char *example_why; /* of a sample that could not be run; NULL */
+    long example_at;
+    fw_study_derivative *derivative; /* (nresponse x ninput) sensitivity */
+    fw_study_index *index;           /* (nresponse x ninput) sensitivity; NULL: not asked for */
+    fw_study_end *end;               /* (nresponse x 2) worst case: least, largest */
+    /* (nfound) size: the best; of two goals the Pareto front, by the first */
+    fw_study_found *found;
+    int nfound;
+    fw_study_found nearest;     /* where nothing was found; text NULL: nothing was run */
+    const char *how;            /* a sentence: what was tried */
+    fw_study_flow_yield *yield; /* (nyield) a flow each */
+    int nyield;
+} fw_study_result;
 
 #endif

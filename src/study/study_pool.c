@@ -1,11 +1,64 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Devices in threads. The calling thread gives out samples, takes those that end and looks at the clock; each
-   worker judges one at a time. A sample does not know which thread it is in, so the results are the same
-   for any number of them. Slots bound the memory: twice as many samples as threads are under way. */
+/* Devices in threads. */
+#include "plan/design.h"
 #include "study/study_parts.h"
 #include <pthread.h>
 #include <stdlib.h>
 #include <time.h>
+#include <unistd.h>
+
+/* ---- the same work many times ---- */
+
+int fw_study_jobs(const fw_study *study) {
+    long there = sysconf(_SC_NPROCESSORS_ONLN);
+    int jobs = study->options.jobs > 0 ? study->options.jobs : there > 0 ? (int)there : 1;
+    return jobs > FW_STUDY_JOBS_MOST ? FW_STUDY_JOBS_MOST : jobs;
+}
+
+typedef struct queue {
+    const fw_study *study;
+    fw_status (*one)(void *context, long i);
+    void *context;
+    pthread_mutex_t lock; /* of what follows */
+    long n, next;
+    fw_status status; /* the first that is not FW_OK */
+} queue;
+
+static void *in_thread(void *argument) {
+    queue *q = argument;
+    locale_t before = uselocale(q->study->design->locale);
+    pthread_mutex_lock(&q->lock);
+    while (q->next < q->n && q->status == FW_OK) {
+        long i = q->next++;
+        pthread_mutex_unlock(&q->lock);
+        fw_status status = q->one(q->context, i);
+        pthread_mutex_lock(&q->lock);
+        if (q->status == FW_OK) q->status = status;
+    }
+    pthread_mutex_unlock(&q->lock);
+    uselocale(before);
+    return NULL;
+}
+
+fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *context, long i),
+                        void *context) {
+    queue q = {.study = study, .one = one, .context = context, .n = n};
+    pthread_t thread[FW_STUDY_JOBS_MOST];
+    int jobs = fw_study_jobs(study), running = 0;
+    pthread_mutex_init(&q.lock, NULL);
+    for (; jobs > 1 && running < jobs && running < n; running++)
+        if (pthread_create(&thread[running], NULL, in_thread, &q) != 0) break;
+    if (running == 0) in_thread(&q);
+    for (int i = 0; i < running; i++)
+        pthread_join(thread[i], NULL);
+    pthread_mutex_destroy(&q.lock);
+    return q.status;
+}
+
+/* ---- samples ----
+   The calling thread gives out samples, takes those that end and looks at the clock; each worker judges one at
+   a time. A sample does not know which thread it is in, so the results are the same for any number of them.
+   Slots bound the memory: twice as many samples as threads are under way. */
 
 typedef enum slot_state { FREE, GIVEN, TAKEN, ENDED } slot_state; /* TAKEN: by a worker */
 

@@ -5,8 +5,7 @@
 #include "base/sort.h"
 #include "base/svg.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
-#include "study/study_write.h"
+#include "study/study.h"
 #include <math.h>
 #include <string.h>
 

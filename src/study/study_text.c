@@ -2,8 +2,7 @@
 /* What a study says on a terminal, before it starts and when it is done; and its table. */
 #include "base/output.h"
 #include "study/study_parts.h"
-#include "study/study_result.h"
-#include "study/study_write.h"
+#include "study/study.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -21,7 +21,6 @@ typedef enum fw_study_count_by {
                           right-hand sides */
     FW_COUNT_CALLGRIND /* counted */
 } fw_study_count_by;
-const char *fw_study_count_by_text(fw_study_count_by by);
 
 /* CPU time over that of the chosen setting: median of pairs */
 typedef struct fw_study_tradeoff_time {

@@ -4,7 +4,7 @@
 set(FW_DEFENCES HOST ORIGIN FETCH_SITE ONE_TIME COOKIE HEADER_TOKEN CONTENT_TYPE BODY HEAD REAPER)
 foreach(defence ${FW_DEFENCES})
     add_executable(flexwright_without_${defence} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/src/cli/main.c
-                   ${PROJECT_SOURCE_DIR}/src/serve/serve_guard.c ${PROJECT_SOURCE_DIR}/src/serve/http.c)
+                   ${PROJECT_SOURCE_DIR}/src/serve/serve_guard.c ${PROJECT_SOURCE_DIR}/src/serve/server.c)
     target_compile_definitions(flexwright_without_${defence} PRIVATE FW_SERVE_WITHOUT=FW_DEFENCE_${defence})
     target_link_libraries(flexwright_without_${defence} PRIVATE fw_cli)
     set_target_properties(flexwright_without_${defence} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The one file that the server shows, watches and saves. Private to the room. */
-#ifndef FW_SERVE_WATCH_H
-#define FW_SERVE_WATCH_H
+/* The text that a page edits: the one file that the server shows, watches and saves, and the draft that
+   a page has and nobody saved. Private to the room. */
+#ifndef FW_SERVE_DOCUMENT_H
+#define FW_SERVE_DOCUMENT_H
 #include "base/diag.h"
 #include "serve/request.h"
 
@@ -40,5 +41,20 @@ fw_status fw_serve_file_watch_read(fw_arena *arena, const fw_serve_file_watch *w
 fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *watch, const char *text,
                                    size_t n, const char *version, fw_diags *diags,
                                    fw_serve_file_state *state);
+
+/* ---- the draft ----
+   Kept beside no file of the user's, below $XDG_STATE_HOME/flexwright/drafts (else ~/.local/state), one
+   for every watched file and one for servers without a file. So it survives a page that is closed and
+   a server that ends, on whatever port it starts again. */
+
+/* where the draft of this file is (an absolute path; NULL: of no file); NULL: memory was short, or
+   neither $XDG_STATE_HOME nor $HOME names a directory */
+const char *fw_serve_draft_path(fw_arena *arena, const char *file);
+
+/* The handlers of GET, POST and DELETE. GET answers what was kept, {"text": null} where nothing
+   is; what is no document of ours counts as nothing. */
+void fw_serve_draft_get(fw_serve_request *request, const char *path);
+void fw_serve_draft_post(fw_serve_request *request, const char *path);
+void fw_serve_draft_delete(fw_serve_request *request, const char *path);
 
 #endif

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What stands behind an option: the names that tables of other rooms know, in the words of a command
+   line, and the values that options of masks, study and log take. */
+#include "cli/options.h"
+#include "mask/mask.h"
+#include "plan/ladder.h"
+#include "recipe/asrun.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct name_list {
+    char text[600];
+    size_t n;
+} name_list;
+
+static void add_words(name_list *list, const char *between, const char *name, const char *words) {
+    if (list->n >= sizeof list->text) return;
+    list->n += (size_t)snprintf(list->text + list->n, sizeof list->text - list->n, "%s%s%s%s%s",
+                                list->n ? between : "", name, words ? " (" : "", words ? words : "",
+                                words ? ")" : "");
+}
+
+const char *fw_cli_mask_format_names(void) {
+    static name_list all;
+    const fw_mask_format *f;
+    all = (name_list){.n = 0};
+    for (size_t i = 0; (f = fw_mask_format_at(i)) != NULL; i++)
+        if (!f->beside) add_words(&all, ", ", f->name, NULL);
+    add_words(&all, " ", "with commas between, or all; default", NULL);
+    for (size_t i = 0, n = 0; (f = fw_mask_format_at(i)) != NULL; i++)
+        if (f->usual && !f->beside) add_words(&all, n++ ? "," : " ", f->name, NULL);
+    return all.text;
+}
+
+const char *fw_cli_hinge_model_names(void) {
+    static name_list all;
+    all = (name_list){.n = 0};
+    const size_t count = fw_effects_hinge_model_count();
+    for (size_t i = 0; i < count; i++)
+        add_words(&all, i + 1 < count ? ", " : " or ",
+                  fw_effects_hinge_model_text((fw_effects_hinge_model)i),
+                  fw_effects_hinge_model_summary((fw_effects_hinge_model)i));
+    return all.text;
+}
+
+const char *fw_cli_level_names(void) {
+    static name_list all;
+    size_t count;
+    const fw_plan_ladder_level *level = fw_plan_ladder_levels(&count);
+    all = (name_list){.n = 0};
+    for (size_t i = 0; i < count; i++)
+        add_words(&all, i + 1 < count ? ", " : " or ", level[i].name, NULL);
+    return all.text;
+}
+
+const char *fw_cli_option_help(const fw_cli_option_row *row) {
+    static const struct {
+        const char *option, *(*names)(void);
+    } named[] = {{"mask-format", fw_cli_mask_format_names},
+                 {"hinge-model", fw_cli_hinge_model_names},
+                 {"level", fw_cli_level_names}};
+    static char text[1400];
+    const char *mark = strstr(row->help, "{names}");
+    size_t i = 0;
+    if (!mark) return row->help;
+    while (strcmp(named[i].option, row->name) != 0)
+        i++;
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(mark - row->help), row->help, named[i].names(),
+             mark + strlen("{names}"));
+    return text;
+}
+
+/* ---- what is said of a wrong value ---- */
+
+const char *fw_cli_needs(const char *(*names)(void)) {
+    static char text[640];
+    snprintf(text, sizeof text, "needs %s", names());
+    return text;
+}
+
+int fw_cli_usage(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("flexwright: error: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputs(" [FW-D230]\n", stderr);
+    va_end(arguments);
+    return fw_status_exit(FW_USAGE);
+}
+
+/* ---- options of masks ---- */
+
+const char *fw_cli_take_tolerance(fw_cli_options *o, const char *v) {
+    double nm;
+    if (!fw_number_parse(v, strlen(v), &nm) || !(nm >= 0.36 && nm <= 1000.0))
+        return "needs nanometres from 0.36 (below, rounding to the 1 nm grid would bend arcs the "
+               "wrong way) to 1000, both included";
+    o->design.mask_tolerance_m = nm * 1e-9;
+    return NULL;
+}
+
+const char *fw_cli_take_mask_format(fw_cli_options *o, const char *v) {
+    unsigned set;
+    o->design.mask_formats = v;
+    return fw_mask_formats(v, &set) ? NULL : fw_cli_needs(fw_cli_mask_format_names);
+}
+
+const char *fw_cli_take_mask_flatten(fw_cli_options *o, const char *v) {
+    fw_geometry_flattening kind;
+    o->design.mask_flatten = v;
+    return *v && fw_mask_flattening_named(v, &kind) ? NULL : "needs inside or equal-area";
+}
+
+const char *fw_cli_take_layers(fw_cli_options *o, const char *v) {
+    o->design.layers = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+const char *fw_cli_take_mask_vertices(fw_cli_options *o, const char *v) {
+    static const char *const word[] = {"199", "4094", "8190"};
+    static const int32_t most[] = {199, 4094, 8190};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(v, word[i]) == 0) {
+            o->design.mask_vertices = most[i];
+            return NULL;
+        }
+    return "needs 199, 4094 or 8190";
+}
+
+/* ---- options of study ---- */
+
+const char *fw_cli_take_study(fw_cli_options *o, const char *v) {
+    o->study = v;
+    return *v ? NULL : "needs the name of a study";
+}
+
+const char *fw_cli_take_jobs(fw_cli_options *o, const char *v) {
+    double n;
+    if (!fw_number_parse(v, strlen(v), &n) || n != floor(n) || n < 1 || n > 256)
+        return "is not a whole number from 1 to 256";
+    o->jobs = (int)n;
+    return NULL;
+}
+
+const char *fw_cli_take_shard(fw_cli_options *o, const char *v) {
+    size_t n = strcspn(v, "/");
+    double shard, shards;
+    bool read = v[n] == '/' && fw_number_parse(v, n, &shard) &&
+                fw_number_parse(v + n + 1, strlen(v + n + 1), &shards);
+    if (!read || shard != floor(shard) || shards != floor(shards) || shards < 1 ||
+        shards > 100000 || shard < 1 || shard > shards)
+        return "is not I/N with whole numbers from 1 to 100000, I at most N";
+    o->shard = (int)shard, o->shards = (int)shards;
+    return NULL;
+}
+
+const char *fw_cli_take_resume(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->resume = true;
+    return NULL;
+}
+
+const char *fw_cli_take_plan_only(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->plan_only = true;
+    return NULL;
+}
+
+/* ---- options of log ---- */
+
+const char *fw_cli_take_run(fw_cli_options *o, const char *v) {
+    o->run = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+const char *fw_cli_take_entry(fw_cli_options *o, const char *v) {
+    o->entry = v;
+    return *v ? NULL : "needs the words of an entry, see flexwright log --help";
+}
+
+const char *fw_cli_take_entries(fw_cli_options *o, const char *v) {
+    o->entries = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+const char *fw_cli_take_lot(fw_cli_options *o, const char *v) {
+    o->lot = v;
+    for (const char *c = v; *c; c++)
+        if ((unsigned char)*c < 0x20) return "has characters that cannot stand in a line";
+    return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
+}
+
+const char *fw_cli_take_wafer_ids(fw_cli_options *o, const char *v) {
+    fw_arena *arena = fw_arena_new(0);
+    const char *wrong = "could not be looked at: out of memory";
+    o->wafer_ids = v;
+    if (arena) (void)fw_recipe_asrun_wafers(arena, v, &wrong);
+    fw_arena_free(arena);
+    return wrong;
+}
+
+const char *fw_cli_take_wafer(fw_cli_options *o, const char *v) {
+    o->wafer = v;
+    return *v ? NULL : "needs the id of a wafer";
+}
+
+const char *fw_cli_take_instrument(fw_cli_options *o, const char *v) {
+    o->instrument = v;
+    return *v ? NULL : "needs the name of an instrument";
+}
+
+const char *fw_cli_take_report(fw_cli_options *o, const char *v) {
+    o->report = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+static const char *logged(fw_cli_options *o, const char *before, const char *v) {
+    if (!*v || strchr(v, ';')) return "needs words without a semicolon";
+    if (o->nlogged == FW_MOST_SETS) return "is given more than 64 times";
+    o->logged[o->nlogged].before = before;
+    o->logged[o->nlogged++].words = v;
+    return NULL;
+}
+
+const char *fw_cli_take_site(fw_cli_options *o, const char *v) {
+    return strchr(v, '=') ? logged(o, "", v)
+                          : "needs MEASURE=VALUES, like \"thickness=9.1 9.0 9.2 9.1 9.1 um\"";
+}
+
+const char *fw_cli_take_setting(fw_cli_options *o, const char *v) {
+    return strchr(v, '=') ? logged(o, "set ", v) : "needs NAME=VALUE, like \"power=251 W\"";
+}
+
+const char *fw_cli_take_coupon(fw_cli_options *o, const char *v) {
+    return logged(o, "coupon=", v);
+}

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The plates of a flow: do its pack and its layer table speak of the same plates and patterns, and is what moves
+   over its hollow wherever it goes? Page: docs/theory/plates.md; test: test_hollows.c. */
+#include "plan/stages.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- the pack and the layer table ----
+   Plates are printed in one order, drawn smaller by the same length, aligned to the same one within the same
+   budget. */
+
+static bool on_test_die(const fw_mask_table *table, const char *id, size_t n) {
+    for (int i = 0; i < table->npattern; i++)
+        if (strlen(table->pattern[i].id) == n && memcmp(table->pattern[i].id, id, n) == 0)
+            return true;
+    return false;
+}
+
+/* what steps read off a pattern, and marks that they align by, are on the test die */
+static void check_coupons(fw_diags *diags, const fw_process_flow *flow,
+                          const fw_mask_table *table) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        for (int k = 0; k < s->naccept; k++) {
+            const fw_process_accept *a = &s->accept[k];
+            if (a->coupon[0] && !on_test_die(table, a->coupon, strlen(a->coupon)))
+                fw_diag_error(diags, 372, a->place,
+                              "step %s reads coupon '%s', which masks/%s.xml does not have", s->id,
+                              a->coupon, flow->id);
+        }
+        for (const char *at = s->align.to ? s->align.marks : ""; *at;) {
+            size_t n = strcspn(at, " ");
+            if (n > 0 && !on_test_die(table, at, n))
+                fw_diag_error(diags, 372, s->align.place,
+                              "step %s aligns by '%.*s', which masks/%s.xml does not have", s->id,
+                              (int)n, at, flow->id);
+            at += n + strspn(at + n, " ");
+        }
+    }
+}
+
+static bool same(const char *a, const char *b) {
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+/* steps print the plates of the table, each once and in its order */
+static void check_order(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
+    int printed = 0;
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        if (!s->mask[0]) continue;
+        int plate = fw_mask_plate_named(table, s->mask);
+        if (plate < 0 || plate != printed)
+            fw_diag_error(
+                diags, 412, s->place,
+                "step %s prints mask=\"%s\"; next of the plates in masks/%s.xml is %s%s%s", s->id,
+                s->mask, flow->id, printed < table->nplate ? "\"" : "none",
+                printed < table->nplate ? table->plates[printed].id : "",
+                printed < table->nplate ? "\"" : "");
+        printed++;
+    }
+    if (printed < table->nplate)
+        fw_diag_error(diags, 412, table->plates[printed].place,
+                      "plate \"%s\" is printed by no step of flow %s", table->plates[printed].id,
+                      flow->id);
+}
+
+static const fw_process_plate *plate_of(const fw_process_flow *flow, const char *id) {
+    for (int p = 0; p < flow->nplate; p++)
+        if (same(flow->plate[p].id, id)) return &flow->plate[p];
+    return NULL;
+}
+
+/* rows <plate> of the pack and of the table, but for the device's */
+static void check_rows(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
+    for (int p = 0; p < flow->nplate; p++) {
+        int row = fw_mask_plate_named(table, flow->plate[p].id);
+        if (row < 0 || row == table->device_plate)
+            fw_diag_error(diags, 421, flow->plate[p].place,
+                          "plate \"%s\" is %s in masks/%s.xml; <plate> of a pack names those "
+                          "besides the device's",
+                          flow->plate[p].id, row < 0 ? "no row" : "that of the device", flow->id);
+    }
+    for (int row = 0; row < table->nplate; row++)
+        if (row != table->device_plate && !plate_of(flow, table->plates[row].id))
+            fw_diag_error(diags, 421, table->plates[row].place,
+                          "the pack says nothing of plate \"%s\"; add <plate id=\"%s\" "
+                          "inside=\"...\" outside=\"...\"/> to processes/%s.xml",
+                          table->plates[row].id, table->plates[row].id, flow->id);
+}
+
+/* every layer of a plate is drawn by the length that the pack names */
+static void check_lengths(fw_diags *diags, const fw_process_flow *flow,
+                          const fw_mask_table *table) {
+    for (int p = 0; p < flow->nplate; p++) {
+        const char *shrink = flow->plate[p].shrink ? flow->plate[p].shrink->id : NULL;
+        int row = fw_mask_plate_named(table, flow->plate[p].id);
+        for (int k = 0; row >= 0 && k < table->nlayer; k++) {
+            const fw_mask_layer *l = &table->layer[k];
+            const char *by = l->shrink ? l->shrink : l->grow;
+            if (!fw_mask_plate_draws(table, row, k) || same(by, shrink)) continue;
+            fw_diag_error(diags, 421, l->place,
+                          "layer \"%s\" of plate \"%s\" is drawn by %s, but the pack draws that "
+                          "plate by %s (shrink); name the same quantity in both",
+                          l->id, flow->plate[p].id, by ? by : "nothing",
+                          shrink ? shrink : "nothing");
+        }
+    }
+}
+
+/* steps align to what the table says, within its budget */
+static void check_alignment(fw_diags *diags, const fw_process_flow *flow,
+                            const fw_mask_table *table) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        int row = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
+        if (row < 0) continue;
+        const fw_mask_plate_row *t = &table->plates[row];
+        if (!same(s->align.to, t->aligned_to)) {
+            fw_diag_error(diags, 421, s->align.to ? s->align.place : s->place,
+                          "step %s aligns plate \"%s\" to %s, and masks/%s.xml to %s", s->id,
+                          s->mask, s->align.to ? s->align.to : "nothing", flow->id,
+                          t->aligned_to ? t->aligned_to : "nothing");
+            continue;
+        }
+        const fw_quantity *q = s->align.to ? s->align.overlay : NULL;
+        char a[32], b[32];
+        if (!q || q->unknown || q->value <= t->overlay_m * (1.0 + 1e-9)) continue;
+        fw_diag_error(diags, 421, s->align.place,
+                      "step %s lets plate \"%s\" lie %s um off, but masks/%s.xml reckons with "
+                      "%s um: the hollows and pads of this device stand only that",
+                      s->id, s->mask, fw_number_text(a, sizeof a, q->value * 1e6, 4), flow->id,
+                      fw_number_text(b, sizeof b, t->overlay_m * 1e6, 4));
+    }
+}
+
+void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
+    check_coupons(diags, flow, table);
+    if (table->nplate > 1) check_order(diags, flow, table);
+    check_rows(diags, flow, table);
+    check_lengths(diags, flow, table);
+    if (table->nplate > 1) check_alignment(diags, flow, table);
+}
+
+/* ---- hollows ----
+   Below what moves, against what moves: how far it goes, and how much air a scene reckons with.
+
+   A hollow reaches a margin m beyond everything that moves, as it is drawn. A body that a scene carries by d stays over it
+   wherever the plates lie when
+
+       d + o <= m,   d = max over instants and corners p of its outline of |x(t) + R(t) p - x0 - R0 p|
+
+   with the budget o between the two plates. The displacement of a rigid body is affine in p, so that its largest length is at
+   a corner of the box around it. In: poses of the centres of mass at the motion's samples, m and rad. Out: m. Error: between
+   samples, and leaves that bend further than what they hold. Cost: samples times pieces. */
+
+typedef struct farthest {
+    double m;
+    int body, scene;
+} farthest;
+
+static double displacement(const fw_mechanism_mass *drawn, const double q[3],
+                           fw_geometry_vec2 world) {
+    fw_geometry_vec2 from = {world.x - drawn->x_m, world.y - drawn->y_m};
+    double turn = q[2] - drawn->phi_rad, c = cos(turn), s = sin(turn);
+    return hypot(q[0] + c * from.x - s * from.y - world.x,
+                 q[1] + s * from.x + c * from.y - world.y);
+}
+
+static void of_body(const fw_mechanism *m, const fw_dynamics_motion *motion, fw_geometry_box box,
+                    int body, int scene, farthest *far) {
+    const fw_geometry_vec2 corner[] = {
+        {box.x0, box.y0}, {box.x1, box.y0}, {box.x1, box.y1}, {box.x0, box.y1}};
+    for (int i = 0; i < motion->nsample; i++)
+        for (int k = 0; k < 4; k++) {
+            const double *q = motion->q + 3 * ((size_t)i * (size_t)motion->nbody + (size_t)body);
+            double d = displacement(&m->drawn[body], q, corner[k]);
+            if (d > far->m) *far = (farthest){d, body, scene};
+        }
+}
+
+/* the box around all pieces of a body; false: nothing of it is drawn */
+static bool box_of(const fw_layout *layout, int body, fw_geometry_box *box) {
+    bool any = false;
+    for (int i = 0; i < layout->npiece; i++) {
+        if (layout->piece[i].body != body) continue;
+        fw_geometry_box own = fw_geometry_contour_box(&layout->piece[i].contour);
+        *box = !any ? own
+                    : (fw_geometry_box){fmin(box->x0, own.x0), fmin(box->y0, own.y0),
+                                        fmax(box->x1, own.x1), fmax(box->y1, own.y1)};
+        any = true;
+    }
+    return any;
+}
+
+static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_variant_verdict *v,
+                        double margin_m) {
+    farthest far = {.m = 0.0};
+    for (int b = 0; b < plan->device->nbody; b++) {
+        fw_geometry_box box;
+        if (!box_of(plan->layout, b, &box)) continue;
+        for (int s = 0; s < plan->device->nscene; s++)
+            if (v->motion[s] && v->motion[s]->q)
+                of_body(v->mechanism, v->motion[s], box, b, s, &far);
+    }
+    double overlay = fw_mask_overlay_m(pf->table, FW_ROLE_CAVITY);
+    char goes[32], off[32], margin[32], needs[32];
+    if (far.m + overlay <= margin_m) return FW_OK;
+    const char *why = fw_arena_printf(
+        plan->arena,
+        "link %s goes %s um in scene %s, and may lie %s um aside of its hollow, which reaches only "
+        "%s um beyond it: it would "
+        "run over bonded glass. Nearest change: margin=\"%s um\" of <content kind=\"cavity\"> in "
+        "masks/%s.xml, or less "
+        "travel",
+        plan->device->body[far.body].id, fw_number_text(goes, sizeof goes, far.m * 1e6, 4),
+        plan->device->scene[far.scene].name, fw_number_text(off, sizeof off, overlay * 1e6, 4),
+        fw_number_text(margin, sizeof margin, margin_m * 1e6, 4),
+        fw_number_text(needs, sizeof needs, ceil((far.m + overlay) * 1e6), 4), pf->flow->id);
+    FW_NEED(why);
+    return fw_process_flow_add_reason(plan->arena, pf->flow, 0, why);
+}
+
+/* films of air below a body, against the depth of its hollow */
+static void air(const fw_plan *plan, const fw_plan_flow *pf, const char *plate, fw_diags *diags) {
+    const fw_process_step *step = NULL;
+    const fw_quantity *depth = fw_process_flow_hollow(pf->flow, plate, &step);
+    if (!depth || depth->unknown) return;
+    double low, high;
+    fw_process_quantity_range(depth, &low, &high);
+    for (int s = 0; s < plan->device->nscene; s++) {
+        const fw_device_scene *scene = &plan->device->scene[s];
+        if (!fw_device_in_flow(scene->flow, pf->use->ref)) continue;
+        for (int k = 0; k < scene->nair; k++) {
+            const fw_device_air *a = &scene->air[k];
+            char is[32], has[32];
+            if (a->kind != FW_AIR_SLIDE || isnan(a->gap_m) || (a->gap_m >= low && a->gap_m <= high))
+                continue;
+            fw_diag_warning(
+                diags, 422, a->place,
+                "scene '%s' reckons with %s um of air below what moves, but step %s of %s etches "
+                "hollows of %s um: say gap=\"%s um\", or what the flow shall etch (%s)",
+                scene->name, fw_number_text(is, sizeof is, a->gap_m * 1e6, 4), step->id,
+                pf->flow->id, fw_number_text(has, sizeof has, depth->value * 1e6, 4), has,
+                depth->id ? depth->id : "its depth");
+        }
+    }
+}
+
+fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags *diags) {
+    double margin_m = fw_mask_content_m(pf->table, "cavity", "margin");
+    int row = fw_mask_plate_of_role(pf->table, FW_ROLE_CAVITY);
+    ptrdiff_t at = pf - plan->flow;
+    if (isnan(margin_m)) return FW_OK;
+    if (row >= 0) air(plan, pf, pf->table->plates[row].id, diags);
+    if (!plan->layout || !plan->layout->drawn || at >= plan->verdict.nvariant) return FW_OK;
+    const fw_verdict_variant_verdict *v = &plan->verdict.variant[at];
+    return v->motion && v->mechanism && v->mechanism->drawn ? travel(plan, pf, v, margin_m) : FW_OK;
+}
