@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flexures that bend onto their own two bodies: what turned and strained each most, in all scenes and
-   required poses, bounds where its strip can be (clearance/clearance_bent.c). What a flow makes of
+   required poses, bounds where its strip can be (clearance/clearance_strip.c). What a flow makes of
    walls and widths is allowed for and not run again at every corner. Test: tests/clearance/cases.py */
 #include "base/constants.h"
 #include "base/text.h"
-#include "clearance/clearance_strip.h"
+#include "clearance/clearance.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
