@@ -10,7 +10,7 @@
 
 /* What rides on the six-bar without being of it, in a pose of the platform. A tree of bodies hangs on
    one of the six-bar's bodies (or on the ground); a joint that held two of these together would take
-   freedom from the platform, and nothing could be required of it (workspace/inverse.c). Joined by
+   freedom from the platform, and nothing could be required of it (workspace/loop.c). Joined by
    welds and flexures that nothing else deflects it goes with that body as it is drawn: a required
    pose has no loads of its own, and flexures at rest stay as they are. A pin without a flexure, a
    slider, a rod, a driver, or a spring to something that moves against it leaves its pose open.
