@@ -6,9 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- descent from a guess ---- */
-
-/* Descent onto Psi(q) = 0, and along it to the pose nearest to the guess. */
+/* ---- descent onto Psi(q) = 0, and along it to the pose nearest to the guess ---- */
 
 /* what every block keeps (its law included), from Psi at the guess */
 static void find_kept(fw_assembly_closure *c, const fw_multibody_pose *pose) {
@@ -255,9 +253,7 @@ void fw_assembly_closure_unwind(const fw_assembly_closure *c, int *group) {
     }
 }
 
-/* ---- other starts for a mechanism that the descent from its guess does not close ---- */
-
-/* ---- the tree ---- */
+/* ---- other starts: the tree ---- */
 
 /* A spanning tree of bodies from the ground, and placing a body where the joints to its parent
    close. */
@@ -366,7 +362,7 @@ static fw_status tree_new(fw_arena *arena, const fw_multibody_model *m, fw_assem
     return FW_OK;
 }
 
-/* ---- placing ---- */
+/* ---- other starts: placing ---- */
 
 static double angle_of(const fw_multibody_model *m, const double *u, int body) {
     return body < m->nbody ? m->origin[3 * body + 2] + u[3 * body + 2] : 0;
@@ -445,7 +441,7 @@ static void place(const fw_assembly_tree *t, fw_assembly_closure *c, int body) {
         }
 }
 
-/* ---- restarts ---- */
+/* ---- other starts: one after the other ---- */
 
 enum { LOOP_TRIES = 40, WHOLE_TRIES = 6, LOOP_STEPS = 80, WHOLE_STEPS = 200 };
 
