@@ -2,7 +2,7 @@
 /* A step along a sequence of equilibria, and what is read off it. */
 #include "maths/brent.h"
 #include "multibody/system.h"
-#include "statics/quasi_static.h"
+#include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

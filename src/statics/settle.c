@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- from a state to a stable equilibrium nearby, and what is said where there is none ---- */
+/* ---- from a state to a stable equilibrium nearby ---- */
 
 static const double fw_longest_step = 0.5; /* rad, or scaled lengths */
 /* beyond this the mechanism runs away: no load of a scene turns a part five times around */
@@ -197,7 +197,7 @@ typedef struct walker {
     bool *blamed; /* (nblock) drivers that no motion can follow */
 } walker;
 
-/* ---- why not ---- */
+/* ---- why drivers are not followed ---- */
 
 /* what of dPsi/ds lies outside of the range of G, at the evaluated state: with A = D G M^-1/2 = U S
    V^T, D dPsi/ds less its part in U_1. Blocks with a part of it contradict each other. */
@@ -272,7 +272,7 @@ static fw_status cannot_follow(walker *k, double s) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-/* ---- one step ---- */
+/* ---- one step of the drivers ---- */
 
 static double product(const fw_multibody_model *m, const double *x, const double *y) {
     double sum = 0;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef FW_STATICS_STATICS_H
-#define FW_STATICS_STATICS_H
-#include "multibody/model.h"
-
-/* Equilibria of a mechanism under the loads of a scene, and the path that leads there.
+/* Equilibria of a mechanism under the loads of a scene, the path that leads there, and small motions
+   about a pose.
 
    Loads and drivers are taken as they are at the scene's end. The load factor s multiplies forces
    and torques of the scene, the actuation of force elements and the way of the drivers; springs,
    stops, cables and gravity act fully at every s. At s = 0 the mechanism is at rest, at s = 1 it
    carries the scene. Theory: docs/theory/statics-and-modes.md. */
+#ifndef FW_STATICS_STATICS_H
+#define FW_STATICS_STATICS_H
+#include "multibody/model.h"
 
 typedef struct fw_statics_static_options {
     fw_effect_choice effects; /* "auto" is taken as "all": nothing is left out */

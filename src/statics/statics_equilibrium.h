@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A mechanism without time: loads and drivers at a load factor, equilibrium and tangent; and a sequence
+   of its equilibria while it is followed. Scaled units. Private to statics/. */
 #ifndef FW_STATICS_STATICS_EQUILIBRIUM_H
 #define FW_STATICS_STATICS_EQUILIBRIUM_H
 #include "dynamics/dynamics.h"
 #include "maths/dense.h"
 #include "multibody/system.h"
 #include "statics/statics.h"
-
-/* A mechanism without time: loads and drivers at a load factor, equilibrium and tangent. Scaled
-   units. Private to statics/. */
 
 /* ---- reduced.c ---- */
 
@@ -180,7 +179,7 @@ const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
 void fw_statics_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                         const double *v, const double *lambda, double *stiffness, double *damping);
 
-/* ---- a sequence of equilibria while it is followed ---- */
+/* ---- quasi_static_step.c: a sequence of equilibria while it is followed ---- */
 
 typedef struct fw_statics_node { /* an equilibrium: pose and du/dt, scaled */
     double t, *u, *v;            /* (n) */
@@ -218,7 +217,7 @@ typedef struct fw_statics_quasi_static {
     const char *why;         /* it cannot go on */
 } fw_statics_quasi_static;
 
-/* quasi_static_step.c: the equilibrium at scaled t nearest to row->guess; the model stays there.
+/* the equilibrium at scaled t nearest to row->guess; the model stays there.
    FW_SOLVER: there is none that Newton's method reaches in a few steps, or it is not stable */
 fw_status fw_statics_quasi_static_solve(fw_statics_quasi_static *r, double t);
 /* the step's curve at theta in [0, 1]: degree 5 through three equilibria and their rates. value,
@@ -234,7 +233,7 @@ fw_status fw_statics_quasi_static_land(fw_statics_quasi_static *r, double t);
 /* from `from` to t; middle and end go to `middle` and `to` */
 fw_status fw_statics_quasi_static_step(fw_statics_quasi_static *r, double t);
 
-/* quasi_static_step.c: results */
+/* results */
 fw_status fw_statics_quasi_static_arrays(fw_statics_quasi_static *r);
 /* at the start of a smooth piece and after every step: peaks, samples, instants */
 fw_status fw_statics_quasi_static_begin(fw_statics_quasi_static *r);
