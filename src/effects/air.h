@@ -9,7 +9,7 @@ typedef struct fw_effects_gas { /* dry air, or what the scene states of it */
     double path_m; /* mean free path */
 } fw_effects_gas;
 
-/* ---- air_films.c ---- */
+/* ---- air.c ---- */
 
 /* Sutherland's law for dry air, 170 K to 1900 K within 2 %: 1.458e-6 T^1.5/(T + 110.4) */
 double fw_effects_air_viscosity(double temperature_K);

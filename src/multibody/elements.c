@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Force elements on the model's bodies (effects/element.h): from the pose to what the ports see, in
+/* Force elements on the model's bodies (effects/effects.h): from the pose to what the ports see, in
    SI, from their forces to accelerations and generalised forces, from their tangents to the
    model's.
 

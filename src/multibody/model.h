@@ -91,7 +91,7 @@ typedef struct fw_multibody_slide { /* spring and damper along a prismatic joint
     double k, c, free;
 } fw_multibody_slide;
 
-typedef struct fw_multibody_element { /* a force element (effects/element.h) on the bodies */
+typedef struct fw_multibody_element { /* a force element (effects/effects.h) on the bodies */
     const fw_effects_force_element *own;
     /* ports in scaled units, those of the ground from the centre */
     fw_effects_force_element scaled;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Forces on the ports of a force element at a pose: the class's own force (effects/element.h) where
+/* Forces on the ports of a force element at a pose: the class's own force (effects/effects.h) where
    the ports are, its switches as the integration holds them, or, at rows and equilibria, as their
    own values say. In: poses and velocities in SI. Out: N, N m. Error: round-off, and that. Cost: that of
    the class. Test: test_probe.py, against the balance of forces on a body. */
