@@ -6,7 +6,7 @@
 #include "assembly/assembly.h"
 #include "dynamics/dynamics.h"
 #include "maths/ode.h"
-#include "multibody/method.h"
+#include "multibody/system.h"
 
 /* extreme.c: angles of pins, displacements of flexures that give */
 typedef struct fw_dynamics_strip { /* one of those */

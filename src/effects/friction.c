@@ -277,7 +277,7 @@ static fw_status friction_bound(const fw_effect_case *c, const fw_effects_loads 
 /* ---- the effect ---- */
 
 /* Coulomb friction of joints. What is added here is what the scene states; the forces come with the
-   joints' own, in multibody/multibody_friction.c and stick.c.
+   joints' own, in multibody/multibody_friction.c and multibody_flags.c.
 
      at rest   |Q| <= mu_s N r      slides   Q = -mu_k N r sign(rate)      r = 1 of a slide
 
