@@ -42,7 +42,7 @@ static double lower(size_t failed, size_t points, double tail) {
    at all included, where Wilson's falls short for rare failures; the cost is some width. What was not evaluated counts as
    safe for the lower end and as failed for the upper. Source: C. J. Clopper, E. S. Pearson, Biometrika 26 (1934) 404. Test:
    test_estimate.c */
-void fw_chance_count_interval(const fw_chance_count *count, double level, fw_chance_estimate *out) {
+static void count_interval(const fw_chance_count *count, double level, fw_chance_estimate *out) {
     size_t n = count->points, most = count->failed + count->unevaluated;
     double p = (double)count->failed / (double)n, q = (double)most / (double)n,
            tail = (1 - level) / 2;
@@ -85,7 +85,7 @@ fw_status fw_chance_monte_carlo(fw_chance_run *run, fw_chance_estimate *out) {
         for (size_t i = 0; i < now; i++)
             fw_chance_count_add(&count, value[i]);
     }
-    fw_chance_count_interval(&count, run->level, out);
+    count_interval(&count, run->level, out);
     return FW_OK;
 }
 
@@ -134,7 +134,7 @@ fw_status fw_chance_quasi(fw_chance_run *run, fw_chance_estimate *out) {
         high[r] = (double)(count.failed + count.unevaluated) / (double)points;
         all.points += points, all.failed += count.failed, all.unevaluated += count.unevaluated;
     }
-    fw_chance_count_interval(&all, run->level, out);
+    count_interval(&all, run->level, out);
     fw_chance_mean least = fw_chance_mean_of(REPLICATES, low, run->level);
     fw_chance_mean most = fw_chance_mean_of(REPLICATES, high, run->level);
     bool few_fail = all.failed < FEW, few_do_not = all.points - all.failed - all.unevaluated < FEW;

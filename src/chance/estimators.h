@@ -27,9 +27,6 @@ typedef struct fw_chance_count {
 } fw_chance_count;
 void fw_chance_count_add(fw_chance_count *count, double value);
 
-/* probabilities, their interval of `level` and the standard error from a plain count */
-void fw_chance_count_interval(const fw_chance_count *count, double level, fw_chance_estimate *out);
-
 /* mean and its Student interval from `count` independent estimates, within [0, 1] */
 typedef struct fw_chance_mean {
     double mean, standard_error, low, high;

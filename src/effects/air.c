@@ -55,7 +55,8 @@ fw_effects_face fw_effects_air_face(const fw_mechanism *m, const fw_device_air *
                              sqrt(scale) * drawn->perimeter_m};
 }
 
-fw_geometry_vec2 fw_effects_air_centre(const fw_mechanism *m, int body) {
+/* where the air acts on it: the centroid of its shape, from its centre of mass */
+static fw_geometry_vec2 centre_of_face(const fw_mechanism *m, int body) {
     return m->shape ? m->shape[body].centroid : (fw_geometry_vec2){0, 0};
 }
 
@@ -170,8 +171,8 @@ static double turn_of(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? 0 : m->body[body].phi_rad;
 }
 
-fw_status fw_effects_air_squeeze_add(const fw_effect_case *c, fw_effects_loads *loads,
-                                     const fw_device_air *air) {
+static fw_status squeeze_add(const fw_effect_case *c, fw_effects_loads *loads,
+                             const fw_device_air *air) {
     const fw_mechanism *m = c->mechanism;
     fw_effects_squeeze *data = fw_arena_one(c->arena, fw_effects_squeeze);
     fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &squeeze_class, 2);
@@ -271,8 +272,8 @@ static void slide_power(const fw_effects_force_element *e, const fw_effects_port
 static const fw_effects_element_class slide_class = {
     .effect = "air", .force = slide_force, .tangent = slide_tangent, .power = slide_power};
 
-fw_status fw_effects_air_slide_add(const fw_effect_case *c, fw_effects_loads *loads,
-                                   const fw_device_air *air, int body) {
+static fw_status slide_add(const fw_effect_case *c, fw_effects_loads *loads,
+                           const fw_device_air *air, int body) {
     fw_effects_damper *data = fw_arena_one(c->arena, fw_effects_damper);
     fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &slide_class, 2);
     FW_NEED(data && e);
@@ -282,7 +283,7 @@ fw_status fw_effects_air_slide_add(const fw_effect_case *c, fw_effects_loads *lo
     *data = fw_effects_air_slide(&gas, &face, air->gap_m);
     e->id = at->id;
     e->place = air->place;
-    const fw_geometry_vec2 centre = fw_effects_air_centre(c->mechanism, body),
+    const fw_geometry_vec2 centre = centre_of_face(c->mechanism, body),
                            over = fw_mechanism_local_place(c->mechanism, body, centre.x, centre.y);
     e->port[0] = (fw_effects_port){body, centre.x, centre.y};
     e->port[1] = (fw_effects_port){FW_GROUND, over.x, over.y};
@@ -343,14 +344,14 @@ static void drag_power(const fw_effects_force_element *e, const fw_effects_port_
 static const fw_effects_element_class drag_class = {
     .effect = "air", .force = drag_force, .tangent = drag_tangent, .power = drag_power};
 
-fw_status fw_effects_air_drag_add(const fw_effect_case *c, fw_effects_loads *loads,
-                                  const fw_device_air *air, int body) {
+static fw_status drag_add(const fw_effect_case *c, fw_effects_loads *loads,
+                          const fw_device_air *air, int body) {
     fw_effects_damper *data = fw_arena_one(c->arena, fw_effects_damper);
     fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &drag_class, 1);
     FW_NEED(data && e);
     const fw_effects_gas gas = fw_effects_gas_of(air);
     const fw_effects_face face = fw_effects_air_face(c->mechanism, air, body);
-    const fw_geometry_vec2 centre = fw_effects_air_centre(c->mechanism, body);
+    const fw_geometry_vec2 centre = centre_of_face(c->mechanism, body);
     *data = fw_effects_air_drag(&gas, &face);
     e->id = c->mechanism->body[body].id;
     e->place = air->place;
@@ -404,7 +405,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 /* at the centroid of the face, which turns about the centre of mass where the two are apart */
 static void add_damper(const fw_effect_case *c, int body, fw_effects_damper d, double *force) {
     const double *speed = c->envelope->speed + 3 * body;
-    const fw_geometry_vec2 at = fw_effects_air_centre(c->mechanism, body);
+    const fw_geometry_vec2 at = centre_of_face(c->mechanism, body);
     double arm = hypot(at.x, at.y), most = hypot(speed[0], speed[1]) + arm * speed[2];
     force[3 * body] += d.force_Ns_per_m * (arm > 0 ? most : speed[0]);
     force[3 * body + 1] += d.force_Ns_per_m * (arm > 0 ? most : speed[1]);
@@ -540,14 +541,12 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
         int first, last;
         bodies_of(c, a, &first, &last);
         if (a->kind == FW_AIR_SQUEEZE) {
-            if (fw_effects_air_depth(c->mechanism, a) > 0)
-                FW_TRY(fw_effects_air_squeeze_add(c, loads, a));
+            if (fw_effects_air_depth(c->mechanism, a) > 0) FW_TRY(squeeze_add(c, loads, a));
             continue;
         }
         for (int b = first; b <= last; b++) {
             if (!(fw_effects_air_face(c->mechanism, a, b).area_m2 > 0)) continue; /* see check */
-            FW_TRY(a->kind == FW_AIR_SLIDE ? fw_effects_air_slide_add(c, loads, a, b)
-                                           : fw_effects_air_drag_add(c, loads, a, b));
+            FW_TRY(a->kind == FW_AIR_SLIDE ? slide_add(c, loads, a, b) : drag_add(c, loads, a, b));
         }
     }
     return FW_OK;

@@ -101,7 +101,9 @@ static bool taut(const fw_device_tendon *t, const stretch *s) {
     return t->stiffness_N_per_m * s->least_m > t->damping_Ns_per_m * s->speed_m_per_s;
 }
 
-bool fw_effects_tendons_loosen(const fw_effect_case *c, const fw_effects_envelope *e, bool *loose) {
+/* marks in loose (ntendon) the drawn tendons that the envelope, which has all unmarked ones as
+   springs, does not keep taut; of an envelope that is not valid all. False: there are no more */
+static bool tendons_loosen(const fw_effect_case *c, const fw_effects_envelope *e, bool *loose) {
     bool more = false;
     for (int i = 0; i < c->scene->ntendon; i++) {
         const fw_device_tendon *t = &c->scene->tendon[i];
@@ -131,8 +133,9 @@ static void pull_of(const fw_effect_case *c, const fw_effects_envelope *e, const
     }
 }
 
-fw_status fw_effects_tendons_pull(const fw_effect_case *c, const fw_effects_envelope *e,
-                                  const bool *loose, double *bound) {
+/* what those of `loose` change at most, which the valid envelope does not have */
+static fw_status tendons_pull(const fw_effect_case *c, const fw_effects_envelope *e,
+                              const bool *loose, double *bound) {
     size_t count = (size_t)c->scene->ntendon, modes = (size_t)e->modes;
     double *a, *system, *pull, *mode;
     int *pivot;
@@ -259,8 +262,8 @@ static fw_status find_all(const search *s, int hinges, fw_effects_envelope *enve
 
 /* any tendon more, with hinges that give or with pins */
 static bool slackens(const search *s, const fw_effects_envelope *e) {
-    bool more = fw_effects_tendons_loosen(s->c, e, s->loose);
-    if (e->pinned) more = fw_effects_tendons_loosen(s->c, e->pinned, s->loose) || more;
+    bool more = tendons_loosen(s->c, e, s->loose);
+    if (e->pinned) more = tendons_loosen(s->c, e->pinned, s->loose) || more;
     return more;
 }
 
@@ -293,10 +296,10 @@ static fw_status settle_tendons(const search *s, int hinges, bool alone,
         envelope->why_not = "strains move the ends of cables that may go slack";
         return FW_OK;
     }
-    FW_TRY(fw_effects_tendons_pull(c, envelope, s->loose, &envelope->loose_pull));
+    FW_TRY(tendons_pull(c, envelope, s->loose, &envelope->loose_pull));
     if (!envelope->pinned) return FW_OK;
     double pinned;
-    FW_TRY(fw_effects_tendons_pull(c, envelope->pinned, s->loose, &pinned));
+    FW_TRY(tendons_pull(c, envelope->pinned, s->loose, &pinned));
     pinned *= envelope->pinned->floor / envelope->floor;
     envelope->loose_pull = fmax(envelope->loose_pull, pinned);
     return FW_OK;

@@ -25,8 +25,9 @@ static bool stable(const fw_statics_reduced *r) {
     return true;
 }
 
-/* Newton from guess; forces and tangent are those within 1e-10 of the result */
-fw_status fw_statics_quasi_static_solve(fw_statics_quasi_static *r, double t) {
+/* The equilibrium at scaled t nearest to r->guess; the model stays there. Newton from guess; forces and tangent are
+   those within 1e-10 of the result. FW_SOLVER: there is none that it reaches in a few steps, or it is not stable */
+static fw_status solve(fw_statics_quasi_static *r, double t) {
     fw_statics_equilibrium *w = &r->w;
     size_t n = (size_t)w->model->nq;
     double before = (double)INFINITY;
@@ -107,9 +108,11 @@ fw_status fw_statics_quasi_static_land(fw_statics_quasi_static *r, double t) {
 
 /* ---- the curve of a step ---- */
 
-/* cubic through both ends plus x^2 (1 - x)^2 (c0 + c1 (x - 1/2)), which leaves the ends alone */
-void fw_statics_quasi_static_curve(const fw_statics_quasi_static *r, double x, double *value,
-                                   double *slope, double *bend) {
+/* the step's curve at x in [0, 1], of degree 5; value, slope and bend (n) by scaled time, may be NULL: cubic through
+   both ends plus x^2 (1 - x)^2 (c0 + c1 (x - 1/2)), which leaves the ends
+   alone */
+static void curve(const fw_statics_quasi_static *r, double x, double *value, double *slope,
+                  double *bend) {
     double h = r->to.t - r->from.t, z = x - 0.5, p = x * (1 - x), dp = 1 - 2 * x;
     double bump = p * p, rise = 2 * p * dp, curl = 2 * dp * dp - 4 * p;
     for (int i = 0; i < r->w.model->nq; i++) {
@@ -139,12 +142,12 @@ fw_status fw_statics_quasi_static_step(fw_statics_quasi_static *r, double t) {
     int n = r->w.model->nq;
     for (int i = 0; i < n; i++)
         r->guess[i] = r->from.u[i] + h * r->from.v[i];
-    FW_TRY(fw_statics_quasi_static_solve(r, r->from.t + h));
+    FW_TRY(solve(r, r->from.t + h));
     keep(r, r->from.t + h, &r->middle);
     for (int i = 0; i < n; i++)
         r->guess[i] =
             5 * r->from.u[i] - 4 * r->middle.u[i] + h * (2 * r->from.v[i] + 4 * r->middle.v[i]);
-    FW_TRY(fw_statics_quasi_static_solve(r, t));
+    FW_TRY(solve(r, t));
     keep(r, t, &r->to);
     return FW_OK;
 }
@@ -215,7 +218,7 @@ typedef struct turning { /* of one pin along the step */
 
 static double rate_at(const void *context, double theta) {
     const turning *k = context;
-    fw_statics_quasi_static_curve(k->r, theta, NULL, k->r->accel, NULL);
+    curve(k->r, theta, NULL, k->r->accel, NULL);
     return turn_of(k->r, k->pin, k->r->accel);
 }
 
@@ -223,10 +226,10 @@ static double rate_at(const void *context, double theta) {
 static fw_status refine(fw_statics_quasi_static *r, int pin, double theta) {
     fw_dynamics_peak *peak = &r->motion->peak[pin];
     double t = r->from.t + theta * (r->to.t - r->from.t);
-    fw_statics_quasi_static_curve(r, theta, r->guess, NULL, NULL);
+    curve(r, theta, r->guess, NULL, NULL);
     double rough = r->angle0[pin] + turn_of(r, pin, r->guess);
     if (fabs(rough) + r->worst < fabs(peak->angle_rad)) return FW_OK;
-    fw_status status = fw_statics_quasi_static_solve(r, t);
+    fw_status status = solve(r, t);
     if (status != FW_OK) return status == FW_SOLVER ? FW_OK : status; /* the ends stand */
     double exact = r->angle0[pin] + turn_of(r, pin, r->w.y);
     offer(peak, exact, t, fabs(exact - rough));
@@ -289,8 +292,8 @@ static fw_status rows(fw_statics_quasi_static *r) {
         bool end = r->row == r->motion->nsample - 1;
         if (end ? r->to.t < r->duration : t > r->to.t) return FW_OK;
         double theta = end ? 1 : fmin(1, fmax(0, (t - r->from.t) / h));
-        fw_statics_quasi_static_curve(r, theta, r->guess, NULL, r->accel);
-        FW_TRY(fw_statics_quasi_static_solve(r, r->from.t + theta * h));
+        curve(r, theta, r->guess, NULL, r->accel);
+        FW_TRY(solve(r, r->from.t + theta * h));
         store(r, t_s, r->accel);
     }
     return FW_OK;
@@ -365,8 +368,8 @@ static fw_status instants(fw_statics_quasi_static *r) {
     if (!r->options->observe && !r->track) return FW_OK;
     for (int i = 1; i <= FW_INSTANTS; i++) {
         double theta = (double)i / FW_INSTANTS;
-        fw_statics_quasi_static_curve(r, theta, r->guess, NULL, NULL);
-        FW_TRY(fw_statics_quasi_static_solve(r, r->from.t + theta * h));
+        curve(r, theta, r->guess, NULL, NULL);
+        FW_TRY(solve(r, r->from.t + theta * h));
         observe_state(r, r->from.t + theta * h);
     }
     return FW_OK;
@@ -391,7 +394,7 @@ static void trace(fw_statics_quasi_static *r) {
     double unit = r->w.model->scale.time_s;
     if (!r->options->observe || !r->options->trace) return;
     for (int i = 0; i < NODES; i++) {
-        fw_statics_quasi_static_curve(r, (double)i / (NODES - 1), r->guess, NULL, NULL);
+        curve(r, (double)i / (NODES - 1), r->guess, NULL, NULL);
         fw_statics_equilibrium_pose(&r->w, r->guess, r->piece_q + (size_t)(i * r->w.model->nq),
                                     r->angle);
     }

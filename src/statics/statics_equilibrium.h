@@ -217,14 +217,6 @@ typedef struct fw_statics_quasi_static {
     const char *why;         /* it cannot go on */
 } fw_statics_quasi_static;
 
-/* the equilibrium at scaled t nearest to row->guess; the model stays there.
-   FW_SOLVER: there is none that Newton's method reaches in a few steps, or it is not stable */
-fw_status fw_statics_quasi_static_solve(fw_statics_quasi_static *r, double t);
-/* the step's curve at theta in [0, 1]: degree 5 through three equilibria and their rates. value,
-   slope and bend (n) by scaled time; may be NULL */
-void fw_statics_quasi_static_curve(const fw_statics_quasi_static *r, double theta, double *value,
-                                   double *slope, double *bend);
-
 /* by how much the cubic through the step's ends misses its middle */
 double fw_statics_quasi_static_miss(const fw_statics_quasi_static *r);
 /* where a piece begins: loads may have jumped, so that the nearest minimum is looked for. It goes
