@@ -6,7 +6,7 @@
 #include "assembly/assembly.h"
 #include "multibody/system.h"
 
-/* ---- assembly_closure.c ---- */
+/* ---- closure.c: descent from a guess ---- */
 typedef struct fw_assembly_closure {
     const fw_arena *arena; /* whose request to stop ends the descent */
     const fw_multibody_model *model;
@@ -38,7 +38,7 @@ void fw_assembly_closure_unwind(const fw_assembly_closure *c, int *group);
 /* distance of the mass metric from u = 0, squared */
 double fw_assembly_closure_distance(const fw_assembly_closure *c, const double *u);
 
-/* ---- restart.c ---- */
+/* ---- closure.c: other starts ---- */
 typedef struct fw_assembly_tree {
     int *order;  /* (nbody) bodies in the order in which they are placed */
     int *parent; /* (nbody) body that it is joined to; nbody: the ground; -1: nothing */
@@ -96,7 +96,7 @@ int fw_assembly_elbow_side(const fw_mechanism *mechanism, const double *q,
 fw_status fw_assembly_alternatives_find(fw_arena *arena, const fw_mechanism *mechanism,
                                         fw_diags *diags, fw_assembly *found);
 
-/* ---- rank.c ---- */
+/* ---- freedom.c ---- */
 
 /* degrees of freedom at q (3 nbody) SI */
 fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const double *q,

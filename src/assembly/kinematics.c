@@ -2,7 +2,6 @@
 /* Given motion: velocities, accelerations, joint forces and what drives it. */
 #include "assembly/kinematics.h"
 #include "assembly/assembly.h"
-#include "assembly/independent.h"
 #include "multibody/system.h"
 #include <float.h>
 #include <math.h>

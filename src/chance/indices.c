@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "chance/indices.h"
 #include "chance/random.h"
-#include "chance/sobol.h"
 #include "maths/cdf.h"
 #include <math.h>
 #include <stdbool.h>

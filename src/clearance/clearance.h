@@ -44,7 +44,7 @@ typedef struct fw_clearance_things {
 fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout,
                                  const fw_mechanism *mechanism, fw_clearance_things *things);
 
-/* ---- clearance_path.c: a motion as polynomials ---- */
+/* ---- clearance_motion.c: a motion as polynomials ---- */
 
 enum { FW_CLEARANCE_NODES = FW_PIECE_NODES };
 
@@ -76,7 +76,6 @@ typedef struct fw_clearance_span {
 /* coefficients of a coordinate over a part of a piece */
 void fw_clearance_path_part(const fw_clearance_path *path, int piece, int q, double from, double to,
                             double out[FW_CLEARANCE_NODES]);
-const double *fw_clearance_path_coefficients(const fw_clearance_path *path, int piece, int q);
 double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, double theta);
 
 typedef struct fw_clearance_pose { /* of a solid's centre of mass; the ground's never changes */
@@ -165,5 +164,46 @@ fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things
                               const fw_mechanism *mechanism, const fw_device_workspace_box *box,
                               const fw_clearance_wish *wish, fw_clearance_least *least, bool *known,
                               int *open);
+
+/* ---- clearance_strip.c: the strip of a flexure, and where it can be when it bends ---- */
+
+typedef struct fw_clearance_strip_part { /* of an edge, as drawn */
+    fw_geometry_segment segment;
+    double from_m, to_m; /* along the strip from the lower body's root, at its two ends */
+} fw_clearance_strip_part;
+
+typedef struct fw_clearance_strip {
+    bool known;
+    const fw_layout_hinge_layout *hinge;
+    fw_clearance_strip_part *part; /* (count) */
+    int count;
+    double length_m; /* of the longer edge */
+} fw_clearance_strip;
+
+typedef struct fw_clearance_bend { /* bounds of what bends it */
+    bool known;
+    double strain;          /* of any fibre */
+    double width_m;         /* the least */
+    double curvature_per_m; /* change of it */
+    double forced_per_m;    /* of that, what forces add to a pure moment; HUGE_VAL: not known */
+    double turn_rad;        /* of the hinge, either way */
+    double root_share;      /* of that, what both roots take */
+    bool straight;          /* and of one width, so that forces bend it linearly */
+} fw_clearance_bend;
+
+fw_status fw_clearance_strip_of(fw_arena *arena, const fw_layout *layout,
+                                const fw_layout_piece *piece, fw_clearance_strip *strip);
+/* at the elastic limit with its safety factor; turn_rad is left 0 */
+fw_clearance_bend fw_clearance_bend_of(const fw_mechanism *mechanism,
+                                       const fw_mechanism_hinge *hinge);
+/* what a point s_m from a root goes by against the body there, at most */
+double fw_clearance_bend_at(const fw_clearance_bend *bend, double s_m);
+/* radius about the hinge point within which it stays */
+double fw_clearance_strip_reach(const fw_clearance_strip *strip, const fw_clearance_bend *bend);
+
+/* an edge of its own two bodies that it is not proved to keep off; NULL: none */
+fw_status fw_clearance_strip_meets(fw_arena *arena, const fw_clearance_things *things,
+                                   const fw_clearance_strip *strip, const fw_clearance_bend *bend,
+                                   double wall_m, const fw_clearance_edge **met);
 
 #endif

@@ -1,20 +1,91 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least clearance over a required box of the six-bar's poses, with all that rides on it. */
+#include "clearance/clearance_pair.h"
+#include "geometry/segment.h"
+#include "workspace/loop.h"
+#include "workspace/workspace.h"
+#include <math.h>
+
+/* ---- what rides on the six-bar ---- */
+
+/* What rides on the six-bar without being of it, in a pose of the platform. A tree of bodies hangs on
+   one of the six-bar's bodies (or on the ground); a joint that held two of these together would take
+   freedom from the platform, and nothing could be required of it (workspace/loop.c). Joined by
+   welds and flexures that nothing else deflects it goes with that body as it is drawn: a required
+   pose has no loads of its own, and flexures at rest stay as they are. A pin without a flexure, a
+   slider, a rod, a driver, or a spring to something that moves against it leaves its pose open.
+   In: mechanism; out: of every body the one it goes with. Cost: bodies times joints.
+   Test: tests/clearance/cases.py riders */
+
+enum { LINKS = 5 };
+
+/* body of the six-bar that a body goes with, FW_GROUND, or: its pose is open; not seen yet */
+enum { OPEN = FW_GROUND - 1, NOT_SEEN = FW_GROUND - 2 };
+
+static bool is_flexure(const fw_mechanism *m, int pin) {
+    for (int i = 0; i < m->nhinge; i++)
+        if (m->hinge[i].pin == pin) return true;
+    return false;
+}
+
+/* what one of two joined bodies goes with the other goes with, too; true: that is new */
+static bool spread(int a, int b, bool rigid, int *with) {
+    int known = a == FW_GROUND ? FW_GROUND : with[a], other = b == FW_GROUND ? FW_GROUND : with[b];
+    bool from_a = b >= LINKS && other == NOT_SEEN && known != NOT_SEEN;
+    bool from_b = a >= LINKS && known == NOT_SEEN && other != NOT_SEEN;
+    if (from_a) with[b] = rigid ? known : OPEN;
+    if (from_b) with[a] = rigid ? other : OPEN;
+    if (from_a || from_b) return true;
+    /* a second joint that is not rigid, or one to what is open, opens the other */
+    bool open = !rigid || known == OPEN || other == OPEN;
+    bool more = false;
+    if (open && a >= LINKS && known >= FW_GROUND) with[a] = OPEN, more = true;
+    if (open && b >= LINKS && other >= FW_GROUND) with[b] = OPEN, more = true;
+    return more;
+}
+
+static bool spring_pulls(const fw_mechanism *m, const int *with, int spring) {
+    int a = m->spring[spring].body_a, b = m->spring[spring].body_b;
+    int p = a == FW_GROUND ? FW_GROUND : with[a], q = b == FW_GROUND ? FW_GROUND : with[b];
+    return p != q && (a >= LINKS || b >= LINKS);
+}
+
+/* with: (nbody) */
+static void riders(const fw_mechanism *m, int *with) {
+    for (int i = 0; i < m->nbody; i++)
+        with[i] = i < LINKS ? i : NOT_SEEN;
+    bool more = true;
+    while (more) {
+        more = false;
+        for (int i = FW_SIX; i < m->npin; i++)
+            more |= spread(m->pin[i].body_a, m->pin[i].body_b, is_flexure(m, i), with);
+        for (int i = 0; i < m->njoint; i++)
+            more |= spread(m->joint[i].body_a, m->joint[i].body_b,
+                           m->joint[i].kind == FW_JOINT_WELD, with);
+        for (int i = 0; i < m->nspring && !more; i++)
+            if (spring_pulls(m, with, i))
+                more |= spread(m->spring[i].body_a, m->spring[i].body_b, false, with);
+        for (int i = 0; i < m->ndriver && !more; i++) {
+            int pin = m->driver[i].revolute;
+            if (pin >= FW_SIX) more |= spread(m->pin[pin].body_a, m->pin[pin].body_b, false, with);
+        }
+    }
+    for (int i = LINKS; i < m->nbody; i++)
+        if (with[i] == NOT_SEEN) with[i] = OPEN;
+}
+
+/* ---- the least clearance over a box ---- */
+
 /* The least clearance over a box of the platform's poses. From the Taylor forms of the loop
    (workspace/loop.h): rotations of all hinges over a part of the box as value + gradient . d within
    a rest, d the displacement of the platform from the middle. A body at a pivot P that turns by t
    and whose pivot is carried round O by s goes, at its centre of mass G, by
      dG = s J(P - O) + t J(G - P) + e,  |e| <= s^2/2 |P - O| + t^2/2 |G - P|,
    which is linear in d but for rests. The linear parts at the eight corners bound the slack of the
-   pair (clearance_slack.c), the rests come on top. What rides on one of the six-bar's bodies goes with
-   it (clearance_riders.c).
+   pair (clearance_pair.c), the rests come on top. What rides on one of the six-bar's bodies goes with
+   it (above).
 
    All pairs ask for the same parts of the box: forms are kept by part. */
-#include "clearance/clearance_pair.h"
-#include "geometry/segment.h"
-#include "workspace/loop.h"
-#include <math.h>
-
-enum { LINKS = 5 };
 
 enum { KEPT = 64 }; /* parts whose forms are kept */
 
@@ -319,9 +390,9 @@ fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things
     bool *left_out = fw_arena_array(arena, bool, (size_t)m->nbody + 1);
     part *memory = fw_arena_array(arena, part, KEPT);
     FW_NEED(with && left_out && memory ? with : NULL);
-    fw_clearance_riders(m, with);
+    riders(m, with);
     for (int i = m->nbody - 1; i >= 0; i--) {
-        left_out[i] = with[i] == FW_CLEARANCE_OPEN;
+        left_out[i] = with[i] == OPEN;
         if (left_out[i] && things->solid[i].count > 0) *open = i;
     }
     of_six.left_out = left_out;

@@ -4,7 +4,7 @@
 
    With both solids off their middle poses by (dx, t) points p, q that are D apart there are within
      D - s <= |q' - p'| <= D sqrt(1 + t_b^2) + s
-   (clearance_slack.c: |q - p + t_b J(q - p)| = |q - p| sqrt(1 + t_b^2)). The first holds for all
+   (clearance_pair.c: |q - p + t_b J(q - p)| = |q - p| sqrt(1 + t_b^2)). The first holds for all
    pairs of points, the second for the nearest ones, so that the distance lies between them all over
    the span of which the slack is. Spans are halved until that decides. */
 #include "clearance/clearance_pair.h"

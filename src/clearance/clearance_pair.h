@@ -24,8 +24,6 @@ fw_geometry_vec2 fw_clearance_place(const fw_clearance_solid *solid, fw_clearanc
 /* walls: only edges of the ground that are walls whatever a scene lets meet */
 fw_status fw_clearance_pair_new(fw_arena *arena, const fw_clearance_things *things, int a, int b,
                                 bool walls, fw_clearance_pair *pair);
-bool fw_clearance_may_meet(const fw_clearance_pair *pair, const fw_clearance_edge *p,
-                           const fw_clearance_edge *q);
 void fw_clearance_pair_boxes(fw_clearance_pair *pair);
 void fw_clearance_pair_measure(fw_clearance_pair *pair);
 /* kept: work, (count[0]) */
@@ -45,7 +43,7 @@ int fw_clearance_pair_coefficients(const fw_clearance_pair *pair, const fw_clear
                                    const fw_clearance_span *span, int piece,
                                    fw_clearance_pose pose[FW_CLEARANCE_NODES][2]);
 
-/* ---- clearance_slack.c: poses that are not quite known ---- */
+/* ---- clearance_pair.c: poses that are not quite known ---- */
 
 /* no two edges are nearer than at the middle poses by more than this, for every pose that is a
    convex combination of those that were added */
@@ -59,13 +57,6 @@ void fw_clearance_slack_begin(const fw_clearance_pair *pair, const fw_clearance_
 void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                             fw_clearance_slack *slack);
 double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack);
-
-/* ---- clearance_riders.c: what rides on the six-bar ---- */
-
-/* body of the six-bar that a body goes with, FW_GROUND, or: its pose is open; not seen yet */
-enum { FW_CLEARANCE_OPEN = FW_GROUND - 1, FW_CLEARANCE_NOT_SEEN = FW_GROUND - 2 };
-/* with: (nbody) */
-void fw_clearance_riders(const fw_mechanism *mechanism, int *with);
 
 /* ---- clearance_search.c: the least over all poses of a domain ---- */
 

@@ -269,7 +269,7 @@ static fw_status run(search *s, const fw_clearance_region *all) {
 }
 
 /* Least over all pairs of solids and all poses of a domain of their distance d:
-     d >= D(middle) - slack   over a region (clearance_slack.c), d at a pose >= the least.
+     d >= D(middle) - slack   over a region (clearance_pair.c), d at a pose >= the least.
    Regions of all pairs lie in one heap; the one with the least bound is looked at next and halved,
    until no bound is below the least distance found by more than the error wanted. In: things, a
    domain and all of it (m, rad); out: least, its bound, pair, places. Error: least.m - least.low_m

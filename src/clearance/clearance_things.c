@@ -2,7 +2,6 @@
 /* What of a drawing may meet what: the outlines of every body and of all that stands, cut where
    they enter the region of a hinge. */
 #include "clearance/clearance.h"
-#include "clearance/clearance_strip.h"
 #include "geometry/segment.h"
 #include <math.h>
 

@@ -2,7 +2,7 @@
 /* The first event of a step: where a stop, a cable, a switch of an element or the state of a joint
    with friction no longer fits its flag. Looked for on the dense output at FW_PLACES + 1 places,
    and between them wherever a touch may be shorter than their spacing; found to round-off. Entries
-   are numbered as switches are (multibody_events.c), then the joints with friction. Test:
+   are numbered as switches are (multibody_flags.c), then the joints with friction. Test:
    test_events.c, test_friction.c. */
 #include "dynamics/run.h"
 #include <float.h>

@@ -6,9 +6,9 @@
 #include "assembly/assembly.h"
 #include "dynamics/dynamics.h"
 #include "maths/ode.h"
-#include "multibody/method.h"
+#include "multibody/system.h"
 
-/* angle_peaks.c: angles of pins, displacements of flexures that give */
+/* extreme.c: angles of pins, displacements of flexures that give */
 typedef struct fw_dynamics_strip { /* one of those */
     int body[2];
     double local[2][2]; /* its point in each body, scaled */
@@ -164,7 +164,7 @@ static inline const char *fw_dynamics_scene_name(const fw_dynamics_problem *prob
     return problem->scene->name ? problem->scene->name : "(unnamed)";
 }
 
-/* pieces.c: smooth pieces, problem.end, and what limits steps in them */
+/* run_ends.c: smooth pieces, problem.end, and what limits steps in them */
 fw_status fw_dynamics_run_pieces(fw_dynamics_problem *problem, const fw_effects_loads *loads);
 /* to the longest step that laws allow from t on */
 void fw_dynamics_run_limit_step(const fw_dynamics_controller *control, fw_maths_stepper *s,

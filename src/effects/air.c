@@ -1,10 +1,370 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The air around a device: films below bodies and between walls, drag of the open air. Each is a
-   damper; air_films.c has the physics. Theory: docs/theory/effects/air.md. */
+/* The air around what moves: films between walls and over the ground, drag, and the effect that they make. */
 #include "effects/air.h"
 #include "base/constants.h"
 #include "effects/envelope.h"
 #include <math.h>
+
+/* ---- films between walls, and drag ---- */
+
+/* Squeeze film between two side walls that stand opposite each other, length a along the wafer and
+   depth b across it: the air must leave through the edges. With the gap g of the walls' middles,
+
+     g = n.(p_1 - p_0),   force along g:  -c(g) g',   c = 12 mu_eff I/g^3,
+     I = a b^3/12 (1 - (192 b/(pi^5 a)) sum over odd k of tanh(k pi a/(2 b))/k^5),
+     mu_eff = mu/(1 + 9.638 Kn^1.159),   Kn = mean free path/g,
+
+   n the normal of the second wall, which turns with its body; the walls count as parallel. c is
+   that of the incompressible Reynolds equation with ambient pressure at the edges: 0.4217 mu
+   a^4/g^3 for a square. Source: Blech, J. Lubr. Technol. 105 (1983) 615 (small squeeze numbers);
+   Veijola, Kuisma, Lahdenpera and Ryhanen, Sensors and Actuators A 48 (1995) 239 (rarefaction, Kn
+   up to 880 within 5 %). Valid for squeeze number 12 mu omega b^2/(p g^2) and film Reynolds number
+   rho omega g^2/mu below 1, and g small against both sides. Test: test_air.c (I against a solution
+   by differences). */
+
+/* ---- the gas, and what it acts on ---- */
+
+double fw_effects_air_viscosity(double temperature_K) {
+    return 1.458e-6 * pow(temperature_K, 1.5) / (temperature_K + 110.4);
+}
+
+/* mean free path mu/p sqrt(pi R T/2), the one that Kn of the slip formulas is made of */
+fw_effects_gas fw_effects_gas_of(const fw_device_air *air) {
+    fw_effects_gas g = {.pressure_Pa =
+                            isnan(air->pressure_Pa) ? FW_STANDARD_ATMOSPHERE_Pa : air->pressure_Pa,
+                        .temperature_K = isnan(air->temperature_K) ? 293.15 : air->temperature_K};
+    g.viscosity_Pas =
+        isnan(air->viscosity_Pas) ? fw_effects_air_viscosity(g.temperature_K) : air->viscosity_Pas;
+    g.density_kg_per_m3 = g.pressure_Pa / (FW_DRY_AIR_J_PER_kg_K * g.temperature_K);
+    g.path_m =
+        g.viscosity_Pas / g.pressure_Pa * sqrt(FW_PI * FW_DRY_AIR_J_PER_kg_K * g.temperature_K / 2);
+    return g;
+}
+
+/* a stated area keeps the drawn figure; without one it is a disc, which has the least polar moment
+   and perimeter of its area */
+fw_effects_face fw_effects_air_face(const fw_mechanism *m, const fw_device_air *air, int body) {
+    const fw_mechanism_shape *drawn = m->shape ? &m->shape[body] : NULL;
+    bool known = drawn && drawn->area_m2 > 0;
+    double area = air->area_m2;
+    if (known && isnan(area))
+        return (fw_effects_face){drawn->area_m2, drawn->polar_m4, drawn->perimeter_m};
+    if (!known) return (fw_effects_face){area, area * area / (2 * FW_PI), 2 * sqrt(FW_PI * area)};
+    double scale = area / drawn->area_m2;
+    return (fw_effects_face){area, scale * scale * drawn->polar_m4,
+                             sqrt(scale) * drawn->perimeter_m};
+}
+
+/* where the air acts on it: the centroid of its shape, from its centre of mass */
+static fw_geometry_vec2 centre_of_face(const fw_mechanism *m, int body) {
+    return m->shape ? m->shape[body].centroid : (fw_geometry_vec2){0, 0};
+}
+
+/* ---- squeeze film ---- */
+
+static const double slip = 9.638, slip_power = 1.159;
+
+/* the series converges like exp only in its first term; 40 terms leave 1e-9 of what it subtracts.
+   tanh(x)/k^5 -> 1/k^5, whose tail behind K is below 1/(8 K^4) */
+double fw_effects_rectangle_integral(double a_m, double b_m) {
+    double a = fmax(a_m, b_m), b = fmin(a_m, b_m), sum = 0;
+    for (int k = 79; k > 0; k -= 2)
+        sum += tanh(k * FW_PI * a / (2 * b)) / ((double)k * k * k * k * k);
+    return a * b * b * b / 12 * (1 - 192 * b / (FW_PI * FW_PI * FW_PI * FW_PI * FW_PI * a) * sum);
+}
+
+fw_effects_squeeze fw_effects_air_squeeze(const fw_effects_gas *gas, double length_m,
+                                          double depth_m, double gap_m) {
+    return (fw_effects_squeeze){.c0_Nsm2 = 12 * gas->viscosity_Pas *
+                                           fw_effects_rectangle_integral(length_m, depth_m),
+                                .path_m = gas->path_m,
+                                .least_m = 1e-6 * gap_m};
+}
+
+double fw_effects_squeeze_at(const fw_effects_squeeze *film, double gap_m, double *slope) {
+    double g = fmax(gap_m, film->least_m), rare = slip * pow(film->path_m / g, slip_power);
+    double c = film->c0_Nsm2 / (g * g * g * (1 + rare));
+    if (slope) *slope = gap_m < g ? 0 : c / g * (slip_power * rare / (1 + rare) - 3);
+    return c;
+}
+
+double fw_effects_air_depth(const fw_mechanism *m, const fw_device_air *air) {
+    if (!isnan(air->depth_m)) return air->depth_m;
+    return m->variant ? m->variant->thickness_m : (double)NAN;
+}
+
+typedef struct opening { /* gap, its rate, its gradient (6) by the ports and that of its rate */
+    double gap, rate, by[6], rate_by[6], n[2], t[2];
+} opening;
+
+/* d = p1 - p0, n(phi1), t = dn/dphi1: the gradient is (-n, 0, n, t.d); second derivatives -t and t
+   of (p0, phi1), (p1, phi1), and -n.d of (phi1, phi1) */
+static opening opening_at(const fw_effects_force_element *e, const fw_effects_port_state *s) {
+    const fw_effects_squeeze *film = e->data;
+    const double *p = s->p, *w = s->w;
+    double angle = p[5] + film->angle_rad, dx = p[3] - p[0], dy = p[4] - p[1];
+    opening o = {.n = {cos(angle), sin(angle)}};
+    o.t[0] = -o.n[1], o.t[1] = o.n[0];
+    o.gap = o.n[0] * dx + o.n[1] * dy;
+    o.by[0] = -o.n[0], o.by[1] = -o.n[1];
+    o.by[3] = o.n[0], o.by[4] = o.n[1];
+    o.by[5] = o.t[0] * dx + o.t[1] * dy;
+    for (int i = 0; i < 6; i++)
+        o.rate += o.by[i] * w[i];
+    for (int k = 0; k < 2; k++) {
+        o.rate_by[k] = -o.t[k] * w[5];
+        o.rate_by[3 + k] = o.t[k] * w[5];
+        o.rate_by[5] += o.t[k] * (w[3 + k] - w[k]);
+    }
+    o.rate_by[5] -= o.gap * w[5];
+    return o;
+}
+
+static void squeeze_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                          double *f) {
+    opening o = opening_at(e, s);
+    double modal_load = -fw_effects_squeeze_at(e->data, o.gap, NULL) * o.rate;
+    for (int i = 0; i < 6; i++)
+        f[i] = modal_load * o.by[i];
+}
+
+static void squeeze_tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                            double *stiffness, double *damping) {
+    opening o = opening_at(e, s);
+    double slope, c = fw_effects_squeeze_at(e->data, o.gap, &slope), modal_load = -c * o.rate;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            damping[6 * i + j] = c * o.by[i] * o.by[j];
+            stiffness[6 * i + j] = o.by[i] * (slope * o.rate * o.by[j] + c * o.rate_by[j]);
+        }
+    for (int k = 0; k < 2; k++) {
+        stiffness[6 * k + 5] += modal_load * o.t[k];
+        stiffness[6 * 5 + k] += modal_load * o.t[k];
+        stiffness[6 * (3 + k) + 5] -= modal_load * o.t[k];
+        stiffness[6 * 5 + 3 + k] -= modal_load * o.t[k];
+    }
+    stiffness[6 * 5 + 5] += modal_load * o.gap;
+}
+
+static void squeeze_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                          double out[2]) {
+    opening o = opening_at(e, s);
+    out[0] = fw_effects_squeeze_at(e->data, o.gap, NULL) * o.rate * o.rate;
+    out[1] = 0;
+}
+
+static bool squeeze_valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                          const char **why) {
+    if (opening_at(e, s).gap > ((const fw_effects_squeeze *)e->data)->least_m) return true;
+    *why = "the walls of its squeeze film touch, and a film of no thickness has no formula: widen "
+           "the gap, or state a <contact> that holds the walls apart";
+    return false;
+}
+
+static const fw_effects_element_class squeeze_class = {.effect = "air",
+                                                       .force = squeeze_force,
+                                                       .tangent = squeeze_tangent,
+                                                       .power = squeeze_power,
+                                                       .valid = squeeze_valid};
+
+static double turn_of(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? 0 : m->body[body].phi_rad;
+}
+
+static fw_status squeeze_add(const fw_effect_case *c, fw_effects_loads *loads,
+                             const fw_device_air *air) {
+    const fw_mechanism *m = c->mechanism;
+    fw_effects_squeeze *data = fw_arena_one(c->arena, fw_effects_squeeze);
+    fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &squeeze_class, 2);
+    FW_NEED(data && e);
+    const fw_effects_gas gas = fw_effects_gas_of(air);
+    *data = fw_effects_air_squeeze(&gas, air->length_m, fw_effects_air_depth(m, air), air->gap_m);
+    double out = air->direction_rad + turn_of(m, air->body), frame = turn_of(m, air->against);
+    data->angle_rad = out - frame;
+    fw_geometry_vec2 wall = fw_mechanism_local_place(m, air->body, air->x_m, air->y_m);
+    fw_geometry_vec2 other = {wall.x + air->gap_m * cos(out), wall.y + air->gap_m * sin(out)};
+    if (air->against != FW_GROUND) { /* into its frame */
+        const fw_mechanism_mass *b = &m->body[air->against];
+        double dx = other.x - b->x_m, dy = other.y - b->y_m;
+        other = (fw_geometry_vec2){cos(frame) * dx + sin(frame) * dy,
+                                   -sin(frame) * dx + cos(frame) * dy};
+    }
+    e->id = air->body == FW_GROUND ? "ground" : m->body[air->body].id;
+    e->place = air->place;
+    e->port[0] = (fw_effects_port){air->body, air->x_m, air->y_m};
+    e->port[1] = (fw_effects_port){air->against, other.x, other.y};
+    e->dissipates = true;
+    e->data = data;
+    return FW_OK;
+}
+
+/* Couette film: the air between the face of a body and the plane below it is sheared. With the gap
+   g, viscosity mu_eff and the velocity field v + omega x r of the face,
+
+     force -mu_eff A/g v at the face's centroid,   couple -mu_eff I_p/g omega,
+     mu_eff = mu/(1 + 2 Kn),   Kn = mean free path/g   (slip on both walls)
+
+   A area, I_p polar moment about the centroid; the plane takes the opposite. Source: Couette
+   flow with first-order slip, e.g. Veijola and Turowski, J. Microelectromech. Syst. 10 (2001) 263.
+   Valid while the gap is small against the penetration depth sqrt(2 nu/omega) and the face's size;
+   accommodation 1. For Kn >> 1 it becomes the free-molecular mu A/(2 path) v. Test: test_air.c. */
+
+fw_effects_damper fw_effects_air_slide(const fw_effects_gas *gas, const fw_effects_face *face,
+                                       double gap_m) {
+    double per_gap = gas->viscosity_Pas / (gap_m + 2 * gas->path_m);
+    return (fw_effects_damper){per_gap * face->area_m2, per_gap * face->polar_m4};
+}
+
+/* v = B w, v the velocity of the body's port over the plane, which may itself turn about its own:
+   d = p0 - p1, v = w0 - w1 - omega1 (-dy, dx). Forces -c B^T v, couples -k (omega0 - omega1). */
+static void rows_of(const fw_effects_port_state *s, double b[2][6], double v[2]) {
+    double dx = s->p[0] - s->p[3], dy = s->p[1] - s->p[4];
+    const double all[2][6] = {{1, 0, 0, -1, 0, dy}, {0, 1, 0, 0, -1, -dx}};
+    for (int i = 0; i < 2; i++) {
+        v[i] = 0;
+        for (int j = 0; j < 6; j++)
+            b[i][j] = all[i][j], v[i] += all[i][j] * s->w[j];
+    }
+}
+
+static void slide_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                        double *f) {
+    const fw_effects_damper *d = e->data;
+    double b[2][6], v[2], turn = d->couple_Nms * (s->w[2] - s->w[5]);
+    rows_of(s, b, v);
+    for (int j = 0; j < 6; j++)
+        f[j] = -d->force_Ns_per_m * (b[0][j] * v[0] + b[1][j] * v[1]);
+    f[2] -= turn, f[5] += turn;
+}
+
+static void slide_tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                          double *stiffness, double *damping) {
+    const fw_effects_damper *d = e->data;
+    const double c = d->force_Ns_per_m, spin = s->w[5];
+    double b[2][6], v[2];
+    rows_of(s, b, v);
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++) {
+            damping[6 * i + j] = c * (b[0][i] * b[0][j] + b[1][i] * b[1][j]);
+            stiffness[6 * i + j] = 0;
+        }
+    for (int sign = 1, j = 0; j < 6; j += 3, sign = -1) { /* columns of d: p0 and, negative, p1 */
+        for (int i = 0; i < 6; i++) { /* dv/ddx = (0, -spin), dv/ddy = (spin, 0) */
+            stiffness[6 * i + j] = -sign * c * b[1][i] * spin;
+            stiffness[6 * i + j + 1] = sign * c * b[0][i] * spin;
+        }
+        stiffness[6 * 5 + j] -= sign * c * v[1];
+        stiffness[6 * 5 + j + 1] += sign * c * v[0];
+    }
+    damping[6 * 2 + 2] += d->couple_Nms, damping[6 * 5 + 5] += d->couple_Nms;
+    damping[6 * 2 + 5] -= d->couple_Nms, damping[6 * 5 + 2] -= d->couple_Nms;
+}
+
+static void slide_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                        double out[2]) {
+    const fw_effects_damper *d = e->data;
+    double b[2][6], v[2], spin = s->w[2] - s->w[5];
+    rows_of(s, b, v);
+    out[0] = d->force_Ns_per_m * (v[0] * v[0] + v[1] * v[1]) + d->couple_Nms * spin * spin;
+    out[1] = 0;
+}
+
+static const fw_effects_element_class slide_class = {
+    .effect = "air", .force = slide_force, .tangent = slide_tangent, .power = slide_power};
+
+static fw_status slide_add(const fw_effect_case *c, fw_effects_loads *loads,
+                           const fw_device_air *air, int body) {
+    fw_effects_damper *data = fw_arena_one(c->arena, fw_effects_damper);
+    fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &slide_class, 2);
+    FW_NEED(data && e);
+    const fw_effects_gas gas = fw_effects_gas_of(air);
+    const fw_effects_face face = fw_effects_air_face(c->mechanism, air, body);
+    const fw_mechanism_mass *at = &c->mechanism->body[body];
+    *data = fw_effects_air_slide(&gas, &face, air->gap_m);
+    e->id = at->id;
+    e->place = air->place;
+    const fw_geometry_vec2 centre = centre_of_face(c->mechanism, body),
+                           over = fw_mechanism_local_place(c->mechanism, body, centre.x, centre.y);
+    e->port[0] = (fw_effects_port){body, centre.x, centre.y};
+    e->port[1] = (fw_effects_port){FW_GROUND, over.x, over.y};
+    e->dissipates = true;
+    e->data = data;
+    return FW_OK;
+}
+
+/* Open air around a thin body that moves in its own plane: the disc of its size, edgewise and
+   turning about its axis, in creeping flow,
+
+     force -(32/3) mu R v,   couple -(32/3) mu R^3 omega,
+
+   R of the disc of equal perimeter for the force, of equal polar moment for the couple; in rare air
+   both faces feel mu/(2 path) per area instead, and the two resistances add:
+
+     1/c = 1/(32/3 mu R) + path/(mu A),   1/k = 1/(32/3 mu R^3) + path/(mu I_p).
+
+   Source: Happel and Brenner, Low Reynolds Number Hydrodynamics, 1965, 4-26 and 5-11 (discs); sum
+   of resistances: Sherman 1963, within some 10 % between the limits. Bodies that are not round: the
+   disc is a stand-in, some 20 % for bars up to 10:1. Valid for Reynolds numbers below 1 and bodies
+   smaller than the penetration depth sqrt(2 nu/omega). Test: test_air.c. */
+
+fw_effects_damper fw_effects_air_drag(const fw_effects_gas *gas, const fw_effects_face *face) {
+    double mu = gas->viscosity_Pas, radius = face->perimeter_m / (2 * FW_PI);
+    double turning = pow(2 * face->polar_m4 / FW_PI, 0.25);
+    double force = 32 * mu * radius / 3, couple = 32 * mu * turning * turning * turning / 3;
+    return (fw_effects_damper){1 / (1 / force + gas->path_m / (mu * face->area_m2)),
+                               1 / (1 / couple + gas->path_m / (mu * face->polar_m4))};
+}
+
+static void drag_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                       double *f) {
+    const fw_effects_damper *d = e->data;
+    f[0] = -d->force_Ns_per_m * s->w[0];
+    f[1] = -d->force_Ns_per_m * s->w[1];
+    f[2] = -d->couple_Nms * s->w[2];
+}
+
+static void drag_tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                         double *stiffness, double *damping) {
+    const fw_effects_damper *d = e->data;
+    (void)s;
+    for (int i = 0; i < 9; i++)
+        stiffness[i] = damping[i] = 0;
+    damping[0] = damping[4] = d->force_Ns_per_m;
+    damping[8] = d->couple_Nms;
+}
+
+static void drag_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                       double out[2]) {
+    const fw_effects_damper *d = e->data;
+    out[0] = d->force_Ns_per_m * (s->w[0] * s->w[0] + s->w[1] * s->w[1]) +
+             d->couple_Nms * s->w[2] * s->w[2];
+    out[1] = 0;
+}
+
+static const fw_effects_element_class drag_class = {
+    .effect = "air", .force = drag_force, .tangent = drag_tangent, .power = drag_power};
+
+static fw_status drag_add(const fw_effect_case *c, fw_effects_loads *loads,
+                          const fw_device_air *air, int body) {
+    fw_effects_damper *data = fw_arena_one(c->arena, fw_effects_damper);
+    fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &drag_class, 1);
+    FW_NEED(data && e);
+    const fw_effects_gas gas = fw_effects_gas_of(air);
+    const fw_effects_face face = fw_effects_air_face(c->mechanism, air, body);
+    const fw_geometry_vec2 centre = centre_of_face(c->mechanism, body);
+    *data = fw_effects_air_drag(&gas, &face);
+    e->id = c->mechanism->body[body].id;
+    e->place = air->place;
+    e->port[0] = (fw_effects_port){body, centre.x, centre.y};
+    e->dissipates = true;
+    e->data = data;
+    return FW_OK;
+}
+
+/* ---- the effect ---- */
+
+/* The air around a device: films below bodies and between walls, drag of the open air. Each is a
+   damper; air.c has the physics. Theory: docs/theory/effects/air.md. */
 
 static bool called_for(const fw_effect_case *c) {
     return c->scene->nair > 0;
@@ -45,7 +405,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 /* at the centroid of the face, which turns about the centre of mass where the two are apart */
 static void add_damper(const fw_effect_case *c, int body, fw_effects_damper d, double *force) {
     const double *speed = c->envelope->speed + 3 * body;
-    const fw_geometry_vec2 at = fw_effects_air_centre(c->mechanism, body);
+    const fw_geometry_vec2 at = centre_of_face(c->mechanism, body);
     double arm = hypot(at.x, at.y), most = hypot(speed[0], speed[1]) + arm * speed[2];
     force[3 * body] += d.force_Ns_per_m * (arm > 0 ? most : speed[0]);
     force[3 * body + 1] += d.force_Ns_per_m * (arm > 0 ? most : speed[1]);
@@ -181,14 +541,12 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
         int first, last;
         bodies_of(c, a, &first, &last);
         if (a->kind == FW_AIR_SQUEEZE) {
-            if (fw_effects_air_depth(c->mechanism, a) > 0)
-                FW_TRY(fw_effects_air_squeeze_add(c, loads, a));
+            if (fw_effects_air_depth(c->mechanism, a) > 0) FW_TRY(squeeze_add(c, loads, a));
             continue;
         }
         for (int b = first; b <= last; b++) {
             if (!(fw_effects_air_face(c->mechanism, a, b).area_m2 > 0)) continue; /* see check */
-            FW_TRY(a->kind == FW_AIR_SLIDE ? fw_effects_air_slide_add(c, loads, a, b)
-                                           : fw_effects_air_drag_add(c, loads, a, b));
+            FW_TRY(a->kind == FW_AIR_SLIDE ? slide_add(c, loads, a, b) : drag_add(c, loads, a, b));
         }
     }
     return FW_OK;

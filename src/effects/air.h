@@ -9,7 +9,7 @@ typedef struct fw_effects_gas { /* dry air, or what the scene states of it */
     double path_m; /* mean free path */
 } fw_effects_gas;
 
-/* ---- air_films.c ---- */
+/* ---- air.c ---- */
 
 /* Sutherland's law for dry air, 170 K to 1900 K within 2 %: 1.458e-6 T^1.5/(T + 110.4) */
 double fw_effects_air_viscosity(double temperature_K);
@@ -25,19 +25,13 @@ typedef struct fw_effects_face { /* of a body seen from above */
 /* stated, or as drawn; area NaN where neither is known */
 fw_effects_face fw_effects_air_face(const fw_mechanism *mechanism, const fw_device_air *air,
                                     int body);
-/* where the air acts on it: the centroid of its shape, from its centre of mass */
-fw_geometry_vec2 fw_effects_air_centre(const fw_mechanism *mechanism, int body);
 
 /* film of `gap` between the face of a body and the ground below it */
 fw_effects_damper fw_effects_air_slide(const fw_effects_gas *gas, const fw_effects_face *face,
                                        double gap_m);
-fw_status fw_effects_air_slide_add(const fw_effect_case *c, fw_effects_loads *loads,
-                                   const fw_device_air *air, int body);
 
 /* open air around a thin body that moves in its own plane */
 fw_effects_damper fw_effects_air_drag(const fw_effects_gas *gas, const fw_effects_face *face);
-fw_status fw_effects_air_drag_add(const fw_effect_case *c, fw_effects_loads *loads,
-                                  const fw_device_air *air, int body);
 
 /* film between two walls that approach each other */
 typedef struct fw_effects_squeeze {
@@ -54,7 +48,5 @@ fw_effects_squeeze fw_effects_air_squeeze(const fw_effects_gas *gas, double leng
 double fw_effects_squeeze_at(const fw_effects_squeeze *film, double gap_m, double *slope);
 double fw_effects_air_depth(const fw_mechanism *mechanism,
                             const fw_device_air *air); /* NaN: not known */
-fw_status fw_effects_air_squeeze_add(const fw_effect_case *c, fw_effects_loads *loads,
-                                     const fw_device_air *air);
 
 #endif

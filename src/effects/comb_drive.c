@@ -12,7 +12,7 @@
    every tilt, by its series 1 + q/3 + q^2/5 + ... where q is small.
 
    Co-energy: f = +grad C V^2/2, E = -C V^2/2, the source feeds -C V V' besides (power balance of
-   element.h; the charge that it moves at constant V is C' V^2, half of it work). V^2 goes with the
+   effects.h; the charge that it moves at constant V is C' V^2, half of it work). V^2 goes with the
    load factor. First and second derivatives of C are exact.
 
    Inputs SI. Range: |gap change| <= 95 % of the gap at both ends, the fingers engaged and not at

@@ -17,10 +17,6 @@ fw_effects_force_element *fw_effects_loads_add_element(fw_arena *arena, fw_effec
                                                        int ports);
 fw_effects_friction *fw_effects_loads_add_friction(fw_arena *arena, fw_effects_loads *loads);
 
-/* of the joints with friction in `rubs`; the envelope is valid */
-fw_status fw_effects_friction_bound(const fw_effect_case *c, const fw_effects_loads *rubs,
-                                    double *value, const char **reason);
-
 /* the entry of a pin, made on first use */
 fw_effects_torsion *fw_effects_loads_torsion(const fw_mechanism *mechanism, fw_effects_loads *loads,
                                              int pin);
@@ -67,5 +63,39 @@ bool fw_effects_spring_slack(const fw_mechanism *mechanism, const fw_device_spri
 /* no loads yet, with room for everything that mechanism and scene can ask for */
 fw_status fw_effects_loads_new(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene, fw_effects_loads *loads);
+
+/* ---- flexures that are no pins: closed form and exact beam (hinge_element.c) ---- */
+
+typedef struct fw_effects_exact fw_effects_exact;
+
+typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, pin on body b */
+    fw_flexure_hinge_law law;
+    double sense;               /* o: 1 where body a has the root at polar angle -a, else -1 */
+    double axis_rad, free_rad;  /* axis less half of the drawn turns */
+    double loss_s[2];           /* tau along and across the axis */
+    double factor, varying;     /* U times factor + varying law(t): temperature */
+    fw_flexure_hinge_rest rest; /* what does not depend on the rotation */
+    fw_effects_exact *exact;    /* NULL: closed form */
+} fw_effects_flexed;
+
+static inline bool fw_effects_flexed_loses(const fw_effects_flexed *h) {
+    return h->loss_s[0] > 0 || h->loss_s[1] > 0;
+}
+extern const fw_effects_element_class fw_effects_flexed_class;
+
+bool fw_effects_exact_is_known(const fw_mechanism_hinge *hinge);
+fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *hinge,
+                               fw_effects_exact **out);
+extern const fw_effects_element_class fw_effects_exact_class;
+extern const double fw_effects_exact_tolerance; /* relative, of its forces */
+
+/* How a choice of level enters the decision on effects (hinge_source.c). */
+
+/* this effect is in or out because of the level asked for, whatever else is asked */
+bool fw_effects_hinge_forced(const char *effect, fw_effects_hinge_model asked, bool *in);
+const char *fw_effects_hinge_forced_reason(const fw_effect_choice *choice);
+/* after everything was added: fills ledger->hinge, makes beams of closed forms where asked for */
+fw_status fw_effects_hinge_settle(const fw_effect_case *c, const fw_effect_choice *choice,
+                                  fw_effect_ledger *ledger, fw_effects_loads *loads);
 
 #endif

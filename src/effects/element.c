@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Force elements where the bodies are now, at rest. */
-#include "effects/element.h"
-#include "effects/linear.h"
+#include "effects/effects.h"
+#include "effects/modal.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -23,7 +23,6 @@
 #include "base/constants.h"
 #include "effects/effect.h"
 #include "effects/envelope.h"
-#include "effects/peaks.h"
 #include "effects/modal.h"
 #include "quantity/law_kind.h"
 #include <math.h>

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effects/linear.h"
 #include "effects/modal.h"
 #include "maths/dense.h"
 #include <math.h>

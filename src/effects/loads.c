@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effects.h"
-#include "effects/linear.h"
+#include "effects/modal.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

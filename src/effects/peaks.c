@@ -14,7 +14,7 @@
    the same for every mechanism. Inputs SI; outputs rad. Cost cells times (2 modes)^2, up to 16384
    cells. Source: Duhamel's integral, Clough and Penzien, Dynamics of Structures, ch. 6; exponential
    by scaling and squaring, Moler and Van Loan, SIAM Review 45 (2003). Test: test_peaks.c. */
-#include "effects/peaks.h"
+#include "effects/modal.h"
 #include <math.h>
 #include <string.h>
 

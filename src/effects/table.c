@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
 #include "effects/envelope.h"
-#include "effects/hinge_element.h"
 #include <math.h>
 #include <string.h>
 

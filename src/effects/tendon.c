@@ -236,7 +236,7 @@ static bool called_for(const fw_effect_case *c) {
 }
 
 /* Kept whatever it is. Of tendons that may go slack it says how far the motion without them, which
-   the other bounds are made from, is from the one with them: tendon_slack.c */
+   the other bounds are made from, is from the one with them: envelope_find.c */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_effects_envelope *e = c->envelope;
     bool loose = e && e->valid && e->loose_pull > 0 && isfinite(e->loose_pull);

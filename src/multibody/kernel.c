@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Model to plan and numbers; one design, and lanes of designs. */
 #include "maths/ode.h"
-#include "multibody/kernel_plan.h"
+#include "multibody/kernel.h"
 #include <math.h>
 #include <string.h>
 

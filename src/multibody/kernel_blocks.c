@@ -13,7 +13,7 @@
    where every pivot block is healthy; otherwise the proximal iteration of block_chain.c is run from
    the start: S + eps D, two to six sweeps. Both solve S lambda = r, with an error of round-off
    times the condition of S; where S is singular the second moves no body along a redundant row. A
-   closed loop of few bodies has a shorter form of its own, kernel_loop.h. Source: as rhs.c and
+   closed loop of few bodies has a shorter form of its own, kernel_loop.h. Source: as system.c and
    block_chain.c. Test: test_kernel.c, test_lanes.c. */
 #ifndef FW_W
 #define FW_W         1
@@ -21,7 +21,7 @@
 #define FW_CORE      fw_multibody_core_single
 #define FW_CORE_NAME "portable"
 #endif
-#include "multibody/kernel_plan.h"
+#include "multibody/kernel.h"
 #include "multibody/kernel_vector.h"
 #include <float.h>
 #include <math.h>
@@ -392,7 +392,7 @@ static bits factor(fw_multibody_core *k, bits *broken) {
     return sick;
 }
 
-/* u -= M^-1 G^T (S + eps D)^-1 Psi until round-off; see project.c */
+/* u -= M^-1 G^T (S + eps D)^-1 Psi until round-off; see system.c */
 static bool project_position(fw_multibody_core *k, real *u, double *norm) {
     double before = (double)INFINITY, relative = 0;
     bits broken;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* minimal: the angles of the bodies that turn freely (multibody/minimal.h) are the coordinates; all
+/* minimal: the angles of the bodies that turn freely (multibody/multibody_scratch.h) are the coordinates; all
    other bodies follow one after another. With P the velocity that a pin's point has from the placed
    body, e the vector from there to the other pin of a body and J e = (-e_y, e_x),
 
@@ -21,7 +21,6 @@
    stopped at. Error: round-off times 1/sin of the angle between e_1 and e_2. Cost O(rates bodies +
    rates^3). Source: Kecskemethy, Krupp and Hiller 1997 (kinematic transformers); Garcia de
    Jalon and Bayo 1994, ch. 5 (velocity transformations). Test: test_minimal.c. */
-#include "multibody/minimal.h"
 #include "multibody/multibody_scratch.h"
 #include "maths/dense.h"
 #include <float.h>

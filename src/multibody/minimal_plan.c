@@ -14,7 +14,7 @@
    the rows are independent, so a branch with more is not followed. Cost O(bodies) for each choice,
    and at most FW_TRIES choices. Source: Assur groups, e.g. Galletti, Mech. Mach. Theory 21 (1986)
    385-391; Kecskemethy, Krupp and Hiller, Multibody Syst. Dyn. 1 (1997). Test: test_minimal.c. */
-#include "multibody/minimal.h"
+#include "multibody/multibody_scratch.h"
 
 enum { FW_TRIES = 5000 };
 

@@ -91,7 +91,7 @@ typedef struct fw_multibody_slide { /* spring and damper along a prismatic joint
     double k, c, free;
 } fw_multibody_slide;
 
-typedef struct fw_multibody_element { /* a force element (effects/element.h) on the bodies */
+typedef struct fw_multibody_element { /* a force element (effects/effects.h) on the bodies */
     const fw_effects_force_element *own;
     /* ports in scaled units, those of the ground from the centre */
     fw_effects_force_element scaled;
@@ -100,7 +100,7 @@ typedef struct fw_multibody_element { /* a force element (effects/element.h) on 
     int first_switch, first_port; /* where its own begin among those of all elements */
 } fw_multibody_element;
 
-typedef struct fw_multibody_stretch { /* ground points that move with a law: stretch.c */
+typedef struct fw_multibody_stretch { /* ground points that move with a law: constraints.c */
     const fw_quantity_law *law;       /* NULL: the ground stands still */
     double strain, centre[2];         /* a point of the ground gains strain (point - centre) law */
     double *block, *spring; /* (2 nblock) of d, (4 nspring) of ends, per unit of the law */
@@ -143,7 +143,7 @@ typedef struct fw_multibody_chain {
 
 typedef struct fw_multibody_model {
     fw_multibody_scale scale;
-    const struct fw_multibody_method *method; /* method.h */
+    const struct fw_multibody_method *method; /* system.h */
     int nbody, nblock, npin, njoint, ndriver;
     int nq, ny;             /* 3 nbody; length of the state */
     int rows;               /* constraint rows that are not empty */
@@ -190,7 +190,7 @@ fw_status fw_multibody_model_new(fw_arena *arena, const fw_mechanism *mechanism,
                                  const struct fw_multibody_method *method,
                                  const fw_multibody_model **model);
 
-/* multibody_check.c: what comes in from mechanism and scene; errors are reported */
+/* model.c: what comes in from mechanism and scene; errors are reported */
 fw_status fw_multibody_check_motion(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                     fw_diags *diags);
 /* id of the joint or driver that a block belongs to */
@@ -204,7 +204,7 @@ fw_status fw_multibody_topology_order(fw_arena *arena, int n, const int *body, i
 
 static const double fw_epsilon = 1e-8; /* proximal term, relative to 1/m_a + 1/m_b of each pin */
 
-/* multibody_table.c */
+/* system.c */
 typedef struct fw_multibody_method_row { /* feeds --help and reference pages */
     const char *name, *summary;
 } fw_multibody_method_row;

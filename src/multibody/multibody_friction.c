@@ -22,7 +22,7 @@
    Source: Coulomb 1785; affine form and contraction: Painleve 1895; Lotstedt, SIAM J. Appl. Math.
    42 (1982) 281-296; Glocker, Set-Valued Force Laws, 2001. Test: test_friction.c,
    test_friction_model.c. */
-#include "multibody/friction.h"
+#include "multibody/multibody_scratch.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>

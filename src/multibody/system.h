@@ -55,8 +55,9 @@ typedef struct fw_multibody_system {
     double piece_s; /* a time inside the smooth piece of the laws that is meant */
     fw_multibody_loading loading;
     fw_multibody_flags on;
-    struct fw_multibody_frictions *friction; /* who sticks (friction.h); NULL: no friction */
-    bool projecting;                         /* stabilise by projection */
+    struct fw_multibody_frictions
+        *friction;   /* who sticks (multibody_scratch.h); NULL: no friction */
+    bool projecting; /* stabilise by projection */
     /* alpha = beta of G a = -gamma - 2 alpha (G v + Psi_t) - beta^2 Psi; 0: none */
     double baumgarte;
     fw_multibody_record record;
@@ -137,7 +138,7 @@ void fw_multibody_stop_travel(const fw_multibody_model *m, const fw_multibody_po
                               const fw_multibody_stop *stop, const double *v, double *past,
                               double *rate);
 
-/* elements.c */
+/* forces.c */
 /* generalised forces (nq) of those that are driven from outside (`works`): += */
 void fw_multibody_element_driven(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                                  const double *v, double *force);
@@ -155,7 +156,7 @@ const fw_effects_force_element *fw_multibody_element_invalid(const fw_multibody_
                                                              const fw_multibody_pose *pose,
                                                              const double *v, const char **why);
 
-/* ---- with a factor: rhs.c, project.c ---- */
+/* ---- with a factor: system.c ---- */
 
 typedef struct fw_multibody_factor {
     const fw_multibody_pose *pose;
@@ -174,7 +175,7 @@ bool fw_multibody_project_velocity(fw_multibody_system *sys, const fw_multibody_
 /* likewise by the least change in the mass metric: velocities behind a blow */
 bool fw_multibody_impact(fw_multibody_system *sys, const fw_multibody_factor *factor, double *v);
 
-/* ---- at a state: rhs.c, project.c, forces.c, multibody_events.c ---- */
+/* ---- at a state: system.c, forces.c, multibody_flags.c ---- */
 
 /* f = y' (ny) as fw_maths_ode wants it; accelerations are NaN where there are none */
 void fw_multibody_rhs(void *system, double t, const double *y, double *f);
@@ -217,7 +218,7 @@ const fw_multibody_pose *fw_multibody_set_switches(fw_multibody_system *sys, dou
 /* one flag; energy that is let go counts as dissipated in y */
 void fw_multibody_flip(fw_multibody_system *sys, double t, int i, double *y);
 
-/* rhs.c: forces of a solution in SI. Pins (2 npin): on body b, world axes. Joints (3 njoint):
+/* system.c: forces of a solution in SI. Pins (2 npin): on body b, world axes. Joints (3 njoint):
    force on body b, torque on it about its point b. Drivers (ndriver): N or N m along the driven
    coordinate */
 void fw_multibody_pin_forces(const fw_multibody_model *m, const fw_multibody_solution *found,
@@ -225,7 +226,7 @@ void fw_multibody_pin_forces(const fw_multibody_model *m, const fw_multibody_sol
 void fw_multibody_joint_forces(const fw_multibody_model *m, const fw_multibody_solution *found,
                                const fw_mechanism *mechanism, double *joint, double *driver);
 
-/* ---- Coulomb friction of joints: stick.c; where there is none they do nothing ---- */
+/* ---- Coulomb friction of joints: multibody_flags.c; where there is none they do nothing ---- */
 
 void fw_multibody_friction_begin(fw_multibody_system *sys); /* a run: forget flags */
 void fw_multibody_friction_track(fw_multibody_system *sys,
@@ -269,5 +270,54 @@ void fw_multibody_chain_solve(const fw_multibody_chain *c, const fw_multibody_ch
 /* S x = right at the pose whose S + eps D is factored; right is kept, x (2 nblock) */
 void fw_multibody_chain_proximal(const fw_multibody_model *m, const fw_multibody_pose *pose,
                                  fw_multibody_chain_numbers *s, const double *right, double *x);
+
+/* ---- methods: method_*.c ---- */
+
+/* What solves  M a + G^T lambda = Q,  G a = -gamma: one file and one line in methods.def each.
+   Vectors are in the model's order: a, d (3 nbody), gamma, lambda, r (2 nblock; empty rows are 0
+   and stay 0). */
+
+/* Instructions of an answer for the reference six-bar (five bodies, n = 15, m = 12) by dop853 at a
+   tolerance of 1e-7, over the right-hand sides of its finer run: projection, dense output, peaks
+   and the run that errors are estimated from included; and how that grows with the bodies. Counted
+   by `flexwright tradeoff`, gcc -O2 (docs/theory/tradeoff.md). Dense factorisations grow with the
+   cube of the bodies, where small ones are mostly calls. */
+typedef struct fw_multibody_method_cost {
+    double six_bar, power;
+} fw_multibody_method_cost;
+
+typedef struct fw_multibody_method {
+    const char *name, *summary, *source;
+    fw_multibody_method_cost cost;
+    bool independent; /* solves for independent coordinates, not for forces: very different masses
+                         cost it no digits */
+    const struct fw_multibody_dense_kernel *kernel; /* of a dense one (multibody_dense.h); NULL */
+    /* memory, for sys->work->method; FW_SOLVER with a diagnostic when it cannot treat this
+       mechanism. NULL: none */
+    fw_status (*prepare)(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags);
+    /* false: impossible there */
+    bool (*factor)(fw_multibody_system *sys, const fw_multibody_pose *pose);
+    /* a: in M^-1 Q, out the constrained acceleration; lambda: out */
+    void (*accelerate)(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                       const double *gamma, double *a, double *lambda);
+    /* d with G d = -r: of least mass norm, or the method's own choice. With G of the pose, but the
+       numbers of the factor made last, which may be of a pose nearby */
+    void (*correct)(fw_multibody_system *sys, const fw_multibody_pose *pose, const double *r,
+                    double *d);
+    /* its own way onto Psi(q, t) = 0 from u: the pose there, or NULL. The member NULL: Newton by
+       `correct` */
+    const fw_multibody_pose *(*close)(fw_multibody_system *sys, double t, double *u);
+    /* with close: the right-hand side is evaluated at closed states, so that only the independent
+       coordinates are integrated */
+    bool closes_stages;
+    /* what is worth knowing after a run, one sentence: which coordinates are independent, how often
+       they changed, where the rank dropped. NULL: nothing */
+    fw_status (*report)(const fw_multibody_system *sys, const fw_mechanism *mechanism,
+                        fw_text *out);
+} fw_multibody_method;
+
+/* NULL: unknown; name NULL: the default */
+const fw_multibody_method *fw_multibody_method_find(const char *name);
 
 #endif

@@ -7,7 +7,7 @@
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
 #include "assembly/kinematics.h"
-#include "statics/modes.h"
+#include "statics/statics.h"
 #include "measuring/measuring.h"
 #include "wafer/wafer.h"
 #include "report/report.h"

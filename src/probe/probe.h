@@ -6,7 +6,7 @@
 #include "clearance/clearance.h"
 #include "dynamics/dynamics.h"
 #include "statics/level.h"
-#include "statics/modes.h"
+#include "statics/statics.h"
 
 /* ---- at one instant ---- */
 

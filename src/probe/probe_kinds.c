@@ -174,7 +174,7 @@ static void gap_within(const fw_probe *p, const fw_clearance_path *piece, fw_pro
 const fw_probe_row fw_probe_gap = {.value = gap_value, .within = gap_within, .moved = gap_moved};
 
 /* ---- forces on the ports of a force element at a pose ----
-   The class's own force (effects/element.h) where the ports are, its switches as the integration holds
+   The class's own force (effects/effects.h) where the ports are, its switches as the integration holds
    them, or, at rows and equilibria, as their own values say. In: poses and velocities in SI. Out: N,
    N m. Error: round-off, and that. Cost: that of the class. Test: test_probe.py, against the balance
    of forces on a body. */

@@ -18,7 +18,7 @@
 #include "probe/probe.h"
 #include "process/process.h"
 #include "recipe/recipe.h"
-#include "statics/modes.h"
+#include "statics/statics.h"
 #include "statics/tethers.h"
 #include "verdict/verdict.h"
 #include "workspace/survey.h"

@@ -4,7 +4,6 @@
 #ifndef FW_STATICS_LEVEL_H
 #define FW_STATICS_LEVEL_H
 #include "dynamics/dynamics.h"
-#include "statics/modes.h"
 #include "statics/statics.h"
 
 typedef struct fw_statics_level_state {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Follows the equilibria of a scene through its time, step by step (quasi_static_step.c), and says
    whether a scene moves like that or with inertia. Test: test_quasi.c. */
-#include "statics/quasi_static.h"
+#include "statics/statics_equilibrium.h"
 #include "assembly/assembly.h"
 #include "base/sort.h"
 #include "quantity/law_kind.h"

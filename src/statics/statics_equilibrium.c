@@ -400,7 +400,7 @@ void fw_statics_equilibrium_reactions(const fw_statics_equilibrium *w, double *r
 /* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
    misses of a unit row.
 
-   fw_assembly_rank (assembly/rank.c) finds a rank too, and neither can stand for the other. Here it
+   fw_assembly_rank (assembly/freedom.c) finds a rank too, and neither can stand for the other. Here it
    must be the one of the decomposition, in the mass metric and cut at round-off, that the modes and
    multipliers beside it come from, or their count would contradict the freedoms that are reported;
    it is there for every state of a path at no further cost, and names all joints of a dependency.

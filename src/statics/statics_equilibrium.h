@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A mechanism without time: loads and drivers at a load factor, equilibrium and tangent. Scaled
-   units. Private to statics/. */
+/* A mechanism without time: loads and drivers at a load factor, equilibrium and tangent; and a sequence
+   of its equilibria while it is followed. Scaled units. Private to statics/. */
 #ifndef FW_STATICS_STATICS_EQUILIBRIUM_H
 #define FW_STATICS_STATICS_EQUILIBRIUM_H
-#include "multibody/system.h"
+#include "dynamics/dynamics.h"
 #include "maths/dense.h"
-#include "statics/modes.h"
+#include "multibody/system.h"
+#include "statics/statics.h"
 
 /* ---- reduced.c ---- */
 
@@ -131,12 +132,12 @@ const fw_multibody_pose *fw_statics_equilibrium_close(fw_statics_equilibrium *w,
 /* potential energy at a closed u, that of driven elements counted from w->y; *size: sum of its
    terms' sizes */
 double fw_statics_equilibrium_energy(fw_statics_equilibrium *w, const double *u, double *size);
-/* driven_potential.c: the part of driven elements; leaves the switches of u */
+/* tangent.c: the part of driven elements; leaves the switches of u */
 double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u, double *size);
 /* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
    joints cannot close, or something is not finite */
 fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w);
-/* descent.c: Newton step along the modes at an evaluated state: step (n), largest component
+/* settle.c: Newton step along the modes at an evaluated state: step (n), largest component
    returned */
 double fw_statics_equilibrium_newton(const fw_statics_equilibrium *w, double *step);
 /* the forces along all modes are round-off: what a soft mode does then means nothing */
@@ -177,5 +178,58 @@ const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
      stiffness (nq x nq) = d(G^T lambda)/du - dQ/du,   damping (nq x nq, may be NULL) = -dQ/dv. */
 void fw_statics_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                         const double *v, const double *lambda, double *stiffness, double *damping);
+
+/* ---- quasi_static_step.c: a sequence of equilibria while it is followed ---- */
+
+typedef struct fw_statics_node { /* an equilibrium: pose and du/dt, scaled */
+    double t, *u, *v;            /* (n) */
+} fw_statics_node;
+
+/* largest size of something seen at instants, peaks between them by parabolas */
+typedef struct fw_statics_track {
+    double t[2], s[2]; /* the last two */
+    int samples;
+    double most, value, at, between; /* size, with its sign, time, what the parabola adds */
+} fw_statics_track;
+
+typedef struct fw_statics_quasi_static {
+    fw_statics_equilibrium w;
+    const fw_dynamics_motion_options *options;
+    fw_dynamics_motion *motion;
+    double duration, piece_s; /* scaled; s */
+    double *end;              /* (npiece) scaled */
+    int npiece;
+    fw_statics_node from, middle, to; /* the step */
+    double *rate, *guess, *accel;     /* (n) work */
+    double *angle0;                   /* (npin) at the assembled pose */
+    double tolerance;        /* of the cubic through the step's ends, relative to the size */
+    double size, worst;      /* largest |u| so far; largest miss of a cubic */
+    double kinetic, elastic; /* largest, scaled */
+    long solved, evaluated, rejected;
+    int row;                       /* next sample */
+    bool first;                    /* no step of this smooth piece yet */
+    fw_quantity_law_strides *look; /* (nlook) of expressions */
+    int *look_row, nlook;
+    double law_step_s;                                     /* the laws' own longest step */
+    double *q, *angle, *reaction, *joint, *driver, *speed; /* SI, of one instant */
+    double *piece_q;         /* (FW_PIECE_NODES x 3 nbody) of one step */
+    fw_statics_track *track; /* (channels) or NULL */
+    const char *why;         /* it cannot go on */
+} fw_statics_quasi_static;
+
+/* by how much the cubic through the step's ends misses its middle */
+double fw_statics_quasi_static_miss(const fw_statics_quasi_static *r);
+/* where a piece begins: loads may have jumped, so that the nearest minimum is looked for. It goes
+   to `from` */
+fw_status fw_statics_quasi_static_land(fw_statics_quasi_static *r, double t);
+/* from `from` to t; middle and end go to `middle` and `to` */
+fw_status fw_statics_quasi_static_step(fw_statics_quasi_static *r, double t);
+
+/* results */
+fw_status fw_statics_quasi_static_arrays(fw_statics_quasi_static *r);
+/* at the start of a smooth piece and after every step: peaks, samples, instants */
+fw_status fw_statics_quasi_static_begin(fw_statics_quasi_static *r);
+fw_status fw_statics_quasi_static_record(fw_statics_quasi_static *r);
+void fw_statics_quasi_static_finish(fw_statics_quasi_static *r);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/level.h"
 #include "base/constants.h"
-#include "statics/modes.h"
+#include "statics/statics.h"
 #include "statics/statics_equilibrium.h"
 #include "maths/dense.h"
 #include <float.h>

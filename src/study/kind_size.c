@@ -7,7 +7,7 @@
    judged as its texts say. Of two goals each is sought alone, then the first with the second held at nine levels
    between (epsilon constraints; Haimes, Lasdon, Wismer 1971), and the front is what nothing that was judged beats. Nothing is
    proved: a better one may be where nobody looked. Test: tests/cli/test_study.py */
-#include "chance/sobol.h"
+#include "chance/random.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sweep: every response at each of many points, chosen beforehand. Points are numbered; point i of a grid
    has the digits of i in mixed radix, the last input the fastest. */
-#include "chance/sobol.h"
+#include "chance/random.h"
 #include "study/study_parts.h"
 #include <math.h>
 

@@ -3,7 +3,7 @@
    Sobol' sequence), the middle and points between are judged; from the best of them a local search goes on
    for each end of each response. A value that was found is one that a device has; that none lies beyond it is not proved.
    Test: tests/cli/test_study.py */
-#include "chance/sobol.h"
+#include "chance/random.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <string.h>

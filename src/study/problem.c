@@ -6,7 +6,7 @@
    machine: how large a part of the budget something takes, where nothing counts instructions. */
 #include "study/tradeoff_parts.h"
 #include "maths/ode.h"
-#include "multibody/method.h"
+#include "multibody/system.h"
 #include "plan/stages.h"
 #include "statics/quasi.h"
 #include "verdict/strain.h"

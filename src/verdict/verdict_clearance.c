@@ -2,7 +2,7 @@
 /* Clearances of a motion, judged: of what may meet, and of flexures that bend onto their own two bodies. */
 #include "base/constants.h"
 #include "base/text.h"
-#include "clearance/clearance_strip.h"
+#include "clearance/clearance.h"
 #include "geometry/segment.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_clearance.h"
@@ -411,7 +411,7 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
 
 /* ---- flexures and their own bodies ----
    Flexures that bend onto their own two bodies: what turned and strained each most, in all scenes and
-   required poses, bounds where its strip can be (clearance/clearance_bent.c). What a flow makes of
+   required poses, bounds where its strip can be (clearance/clearance_strip.c). What a flow makes of
    walls and widths is allowed for and not run again at every corner. Test: tests/clearance/cases.py */
 
 /* of rotation and curvature, and on either wall: more than corners differ by from the drawn device */

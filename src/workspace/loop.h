@@ -6,7 +6,7 @@
 #include "maths/maths_interval.h"
 #include "workspace/workspace.h"
 
-/* ---- angles for a pose! ---- */
+/* ---- angles for a pose ---- */
 /* The six-bar as two dyads, set up once per mechanism. Private to the room and its tests. */
 
 typedef struct fw_workspace_dyad {

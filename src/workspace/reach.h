@@ -5,6 +5,9 @@
 #define FW_WORKSPACE_REACH_H
 #include "workspace/loop.h"
 
+/* The set of platform poses that the hinges' limits leave: its volume, areas at constant rotation
+   and extents, each as an interval that is proved to hold it. */
+
 /* of the joint angle A..F, the free angle taken off; rad */
 typedef struct fw_workspace_reach_limits {
     double low_rad[FW_SIX], high_rad[FW_SIX];
@@ -40,10 +43,19 @@ typedef struct fw_workspace_proof_effort {
 fw_status fw_workspace_reach_volume(fw_arena *arena, const fw_workspace_loop *loop,
                                     const fw_workspace_reach_limits *limits,
                                     fw_workspace_proof_effort effort, fw_workspace_measure *volume);
+
+/* what a node of the tree of a search is, as its character in the text */
+enum {
+    FW_NODE_INSIDE = 'i',
+    FW_NODE_OUTSIDE = 'o',
+    FW_NODE_CUT = 'c', /* a leaf that is neither, or of which neither is proved */
+    FW_NODE_HALVED = 'h'
+};
+
 /* What a checker needs besides mechanism, limits and bracket: the box of rotations of A, B, C (rad)
-   and the tree of its halvings (reach_tree.h): a node is i (inside), o (outside), c (a leaf that is
-   cut) or h (halved along all three coordinates, its eight parts follow). A box without width in a
-   coordinate, where the limits leave nothing, has the tree o. */
+   and the tree of its halvings: a node is i (inside), o (outside), c (a leaf that is cut) or h
+   (halved along all three coordinates, its eight parts follow). A box without width in a coordinate,
+   where the limits leave nothing, has the tree o. */
 typedef struct fw_workspace_volume_proof {
     fw_workspace_box3 box;
     const char *tree;

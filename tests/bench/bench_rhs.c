@@ -7,7 +7,7 @@
    bench_rhs            the table
    bench_rhs CASE COUNT only so many evaluations of one case, for instruction counts:
      valgrind --tool=callgrind --toggle-collect=measured ./bench_rhs loop 10000 */
-#include "multibody/kernel_plan.h"
+#include "multibody/kernel.h"
 #include "multibody/system.h"
 #include "dynamics/models.h"
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #ifndef FW_TEST_HARD_H
 #define FW_TEST_HARD_H
 #include "quantity/law_kind.h"
-#include "multibody/method.h"
+#include "multibody/system.h"
 #include "assembly/assembly.h"
 #include "dynamics/models.h"
 #include "maths/ode.h"

@@ -5,7 +5,7 @@
    or finite throughout. */
 #include "quantity/law_kind.h"
 #include "hard.h"
-#include "statics/modes.h"
+#include "statics/statics.h"
 
 enum { MOST = 400 };
 

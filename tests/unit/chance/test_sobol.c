@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sobol' points: the table of polynomials and numbers, the points as nets, what scrambling keeps and changes. */
-#include "chance/sobol.h"
+#include "chance/random.h"
 #include "chance_test.h"
 
 enum { MOST = FW_CHANCE_SOBOL_MOST, BITS = 32 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where a bent strip can be, against strips that are bent at random. */
 #include "base/arena.h"
-#include "clearance/clearance_strip.h"
+#include "clearance/clearance.h"
 #include "geometry/segment.h"
 #include "test.h"
 

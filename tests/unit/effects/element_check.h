@@ -3,7 +3,7 @@
    tangent against differences of order 6, and equilibrium of the forces on all ports. */
 #ifndef FW_TESTS_ELEMENT_CHECK_H
 #define FW_TESTS_ELEMENT_CHECK_H
-#include "effects/element.h"
+#include "effects/effects.h"
 #include "test.h"
 #include <math.h>
 

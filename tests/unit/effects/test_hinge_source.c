@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What of a hinge is not linear, part by part, against the element's own force: opened by what the
    parts say, it carries the force that they were asked for, and its couples are theirs. */
-#include "effects/peaks.h"
+#include "effects/modal.h"
 #include "hinge_rigs.h"
 
 static double random_(unsigned *seed) { /* in [-1, 1) */

@@ -3,7 +3,7 @@
    a spring must do what a spring does, and one that stands for a pin what a stiff pin does. */
 #include "quantity/law_kind.h"
 #include "effects/envelope.h"
-#include "effects/linear.h"
+#include "effects/modal.h"
 #include "test.h"
 
 typedef struct bushing { /* springs along x and y and against turning, between two ports */

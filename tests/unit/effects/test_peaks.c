@@ -2,7 +2,7 @@
 /* Peaks of linear motions against closed forms of one mode, and against a fine leap-frog of two
    that dampers joint together. */
 #include "quantity/law_kind.h"
-#include "effects/peaks.h"
+#include "effects/modal.h"
 #include "hinge_rigs.h"
 
 enum { BODIES = 2 };

@@ -2,7 +2,7 @@
 /* Force elements on the model: forces, energies and powers fit each other in scaled units, far-away
    coordinates cost no digits, switches are counted through, released pins are no blocks. */
 #include "effects/effect.h"
-#include "multibody/kernel_plan.h"
+#include "multibody/kernel.h"
 #include "multibody/systems.h"
 
 /* ---- a class with everything: k s + c l' between the first and the last port, a couple kr on the

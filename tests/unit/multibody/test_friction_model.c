@@ -3,7 +3,7 @@
    its torques, and the law of every joint with friction, checked from the outside. */
 #include "multibody/systems.h"
 #include "effects/effect.h"
-#include "multibody/friction.h"
+#include "multibody/multibody_scratch.h"
 
 static const double NOT = (double)NAN;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The fast right-hand side against the general one, and its own sines against longer arithmetic. */
-#include "multibody/kernel_plan.h"
+#include "multibody/kernel.h"
 #include "kernel_rigs.h"
 #include <float.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Many designs at once against each of them alone. */
 #include "maths/ode.h"
-#include "multibody/kernel_plan.h"
+#include "multibody/kernel.h"
 #include "kernel_rigs.h"
 
 enum { MOST = 19 };

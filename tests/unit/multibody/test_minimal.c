@@ -2,7 +2,7 @@
 /* minimal: which mechanisms it can place body by body, and that what it computes solves the
    equations of motion at every pose. */
 #include "quantity/law_kind.h"
-#include "multibody/minimal.h"
+#include "multibody/multibody_scratch.h"
 #include "multibody/systems.h"
 
 typedef struct made {

@@ -4,9 +4,8 @@
    modes, motions, and what the step between two levels says. */
 #include "effects/hinge_rigs.h"
 #include "statics/level.h"
-#include "statics/modes.h"
-#include "statics/quasi.h"
 #include "statics/statics.h"
+#include "statics/quasi.h"
 
 static const double E = 147.0790923914665e9;
 

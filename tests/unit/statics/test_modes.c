@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "statics/modes.h"
+#include "statics/statics.h"
 #include "statics/statics_equilibrium.h"
 #include "rest_rigs.h"
 #include <float.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random six-bars with random, one-sided limits: what is proved of boxes, against plain inverse
    kinematics and Monte Carlo. */
-#include "workspace/reach_tree.h"
+#include "workspace/reach.h"
 #include "six_bar_fixture.h"
 #include "test.h"
 
