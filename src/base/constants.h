@@ -10,6 +10,7 @@
 #define FW_PI          3.14159265358979323846
 #define FW_TURN        6.28318530717958647693 /* 2 pi */
 #define FW_DEG_PER_RAD 57.29577951308232      /* 180/pi, the nearest double */
+#define FW_SQRT_2      1.4142135623730951     /* sqrt 2 */
 #define FW_SQRT_HALF   0.70710678118654752    /* 1/sqrt 2 */
 #define FW_E           2.71828182845904523536 /* the base of natural logarithms */
 

@@ -3,7 +3,7 @@
    that do nothing else. */
 #include "chance/estimators.h"
 #include "chance/random.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <math.h>
 
 fw_status fw_chance_evaluate(fw_chance_run *run, size_t count, const double *u, double *value) {

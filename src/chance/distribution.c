@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "chance/distribution.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <math.h>
 #include <stdbool.h>
 

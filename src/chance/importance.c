@@ -2,7 +2,7 @@
 /* The nearest points of failure, and importance sampling around them. */
 #include "chance/estimators.h"
 #include "chance/random.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

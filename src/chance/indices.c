@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "chance/indices.h"
 #include "chance/random.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>

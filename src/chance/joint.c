@@ -4,7 +4,7 @@
 #include "chance/joint.h"
 #include "base/text.h"
 #include "chance/random.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Points of which all that is estimated is made: random ones and Sobol's. */
 #include "chance/random.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 
 /* ---- random numbers without a state ---- */
 

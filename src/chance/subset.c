@@ -2,7 +2,7 @@
 #include "chance/estimators.h"
 #include "base/sort.h"
 #include "chance/random.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

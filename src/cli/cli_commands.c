@@ -31,14 +31,7 @@ const fw_cli_command *fw_cli_find_command(const char *name) {
     return NULL;
 }
 
-/* named in the contract, not in this version: say so instead of "unknown" */
-static const char *const later[] = {"study"};
-
 int fw_cli_unknown_command(const char *name) {
-    for (size_t i = 0; i < sizeof later / sizeof later[0]; i++)
-        if (strcmp(later[i], name) == 0)
-            return fw_cli_usage("'%s' is not in this version (%s); flexwright --help lists what is",
-                                name, FW_VERSION);
     const char *names[sizeof commands / sizeof commands[0]];
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
         names[i] = commands[i].name;

@@ -69,9 +69,8 @@ static fw_status run(fw_study *study, const fw_cli_options *options) {
 }
 
 /* every diagnostic, on standard error */
-static void say(const fw_study *study, const fw_cli_options *options) {
+static void say(const fw_study *study) {
     fw_text text = fw_text_new(study->arena);
-    (void)options;
     fw_diags_print(&study->diags, &text, study->options.file, study->source, study->source_length,
                    0);
     if (!text.failed && text.length) fputs(text.data, stderr);
@@ -79,7 +78,7 @@ static void say(const fw_study *study, const fw_cli_options *options) {
 
 static int finish(fw_study *study, const fw_cli_options *options, fw_status status) {
     int number = fw_cancel_requested(options->interrupted);
-    say(study, options);
+    say(study);
     int exit_status = status == FW_OK ? (options->plan_only ? 0 : fw_study_decision(study))
                                       : fw_status_exit(status);
     if (status == FW_CANCELLED && number) {

@@ -124,11 +124,14 @@ enum { YOUNGS, POISSON, DENSITY, STRENGTH, LOSS, EXPANSION, MODULUS_CHANGE, C11,
 static const char *const ids[IDS] = {"youngs",    "poisson",        "density", "strength", "loss",
                                      "expansion", "modulus-change", "c11",     "c12",      "c44"};
 
-static const fw_quantity_dimension dimension_of[IDS] = {
-    [YOUNGS] = {-1, 1, -2, 0, 0, 0, 0, 0},   [DENSITY] = {.m = -3, .kg = 1},
-    [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0, 0}, [EXPANSION] = {.K = -1},
-    [MODULUS_CHANGE] = {.K = -1},         [C11] = {-1, 1, -2, 0, 0, 0, 0, 0},
-    [C12] = {-1, 1, -2, 0, 0, 0, 0, 0},      [C44] = {-1, 1, -2, 0, 0, 0, 0, 0}};
+static const fw_quantity_dimension dimension_of[IDS] = {[YOUNGS] = {-1, 1, -2, 0, 0, 0, 0, 0},
+                                                        [DENSITY] = {.m = -3, .kg = 1},
+                                                        [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0, 0},
+                                                        [EXPANSION] = {.K = -1},
+                                                        [MODULUS_CHANGE] = {.K = -1},
+                                                        [C11] = {-1, 1, -2, 0, 0, 0, 0, 0},
+                                                        [C12] = {-1, 1, -2, 0, 0, 0, 0, 0},
+                                                        [C44] = {-1, 1, -2, 0, 0, 0, 0, 0}};
 
 static fw_quantity *slot(fw_device_material *m, int k) {
     fw_quantity *const all[IDS] = {&m->youngs, &m->poisson,   &m->density,        &m->strength,

@@ -3,7 +3,7 @@
    torques and travels. */
 #include "base/constants.h"
 #include "dynamics/run.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "multibody/system.h"
 #include <float.h>
 #include <math.h>

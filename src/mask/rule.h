@@ -9,8 +9,7 @@
 #include "mask/mask_polygons.h"
 #include "xml/xml_reader.h"
 
-/* ---- edges, and what is found between them! ---- */
-/* Edges of one layer and what is found between them. Private to the room and its tests. */
+/* ---- edges of one layer, and what is found between them ---- */
 
 typedef struct fw_mask_rule_edge { /* a segment of a shape that is no joint */
     fw_geometry_segment s;

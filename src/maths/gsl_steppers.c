@@ -19,7 +19,7 @@
    gsl-bsimp allocates: GSL's LU takes and returns one small block per factorisation. GSL does not
    check every allocation in the creation of bsimp and in that LU.
    Source: GSL reference manual, chapter Ordinary Differential Equations. Tests: test_ode_*.c */
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "maths/ode.h"
 #include <float.h>
 #include <gsl/gsl_errno.h>

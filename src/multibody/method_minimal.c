@@ -69,11 +69,11 @@ static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mec
 
 static const double *arm_of(const fw_multibody_model *m, const fw_multibody_pose *pose, int block,
                             int body) {
-    return pose->arm + 4 * block + 2 * fw_layout_side(m, block, body);
+    return pose->arm + 4 * block + 2 * fw_multibody_side(m, block, body);
 }
 
 static double sign_of(const fw_multibody_model *m, int block, int body) { /* rows are a - b */
-    return fw_layout_side(m, block, body) == 0 ? 1 : -1;
+    return fw_multibody_side(m, block, body) == 0 ? 1 : -1;
 }
 
 static double cross(const double a[2], const double b[2]) {
@@ -93,7 +93,7 @@ static void dyad_vector(const fw_multibody_model *m, const fw_multibody_pose *po
 /* velocity that a body must have at a pin to a placed one */
 static void point_rate(const fw_multibody_model *m, const fw_multibody_pose *pose, const double *d,
                        const double *right, int block, int body, double rate[2]) {
-    int other = fw_across(m, block, body);
+    int other = fw_multibody_across(m, block, body);
     const double *v = d + 3 * other, *s = arm_of(m, pose, block, other);
     double sign = sign_of(m, block, body);
     rate[0] = v[0] - v[2] * s[1] + sign * right[2 * block];
@@ -143,7 +143,7 @@ static void sweep(const fw_multibody_model *m, const fw_multibody_pose *pose, co
         }
         if (s->rate != FW_NONE) turn = rates ? rates[s->rate] : 0;
         if (s->turn != FW_NONE) /* row: w_b - w_a */
-            turn = d[3 * fw_across(m, s->turn, body) + 2] -
+            turn = d[3 * fw_multibody_across(m, s->turn, body) + 2] -
                    sign_of(m, s->turn, body) * right[2 * s->turn];
         point_rate(m, pose, d, right, s->block[0], body, point);
         set_rate(m, pose, d, s->block[0], body, point, turn);
@@ -196,7 +196,7 @@ static bool factor(fw_multibody_system *sys, const fw_multibody_pose *pose) {
 /* takes the force of a pin on `body` off the body across */
 static void pass_on(const fw_multibody_model *m, const fw_multibody_pose *pose, int block, int body,
                     const double pull[2], double *force) {
-    int other = fw_across(m, block, body);
+    int other = fw_multibody_across(m, block, body);
     const double *s = arm_of(m, pose, block, other);
     force[3 * other] += pull[0];
     force[3 * other + 1] += pull[1];
@@ -246,7 +246,7 @@ static void multipliers(const fw_multibody_model *m, const fw_multibody_pose *po
         if (s->turn != FW_NONE) { /* row: on b +lambda, on a -lambda */
             lambda[2 * s->turn] = -sign_of(m, s->turn, s->body[0]) * left;
             lambda[2 * s->turn + 1] = 0;
-            force[3 * fw_across(m, s->turn, s->body[0]) + 2] += left;
+            force[3 * fw_multibody_across(m, s->turn, s->body[0]) + 2] += left;
         }
         set_lambda(m, s->block[0], s->body[0], f, lambda);
         pass_on(m, pose, s->block[0], s->body[0], f, force);
@@ -302,7 +302,7 @@ static void turn_arms(const fw_multibody_system *sys, const fw_multibody_placing
 
 static void arm_at(const fw_multibody_system *sys, int block, int body, double arm[2]) {
     const fw_multibody_model *m = sys->model;
-    const double *local = m->local + 4 * block + 2 * fw_layout_side(m, block, body);
+    const double *local = m->local + 4 * block + 2 * fw_multibody_side(m, block, body);
     double c = sys->work->cosine[body], s = sys->work->sine[body];
     arm[0] = c * local[0] - s * local[1];
     arm[1] = s * local[0] + c * local[1];
@@ -313,7 +313,7 @@ static void point_at(const fw_multibody_system *sys, const double *u, int block,
                      double point[2]) {
     const fw_multibody_model *m = sys->model;
     const double *offset = sys->work->pose.offset + 2 * block;
-    int other = fw_across(m, block, body);
+    int other = fw_multibody_across(m, block, body);
     double arm[2], sign = sign_of(m, block, body);
     arm_at(sys, block, other, arm);
     for (int k = 0; k < 2; k++)
@@ -392,7 +392,7 @@ static bool place_all(const fw_multibody_system *sys, const minimal *p, double *
         double point[2];
         if (s->loose) continue; /* stays, and is posed */
         if (s->turn != FW_NONE)
-            u[3 * body + 2] = rotation(m, u, fw_across(m, s->turn, body)) -
+            u[3 * body + 2] = rotation(m, u, fw_multibody_across(m, s->turn, body)) -
                               sign_of(m, s->turn, body) * p->turn[i];
         point_at(sys, u, s->block[0], body, point);
         put(sys, s, 0, point, u);

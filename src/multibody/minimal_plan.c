@@ -57,7 +57,7 @@ static bool is_pin(const fw_multibody_model *m, int block) {
 static int holding(const search *s, int body, fw_multibody_rows rows) {
     for (int i = s->links.first[body]; i < s->links.first[body + 1]; i++) {
         int block = s->links.item[i];
-        if (s->m->block[block].rows == rows && s->placed[fw_across(s->m, block, body)])
+        if (s->m->block[block].rows == rows && s->placed[fw_multibody_across(s->m, block, body)])
             return block;
     }
     return FW_NONE;
@@ -70,7 +70,7 @@ static void enqueue(search *s, int body) { /* bounded: once per block and side o
 static void mark_placed(search *s, int body, int change) {
     s->placed[body] = change > 0;
     for (int i = s->links.first[body]; i < s->links.first[body + 1]; i++) {
-        int other = fw_across(s->m, s->links.item[i], body);
+        int other = fw_multibody_across(s->m, s->links.item[i], body);
         if (other < s->m->nbody && is_pin(s->m, s->links.item[i])) s->held[other] += change;
     }
 }
@@ -91,7 +91,7 @@ static void add_step(search *s, fw_multibody_placing step) {
         mark_placed(s, step.body[i], 1);
     for (int k = 0; k <= step.dyad; k++)
         for (int i = s->links.first[step.body[k]]; i < s->links.first[step.body[k] + 1]; i++)
-            enqueue(s, fw_across(s->m, s->links.item[i], step.body[k]));
+            enqueue(s, fw_multibody_across(s->m, s->links.item[i], step.body[k]));
 }
 
 static void take_back(search *s, int count) {
@@ -127,7 +127,7 @@ static bool look_at(search *s, int body) {
         return true;
     }
     for (int i = s->links.first[body]; i < s->links.first[body + 1]; i++) {
-        int block = s->links.item[i], other = fw_across(m, block, body);
+        int block = s->links.item[i], other = fw_multibody_across(m, block, body);
         if (!is_pin(m, block) || other == m->nbody || s->placed[other] || s->held[other] != 1)
             continue;
         int end = holding(s, other, FW_ROWS_PIN);
@@ -228,7 +228,7 @@ static int misfit(const search *s) {
         if (a == m->nbody) a = b, b = m->nbody; /* a body has few joints */
         for (int k = s->links.first[a]; k < s->links.first[a + 1]; k++) {
             int other = s->links.item[k];
-            if (other != i && is_pin(m, other) && fw_across(m, other, a) == b)
+            if (other != i && is_pin(m, other) && fw_multibody_across(m, other, a) == b)
                 return m->block[other].pin > m->block[i].pin ? other : i;
         }
     }
@@ -252,7 +252,7 @@ fw_status fw_multibody_placing_find(fw_arena *arena, const fw_multibody_model *m
     if (block != FW_NONE) return refuse_joint(mechanism, diags, &m->block[block]);
     mark_placed(&s, m->nbody, 1);
     for (int i = s.links.first[m->nbody]; i < s.links.first[m->nbody + 1]; i++)
-        enqueue(&s, fw_across(m, s.links.item[i], m->nbody));
+        enqueue(&s, fw_multibody_across(m, s.links.item[i], m->nbody));
     if (find_rest(&s)) return FW_OK;
     return refuse_body(mechanism, diags, s.culprit);
 }

@@ -177,12 +177,12 @@ fw_status fw_multibody_placing_find(fw_arena *arena, const fw_multibody_model *m
                                     fw_multibody_placing_plan *plan);
 
 /* which side of a block a body is on: 0 (a) or 1 (b) */
-static inline int fw_layout_side(const fw_multibody_model *m, int block, int body) {
+static inline int fw_multibody_side(const fw_multibody_model *m, int block, int body) {
     return m->body[2 * block] == body ? 0 : 1;
 }
 /* the body on the other side */
-static inline int fw_across(const fw_multibody_model *m, int block, int body) {
-    return m->body[2 * block + 1 - fw_layout_side(m, block, body)];
+static inline int fw_multibody_across(const fw_multibody_model *m, int block, int body) {
+    return m->body[2 * block + 1 - fw_multibody_side(m, block, body)];
 }
 
 #endif

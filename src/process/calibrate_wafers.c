@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Coupons of a lot: several wafers, several sites of each. */
 #include "process/coupon.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <math.h>
 #include <string.h>
 

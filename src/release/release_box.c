@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Boxes over the field, each with the few edges that matter in it: how they are split, what is known of each, and
    those that cover the field. */
+#include "base/constants.h"
 #include "release/release_field.h"
 #include <math.h>
 #include <stdint.h>
@@ -42,7 +43,7 @@ static fw_status add_box(const fw_release_field *f, const int *from, int n, doub
                          double half_m, double most_m, int part, fw_release_level *to) {
     fw_geometry_vec2 c = {x, y};
     FW_TRY(level_room(to, f->arena, (size_t)n));
-    double h = 1.4142135623730951 * half_m, near = HUGE_VAL, *far = to->far_m;
+    double h = FW_SQRT_2 * half_m, near = HUGE_VAL, *far = to->far_m;
     int *list = to->list + to->nlist, some = 0, kept = 0;
     double open_within = most_m + 2.0 * h;
     for (int i = 0; i < n; i++) {
@@ -74,7 +75,7 @@ static fw_status add_box(const fw_release_field *f, const int *from, int n, doub
 
 fw_status fw_release_level_split(const fw_release_field *f, const fw_release_level *level,
                                  const fw_release_box *box, fw_release_level *next) {
-    double q = 0.5 * box->half_m, most = box->near_m + 1.4142135623731 * q;
+    double q = 0.5 * box->half_m, most = box->near_m + FW_SQRT_2 * q;
     for (int k = 0; k < 4; k++)
         FW_TRY(add_box(f, level->list + box->first, box->count, box->x + (k & 1 ? q : -q),
                        box->y + (k & 2 ? q : -q), q, most, box->part, next));
@@ -329,7 +330,7 @@ static fw_geometry_vec2 middle_of(const grid *g, int i, int j) {
 static fw_status enter_edges(grid *g) {
     const fw_release_field *f = g->field;
     size_t most = 0, cells = (size_t)g->n * (size_t)g->n;
-    double h = 1.4142135623730951 * (1.0 + 1e-6) * g->half_m;
+    double h = FW_SQRT_2 * (1.0 + 1e-6) * g->half_m;
     for (int k = 0; k < f->nedge; k++) {
         span s = cells_of(g, &f->edge[k]);
         most += (size_t)(s.i1 - s.i0 + 1) * (size_t)(s.j1 - s.j0 + 1);
@@ -395,7 +396,7 @@ static fw_status add_cell(grid *g, int i, int j, fw_release_level *to) {
     fw_release_field *f = g->field;
     FW_TRY(level_room(to, f->arena, (size_t)f->nedge));
     look l = {middle_of(g, i, j), to->far_m, HUGE_VAL, HUGE_VAL, 0, j * g->n + i + 1};
-    double h = 1.4142135623730951 * g->half_m;
+    double h = FW_SQRT_2 * g->half_m;
     fw_release_box box = {
         .x = l.c.x, .y = l.c.y, .half_m = g->half_m, .part = FW_RELEASE_MIXED, .first = to->nlist};
     for (int ring = 0; ring <= g->n; ring++) {

@@ -3,6 +3,7 @@
    release/. */
 #ifndef FW_RELEASE_RELEASE_FIELD_H
 #define FW_RELEASE_RELEASE_FIELD_H
+#include "base/constants.h"
 #include "geometry/segment.h"
 #include "release/release.h"
 
@@ -123,7 +124,7 @@ double fw_release_box_side(const fw_release_field *field, const fw_release_level
                            const fw_release_box *box, const fw_release_edge *seam);
 /* radius of the circle about the box */
 static inline double fw_release_box_about(const fw_release_box *box) {
-    return 1.4142135623730951 * box->half_m;
+    return FW_SQRT_2 * box->half_m;
 }
 
 /* (npart) worst points of the parts */

@@ -238,9 +238,7 @@ fw_status fw_report_workspace_json(const fw_report_workspace *in, fw_text *out);
 fw_status fw_report_certificate_json(const fw_report_workspace *in, fw_text *out);
 /* slices at constant rotation, their boundary coloured by the hinge that is at its limit */
 fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in, fw_text *out);
-/* the slices and shares of one flow as the inside of an <svg> of FW_SLICES_WIDTH, from `top` down;
- *height 0: there is nothing to draw */
-enum { FW_SLICES_WIDTH = 910 };
+enum { FW_SLICES_WIDTH = 910 }; /* of the picture of one flow's slices and shares */
 
 /* ---- the preview ----
    What an interactive page draws: the mechanism's shapes, to be put where its bodies are, and one motion of

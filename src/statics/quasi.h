@@ -47,7 +47,7 @@ typedef struct fw_statics_stability {
 
 enum { FW_STABILITY_MOST = 300 }; /* unknowns: two to twelve dense evaluations of 30 n^3 */
 
-/* Looks along the motion of a scene. *poise is NULL where it is stable, where it has left, and
+/* Looks along the motion of a scene. *stability is NULL where it is stable, where it has left, and
    where instability lasts too short to grow. Warns with FW-D259; a note says when the mechanism is
    too large to look. FW_OK then too; FW_NOMEM, FW_CANCELLED. */
 fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechanism,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A step along a sequence of equilibria, and what is read off it. */
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "multibody/system.h"
 #include "statics/statics_equilibrium.h"
 #include <float.h>

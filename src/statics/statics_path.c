@@ -9,7 +9,7 @@
    the second row asking for the length along the tangent. It is solved by elimination around the
    mode of least |mu|, so that a single mu through zero, as at a fold, does no harm. */
 #include "statics/statics_equilibrium.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

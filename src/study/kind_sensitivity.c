@@ -7,7 +7,7 @@
    difference to the polynomial through the inner five. Weights: Fornberg 1988. Test: tests/unit/study/
    test_response.c (weights), tests/cli/test_study.py against differences of tight runs. */
 #include "chance/indices.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <string.h>

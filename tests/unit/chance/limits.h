@@ -4,7 +4,7 @@
 #define FW_TEST_CHANCE_LIMITS_H
 #include "chance/estimate.h"
 #include "chance/joint.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "chance_test.h"
 
 typedef struct limit_state {

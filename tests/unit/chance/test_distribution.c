@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each kind: there and back, moments by quadrature, what is refused. */
 #include "chance/distribution.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "chance_test.h"
 
 static const double table_x[] = {1, 2, 4, 4.5}, table_p[] = {0, 0.25, 0.5, 1};

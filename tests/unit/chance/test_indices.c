@@ -2,7 +2,7 @@
 /* Indices of functions that have them in closed form: linear, Ishigami's, a product; groups, coverage, what is missing. */
 #include "chance/indices.h"
 #include "base/constants.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "chance_test.h"
 
 static fw_chance_indices run(const fw_chance_model *model, uint64_t seed, size_t base) {

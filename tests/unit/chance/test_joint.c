@@ -2,7 +2,7 @@
 /* Correlated inputs: Nataf's correlation against closed forms, what maps and draws give, what is refused. */
 #include "chance/joint.h"
 #include "base/constants.h"
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "chance_test.h"
 
 static double nataf(const fw_chance_distribution *a, const fw_chance_distribution *b,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "test.h"
 
 static int calls;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distribution functions against closed forms and digits that were computed with 50 digits elsewhere. */
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "test.h"
 
 /* the doubles nearest to Phi(u), by its series and its continued fraction with 60 decimal digits */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Student's t against the printed table: Abramowitz and Stegun, table 26.10. */
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include "test.h"
 
 static void table(void **state) {

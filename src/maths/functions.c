@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A root in a bracket; the distribution functions of statistics by GSL, and their inverses, some of which are such
    roots. */
-#include "maths/cdf.h"
+#include "maths/functions.h"
 #include <float.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>

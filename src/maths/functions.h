@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distribution functions and their inverses, and the root in a bracket by which an inverse is found. */
-#ifndef FW_MATHS_CDF_H
-#define FW_MATHS_CDF_H
+#ifndef FW_MATHS_FUNCTIONS_H
+#define FW_MATHS_FUNCTIONS_H
 
 /* ---- roots ---- */
 
