@@ -131,7 +131,8 @@ double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_cleara
                                     .a = at_p->label,
                                     .b = at_q->label,
                                     .bound = at_p->bends || at_q->bends,
-                                    .lane = at_p->always || at_q->always};
+                                    .lane = at_p->always || at_q->always,
+                                    .tether = at_p->held != FW_NONE || at_q->held != FW_NONE};
     }
     return least;
 }

@@ -111,7 +111,7 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
                                                   {0, 0}};
     bool needs =
         isnan(to->mass_kg) || isnan(to->inertia_kg_m2) || isnan(from->x_m) || isnan(from->y_m);
-    const bool sized = from->width_m > 0 || from->plate_width_m > 0;
+    const bool sized = from->width_m > 0 || from->plate_width_m > 0 || from->nshape > 0;
     if (needs && !shape && sized && b->layout && !b->layout->drawn && b->layout->why_not)
         return fw_diag_error(b->diags, 82, from->place,
                              "body %s takes its mass, inertia and position from the drawing, and "

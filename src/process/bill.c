@@ -136,6 +136,8 @@ static void read_part(fw_process_pack *pack, const fw_xml_record *e, fw_process_
 static fw_status read_bath(fw_process_pack *pack, const fw_xml_record *e, fw_process_bath *b) {
     b->name = fw_process_pack_text(e, "name");
     b->text = e->element->text;
+    const fw_xml_attribute *hazard = fw_process_pack_get(e, "hazard");
+    if (hazard) b->hazard = fw_process_pack_find(pack, hazard, FW_ID_HAZARD);
     b->volume = fw_process_pack_quantity(pack, e, "volume");
     b->one_part = fw_process_pack_quantity(pack, e, "one-part");
     b->serves = fw_process_pack_quantity(pack, e, "serves");

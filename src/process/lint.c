@@ -162,6 +162,7 @@ static const struct {
     {"is what a step changes on the wafer?", fw_process_lint_absent, false},
     {"is resist exposed through a mask before it is developed?", fw_process_lint_exposure, false},
     {"does something cover what an etch shall leave?", fw_process_lint_masking, false},
+    {"does every etch go through what lies there?", fw_process_lint_through, true},
     {"is said how fast a chemical takes what it should not?", fw_process_lint_attacked, false},
     {"does every layer bear the temperature?", fw_process_lint_heat, true},
     {"is a wet wafer rinsed before what it must not meet, and dried before what must be dry?",

@@ -219,27 +219,26 @@ fw_status fw_process_lint_prices(fw_process_pack *pack) {
     return FW_OK;
 }
 
-/* ---- hazards: of what is used as it is; a bath is a mixture, with the hazard that the step names ---- */
+/* ---- hazards of what is used as it is, and of baths ---- */
 
-static void named(fw_process_pack *pack, const fw_process_step *s, const fw_process_use *u,
-                  const fw_process_consumable *c) {
-    bool there = !c->hazard;
+static void named(fw_process_pack *pack, const fw_process_step *s, const fw_process_use *u) {
+    const char *id = u->bath ? u->bath->id : u->consumable->id;
+    const fw_process_hazard *hazard = u->bath ? u->bath->hazard : u->consumable->hazard;
+    bool there = !hazard;
     for (int i = 0; i < s->nhazard && !there; i++)
-        there = s->hazard[i] == c->hazard;
+        there = s->hazard[i] == hazard;
     if (!there)
         fw_diag_error(pack->diags, 374, u->place,
                       "step %s uses '%s', whose hazard '%s' it does not name; add <hazard-ref "
                       "ref=\"%s\"/>",
-                      s->id, c->id, c->hazard->id, c->hazard->id);
+                      s->id, id, hazard->id, hazard->id);
 }
 
 fw_status fw_process_lint_uses(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
-        for (int k = 0; k < s->nuse; k++) {
-            const fw_process_use *u = &s->use[k];
-            if (u->consumable) named(pack, s, u, u->consumable);
-        }
+        for (int k = 0; k < s->nuse; k++)
+            named(pack, s, &s->use[k]);
     }
     return FW_OK;
 }

@@ -3,6 +3,7 @@
 #include "process/pack.h"
 #include "base/constants.h"
 #include "process/films.h"
+#include <math.h>
 #include <string.h>
 
 fw_status fw_process_lint_absent(fw_process_pack *pack) {
@@ -204,5 +205,71 @@ fw_status fw_process_lint_masking(fw_process_pack *pack) {
                 break;
             }
         }
+    return FW_OK;
+}
+
+/* ---- does an etch go through what lies there? ---- */
+
+static const fw_quantity *argument_of(const fw_process_step *s, const char *name) {
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, name) == 0) return s->argument[i].q;
+    return NULL;
+}
+
+/* the least that a step says it goes through, over-etch included: what its change states, and what its time is
+   computed from where it takes one material only; NULL: it says nothing */
+static const fw_quantity *through(const fw_process_step *s, const fw_process_change *c) {
+    int removed = 0;
+    for (int k = 0; k < s->nchange; k++)
+        removed += strcmp(s->change[k].kind, "remove") == 0;
+    const fw_quantity *stated = c->thickness,
+                      *timed = removed == 1 ? argument_of(s, "thickness") : NULL;
+    if (!stated || stated->unknown) return timed && !timed->unknown ? timed : NULL;
+    return timed && !timed->unknown && timed->value < stated->value ? timed : stated;
+}
+
+/* of a material in a part of the wafer; 0: none; NaN: of a thickness that is not known */
+static double lies_in(const fw_process_stack *stack, int column, const char *material) {
+    double sum = 0.0;
+    for (int i = 0; i < stack->n[column]; i++)
+        if (strcmp(stack->cell[column][i].material, material) == 0)
+            sum += stack->cell[column][i].thickness_m;
+    return sum;
+}
+
+static fw_status lint_through(fw_process_pack *pack, int index, const fw_process_change *c) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[index];
+    const fw_quantity *q = through(s, c);
+    fw_process_stack stack;
+    if (!q || c->back || c->reach) return FW_OK;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, index - 1, &stack, NULL));
+    const double goes = q->value * (1.0 + fmax(s->overrun, 0.0));
+    for (int column = 0; column < stack.columns; column++) {
+        char part[FW_LABEL], there[32], takes[32];
+        const double lies = lies_in(&stack, column, c->material);
+        const bool hollow = c->isotropic && q->value < 0.5 * lies; /* a depth that is meant */
+        if (!fw_process_where_holds(f, c->where, column) || hollow || !(lies > goes * (1 + 1e-9)))
+            continue;
+        fw_diag_error(
+            pack->diags, 349, c->place,
+            "step %s goes through %s um of '%s' (%s, over-etch included), but %s um lie in "
+            "the %s: what is left there covers what comes next; state what lies there, or "
+            "take it away first",
+            s->id, fw_number_text(takes, sizeof takes, 1e6 * goes, 4), c->material, q->id,
+            fw_number_text(there, sizeof there, 1e6 * lies, 4),
+            fw_process_column_name(f, column, part));
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
+fw_status fw_process_lint_through(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            if (strcmp(f->step[i].change[k].kind, "remove") == 0 &&
+                in_list("wet-etch dry-etch strip", f->step[i].op))
+                FW_TRY(lint_through(pack, i, &f->step[i].change[k]));
     return FW_OK;
 }

@@ -98,6 +98,7 @@ fw_status fw_process_lint_heat(fw_process_pack *pack);
 fw_status fw_process_lint_contamination(fw_process_pack *pack);
 fw_status fw_process_lint_exposure(fw_process_pack *pack);
 fw_status fw_process_lint_masking(fw_process_pack *pack);
+fw_status fw_process_lint_through(fw_process_pack *pack);
 /* masks one after the other (FW-D373) */
 fw_status fw_process_lint_plates(fw_process_pack *pack);
 fw_status fw_process_lint_shrink(fw_process_pack *pack);

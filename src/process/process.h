@@ -65,10 +65,11 @@ typedef struct fw_process_part { /* of a bath */
 
 typedef struct fw_process_bath {
     const char *id, *name, *text;
-    const fw_quantity *volume;   /* of one filling, m3; NULL: one part is stated */
-    const fw_quantity *one_part; /* m3; NULL */
-    const fw_quantity *serves;   /* wafers, one after the other; NULL: all of a lot in one step */
-    fw_process_part *part;       /* (npart) */
+    const fw_process_hazard *hazard; /* of the mixture */
+    const fw_quantity *volume;       /* of one filling, m3; NULL: one part is stated */
+    const fw_quantity *one_part;     /* m3; NULL */
+    const fw_quantity *serves; /* wafers, one after the other; NULL: all of a lot in one step */
+    fw_process_part *part;     /* (npart) */
     int npart;
     fw_place place;
 } fw_process_bath;

@@ -95,6 +95,8 @@ static const fw_xml_attribute_row consumable_rows[] = {
 static const fw_xml_attribute_row bath_rows[] = {
     ID,
     {"name", TEXT, REQUIRED, .sentence = "What people call it."},
+    {"hazard", TO(HAZARD), REQUIRED,
+     .sentence = "What is dangerous about the mixture; every step that uses it names it, too."},
     {"volume", TO(QUANTITY), .sentence = "Of one filling."},
     {"one-part", TO(QUANTITY), .sentence = "Or volume of one part; the filling is all of them."},
     {"serves", TO(QUANTITY),

@@ -100,15 +100,21 @@ static bool said_before(const fw_verdict *v, int variant, int reason) {
     return false;
 }
 
-static fw_status reasons(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
+static fw_status reasons_of(fw_arena *arena, const fw_verdict *v, fw_verdict_decision decision,
+                            const char *label, fw_report_summary *s) {
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nreason; k++) {
             const fw_verdict_reason *r = &v->variant[i].reason[k];
-            if (r->decision == FW_ACCEPT || said_before(v, i, k)) continue;
-            FW_TRY(add(s, r->decision == FW_REJECT ? "rejected because" : "inconclusive because",
-                       fw_arena_printf(arena, "%s [FW-D%03d]", r->text, r->number)));
+            if (r->decision != decision || said_before(v, i, k)) continue;
+            FW_TRY(add(s, label, fw_arena_printf(arena, "%s [FW-D%03d]", r->text, r->number)));
         }
     return FW_OK;
+}
+
+/* what rejects comes first */
+static fw_status reasons(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
+    FW_TRY(reasons_of(arena, v, FW_REJECT, "rejected because", s));
+    return reasons_of(arena, v, FW_INCONCLUSIVE, "inconclusive because", s);
 }
 
 /* ---- what to do: the least change that was run and accepted ---- */

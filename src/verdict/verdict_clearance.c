@@ -252,22 +252,26 @@ static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const 
     const char *what = what_happens(arena, c);
     FW_NEED(what);
     fw_number_text(share, sizeof share, 100 * c->keep, 3);
-    const char *then =
-        c->box == FW_NONE && (l->m <= 0 || c->keep < 1)
-            ? fw_arena_printf(arena, "; with %s %% of that motion %s", share,
-                              c->required_m > 0 ? "they keep it" : "they would just not meet")
-            : "";
+    const char *then = c->box == FW_NONE && (l->m <= 0 || c->keep < 1)
+                           ? fw_arena_printf(arena, "; with %s %% of that motion %s", share,
+                                             c->required_m > 0 ? "they keep what is asked for"
+                                                               : "they would just not meet")
+                           : "";
     FW_NEED(then);
+    const char *mend = "draw them further apart or let them move less";
+    if (l->at.tether)
+        mend = "the layout chooses where a tether stands: it wants an edge of the body that is "
+               "longer, "
+               "or further from other bodies on their way, or <die tethers=\"no\"/> and another "
+               "way to hold "
+               "the body while it is released; or let them move less";
+    else if (c->box == FW_NONE && !l->at.lane)
+        mend = "draw them further apart or let them move less; where they are to meet, give the "
+               "scene a <contact>";
     FW_NEED(*text = fw_arena_printf(
-                arena,
-                "%s and %s %s in %s, at (%s, %s) um%s: draw them further apart or let them move "
-                "less%s",
-                name_of(l->at.a), name_of(l->at.b), what, where,
-                fw_number_text(x, sizeof x, 1e6 * l->at.at_a.x, 5),
-                fw_number_text(y, sizeof y, 1e6 * l->at.at_a.y, 5), then,
-                c->box == FW_NONE && !l->at.lane
-                    ? "; where they are to meet, give the scene a <contact>"
-                    : ""));
+                arena, "%s and %s %s in %s, at (%s, %s) um%s: %s", name_of(l->at.a),
+                name_of(l->at.b), what, where, fw_number_text(x, sizeof x, 1e6 * l->at.at_a.x, 5),
+                fw_number_text(y, sizeof y, 1e6 * l->at.at_a.y, 5), then, mend));
     return FW_OK;
 }
 

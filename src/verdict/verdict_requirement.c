@@ -151,7 +151,8 @@ static void decide(fw_verdict_requirement *r) {
 /* a size is not below 0 */
 static void put(fw_verdict_requirement *r, double value, double numeric, double model,
                 double lasting, double departure, bool size) {
-    double off = numeric + model * fabs(departure);
+    /* where the model says nothing of itself, nothing is known, of a value of 0 either */
+    double off = isinf(model) ? HUGE_VAL : numeric + model * fabs(departure);
     r->value = value;
     r->low = size ? fmax(0, value - off) : value - off;
     r->high = value + off;
