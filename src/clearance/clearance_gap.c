@@ -49,7 +49,7 @@ fw_status fw_clearance_gap_new(fw_arena *arena, const fw_clearance_things *thing
     keep_walls(&g->pair);
     if (g->pair.count[0] == 0 || g->pair.count[1] == 0) return FW_OK;
     drawn_poses(&g->pair, pose);
-    g->drawn_m = fw_clearance_pair_distance(&g->pair, pose, HUGE_VAL, NULL);
+    g->drawn_m = fw_clearance_pair_distance_first(&g->pair, pose);
     if (isfinite(g->drawn_m)) *gap = g; /* else no two edges may meet */
     return FW_OK;
 }

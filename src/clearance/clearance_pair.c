@@ -93,6 +93,52 @@ static double edge_distance(const fw_geometry_segment *p, fw_geometry_box p_box,
     return least;
 }
 
+/* the nearest places found so far, in the first solid's frame as drawn, and their edges */
+typedef struct nearest {
+    double m;
+    fw_geometry_vec2 p, q;
+    const fw_clearance_edge *at_p, *at_q;
+} nearest;
+
+static void take_nearer(const fw_clearance_pair *pair, const fw_clearance_edge *e,
+                        fw_geometry_box e_box, const fw_clearance_edge *f,
+                        const fw_geometry_segment *there, fw_geometry_box box, nearest *so_far) {
+    fw_geometry_vec2 here, across;
+    if (!may_meet(pair, e, f)) return;
+    double d = edge_distance(&e->segment, e_box, there, box, so_far->m, &here, &across);
+    if (d < so_far->m) *so_far = (nearest){d, here, across, e, f};
+}
+
+/* what is near as drawn is near at most poses, too: few other edges are nearer than that */
+static void look_first(const fw_clearance_pair *pair, const seen *by, nearest *so_far) {
+    const fw_clearance_edge *e = pair->likely[0], *f = pair->likely[1];
+    if (!e) return;
+    const fw_geometry_segment there = moved_segment(by, &f->segment);
+    take_nearer(pair, e, fw_segment_box(&e->segment), f, &there, fw_segment_box(&there), so_far);
+}
+
+static nearest nearest_places(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
+                              double limit_m) {
+    const seen by = seen_from(pair, pose);
+    nearest so_far = {.m = limit_m};
+    look_first(pair, &by, &so_far);
+    for (int j = 0; j < pair->count[1] && so_far.m > 0; j++) {
+        const fw_clearance_edge *f = pair->edge[1][j];
+        const fw_geometry_segment there = moved_segment(&by, &f->segment);
+        const fw_geometry_box box = fw_segment_box(&there);
+        if (fw_box_gap(box, pair->whole) >= so_far.m) continue;
+        for (int i = 0; i < pair->count[0]; i++) {
+            if (i % RUN == 0 && fw_box_gap(box, pair->run[i / RUN]) >= so_far.m) {
+                i += RUN - 1;
+                continue;
+            }
+            if (fw_box_gap(box, pair->box[i]) >= so_far.m) continue;
+            take_nearer(pair, pair->edge[0][i], pair->box[i], f, &there, box, &so_far);
+        }
+    }
+    return so_far;
+}
+
 /* D = least |p - q| over all edges p of the first solid and q of the second that may meet. In the
    first one's frame as drawn, so that its boxes stay. Error: that of fw_geometry_segment_distance,
    1e-15 m beside rounding of places (1e-18 m per mm of turn). Cost: a box for every edge of the
@@ -100,41 +146,26 @@ static double edge_distance(const fw_geometry_segment *p, fw_geometry_box p_box,
    Test: test_clearance.c */
 double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                                   double limit_m, fw_clearance_meet *meet) {
-    const seen by = seen_from(pair, pose);
-    double least = limit_m;
-    fw_geometry_vec2 p = {0, 0}, q = {0, 0};
-    const fw_clearance_edge *at_p = NULL, *at_q = NULL;
-    for (int j = 0; j < pair->count[1] && least > 0; j++) {
-        const fw_clearance_edge *f = pair->edge[1][j];
-        const fw_geometry_segment there = moved_segment(&by, &f->segment);
-        const fw_geometry_box box = fw_segment_box(&there);
-        if (fw_box_gap(box, pair->whole) >= least) continue;
-        for (int i = 0; i < pair->count[0]; i++) {
-            if (i % RUN == 0 && fw_box_gap(box, pair->run[i / RUN]) >= least) {
-                i += RUN - 1;
-                continue;
-            }
-            if (fw_box_gap(box, pair->box[i]) >= least) continue;
-            const fw_clearance_edge *e = pair->edge[0][i];
-            if (!may_meet(pair, e, f)) continue;
-            fw_geometry_vec2 here, across;
-            double d = edge_distance(&e->segment, pair->box[i], &there, box, least, &here, &across);
-            if (d >= least) continue;
-            least = d, p = here, q = across, at_p = e, at_q = f;
-        }
-    }
-    if (meet && at_p) {
+    const nearest found = nearest_places(pair, pose, limit_m);
+    const fw_clearance_edge *p = found.at_p, *q = found.at_q;
+    if (meet && p) {
         const fw_clearance_solid *a = &pair->things->solid[pair->a];
-        *meet = (fw_clearance_meet){.distance_m = least,
-                                    .at_a = fw_clearance_place(a, pose[0], p),
-                                    .at_b = fw_clearance_place(a, pose[0], q),
-                                    .a = at_p->label,
-                                    .b = at_q->label,
-                                    .bound = at_p->bends || at_q->bends,
-                                    .lane = at_p->always || at_q->always,
-                                    .tether = at_p->held != FW_NONE || at_q->held != FW_NONE};
+        *meet = (fw_clearance_meet){.distance_m = found.m,
+                                    .at_a = fw_clearance_place(a, pose[0], found.p),
+                                    .at_b = fw_clearance_place(a, pose[0], found.q),
+                                    .a = p->label,
+                                    .b = q->label,
+                                    .bound = p->bends || q->bends,
+                                    .lane = p->always || q->always,
+                                    .tether = p->held != FW_NONE || q->held != FW_NONE};
     }
-    return least;
+    return found.m;
+}
+
+double fw_clearance_pair_distance_first(fw_clearance_pair *pair, const fw_clearance_pose pose[2]) {
+    const nearest found = nearest_places(pair, pose, HUGE_VAL);
+    pair->likely[0] = found.at_p, pair->likely[1] = found.at_q;
+    return found.m;
 }
 
 static double far_of(const fw_geometry_segment *s, fw_geometry_vec2 from) {

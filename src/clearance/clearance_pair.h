@@ -17,6 +17,8 @@ typedef struct fw_clearance_pair {
     fw_geometry_vec2 centre; /* in the first solid as drawn: the middle of its edges */
     double reach_m;          /* of these edges about it */
     double arm_m[2];         /* farthest edge from the solid's own centre of mass */
+    /* two edges that may be the nearest ones, looked at first; NULL: not known */
+    const fw_clearance_edge *likely[2];
 } fw_clearance_pair;
 
 fw_geometry_vec2 fw_clearance_place(const fw_clearance_solid *solid, fw_clearance_pose pose,
@@ -32,6 +34,8 @@ void fw_clearance_pair_narrow(fw_clearance_pair *pair, const fw_clearance_pose p
 /* least distance at these poses of the two solids where it is below the limit, else the limit */
 double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                                   double limit_m, fw_clearance_meet *meet);
+/* the same without a limit; its nearest edges are looked at first from now on */
+double fw_clearance_pair_distance_first(fw_clearance_pair *pair, const fw_clearance_pose pose[2]);
 
 /* ---- clearance_motion.c: poses of a pair along a path ---- */
 

@@ -189,11 +189,27 @@ static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
     return most;
 }
 
+/* no motion makes it accepted: it, or a part of it, cannot be drawn */
+static bool decided_by_drawing(const fw_device *device, const fw_layout *layout,
+                               const fw_verdict *verdict) {
+    if (!layout || !layout->drawn || layout->nfault > 0) return true;
+    for (int i = 0; i < layout->nmissing; i++)
+        for (int k = 0; k < verdict->nvariant; k++) {
+            const char *flow = verdict->variant[k].variant->flow;
+            if (fw_layout_missing_in_flow(device, &layout->missing[i], flow)) return true;
+        }
+    return false;
+}
+
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout) {
     const fw_layout *judged;
     FW_TRY(draw(arena, device, options, diags, layout, &judged));
+    if (options->decision_only && decided_by_drawing(device, judged, verdict)) {
+        verdict->decision = verdict->drawn = FW_REJECT;
+        return FW_OK;
+    }
     FW_TRY(take_inputs(arena, device, judged, &options->fabricated_of, verdict));
     int nvariant = verdict->nvariant;
     fw_verdict_variant_verdict *variant = verdict->variant;
