@@ -32,7 +32,7 @@ ROOT = HERE.parents[1]
 TREE = ROOT / "build-edges"
 LEFT_OUT, NOT_REACHED = HERE / "left-out.txt", HERE / "not-reached.txt"
 START = 0.5  # s, of a program, and of a test to be compiled
-FEW, SHORT = 3, 2.0  # edges that nothing else passes for each second under the sanitizers; s, what is not worth leaving out
+FEW, SHORT = 15, 2.0  # edges that nothing else passes for each second under the sanitizers; s, what is not worth leaving out
 
 
 def functions(program):
