@@ -113,7 +113,7 @@ static void lint_bench(fw_process_pack *pack, const fw_process_flow *f) {
             if (a->equipment != b->equipment) continue;
             for (int s = 0; s < a->nhazard; s++)
                 for (int t = 0; t < b->nhazard; t++)
-                    if (fw_process_must_not_meet(a->hazard[s], b->hazard[t]))
+                    if (fw_process_reaction(a->hazard[s], b->hazard[t]))
                         fw_diag_warning(pack->diags, 175, b->place,
                                         "steps %s and %s use the same %s, but %s and %s must not "
                                         "meet: use two benches and two waste cans",
@@ -128,7 +128,7 @@ static void lint_waste(fw_process_pack *pack) {
     for (int i = 0; i < f->nhazard; i++)
         for (int j = 0; j < i; j++) {
             const fw_process_hazard *a = &f->hazard[j], *b = &f->hazard[i];
-            if (fw_process_must_not_meet(a, b) && strcmp(a->waste_stream, b->waste_stream) == 0)
+            if (fw_process_reaction(a, b) && strcmp(a->waste_stream, b->waste_stream) == 0)
                 fw_diag_error(pack->diags, 175, b->place,
                               "%s and %s must not meet, but both go to the waste '%s'; give one of "
                               "them a stream of its own",
@@ -158,6 +158,7 @@ static const struct {
     {"has every layer a thickness, and is none made of more than there is?",
      fw_process_lint_thicknesses, true},
     {"is nobody alone with what is dangerous, and is there first aid?", lint_people, false},
+    {"does every liquid say what it reacts as?", fw_process_lint_reactivity, false},
     {"do chemicals stay apart that must not meet?", lint_chemicals, false},
     {"is what a step changes on the wafer?", fw_process_lint_absent, false},
     {"is resist exposed through a mask before it is developed?", fw_process_lint_exposure, false},

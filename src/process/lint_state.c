@@ -8,24 +8,24 @@
 
 /* ---- what a wafer carries along ---- */
 
-static bool excludes(const fw_process_hazard *a, const fw_process_hazard *b) {
-    for (int i = 0; i < a->nincompatible; i++)
-        if (strcmp(a->incompatible[i], b->id) == 0) return true;
-    return false;
-}
-
-bool fw_process_must_not_meet(const fw_process_hazard *a, const fw_process_hazard *b) {
-    return a && b && (excludes(a, b) || excludes(b, a));
-}
-
 static void lint_meeting(fw_process_pack *pack, const fw_process_step *s, fw_place place,
                          const fw_process_hazard *carried, const char *since,
                          const fw_process_hazard *meets) {
-    if (!fw_process_must_not_meet(carried, meets)) return;
-    fw_diag_error(pack->diags, 336, place,
-                  "step %s brings a wafer that is wet with '%s' (since step %s) into '%s', and "
-                  "the two must not meet; rinse it before: <finish kind=\"rinse\"/> in step %s",
-                  s->id, carried->id, since, meets->id, since);
+    const char *reaction = fw_process_reaction(carried, meets);
+    if (reaction)
+        fw_diag_error(
+            pack->diags, 336, place,
+            "step %s brings a wafer that is wet with '%s' (since step %s) into '%s', and "
+            "the two must not meet: %s; rinse it before: <finish kind=\"rinse\"/> in step "
+            "%s",
+            s->id, carried->id, since, meets->id, reaction, since);
+    else if (carried && meets && strcmp(carried->id, meets->id) != 0)
+        fw_diag_warning(
+            pack->diags, 503, place,
+            "step %s brings a wafer that is wet with '%s' (since step %s) into '%s': what "
+            "it drags along spoils the bath, and is not off the wafer; rinse it in water "
+            "before: <finish kind=\"rinse\"/> in step %s",
+            s->id, carried->id, since, meets->id, since);
 }
 
 /* into the chemicals of the step, and from one rinse of it into the next */

@@ -118,8 +118,9 @@ fw_status fw_process_lint_reach(fw_process_pack *pack);
 fw_status fw_process_lint_required(fw_process_pack *pack);
 fw_status fw_process_lint_bakes(fw_process_pack *pack);
 fw_status fw_process_lint_end(fw_process_pack *pack);
-/* either one says that it is incompatible with the other; false where one is NULL */
-bool fw_process_must_not_meet(const fw_process_hazard *a, const fw_process_hazard *b);
+/* what happens where the two meet, in words; NULL: nothing that is known, or one is NULL */
+const char *fw_process_reaction(const fw_process_hazard *a, const fw_process_hazard *b);
+fw_status fw_process_lint_reactivity(fw_process_pack *pack);
 
 /* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN
    when an input is not known */

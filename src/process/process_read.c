@@ -167,6 +167,7 @@ static fw_status read_hazard(fw_process_pack *pack, const fw_xml_record *e, fw_p
     *h = (fw_process_hazard){.id = fw_process_pack_text(e, "id"),
                              .name = name[0] ? name : fw_process_pack_text(e, "id"),
                              .ghs = fw_process_pack_text(e, "ghs"),
+                             .reacts_as = fw_process_pack_text(e, "reacts-as"),
                              .ppe = "",
                              .first_aid = "",
                              .waste_stream = "",

@@ -82,6 +82,11 @@ static const fw_xml_attribute_row hazard_rows[] = {
      .sentence = "yes: never alone; a step with it has a second signature."},
     {"wets", WORD(yes_no), .fallback = "no",
      .sentence = "yes: a liquid, which a wafer carries along until it is rinsed."},
+    {"reacts-as", TEXT, .datatype = "NMTOKENS",
+     .sentence =
+         "Of a liquid: what it reacts as, which says what it must not meet: some of acid, "
+         "oxidising-acid, organic-acid, base, ammonia, ammonium, alcohol, ketone, oxidiser, "
+         "hypochlorite, fluoride, iodine, cyanide; or none."},
 };
 static const fw_xml_attribute_row consumable_rows[] = {
     ID,

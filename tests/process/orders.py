@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""orders.py LINT_PACKS [--update]: the packs with every step left out once, and every pair of neighbouring steps
-exchanged once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
+"""orders.py LINT_PACKS [--update]: the packs with every step left out once, every pair of neighbouring steps exchanged
+once, and every rinse left out once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
 can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
 import pathlib
 import re
@@ -11,9 +11,10 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "silicon-on-glass")
-HEAD = """# What is said of a flow with a step too few, or two in the wrong order
+HEAD = """# What is said of a flow with a step or a rinse too few, or two steps in the wrong order
 
-Every step of the packs left out once, every pair of neighbouring steps exchanged once (`tests/process/orders.py`).
+Every step of the packs left out once, every pair of neighbouring steps exchanged once, every rinse left out once
+(`tests/process/orders.py`).
 *refused*: an error, no plan is made. *warned*: the plan is made, and says so. *accepted*: nothing is said; the last
 column has the reason why that is right. A message is the first of its case.
 """
@@ -45,6 +46,10 @@ FINE = {
     "G30 G29": "the sheet resistance may be measured after the bake as well",
     "G36 G35": "the resist may be measured after its hard bake as well",
     "G40 G39": "the aluminium may be measured with the resist as well",
+    "rinse 2 of C02": "it is the alternative's, which nobody has chosen; chosen, it is refused",
+    "the rinse of G20": "solvents may be dried", "the rinse of G27": "solvents may be dried",
+    "the rinse of G38": "the saw rinses with water itself", "the rinse of G46": "the other one is left",
+    "rinse 2 of G46": "the first one is left",
     "G50 G49": "the device may be looked at without its tethers as well",
 }
 
@@ -76,6 +81,15 @@ def exchanged(steps, k):
     return steps[:k] + [b, a] + steps[k + 2:]
 
 
+def unrinsed(steps):
+    """each rinse of a step left out, one after the other"""
+    for k, (name, title, s) in enumerate(steps):
+        for n, rinse in enumerate(re.finditer(r' *<finish kind="rinse"[^>]*/>\n?', s)):
+            which = f"rinse {n + 1} of" if n else "the rinse of"
+            yield f"without {which} {name}", title, \
+                steps[:k] + [(name, title, s[:rinse.start()] + s[rinse.end():])] + steps[k + 1:]
+
+
 def cases(text):
     head, steps, tail = split(text)
     whole = lambda list_: head + "".join(s for _, _, s in list_) + tail
@@ -84,6 +98,8 @@ def cases(text):
         yield f"without {name}", title, whole(without(steps, k))
     for k in range(len(steps) - 1):
         yield f"{steps[k + 1][0]} before {steps[k][0]}", f"{steps[k + 1][1]} / {steps[k][1]}", whole(exchanged(steps, k))
+    for case, title, left in unrinsed(steps):
+        yield case, title, whole(left)
 
 
 def outcome(lines, plain):

@@ -46,7 +46,7 @@ static void amounts(void **state) {
     }
 }
 
-/* six wafers a load in S02 and S20, two in the dryer: ceil */
+/* six wafers a load in S20, two in the dryer: ceil */
 static void loads_and_fillings(void **state) {
     (void)state;
     fw_process_flow *f = computed_pack(SILICON, NULL, NULL);
@@ -56,8 +56,8 @@ static void loads_and_fillings(void **state) {
     static const int of_six[] = {0, 1, 1, 1, 1, 1, 1, 2}, of_two[] = {0, 1, 1, 2, 2, 3, 3, 4};
     for (int n = 1; n <= 7; n++) {
         fw_process_bill b = bill_of(f, n);
-        assert_near(row(&b, "acetone")->amount, 2e-3 * of_six[n], 1e-15);
-        assert_near(row(&b, "alcohol")->amount, 2e-3 * of_six[n] + 0.5e-3 * of_two[n], 1e-15);
+        assert_near(row(&b, "acetone")->amount, 1e-3 * of_six[n], 1e-15);
+        assert_near(row(&b, "alcohol")->amount, 1e-3 * of_six[n] + 0.5e-3 * of_two[n], 1e-15);
         assert_near(row(&b, "ammonia")->amount, 1e-3, 1e-15);
         assert_near(row(&b, "water")->amount, 5e-3 + 2 * n * 10e-6, 1e-15);
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every check of process/lint*.c: a pack that is wrong in one place is told so at that place, and
    the packs as they are pass (test_pack.c, packs_are_clean). */
+#include "process/pack.h"
 #include "pack_fixture.h"
 
 static void expect(int number, const char *says) {
@@ -131,6 +132,8 @@ static void shared_hazards(void **state) {
          175, "both go to the waste"},
         {"<attacks material=\"aluminium\"/>", "<attacks material=\"aluminum\"/>", 165,
          "did you mean 'aluminium'?"},
+        {" reacts-as=\"alcohol ketone\"", "", 501, "'h.solvent' is a liquid"},
+        {"reacts-as=\"alcohol ketone\"", "reacts-as=\"alcohol keton\"", 502, "reacts as 'keton'"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         size_t nb = 0, n = 0;
@@ -165,6 +168,39 @@ static int reasons(const fw_process_flow *f, const char *says) {
 }
 
 /* 1 um of aluminium for 50 um of silicon and 10 % over-etch: gone below S = 55 */
+/* groups alone decide, whatever a pack lists; a mixture that holds both of a pair has met already */
+static void liquids_react_by_their_groups(void **state) {
+    (void)state;
+    static const struct {
+        const char *a, *b;
+        const char *says; /* NULL: nothing is known against it */
+    } pairs[] = {
+        {"acid", "base", "heat each other"},
+        {"oxidiser ammonium", "base", "ammonia is set free"},
+        {"alcohol ketone", "base ammonia oxidiser", "peroxides"},
+        {"ketone", "oxidiser", "peroxides"},
+        {"iodine", "base ammonia oxidiser", "nitrogen triiodide"},
+        {"cyanide base", "acid", "hydrogen cyanide"},
+        {"cyanide", "organic-acid", "hydrogen cyanide"},
+        {"acid fluoride", "alcohol", NULL},
+        {"acid fluoride alcohol organic-acid", "alcohol", NULL},
+        {"acid oxidising-acid alcohol", "alcohol", NULL},
+        {"base", "alcohol", NULL},
+        {"none", "oxidising-acid", NULL},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        for (int turn = 0; turn < 2; turn++) {
+            const fw_process_hazard a = {.id = "a", .reacts_as = turn ? pairs[i].b : pairs[i].a},
+                                    b = {.id = "b", .reacts_as = turn ? pairs[i].a : pairs[i].b};
+            const char *what = fw_process_reaction(&a, &b);
+            if (!pairs[i].says)
+                assert_null(what);
+            else if (!what || !strstr(what, pairs[i].says))
+                fail_msg("%s and %s: %s", a.reacts_as, b.reacts_as, what ? what : "nothing");
+        }
+    assert_null(fw_process_reaction(NULL, &(fw_process_hazard){.id = "a", .reacts_as = "acid"}));
+}
+
 static void loss(void **state) {
     (void)state;
     const char *from =
@@ -262,6 +298,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(mistakes_of_a_flow, setup, teardown),
         cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),
         cmocka_unit_test_setup_teardown(shared_hazards, setup, teardown),
+        cmocka_unit_test(liquids_react_by_their_groups),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
     };
