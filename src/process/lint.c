@@ -166,8 +166,9 @@ static const struct {
     {"does every etch go through what lies there?", fw_process_lint_through, true},
     {"is said how fast a chemical takes what it should not?", fw_process_lint_attacked, false},
     {"does every layer bear the temperature?", fw_process_lint_heat, true},
-    {"is a wet wafer rinsed before what it must not meet, and dried before what must be dry?",
-     fw_process_lint_wet, false},
+    {"is a wafer dry, cool and out of vacuum where a step wants it, and rinsed before another "
+     "chemical?",
+     fw_process_lint_states, false},
     {"does what a step works on lie open, and does metal grow where it shall?",
      fw_process_lint_reach, false},
     {"is what a step requires of the wafer true of the wafer that comes?", fw_process_lint_required,

@@ -93,13 +93,39 @@ static void lint_meniscus(fw_process_pack *pack, const fw_process_step *s,
                               s->id, pulls[k]);
 }
 
-fw_status fw_process_lint_wet(fw_process_pack *pack) {
+/* a hot wafer goes from bake to bake; elsewhere it is cool: resist dries as it is spun on, liquids boil, it breaks */
+static void lint_hot(fw_process_pack *pack, const fw_process_step *s,
+                     const fw_process_wafer *before) {
+    if (!before->is[FW_STATE_HOT] || fw_process_step_is_op(s, "bake")) return;
+    const char *from = pack->flow->step[before->since[FW_STATE_HOT]].id;
+    fw_diag_error(
+        pack->diags, 504, s->place,
+        "step %s (%s, at '%s') takes a wafer that is hot from step %s; let it cool there: "
+        "<finish kind=\"cool\"/>",
+        s->id, s->op, s->equipment ? s->equipment->id : "", from);
+}
+
+/* nobody takes a wafer out of a tool under vacuum; a next step may be in the same tool */
+static void lint_pumped(fw_process_pack *pack, const fw_process_step *s,
+                        const fw_process_wafer *before) {
+    const char *in = before->with[FW_STATE_VACUUM];
+    if (!before->is[FW_STATE_VACUUM] || (s->equipment && strcmp(s->equipment->id, in) == 0)) return;
+    const char *from = pack->flow->step[before->since[FW_STATE_VACUUM]].id;
+    fw_diag_error(pack->diags, 505, s->place,
+                  "step %s is at '%s', but since step %s the wafer lies under vacuum in '%s'; vent "
+                  "it: <finish kind=\"vent\"/> in step %s",
+                  s->id, s->equipment ? s->equipment->id : "", from, in, from);
+}
+
+fw_status fw_process_lint_states(fw_process_pack *pack) {
     fw_process_wafer now = {0};
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
         lint_carried(pack, s, &now);
         FW_TRY(lint_arrival(pack, s, &now));
         lint_residue(pack, s, &now);
+        lint_hot(pack, s, &now);
+        lint_pumped(pack, s, &now);
         fw_process_wafer_pass(pack->flow, i, &now);
         lint_meniscus(pack, s, &now);
     }

@@ -113,7 +113,7 @@ fw_status fw_process_lint_settings(fw_process_pack *pack);
 fw_status fw_process_lint_prices(fw_process_pack *pack);
 fw_status fw_process_lint_thicknesses(fw_process_pack *pack);
 /* the wafer between steps (FW-D335 to FW-D341) */
-fw_status fw_process_lint_wet(fw_process_pack *pack);
+fw_status fw_process_lint_states(fw_process_pack *pack);
 fw_status fw_process_lint_reach(fw_process_pack *pack);
 fw_status fw_process_lint_required(fw_process_pack *pack);
 fw_status fw_process_lint_bakes(fw_process_pack *pack);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """orders.py LINT_PACKS [--update]: the packs with every step left out once, every pair of neighbouring steps exchanged
-once, and every rinse left out once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
+once, and every rinse, drying, cooling and venting left out once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
 can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
 import pathlib
 import re
@@ -13,8 +13,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "silicon-on-glass")
 HEAD = """# What is said of a flow with a step or a rinse too few, or two steps in the wrong order
 
-Every step of the packs left out once, every pair of neighbouring steps exchanged once, every rinse left out once
-(`tests/process/orders.py`).
+Every step of the packs left out once, every pair of neighbouring steps exchanged once, every rinse, drying, cooling
+and venting at the end of a step left out once (`tests/process/orders.py`).
 *refused*: an error, no plan is made. *warned*: the plan is made, and says so. *accepted*: nothing is said; the last
 column has the reason why that is right. A message is the first of its case.
 """
@@ -46,6 +46,8 @@ FINE = {
     "G30 G29": "the sheet resistance may be measured after the bake as well",
     "G36 G35": "the resist may be measured after its hard bake as well",
     "G40 G39": "the aluminium may be measured with the resist as well",
+    "dry 2 of C02": "it is the alternative's, which nobody has chosen; chosen, it is refused",
+    "the dry of G12": "the next step is in a liquid", "the dry of G37": "the saw is wet",
     "rinse 2 of C02": "it is the alternative's, which nobody has chosen; chosen, it is refused",
     "the rinse of G20": "solvents may be dried", "the rinse of G27": "solvents may be dried",
     "the rinse of G38": "the saw rinses with water itself", "the rinse of G46": "the other one is left",
@@ -81,13 +83,16 @@ def exchanged(steps, k):
     return steps[:k] + [b, a] + steps[k + 2:]
 
 
-def unrinsed(steps):
-    """each rinse of a step left out, one after the other"""
+def unfinished(steps):
+    """each rinse, drying, cooling and venting at the end of a step left out, one after the other"""
     for k, (name, title, s) in enumerate(steps):
-        for n, rinse in enumerate(re.finditer(r' *<finish kind="rinse"[^>]*/>\n?', s)):
-            which = f"rinse {n + 1} of" if n else "the rinse of"
-            yield f"without {which} {name}", title, \
-                steps[:k] + [(name, title, s[:rinse.start()] + s[rinse.end():])] + steps[k + 1:]
+        met = {}
+        for finish in re.finditer(r' *<finish kind="(\w+)"[^>]*/>\n?', s):
+            kind = finish[1]
+            met[kind] = met.get(kind, 0) + 1
+            which = f"the {kind}" if met[kind] == 1 else f"{kind} {met[kind]}"
+            yield f"without {which} of {name}", title, \
+                steps[:k] + [(name, title, s[:finish.start()] + s[finish.end():])] + steps[k + 1:]
 
 
 def cases(text):
@@ -98,7 +103,7 @@ def cases(text):
         yield f"without {name}", title, whole(without(steps, k))
     for k in range(len(steps) - 1):
         yield f"{steps[k + 1][0]} before {steps[k][0]}", f"{steps[k + 1][1]} / {steps[k][1]}", whole(exchanged(steps, k))
-    for case, title, left in unrinsed(steps):
+    for case, title, left in unfinished(steps):
         yield case, title, whole(left)
 
 

@@ -69,6 +69,8 @@ static void mistakes_of_a_flow(void **state) {
          "525 um lie in the field"},
         {SILICON, "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.sharp\"/>",
          "<hazard-ref ref=\"h.sharp\"/>", 374, "uses 'pan2', whose hazard 'h.pan'"},
+        {SILICON, "<finish kind=\"vent\"/>", "", 505, "lies under vacuum in 'sputter'"},
+        {SILICON, "<finish kind=\"cool\"/>", "", 504, "hot from step S06"},
         {SILICON, "<lag from=\"S02\"", "<lag from=\"S09\"", 276, "not before it"},
         {SILICON, "<q id=\"pan.R\" least=\"1\" most=\"1000\" value=\"10\"",
          "<q id=\"pan.R\" least=\"1\" most=\"1000\" value=\"0.1\"", 278, "'pan.R' is 0.1 Ao/s"},
