@@ -3,6 +3,7 @@
 """orders.py LINT_PACKS [--update]: the packs with every step left out once, every pair of neighbouring steps exchanged
 once, and every rinse, drying, cooling and venting left out once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
 can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
+import os
 import pathlib
 import re
 import subprocess
@@ -53,6 +54,27 @@ FINE = {
     "the rinse of G38": "the saw rinses with water itself", "the rinse of G46": "the other one is left",
     "rinse 2 of G46": "the first one is left",
     "G50 G49": "the device may be looked at without its tethers as well",
+}
+
+
+MOVES = """
+## Every step at every other place
+
+Of every step moved to every place that is not its neighbour's (`FW_TEST_ALL=1 tests/process/orders.py`), those of which
+nothing is said.
+
+| flow | step | before | why that is right |
+|---|---|---|---|
+"""
+FINE_ELSEWHERE = {
+    "S06": "the primer lies on the aluminium all the same, and is looked at with it",
+    "C01": "what comes in may be measured after it was cleaned",
+    "C03": "a bath may be mixed before the wafer comes in",
+    "D01": "what comes in may be measured after it was cleaned",
+    "D11": "the cut may be measured after the release",
+    "G16": "two looks at two wafers",
+    "G17": "the second wafer may come in at any time before it is cleaned",
+    "G40": "the aluminium may be measured before the glass is sawn",
 }
 
 
@@ -107,6 +129,54 @@ def cases(text):
         yield case, title, whole(left)
 
 
+def moved(steps):
+    """(step, what it stands before, the steps) of every step at every other place but its neighbours' """
+    for k, step in enumerate(steps):
+        rest = steps[:k] + steps[k + 1:]
+        for j in range(len(steps)):
+            if abs(j - k) < 2:
+                continue
+            # holds that would now run backwards
+            behind = "|".join(name for name, _, _ in rest[j:])
+            here = (step[0], step[1], re.sub(rf'    <lag from="({behind})"[^>]*/>\n', "", step[2]) if behind else step[2])
+            before = [(n, t, re.sub(rf'    <lag from="{step[0]}"[^>]*/>\n', "", x)) for n, t, x in rest[:j]]
+            yield step[0], rest[j][0] if j < len(rest) else "the end", before + [here] + rest[j:]
+
+
+def elsewhere(program, name, folder):
+    """{step: places where nothing is said}, and how many were tried"""
+    head, steps, tail = split((ROOT / f"processes/{name}.xml").read_text(encoding="utf-8"))
+    fine, tried, batch = {}, list(moved(steps)), 200
+    for first in range(0, len(tried), batch):
+        part = tried[first:first + batch]
+        files = [folder / f"{i:03d}.xml" for i in range(len(part))]
+        for file, (_, _, made) in zip(files, part):
+            file.write_text(head + "".join(s for _, _, s in made) + tail, encoding="utf-8")
+        run = subprocess.run([program, ROOT / "processes/base.xml", *files], capture_output=True, text=True, check=True)
+        for line in run.stdout.splitlines():
+            cells = line.split("\t")
+            if cells[1] == "accepted":
+                step, before, _ = part[files.index(pathlib.Path(cells[0]))]
+                fine.setdefault(step, []).append(before)
+    return fine, len(tried)
+
+
+def moves(program, count):
+    """the last section of the page; a minute of processor time"""
+    out = [MOVES]
+    with tempfile.TemporaryDirectory() as kept:
+        for name in PACKS:
+            folder = pathlib.Path(kept) / name
+            folder.mkdir()
+            fine, tried = elsewhere(program, name, folder)
+            for step, places in fine.items():
+                if step not in FINE_ELSEWHERE:
+                    count.setdefault("unexplained", []).append(f"{name}: {step} before {', '.join(places)}")
+                out.append(f"| {name} | {step} | {', '.join(places)} | {FINE_ELSEWHERE.get(step, '')} |\n")
+            out.append(f"| {name} | {tried} moves | all others are refused or warned of | |\n")
+    return "".join(out)
+
+
 def outcome(lines, plain):
     """what is said that is not said of the pack as it is"""
     new = [line for line in lines if line[1:] not in plain]
@@ -154,6 +224,11 @@ def page(program):
 def main():
     text, count = page(sys.argv[1])
     golden = ROOT / "docs/process-orders.md"
+    if os.environ.get("FW_TEST_ALL"):
+        text += moves(sys.argv[1], count)
+    else:
+        _, heading, kept = golden.read_text(encoding="utf-8").partition(MOVES)
+        text += heading + kept
     print(", ".join(f"{v} {k}" for k, v in count.items() if isinstance(v, int)))
     if "--update" in sys.argv:
         golden.write_text(text, encoding="utf-8")
