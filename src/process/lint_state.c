@@ -328,6 +328,12 @@ static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer 
                       "between them",
                       s->id, before->with[FW_STATE_UNBAKED],
                       f->step[before->since[FW_STATE_UNBAKED]].id);
+    if (before->is[FW_STATE_IMAGE] && has_change(s, "pattern"))
+        fw_diag_warning(
+            pack->diags, 506, s->place,
+            "step %s exposes '%s', which step %s has exposed and nobody has developed: both "
+            "doses add up; leave one out, or develop between them",
+            s->id, before->with[FW_STATE_IMAGE], f->step[before->since[FW_STATE_IMAGE]].id);
     if (coats && !b->dehydrated)
         fw_diag_warning(pack->diags, 341, s->place,
                         "step %s spins a resist on a wafer that was not baked since it was last "

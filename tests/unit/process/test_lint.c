@@ -162,6 +162,22 @@ static void shared_hazards(void **state) {
     expect(174, "'h.hf-copper' is hydrofluoric acid");
 }
 
+/* a copy of the exposure behind itself */
+static void one_coat_is_exposed_once(void **state) {
+    (void)state;
+    size_t nb = 0, n = 0;
+    fw_process_flow *flow = NULL;
+    const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SILICON, &n);
+    const char *from = strstr(text, "  <step id=\"S09\""), *to = strstr(from, "  <step id=\"S10\"");
+    const char *twice = fw_arena_printf(arena, "%.*s  <step id=\"S09b\"%s", (int)(to - text), text,
+                                        from + strlen("  <step id=\"S09\""));
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", twice,
+                                          strlen(twice), &diags, &flow),
+                     FW_OK);
+    expect(506, "which step S09 has exposed");
+}
+
 static int reasons(const fw_process_flow *f, const char *says) {
     int n = 0;
     for (int i = 0; i < f->nreason; i++)
@@ -301,6 +317,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),
         cmocka_unit_test_setup_teardown(shared_hazards, setup, teardown),
         cmocka_unit_test(liquids_react_by_their_groups),
+        cmocka_unit_test_setup_teardown(one_coat_is_exposed_once, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
     };
