@@ -46,6 +46,18 @@ static fw_status check_text(fw_arena *arena, const fw_verdict_check *c, const ch
     return FW_OK;
 }
 
+static const char rejecting[] = "rejected because";
+
+/* a hinge that is rejected beside other reasons is one of them, and not what stands below them */
+static const char *label_of(const fw_report_summary *s, const fw_verdict_check *c, bool made) {
+    bool others = false;
+    for (int i = 0; i < s->nline; i++)
+        others = others || s->line[i].label == rejecting;
+    if (c->decision == FW_REJECT && others)
+        return made ? "and because, as made, at the worst corner run" : "and because, as drawn";
+    return made ? "as made, at the worst corner run" : "as drawn";
+}
+
 /* Where something else than a hinge decides, hinges are of what could be run. */
 static fw_status hinges(fw_arena *arena, fw_report_summary *s) {
     const char *text;
@@ -54,10 +66,10 @@ static fw_status hinges(fw_arena *arena, fw_report_summary *s) {
     if (!s->has_drawn) return add(s, "hinges", "none was run to the end of any scene");
     if (s->has_made) {
         FW_TRY(check_text(arena, &s->made, &text));
-        FW_TRY(add(s, alone ? "hinges alone, as made" : "as made, at the worst corner run", text));
+        FW_TRY(add(s, alone ? "hinges alone, as made" : label_of(s, worst, true), text));
     }
     FW_TRY(check_text(arena, &s->drawn, &text));
-    return add(s, alone ? "hinges alone, as drawn" : "as drawn", text);
+    return add(s, alone ? "hinges alone, as drawn" : label_of(s, &s->drawn, false), text);
 }
 
 /* the requirement that is nearest to its bound; one that speaks against the device is among the
@@ -113,7 +125,7 @@ static fw_status reasons_of(fw_arena *arena, const fw_verdict *v, fw_verdict_dec
 
 /* what rejects comes first */
 static fw_status reasons(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
-    FW_TRY(reasons_of(arena, v, FW_REJECT, "rejected because", s));
+    FW_TRY(reasons_of(arena, v, FW_REJECT, rejecting, s));
     return reasons_of(arena, v, FW_INCONCLUSIVE, "inconclusive because", s);
 }
 

@@ -83,6 +83,18 @@ class Flowback(unittest.TestCase):
                 self.assertIn(says, said)
                 self.assertIn("is the unit right?", said)
 
+    def test_a_measured_thickness_that_the_description_overrules_is_told(self):
+        lab = self.here / "thick.xml"
+        lab.write_text(f'<process xmlns="urn:flexwright:process:1" flow="{SILICON}"><source id="gauge" kind="measured" '
+                       'date="2026-11-20">gauge</source><q id="si.d" value="48" u="0.2" unit="um" status="measured" '
+                       'src="gauge"/></process>')
+        leaf = ROOT / "docs/gallery/leaf-four-bar/device.xml"
+        judged = ("check", leaf, "--lab", lab, "--measurements", "none", "--corners", "none")
+        told = self.expect(run(*judged)).stderr
+        self.assertIn("FW-D507", told)
+        self.assertIn('--set "material/@thickness=48 um"', told)
+        self.assertNotIn("FW-D507", self.expect(run(*judged, "--set", "material/@thickness=48 um")).stderr)
+
     def test_a_day_at_once(self):
         day = self.here / "day.txt"
         lines = ["# Monday", ""] + [f"S01; start=2026-11-02T08:{w}0; end=2026-11-02T08:{w}8; by=AB; wafer={w}; instrument=gauge; "
