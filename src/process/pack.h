@@ -118,6 +118,7 @@ fw_status fw_process_lint_reach(fw_process_pack *pack);
 fw_status fw_process_lint_required(fw_process_pack *pack);
 fw_status fw_process_lint_bakes(fw_process_pack *pack);
 fw_status fw_process_lint_end(fw_process_pack *pack);
+unsigned fw_process_reacts_as(const char *words); /* a bit for each group that is known */
 /* what happens where the two meet, in words; NULL: nothing that is known, or one is NULL */
 const char *fw_process_reaction(const fw_process_hazard *a, const fw_process_hazard *b);
 fw_status fw_process_lint_reactivity(fw_process_pack *pack);

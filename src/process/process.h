@@ -18,6 +18,7 @@ typedef struct fw_process_source {
 typedef struct fw_process_hazard {
     const char *id, *name, *ghs, *ppe, *first_aid, *waste_stream, *waste;
     const char *reacts_as;     /* groups of reactivity.c, a blank between them; "": not said */
+    unsigned reacts;           /* the same, a bit for each */
     const char **incompatible; /* (nincompatible) */
     const char **attacks;      /* (nattacks) materials that it dissolves or sputters */
     int nincompatible, nattacks;

@@ -168,6 +168,7 @@ static fw_status read_hazard(fw_process_pack *pack, const fw_xml_record *e, fw_p
                              .name = name[0] ? name : fw_process_pack_text(e, "id"),
                              .ghs = fw_process_pack_text(e, "ghs"),
                              .reacts_as = fw_process_pack_text(e, "reacts-as"),
+                             .reacts = fw_process_reacts_as(fw_process_pack_text(e, "reacts-as")),
                              .ppe = "",
                              .first_aid = "",
                              .waste_stream = "",

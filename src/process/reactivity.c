@@ -13,69 +13,96 @@
 #include "process/pack.h"
 #include <string.h>
 
-static const char *const groups[] = {
-    "acid",   "oxidising-acid", "organic-acid", "base",     "ammonia", "ammonium", "alcohol",
-    "ketone", "oxidiser",       "hypochlorite", "fluoride", "iodine",  "cyanide",  "none",
+typedef enum group {
+    ACID,
+    OXIDISING_ACID,
+    ORGANIC_ACID,
+    BASE,
+    AMMONIA,
+    AMMONIUM,
+    ALCOHOL,
+    KETONE,
+    OXIDISER,
+    HYPOCHLORITE,
+    FLUORIDE,
+    IODINE,
+    CYANIDE,
+    NONE,
+    GROUPS
+} group;
+
+static const char *const groups[GROUPS] = {
+    [ACID] = "acid",
+    [OXIDISING_ACID] = "oxidising-acid",
+    [ORGANIC_ACID] = "organic-acid",
+    [BASE] = "base",
+    [AMMONIA] = "ammonia",
+    [AMMONIUM] = "ammonium",
+    [ALCOHOL] = "alcohol",
+    [KETONE] = "ketone",
+    [OXIDISER] = "oxidiser",
+    [HYPOCHLORITE] = "hypochlorite",
+    [FLUORIDE] = "fluoride",
+    [IODINE] = "iodine",
+    [CYANIDE] = "cyanide",
+    [NONE] = "none",
 };
 
 /* the worst first: of two liquids with several pairs the first one is told */
 static const struct {
-    const char *a, *b, *what;
+    group a, b;
+    const char *what;
 } rows[] = {
-    {"cyanide", "acid", "hydrogen cyanide is set free"},
-    {"cyanide", "oxidising-acid", "hydrogen cyanide is set free"},
-    {"cyanide", "organic-acid", "hydrogen cyanide is set free"},
-    {"iodine", "ammonia", "they make nitrogen triiodide, which explodes when it is dry"},
-    {"oxidising-acid", "alcohol", "they may catch fire or explode"},
-    {"oxidising-acid", "ketone", "they may catch fire or explode"},
-    {"oxidiser", "ketone", "they make peroxides that explode"},
-    {"oxidiser", "organic-acid", "they make peroxides that explode"},
-    {"fluoride", "oxidising-acid", "hydrogen fluoride is set free"},
-    {"hypochlorite", "acid", "chlorine is set free"},
-    {"hypochlorite", "oxidising-acid", "chlorine is set free"},
-    {"hypochlorite", "organic-acid", "chlorine is set free"},
-    {"hypochlorite", "ammonia", "chloramines are set free"},
-    {"hypochlorite", "ammonium", "chloramines are set free"},
-    {"hypochlorite", "alcohol", "they may catch fire"},
-    {"hypochlorite", "ketone", "they may catch fire"},
-    {"oxidiser", "alcohol", "they may catch fire"},
-    {"ammonium", "base", "ammonia is set free"},
-    {"oxidising-acid", "organic-acid", "they heat each other and give off gas"},
-    {"acid", "base", "they heat each other and spatter"},
-    {"oxidising-acid", "base", "they heat each other and spatter"},
-    {"organic-acid", "base", "they heat each other and spatter"},
-    {"acid", "ammonia", "they heat each other and spatter"},
-    {"oxidising-acid", "ammonia", "they heat each other and spatter"},
-    {"acid", "ketone", "they heat each other"},
+    {CYANIDE, ACID, "hydrogen cyanide is set free"},
+    {CYANIDE, OXIDISING_ACID, "hydrogen cyanide is set free"},
+    {CYANIDE, ORGANIC_ACID, "hydrogen cyanide is set free"},
+    {IODINE, AMMONIA, "they make nitrogen triiodide, which explodes when it is dry"},
+    {OXIDISING_ACID, ALCOHOL, "they may catch fire or explode"},
+    {OXIDISING_ACID, KETONE, "they may catch fire or explode"},
+    {OXIDISER, KETONE, "they make peroxides that explode"},
+    {OXIDISER, ORGANIC_ACID, "they make peroxides that explode"},
+    {FLUORIDE, OXIDISING_ACID, "hydrogen fluoride is set free"},
+    {HYPOCHLORITE, ACID, "chlorine is set free"},
+    {HYPOCHLORITE, OXIDISING_ACID, "chlorine is set free"},
+    {HYPOCHLORITE, ORGANIC_ACID, "chlorine is set free"},
+    {HYPOCHLORITE, AMMONIA, "chloramines are set free"},
+    {HYPOCHLORITE, AMMONIUM, "chloramines are set free"},
+    {HYPOCHLORITE, ALCOHOL, "they may catch fire"},
+    {HYPOCHLORITE, KETONE, "they may catch fire"},
+    {OXIDISER, ALCOHOL, "they may catch fire"},
+    {AMMONIUM, BASE, "ammonia is set free"},
+    {OXIDISING_ACID, ORGANIC_ACID, "they heat each other and give off gas"},
+    {ACID, BASE, "they heat each other and spatter"},
+    {OXIDISING_ACID, BASE, "they heat each other and spatter"},
+    {ORGANIC_ACID, BASE, "they heat each other and spatter"},
+    {ACID, AMMONIA, "they heat each other and spatter"},
+    {OXIDISING_ACID, AMMONIA, "they heat each other and spatter"},
+    {ACID, KETONE, "they heat each other"},
 };
 
-static bool is_group(const char *word, size_t length) {
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        if (strlen(groups[i]) == length && memcmp(groups[i], word, length) == 0) return true;
-    return false;
+/* GROUPS: there is none of this name */
+static group group_of(const char *word, size_t length) {
+    for (int i = 0; i < GROUPS; i++)
+        if (strlen(groups[i]) == length && memcmp(groups[i], word, length) == 0) return (group)i;
+    return GROUPS;
 }
 
-static bool is_in(const char *group, const char *words) {
-    const size_t length = strlen(group);
+unsigned fw_process_reacts_as(const char *words) {
+    unsigned set = 0;
     for (const char *at = words; *at; at += strspn(at, " ")) {
         const size_t n = strcspn(at, " ");
-        if (n == length && memcmp(at, group, n) == 0) return true;
+        const group g = group_of(at, n);
+        if (g < GROUPS) set |= 1u << g;
         at += n;
     }
-    return false;
+    return set;
 }
 
-static bool holds_both(const fw_process_hazard *of, const char *g, const char *h) {
-    return is_in(g, of->reacts_as) && is_in(h, of->reacts_as);
-}
-
-static const char *between(const fw_process_hazard *a, const fw_process_hazard *b) {
+static const char *between(unsigned a, unsigned b) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *g = rows[i].a, *h = rows[i].b;
-        if (holds_both(a, g, h) || holds_both(b, g, h)) continue;
-        if ((is_in(g, a->reacts_as) && is_in(h, b->reacts_as)) ||
-            (is_in(h, a->reacts_as) && is_in(g, b->reacts_as)))
-            return rows[i].what;
+        const unsigned g = 1u << rows[i].a, h = 1u << rows[i].b, both = g | h;
+        if ((a & both) == both || (b & both) == both) continue;
+        if (((a & g) && (b & h)) || ((a & h) && (b & g))) return rows[i].what;
     }
     return NULL;
 }
@@ -88,7 +115,7 @@ static bool excludes(const fw_process_hazard *a, const fw_process_hazard *b) {
 
 const char *fw_process_reaction(const fw_process_hazard *a, const fw_process_hazard *b) {
     if (!a || !b) return NULL;
-    const char *what = between(a, b);
+    const char *what = between(a->reacts, b->reacts);
     if (!what && (excludes(a, b) || excludes(b, a))) what = "the pack says so";
     return what;
 }
@@ -117,7 +144,7 @@ fw_status fw_process_lint_reactivity(fw_process_pack *pack) {
                 h->id, known);
         for (const char *at = h->reacts_as; *at; at += strspn(at, " ")) {
             const size_t n = strcspn(at, " ");
-            if (!is_group(at, n))
+            if (group_of(at, n) == GROUPS)
                 fw_diag_error(
                     pack->diags, 502, h->place,
                     "hazard '%s' reacts as '%.*s', which is no group that is known; there "

@@ -208,15 +208,18 @@ static void liquids_react_by_their_groups(void **state) {
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
         for (int turn = 0; turn < 2; turn++) {
-            const fw_process_hazard a = {.id = "a", .reacts_as = turn ? pairs[i].b : pairs[i].a},
-                                    b = {.id = "b", .reacts_as = turn ? pairs[i].a : pairs[i].b};
+            const char *one = turn ? pairs[i].b : pairs[i].a,
+                       *other = turn ? pairs[i].a : pairs[i].b;
+            const fw_process_hazard a = {.id = "a", .reacts = fw_process_reacts_as(one)},
+                                    b = {.id = "b", .reacts = fw_process_reacts_as(other)};
             const char *what = fw_process_reaction(&a, &b);
             if (!pairs[i].says)
                 assert_null(what);
             else if (!what || !strstr(what, pairs[i].says))
-                fail_msg("%s and %s: %s", a.reacts_as, b.reacts_as, what ? what : "nothing");
+                fail_msg("%s and %s: %s", one, other, what ? what : "nothing");
         }
-    assert_null(fw_process_reaction(NULL, &(fw_process_hazard){.id = "a", .reacts_as = "acid"}));
+    assert_null(fw_process_reaction(
+        NULL, &(fw_process_hazard){.id = "a", .reacts = fw_process_reacts_as("acid")}));
 }
 
 static void loss(void **state) {
