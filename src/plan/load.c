@@ -336,24 +336,6 @@ static void stand_on_substrate(fw_plan *plan, const fw_device_flow_use *use,
     v->substrate_expansion = of->expansion;
 }
 
-/* the description says how thick the device is, and a laboratory that has measured the wafer is not
-   heard: it must say it there */
-static void check_thickness(fw_plan *plan, const fw_plan_flow *pf) {
-    const fw_quantity *q = pf->flow ? pf->flow->thickness : NULL;
-    const fw_device_flow_use *use = pf->use;
-    const double is_m = pf->variant.thickness_m;
-    char was[32], is[32];
-    if (!q || !q->replaced || q->unknown || fabs(q->value - is_m) <= 1e-9 * is_m) return;
-    fw_number_text(was, sizeof was, q->value * 1e6, 6);
-    const bool own = use && !isnan(use->thickness_m);
-    fw_diag_warning(&plan->diags, 507, q->place,
-                    "'%s' is %s um here, but the device is described as %s um thick, which holds: "
-                    "state the thickness that was measured there: --set "
-                    "\"%s%s%s/@thickness=%s um\"",
-                    q->id, was, fw_number_text(is, sizeof is, is_m * 1e6, 6),
-                    own ? "flow[" : "material", own ? use->ref : "", own ? "]" : "", was);
-}
-
 static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_material *own) {
     const fw_device *d = plan->device;
     const fw_device_flow_use *use = pf->use;
@@ -371,7 +353,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
         return fw_diag_error(&plan->diags, 226, place,
                              "the thickness of the device layer is not known: give thickness on "
                              "<material> or <flow>");
-    check_thickness(plan, pf);
+    fw_plan_check_thickness(plan, pf);
     const fw_device_material *m = &v->material;
     if (m->youngs.unknown || m->density.unknown || m->strength.unknown || m->poisson.unknown)
         return fw_diag_error(

@@ -225,3 +225,19 @@ fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
         FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, -1, w->open[i]));
     return FW_OK;
 }
+
+/* a laboratory that has measured the wafer is overruled by the description, and told so */
+void fw_plan_check_thickness(fw_plan *plan, const fw_plan_flow *pf) {
+    const fw_quantity *q = pf->flow ? pf->flow->thickness : NULL;
+    const double is_m = pf->variant.thickness_m;
+    const bool own = pf->use && !isnan(pf->use->thickness_m);
+    char is[32], was[32];
+    if (!q || !q->replaced || q->unknown || fabs(q->value - is_m) <= 1e-9 * is_m) return;
+    fw_number_text(was, sizeof was, q->value * 1e6, 6);
+    fw_number_text(is, sizeof is, is_m * 1e6, 6);
+    fw_diag_warning(&plan->diags, 507, q->place,
+                    "'%s' is %s um here, but the device is described as %s um thick, which "
+                    "holds: state there what was measured: --set \"%s%s%s/@thickness=%s um\"",
+                    q->id, was, is, own ? "flow[" : "material", own ? pf->use->ref : "",
+                    own ? "]" : "", was);
+}

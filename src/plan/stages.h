@@ -40,6 +40,8 @@ fw_status fw_plan_find_drives(fw_arena *arena, const fw_device *d, const char *f
 double fw_plan_free_perimeter(const fw_geometry_contour *contour);
 /* nets, contacts and gaps in a flow, once, and what they add to its judgement (plan_facts.c) */
 fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf);
+/* FW-D507, where a laboratory states another thickness of the device than the description (plan_facts.c) */
+void fw_plan_check_thickness(fw_plan *plan, const fw_plan_flow *pf);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* what measuring is worth, of the flows that the options name (plan_flows.c). written: for a
