@@ -7,8 +7,8 @@
    amounts that stay on a wafer or go into a can; what a mixture does beyond its groups an <incompatible> of the pack
    says. Cost: one look at each row. Source: groups and consequences of H. K. Hatayama and others, A Method for
    Determining the Compatibility of Hazardous Wastes, EPA-600/2-80-076 (1980), chart of binary combinations, its groups 1
-   to 4, 10, 11, 15, 19 and 104; ammonium salts with bases, iodine with ammonia and hypochlorite with ammonia: any
-   textbook of inorganic chemistry. Test: test_lint.c liquids_react_by_their_groups. */
+   to 4, 10, 11, 15, 19 and 104, not re-read at its source and not all of its pairs; ammonium salts with bases, iodine with
+   ammonia and hypochlorite with ammonia: common textbook knowledge. Test: test_lint.c liquids_react_by_their_groups. */
 #include "base/text.h"
 #include "process/pack.h"
 #include <string.h>
@@ -80,21 +80,25 @@ static const struct {
     {ACID, KETONE, "they heat each other"},
 };
 
-/* GROUPS: there is none of this name */
-static group group_of(const char *word, size_t length) {
+typedef struct word {
+    const char *at; /* its first letter, or the end of the text */
+    size_t length;
+    group is; /* GROUPS: there is none of this name */
+} word;
+
+static word word_at(const char *text) {
+    word w = {.at = text + strspn(text, " "), .is = GROUPS};
+    w.length = strcspn(w.at, " ");
     for (int i = 0; i < GROUPS; i++)
-        if (strlen(groups[i]) == length && memcmp(groups[i], word, length) == 0) return (group)i;
-    return GROUPS;
+        if (strlen(groups[i]) == w.length && memcmp(groups[i], w.at, w.length) == 0)
+            w.is = (group)i;
+    return w;
 }
 
 unsigned fw_process_reacts_as(const char *words) {
     unsigned set = 0;
-    for (const char *at = words; *at; at += strspn(at, " ")) {
-        const size_t n = strcspn(at, " ");
-        const group g = group_of(at, n);
-        if (g < GROUPS) set |= 1u << g;
-        at += n;
-    }
+    for (word w = word_at(words); *w.at; w = word_at(w.at + w.length))
+        if (w.is < GROUPS) set |= 1u << w.is;
     return set;
 }
 
@@ -142,16 +146,13 @@ fw_status fw_process_lint_reactivity(fw_process_pack *pack) {
                 "hazard '%s' is a liquid and does not say what it reacts as, so that nobody "
                 "knows what it must not meet; add reacts-as with some of: %s",
                 h->id, known);
-        for (const char *at = h->reacts_as; *at; at += strspn(at, " ")) {
-            const size_t n = strcspn(at, " ");
-            if (group_of(at, n) == GROUPS)
+        for (word w = word_at(h->reacts_as); *w.at; w = word_at(w.at + w.length))
+            if (w.is == GROUPS)
                 fw_diag_error(
                     pack->diags, 502, h->place,
                     "hazard '%s' reacts as '%.*s', which is no group that is known; there "
                     "are: %s",
-                    h->id, (int)n, at, known);
-            at += n;
-        }
+                    h->id, (int)w.length, w.at, known);
     }
     return FW_OK;
 }

@@ -46,30 +46,31 @@ static fw_status check_text(fw_arena *arena, const fw_verdict_check *c, const ch
     return FW_OK;
 }
 
-static const char rejecting[] = "rejected because";
-
-/* a hinge that is rejected beside other reasons is one of them, and not what stands below them */
-static const char *label_of(const fw_report_summary *s, const fw_verdict_check *c, bool made) {
-    bool others = false;
-    for (int i = 0; i < s->nline; i++)
-        others = others || s->line[i].label == rejecting;
-    if (c->decision == FW_REJECT && others)
-        return made ? "and because, as made, at the worst corner run" : "and because, as drawn";
-    return made ? "as made, at the worst corner run" : "as drawn";
+static bool has_reason(const fw_verdict *v, fw_verdict_decision decision) {
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nreason; k++)
+            if (v->variant[i].reason[k].decision == decision) return true;
+    return false;
 }
 
-/* Where something else than a hinge decides, hinges are of what could be run. */
-static fw_status hinges(fw_arena *arena, fw_report_summary *s) {
+/* Where something else than a hinge decides, hinges are of what could be run. One that is rejected as
+   drawn, beside other reasons, is one of them; as made it stands among them already (FW-D237). */
+static fw_status hinges(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     const char *text;
+    const bool also = s->drawn.decision == FW_REJECT && has_reason(v, FW_REJECT);
     const fw_verdict_check *worst = s->has_made ? &s->made : &s->drawn;
     bool alone = s->has_drawn && fw_verdict_is_worse(s->decision, worst->decision);
     if (!s->has_drawn) return add(s, "hinges", "none was run to the end of any scene");
     if (s->has_made) {
         FW_TRY(check_text(arena, &s->made, &text));
-        FW_TRY(add(s, alone ? "hinges alone, as made" : label_of(s, worst, true), text));
+        FW_TRY(add(s, alone ? "hinges alone, as made" : "as made, at the worst corner run", text));
     }
     FW_TRY(check_text(arena, &s->drawn, &text));
-    return add(s, alone ? "hinges alone, as drawn" : label_of(s, &s->drawn, false), text);
+    return add(s,
+               alone  ? "hinges alone, as drawn"
+               : also ? "and because, as drawn"
+                      : "as drawn",
+               text);
 }
 
 /* the requirement that is nearest to its bound; one that speaks against the device is among the
@@ -125,7 +126,7 @@ static fw_status reasons_of(fw_arena *arena, const fw_verdict *v, fw_verdict_dec
 
 /* what rejects comes first */
 static fw_status reasons(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
-    FW_TRY(reasons_of(arena, v, FW_REJECT, rejecting, s));
+    FW_TRY(reasons_of(arena, v, FW_REJECT, "rejected because", s));
     return reasons_of(arena, v, FW_INCONCLUSIVE, "inconclusive because", s);
 }
 
@@ -236,7 +237,7 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     s->has_made = s->has_made && s->made.corner;
     FW_TRY(layout_faults(arena, in->layout, s));
     FW_TRY(reasons(arena, v, s));
-    FW_TRY(hinges(arena, s));
+    FW_TRY(hinges(arena, v, s));
     FW_TRY(advice(arena, v, in->layout && in->layout->nfault > 0, s));
     FW_TRY(required(arena, v, s));
     FW_TRY(nearest(arena, v, s));

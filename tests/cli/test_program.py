@@ -12,7 +12,7 @@ import tempfile
 import unittest
 import xml.dom.minidom
 
-from common import ALL, FLOWS, GALLERY, ROOT, run
+from common import ALL, FLOWS, GALLERY, ROOT, loose_gripper, run
 
 GALLERY_TEXT = GALLERY.read_text()
 QUIET = ("--advice", "none")  # where what to do about a rejection is not the question
@@ -201,6 +201,15 @@ class Plan(InTemporary):
         verdict = json.loads(self.expect(run("check", device, "--json", "--corners", "none", "--advice", "none"), status).stdout)
         self.assertEqual(verdict["verdict"], {0: "accept", 1: "reject", 4: "inconclusive"}[status])
         return verdict
+
+    def test_a_hinge_is_a_reason_beside_a_collision(self):
+        device = loose_gripper(pull="900 uN", copper_pull="90 uN")
+        said = run("check", "-", "--advice", "none", input=device)
+        self.assertEqual(said.returncode, 1, said.stderr)
+        labels = [line.partition(":")[0] for line in said.stdout.splitlines()]
+        self.assertIn("rejected because", labels)
+        self.assertIn("and because, as drawn", labels)
+        self.assertNotIn("as drawn", labels)
 
     def test_unstable_equilibria_are_not_accepted(self):
         def pressed(load):

@@ -251,7 +251,7 @@ class Study(unittest.TestCase):
                 high, above, below = at, off, 0.5 * below
             if abs(off) < 1e-6:
                 low = high = at
-        for sigmas, samples in ((1.3, 200), (3.2, 600 if ALL else 300)):
+        for sigmas, samples in ((1.3, 200), (3.2, 600)):
             sd = 0.25 * low / sigmas
             truth = 0.5 * math.erfc(-sigmas / math.sqrt(2))
             rows = f'<uncertain what="push" mean="{low - sigmas * sd:.9g} mN" sd="{sd:.9g} mN"/>'

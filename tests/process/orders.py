@@ -87,21 +87,25 @@ def split(text):
         tail.lstrip("\n")
 
 
+def without_lags(text, names):
+    """a step without the holds that count from those steps: they would run backwards, or from nowhere"""
+    return re.sub(rf'    <lag from="({"|".join(names)})"[^>]*/>\n', "", text) if names else text
+
+
 def without(steps, k):
     gone = steps[k][0]
     rest = []
     for i, (name, title, s) in enumerate(steps):
         if i == k:
             continue
-        s = re.sub(rf'    <lag from="{gone}"[^>]*/>\n', "", s)
+        s = without_lags(s, [gone])
         rest.append((name, title, s.replace(f'goto="{gone}"', f'goto="{name}"')))
     return rest
 
 
 def exchanged(steps, k):
     a, b = steps[k], steps[k + 1]
-    # a hold that ran from the one to the other would now run backwards
-    b = (b[0], b[1], re.sub(rf'    <lag from="{a[0]}"[^>]*/>\n', "", b[2]))
+    b = (b[0], b[1], without_lags(b[2], [a[0]]))
     return steps[:k] + [b, a] + steps[k + 2:]
 
 
@@ -136,10 +140,8 @@ def moved(steps):
         for j in range(len(steps)):
             if abs(j - k) < 2:
                 continue
-            # holds that would now run backwards
-            behind = "|".join(name for name, _, _ in rest[j:])
-            here = (step[0], step[1], re.sub(rf'    <lag from="({behind})"[^>]*/>\n', "", step[2]) if behind else step[2])
-            before = [(n, t, re.sub(rf'    <lag from="{step[0]}"[^>]*/>\n', "", x)) for n, t, x in rest[:j]]
+            here = (step[0], step[1], without_lags(step[2], [name for name, _, _ in rest[j:]]))
+            before = [(n, t, without_lags(x, [step[0]])) for n, t, x in rest[:j]]
             yield step[0], rest[j][0] if j < len(rest) else "the end", before + [here] + rest[j:]
 
 
