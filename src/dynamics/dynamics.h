@@ -82,6 +82,9 @@ typedef struct fw_dynamics_motion_options {
        differently, over what would be near enough: above 1 the tolerance is tightened, by so much.
        NULL: 0 */
     double (*unsettled)(const void *observed, const void *compared, double margin, double accuracy);
+    const struct fw_dynamics_motion
+        *like; /* of a device much like this one in the same scene, which
+                                              says how tight a tolerance to begin with; or NULL */
 } fw_dynamics_motion_options;
 
 /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
@@ -120,6 +123,8 @@ typedef struct fw_dynamics_motion_stats {
     double estimate_margin;  /* times what two runs differ by: their error. 0: there was one run */
     double estimate_cpu_s; /* of all other runs: for the estimate, and those that were not enough */
     double looser_rtol;    /* of the run that was compared with; 0: none */
+    double needed_rtol;    /* of that run, at which errors would just have been small enough; 0: it
+                              is not known */
     int runs;              /* that were made in all; 1 for a sequence of equilibria */
     long all_steps, all_rhs; /* of them */
 } fw_dynamics_motion_stats;

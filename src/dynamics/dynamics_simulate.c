@@ -338,6 +338,7 @@ static fw_status steer(fw_dynamics_run *r) {
     pair two = {.began_s = cpu_seconds()};
     fw_dynamics_tolerances tolerances = fw_dynamics_tolerance_start(
         &r->control, r->control.integrator, fw_dynamics_tolerance_wanted(&r->record));
+    double looser = 0, before = 0; /* of the try before, and how far off it was */
     for (int tries = 1;; tries++) {
         bool last = tolerances.rtol <= fmax(1e-9, fw_dynamics_tolerance_tightest(&r->problem));
         fw_status status = try_tolerances(r, &two, &tolerances, rows, !last);
@@ -352,8 +353,11 @@ static fw_status steer(fw_dynamics_run *r) {
         estimate_errors(r, &two.fine, &two.coarse);
         double off = r->record.motion->ended ? 0 : fw_dynamics_run_error_ratio(&r->record);
         if (off <= 1 || tolerances.rtol <= fw_dynamics_tolerance_tightest(&r->problem)) {
+            r->record.motion->stats.needed_rtol =
+                fw_dynamics_tolerance_needed(tolerances.looser, off, looser, before);
             return end_tries(r, &two, tolerances.looser, off <= 1);
         }
+        looser = tolerances.looser, before = off;
         bool back;
         FW_TRY(fw_dynamics_integrator_back(r, two.fine.stepper->steps, &back));
         if (back) {

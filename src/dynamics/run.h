@@ -161,7 +161,7 @@ static inline double fw_dynamics_end(const fw_dynamics_problem *problem) {
     return problem->end[problem->npiece - 1];
 }
 static inline const char *fw_dynamics_scene_name(const fw_dynamics_problem *problem) {
-    return problem->scene->name ? problem->scene->name : "(unnamed)";
+    return fw_text_name(problem->scene->name);
 }
 
 /* run_ends.c: smooth pieces, problem.end, and what limits steps in them */
@@ -293,6 +293,10 @@ bool fw_dynamics_tolerance_known(const fw_dynamics_problem *problem,
 /* the tolerances to begin with for a relative error of `wanted` */
 fw_dynamics_tolerances fw_dynamics_tolerance_start(const fw_dynamics_controller *control,
                                                    const fw_maths_stepper_row *row, double wanted);
+/* Tolerance of the looser run at which a motion would just have been near enough, from the last try
+   at `looser`, which was `off` times what is allowed, and the one before (0: there was none); 0: it is
+   not known. */
+double fw_dynamics_tolerance_needed(double looser, double off, double before, double off_before);
 /* the tolerance of the answer after a looser run that took so many steps */
 fw_dynamics_tolerances fw_dynamics_tolerance_answer(const fw_dynamics_run *r,
                                                     fw_dynamics_tolerances tolerances, long steps);

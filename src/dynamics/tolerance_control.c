@@ -81,9 +81,12 @@ double fw_dynamics_tolerance_tightest(const fw_dynamics_problem *problem) {
     return fmax(fw_tightest, noise_floor(problem));
 }
 
+static double wanted_of(const fw_dynamics_motion *motion) {
+    return fmax(motion->accuracy - motion->ledger.left_out, 0.05 * motion->accuracy);
+}
+
 double fw_dynamics_tolerance_wanted(const fw_dynamics_recorder *record) {
-    double accuracy = record->motion->accuracy;
-    return fmax(accuracy - record->motion->ledger.left_out, 0.05 * accuracy);
+    return wanted_of(record->motion);
 }
 
 bool fw_dynamics_tolerance_known(const fw_dynamics_problem *problem,
@@ -135,10 +138,33 @@ static double tighter_for_forces(const fw_dynamics_problem *problem) {
     return problem->options->reactions ? 3000 : 1;
 }
 
+/* ---- where to begin, as a motion much like this one tells ---- */
+
+/* Between two tolerances errors go with a power of them, some 1.5 as a rule, since phases count
+   beside peaks. One of two tries may have come out small by luck: the tighter answer counts. */
+static const double fw_power = 1.5;
+
+static double enough_by(double looser, double off) {
+    return looser > 0 ? looser * pow(off, -1 / fw_power) : HUGE_VAL;
+}
+
+double fw_dynamics_tolerance_needed(double looser, double off, double before, double off_before) {
+    return off > 0 ? fmin(enough_by(looser, off), enough_by(before, off_before)) : 0;
+}
+
+/* a fifth of what is just allowed, so that a try at a looser tolerance, which would be thrown away,
+   is left out. What observers want grows at most to five times with the accuracy. */
+static double known_of(const fw_dynamics_motion *like, double wanted) {
+    if (!like || !(like->stats.needed_rtol > 0)) return HUGE_VAL;
+    double room = 0.2 * fmin(5, wanted / wanted_of(like));
+    return like->stats.needed_rtol * pow(room, 1 / fw_power);
+}
+
 fw_dynamics_tolerances fw_dynamics_tolerance_start(const fw_dynamics_controller *control,
                                                    const fw_maths_stepper_row *row, double wanted) {
-    if (control->problem->options->unsettled)
-        return tolerances_below(control, fmin(1e-4, wanted / 100));
+    const fw_dynamics_motion_options *o = control->problem->options;
+    if (o->unsettled)
+        return tolerances_below(control, fmin(fmin(1e-4, wanted / 100), known_of(o->like, wanted)));
     if (control->problem->sudden) return tolerances_below(control, wanted / 30);
     double loose = control->problem->options->reactions ? fw_loose_of_forces : row_of(row)->loose;
     return tolerances_below(control, wanted / tighter_for_forces(control->problem) / loose);
@@ -231,7 +257,7 @@ double fw_dynamics_run_error_ratio(const fw_dynamics_recorder *record) {
                            ? 0
                            : o->unsettled(record->motion->observed, record->motion->compared,
                                           record->motion->stats.estimate_margin, wanted);
-    return unsettled > 1 ? fmax(off, fmax(unsettled, 5)) : off;
+    return fmax(off, unsettled > 1 ? fmax(unsettled, 5) : unsettled);
 }
 
 /* an angle or a force that is round-off has no relative accuracy */
@@ -247,19 +273,18 @@ static void warn_inaccurate(const fw_dynamics_run *r) {
                         "scene %s: peaks are uncertain by %s deg where the largest is %s deg, and "
                         "an accuracy of %s is wanted; no tolerance is tight enough: shorten the "
                         "scene, or judge by the stated errors",
-                        r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
+                        fw_text_name(r->problem.scene->name),
                         fw_number_text(a, sizeof a, x.error_rad * degree, 3),
                         fw_number_text(b, sizeof b, x.angle_rad * degree, 3),
                         fw_number_text(c, sizeof c, accuracy, 3));
     else if (x.error_N > fmax(nothing * fw_multibody_newton(r->problem.model), wanted * x.force_N))
-        fw_diag_warning(r->diags, 240, r->problem.scene->place,
-                        "scene %s: joint forces are uncertain by %s N where the largest is %s N, "
-                        "and an accuracy of %s is wanted; no tolerance is tight enough: shorten "
-                        "the scene, or judge by the stated errors",
-                        r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
-                        fw_number_text(a, sizeof a, x.error_N, 3),
-                        fw_number_text(b, sizeof b, x.force_N, 3),
-                        fw_number_text(c, sizeof c, accuracy, 3));
+        fw_diag_warning(
+            r->diags, 240, r->problem.scene->place,
+            "scene %s: joint forces are uncertain by %s N where the largest is %s N, "
+            "and an accuracy of %s is wanted; no tolerance is tight enough: shorten "
+            "the scene, or judge by the stated errors",
+            fw_text_name(r->problem.scene->name), fw_number_text(a, sizeof a, x.error_N, 3),
+            fw_number_text(b, sizeof b, x.force_N, 3), fw_number_text(c, sizeof c, accuracy, 3));
 }
 
 /* rtol is relative to the amplitude, or to the motion where that is larger; 100 times as much is
@@ -284,8 +309,7 @@ static void warn_energy(const fw_dynamics_run *r) {
                        "scene %s: the energy balance error is %s of the largest energy, far more "
                        "than the tolerance %s explains; this motion is not reliable: use another "
                        "--method or --integrator",
-                       r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
-                       fw_number_text(a, sizeof a, off, 2),
+                       fw_text_name(r->problem.scene->name), fw_number_text(a, sizeof a, off, 2),
                        fw_number_text(b, sizeof b, r->record.motion->stats.rtol, 2));
 }
 

@@ -258,7 +258,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         monitor[i].probe = seen[0], other[i].probe = seen[1];
         monitor[i].trial = other[i].trial = options->decision_only && !options->values;
         motion.whole = seen[0] != NULL;
-        motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
+        motion.like = v->like ? v->like[i] : NULL;
+        motion.effects.like = motion.like ? &motion.like->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);

@@ -132,6 +132,51 @@ static void test_effects_take_their_share(void **state) {
     fw_arena_free(arena);
 }
 
+/* ---- a motion much like this one says where to begin ---- */
+
+static void see_largest(void *context, const fw_dynamics_instant *now) {
+    double *most = context;
+    if (!now) *most = 0;
+    for (int i = 0; now && i < 4; i++)
+        *most = fmax(*most, fabs(now->angle_rad[i]));
+}
+
+/* the largest angle, a hundred times closer than peaks are wanted */
+static double unsettled(const void *tighter, const void *looser, double margin, double accuracy) {
+    const double a = *(const double *)tighter, b = *(const double *)looser;
+    return margin * fabs(a - b) / (1e-2 * accuracy * a);
+}
+
+static void test_begins_where_another_ended(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    long runs[2] = {0}, rhs[2] = {0};
+    for (uint64_t seed = 0; seed < 14; seed++) {
+        const rig r = seed == 0 ? rig_six_bar(arena, false) : rig_any(arena, seed);
+        if (r.m.npin < 4) continue;
+        double saw[4];
+        fw_dynamics_motion_options o = {.accuracy = 1e-3,
+                                        .observe = see_largest,
+                                        .unsettled = unsettled,
+                                        .context = &saw[0],
+                                        .other = &saw[1]};
+        const fw_dynamics_motion *first = run(arena, &r, &o);
+        assert_true(first->stats.needed_rtol > 0);
+        o.like = first, o.context = &saw[2], o.other = &saw[3];
+        const fw_dynamics_motion *then = run(arena, &r, &o);
+        runs[0] += first->stats.runs, runs[1] += then->stats.runs;
+        rhs[0] += first->stats.all_rhs, rhs[1] += then->stats.all_rhs;
+        for (int i = 0; i < r.m.npin; i++) /* as good as asked for, whatever was left out */
+            assert_true(fabs(fabs(then->peak[i].angle_rad) - fabs(first->peak[i].angle_rad)) <=
+                        then->peak[i].error_rad + first->peak[i].error_rad);
+        assert_true(unsettled(&saw[2], &saw[3], then->stats.estimate_margin, 1e-3) <= 1);
+    }
+    print_message("  %ld runs and %ld evaluations, then %ld and %ld\n", runs[0], rhs[0], runs[1],
+                  rhs[1]);
+    assert_true(runs[1] < runs[0] && rhs[1] < rhs[0]);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_errors_are_below),
@@ -139,6 +184,7 @@ int main(void) {
         cmocka_unit_test(test_without_an_estimate),
         cmocka_unit_test(test_what_cannot_be_reached),
         cmocka_unit_test(test_effects_take_their_share),
+        cmocka_unit_test(test_begins_where_another_ended),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
