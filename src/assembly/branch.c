@@ -101,7 +101,7 @@ fw_status fw_assembly_elbows_find(fw_arena *arena, const fw_mechanism *m, fw_ass
     for (int i = 0; i < m->npin; i++) {
         const fw_mechanism_pin *p = &m->pin[i];
         fw_assembly_elbow e = {
-            .id = p->id ? p->id : "(unnamed)", .pin = i, .body_a = p->body_a, .body_b = p->body_b};
+            .id = fw_text_name(p->id), .pin = i, .body_a = p->body_a, .body_b = p->body_b};
         if (p->body_a == FW_GROUND || p->body_b == FW_GROUND || is_welded(m, p, i)) continue;
         bool again = false; /* two pins between the same bodies: one body */
         for (int k = 0; k < m->npin; k++) {

@@ -131,16 +131,12 @@ fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const
 static const double hopeless = 1e8; /* condition from which a choice is refused */
 static const char *const axis_name[] = {"x", "y", "phi"};
 
-static const char *name_of(const char *id) {
-    return id ? id : "(unnamed)";
-}
-
 static fw_status write_names(fw_arena *arena, const fw_mechanism *m,
                              const fw_assembly_coordinate_choice *c, const char **text) {
     fw_text out = fw_text_new(arena);
     fw_text_add(&out, "");
     for (int i = 0; i < c->count; i++)
-        fw_text_printf(&out, "%s%s.%s", i ? "," : "", name_of(m->body[c->item[i].body].id),
+        fw_text_printf(&out, "%s%s.%s", i ? "," : "", fw_text_name(m->body[c->item[i].body].id),
                        axis_name[c->item[i].axis]);
     *text = out.data;
     return fw_text_end(&out);
@@ -232,8 +228,8 @@ static fw_status unknown_name(fw_arena *arena, const fw_mechanism *m, const char
     const char **names;
     FW_NEED(names = fw_arena_array(arena, const char *, 3 * (size_t)m->nbody));
     for (int i = 0; i < 3 * m->nbody; i++)
-        FW_NEED(names[i] =
-                    fw_arena_printf(arena, "%s.%s", name_of(m->body[i / 3].id), axis_name[i % 3]));
+        FW_NEED(names[i] = fw_arena_printf(arena, "%s.%s", fw_text_name(m->body[i / 3].id),
+                                           axis_name[i % 3]));
     const char *near = fw_did_you_mean(word, names, 3 * (size_t)m->nbody);
     return refuse(fw_diag_error(diags, 117, (fw_place){0},
                                 "there is no coordinate '%.80s'%s%s%s; write BODY.x, BODY.y or "
@@ -246,7 +242,7 @@ static bool find_coordinate(const fw_mechanism *m, const char *word, size_t n,
                             fw_assembly_coordinate *c) {
     for (int b = 0; b < m->nbody; b++)
         for (int axis = 0; axis < 3; axis++) {
-            const char *id = name_of(m->body[b].id);
+            const char *id = fw_text_name(m->body[b].id);
             size_t length = strlen(id);
             if (n == length + 1 + strlen(axis_name[axis]) && strncmp(word, id, length) == 0 &&
                 word[length] == '.' &&
@@ -277,9 +273,9 @@ static fw_status read_list(fw_arena *arena, const fw_mechanism *m, const char *a
         }
         for (int i = 0; i < c->count; i++)
             if (c->item[i].body == to->body && c->item[i].axis == to->axis)
-                return refuse(fw_diag_error(diags, 117, (fw_place){0},
-                                            "independent coordinate %s.%s is named twice",
-                                            name_of(m->body[to->body].id), axis_name[to->axis]));
+                return refuse(fw_diag_error(
+                    diags, 117, (fw_place){0}, "independent coordinate %s.%s is named twice",
+                    fw_text_name(m->body[to->body].id), axis_name[to->axis]));
         c->count++;
         at = next;
     }

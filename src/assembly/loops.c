@@ -6,10 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *name_of(const char *id) {
-    return id ? id : "(unnamed)";
-}
-
 void fw_assembly_block_gap(const fw_multibody_model *m, int i, const double *psi, double *gap_m,
                            double *gap_rad) {
     double x = fabs(psi[2 * i]), y = fabs(psi[2 * i + 1]), length = m->scale.length_m;
@@ -158,7 +154,7 @@ static fw_status worst_ring(fw_arena *arena, const fw_assembly_closure *c,
 }
 
 static const char *body_name(const fw_mechanism *m, int body) {
-    return body == m->nbody ? "ground" : name_of(m->body[body].id);
+    return body == m->nbody ? "ground" : fw_text_name(m->body[body].id);
 }
 
 static fw_status hint(fw_arena *arena, const fw_mechanism *mechanism, const fw_assembly_closure *c,
@@ -260,7 +256,7 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_assembly_c
         "driver %s cannot have its prescribed value at the start: it prescribes %s, and the "
         "nearest value that the joints allow from this initial guess is %s (%s off); correct "
         "its value or the positions of the bodies",
-        name_of(d->id), asked, best, less);
+        fw_text_name(d->id), asked, best, less);
 }
 
 /* ---- joints ---- */

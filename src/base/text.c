@@ -401,6 +401,25 @@ const char *fw_did_you_mean(const char *word, const char *const *names, size_t c
     return best;
 }
 
+bool fw_word_next(const char **rest, const char *separators, fw_word *word) {
+    word->at = *rest + strspn(*rest, separators);
+    word->length = strcspn(word->at, separators);
+    *rest = word->at + word->length;
+    return word->length > 0;
+}
+
+bool fw_word_is(fw_word word, const char *name) {
+    return strlen(name) == word.length && memcmp(name, word.at, word.length) == 0;
+}
+
+bool fw_text_same(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+const char *fw_text_name(const char *id) {
+    return id ? id : "(unnamed)";
+}
+
 /* SHA-256, FIPS 180-4 sections 4.1.2, 5.1.1 and 6.2. Test: test_hash.c (FIPS examples). */
 
 /* first 32 bits of the fractional parts of the cube roots of the first 64 primes */

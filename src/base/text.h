@@ -57,6 +57,19 @@ int fw_edit_distance(const char *a, const char *b, int limit);
 /* best match among count names within distance 2, or NULL */
 const char *fw_did_you_mean(const char *word, const char *const *names, size_t count);
 
+/* Words of a list: letters between separators (of which there may be several). */
+typedef struct fw_word {
+    const char *at; /* not ended by a NUL */
+    size_t length;
+} fw_word;
+/* the first word of *rest, behind which *rest moves; false: there is none left */
+bool fw_word_next(const char **rest, const char *separators, fw_word *word);
+bool fw_word_is(fw_word word, const char *name);
+/* alike; NULL is like NULL alone */
+bool fw_text_same(const char *a, const char *b);
+/* what nobody named (NULL) is "(unnamed)" */
+const char *fw_text_name(const char *id);
+
 /* SHA-256 (FIPS 180-4). */
 
 /* 64 hexadecimal digits and a NUL into `text` */

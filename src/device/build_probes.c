@@ -7,25 +7,21 @@
 
 /* ---- what carries a force ---- */
 
-static bool same(const char *a, const char *b) {
-    return a && b && strcmp(a, b) == 0;
-}
-
 static bool tendon_in(const fw_device_scene *s, const char *id) {
     for (int i = 0; i < s->ntendon; i++)
-        if (same(s->tendon[i].id, id)) return true;
+        if (fw_text_same(s->tendon[i].id, id)) return true;
     return false;
 }
 
 static bool comb_in(const fw_device_scene *s, const char *id) {
     for (int i = 0; i < s->ncomb; i++)
-        if (same(s->comb[i].id, id)) return true;
+        if (fw_text_same(s->comb[i].id, id)) return true;
     return false;
 }
 
 static bool contact_in(const fw_device_scene *s, const char *id) {
     for (int i = 0; i < s->ncontact; i++)
-        if (same(s->contact[i].id, id)) return true;
+        if (fw_text_same(s->contact[i].id, id)) return true;
     return false;
 }
 
@@ -63,7 +59,8 @@ static bool find_carrier(const fw_device *d, fw_device_probe *p) {
                              : own[k].carrier == FW_CARRIER_JOINT  ? d->joint[i].id
                              : own[k].carrier == FW_CARRIER_SPRING ? d->spring[i].id
                                                                    : d->driver[i].id;
-            if (!same(id, p->of) || (drives && own[k].carrier != FW_CARRIER_DRIVER)) continue;
+            if (!id || !fw_text_same(id, p->of)) continue;
+            if (drives && own[k].carrier != FW_CARRIER_DRIVER) continue;
             p->carrier = own[k].carrier, p->index = i;
             return true;
         }
@@ -204,7 +201,7 @@ static void check_opening(fw_device_reader *r, const fw_xml_record *record, fw_d
 
 static fw_device_probe_row row_of(const char *kind) {
     for (int i = 0; i < FW_PROBE_KINDS; i++)
-        if (same(kind, fw_device_probe_kinds[i].name)) return (fw_device_probe_row)i;
+        if (fw_text_same(kind, fw_device_probe_kinds[i].name)) return (fw_device_probe_row)i;
     return FW_PROBE_KINDS;
 }
 

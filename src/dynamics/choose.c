@@ -55,8 +55,8 @@ fw_status fw_dynamics_method_choose(fw_dynamics_run *r, const fw_effects_loads *
                 r->problem.arena,
                 "not by chain, whose forces lose digits there: body %s between its joints is %s "
                 "times lighter than %s",
-                a ? a : "(unnamed)", fw_number_text(ratio, sizeof ratio, r->problem.uneven, 2),
-                b ? b : "(unnamed)"));
+                fw_text_name(a), fw_number_text(ratio, sizeof ratio, r->problem.uneven, 2),
+                fw_text_name(b)));
     return FW_OK;
 }
 

@@ -153,8 +153,7 @@ fw_status fw_dynamics_run_stopped(const fw_dynamics_run *r, const fw_maths_stepp
         double size = fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
         if (size > most || isnan(size)) most = isnan(size) ? (double)INFINITY : size, worst = b;
     }
-    const char *id =
-        r->problem.mechanism->body[worst].id ? r->problem.mechanism->body[worst].id : "(unnamed)";
+    const char *id = fw_text_name(r->problem.mechanism->body[worst].id);
     char time[32];
     fw_number_text(time, sizeof time, s->t * m->scale.time_s, 6);
     if (why == FW_ODE_NAN)

@@ -394,7 +394,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
                 return fw_diag_error(diags, 253, a->place,
                                      "body %s is not drawn, so the area that the air acts on is "
                                      "not known: state it",
-                                     id ? id : "(unnamed)");
+                                     fw_text_name(id));
         }
     }
     return FW_OK;

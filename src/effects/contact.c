@@ -322,8 +322,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
                         "contact %s overlaps by %s um in the drawn pose: its points are %s um "
                         "apart and touch at a distance of %s um; correct the points, the "
                         "distance or the side",
-                        use->id ? use->id : "(unnamed)",
-                        fw_number_text(deep, sizeof deep, 1e6 * past, 4),
+                        fw_text_name(use->id), fw_number_text(deep, sizeof deep, 1e6 * past, 4),
                         fw_number_text(far, sizeof far, 1e6 * apart, 4),
                         fw_number_text(at, sizeof at, 1e6 * use->distance_m, 4));
     }

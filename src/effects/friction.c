@@ -347,7 +347,7 @@ static fw_status unknown_radius(const fw_effect_case *c, const fw_device_frictio
                          "friction of joint %s needs the radius of the sliding surface, and the "
                          "joint has no conjugate surfaces that define one; give radius on "
                          "<friction>",
-                         id ? id : "(unnamed)");
+                         fw_text_name(id));
 }
 
 static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {

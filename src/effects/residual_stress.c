@@ -135,7 +135,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
                     "of the plane, more than the layer's thickness of %s um; the computed "
                     "motion in the plane neglects this; reduce the gradient, or judge whether "
                     "opposing walls still face each other",
-                    id ? id : "(unnamed)", fw_number_text(rises, sizeof rises, 1e6 * up, 3),
+                    fw_text_name(id), fw_number_text(rises, sizeof rises, 1e6 * up, 3),
                     fw_number_text(thick, sizeof thick, 1e6 * thickness, 3));
     return FW_OK;
 }

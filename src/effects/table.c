@@ -31,40 +31,33 @@ fw_status fw_effects_envelope_find(fw_arena *arena, const fw_mechanism *mechanis
     return fw_effects_envelope_of_rows(arena, mechanism, scene, rows, ROWS, envelope);
 }
 
+static const char fw_between[] = ", \t"; /* names of a list */
+
 /* is `id` one of the comma separated names? */
 static bool listed(const char *list, const char *id) {
-    size_t n = strlen(id);
-    for (const char *at = list; at && *at;) {
-        at += strspn(at, ", \t");
-        size_t length = strcspn(at, ", \t");
-        if (length == n && strncmp(at, id, n) == 0) return true;
-        at += length;
-    }
+    for (fw_word word; list && fw_word_next(&list, fw_between, &word);)
+        if (fw_word_is(word, id)) return true;
     return false;
 }
 
-static bool known(const char *id, size_t n) {
+static bool known(fw_word id) {
     for (size_t i = 0; i < ROWS; i++)
-        if (strlen(rows[i]->id) == n && strncmp(rows[i]->id, id, n) == 0) return true;
+        if (fw_word_is(id, rows[i]->id)) return true;
     return false;
 }
 
 static fw_status check_list(fw_arena *arena, const char *list, fw_diags *diags) {
-    for (const char *at = list; at && *at;) {
-        at += strspn(at, ", \t");
-        size_t n = strcspn(at, ", \t");
-        if (n && !known(at, n)) {
-            fw_text names = fw_text_new(arena);
-            for (size_t i = 0; i < ROWS; i++)
-                fw_text_printf(&names, "%s%s", i ? ", " : "", rows[i]->id);
-            FW_TRY(fw_text_end(&names));
-            fw_status status = fw_diag_error(
-                diags, 110, (fw_place){"--effects", 0, 0},
-                "there is no effect \"%.*s\"; known are auto, all, none, or a list of %s",
-                n > 60 ? 60 : (int)n, at, names.data);
-            return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
-        }
-        at += n;
+    for (fw_word word; list && fw_word_next(&list, fw_between, &word);) {
+        if (known(word)) continue;
+        fw_text names = fw_text_new(arena);
+        for (size_t i = 0; i < ROWS; i++)
+            fw_text_printf(&names, "%s%s", i ? ", " : "", rows[i]->id);
+        FW_TRY(fw_text_end(&names));
+        fw_status status =
+            fw_diag_error(diags, 110, (fw_place){"--effects", 0, 0},
+                          "there is no effect \"%.*s\"; known are auto, all, none, or a list of %s",
+                          word.length > 60 ? 60 : (int)word.length, word.at, names.data);
+        return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
     }
     return FW_OK;
 }

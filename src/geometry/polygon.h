@@ -15,6 +15,8 @@
    <= 0.707 g; edge error <= eps + 0.707 g; area error <= perimeter (eps + 0.707 g); arcs keep
    one-signed turns: for eps >= 1.42 g always, from 0.36 g on where that is proven of each arc. */
 
+/* the database unit of masks, in which points of polygons are whole numbers */
+#define FW_GEOMETRY_GRID_M 1e-9
 typedef struct fw_geometry_point {
     int32_t x_dbu, y_dbu;
 } fw_geometry_point;

@@ -121,7 +121,7 @@ static fw_status crosses_drives(fw_layout_drawing *d, const fw_geometry_contour 
     fw_geometry_vec2 at;
     for (int i = 0; i < before && !*what; i++) {
         const fw_layout_comb_plan *p = &d->comb[i];
-        const char *id = p->comb->id ? p->comb->id : "(unnamed)";
+        const char *id = fw_text_name(p->comb->id);
         if (!p->off &&
             (close_by(c, &p->rotor, space_m, &at) || close_by(c, &p->stator, space_m, &at)))
             FW_TRY(name(d, at, "comb drive ", id, what));

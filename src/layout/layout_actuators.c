@@ -73,7 +73,7 @@ fw_status fw_layout_actuators_plan(fw_layout_drawing *d) {
 /* ---- saying ---- */
 
 static fw_status eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why) {
-    const char *of = e->tendon->id ? e->tendon->id : "(unnamed)";
+    const char *of = fw_text_name(e->tendon->id);
     e->off = true;
     e->cap.count = 0;
     return fw_layout_missing_add(
@@ -87,7 +87,7 @@ static fw_status eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, cons
 }
 
 static fw_status comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const char *why) {
-    const char *id = p->comb->id ? p->comb->id : "(unnamed)";
+    const char *id = fw_text_name(p->comb->id);
     p->off = true;
     p->why = why;
     p->rotor.count = p->stator.count = 0;
@@ -533,7 +533,7 @@ fw_status fw_layout_actuators_add(fw_layout_drawing *d) {
         electrode[i] =
             (fw_layout_electrode){.comb = p->comb, .why_not = p->why, .at = p->local.origin};
         if (p->off) continue;
-        const char *id = p->comb->id ? p->comb->id : "(unnamed)",
+        const char *id = fw_text_name(p->comb->id),
                    *label = fw_arena_printf(d->arena, "stator of comb drive %s", id);
         FW_NEED(label);
         electrode[i].stator = label;

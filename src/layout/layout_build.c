@@ -263,7 +263,7 @@ static void say_joints(const fw_device *device, fw_diags *diags) {
                     "%s joint %s is not drawn%s: flexures are the only joints that can be "
                     "fabricated, so the masks leave its bodies apart; the motion is computed with "
                     "it",
-                    kind[t->kind], t->id ? t->id : "(unnamed)",
+                    kind[t->kind], fw_text_name(t->id),
                     device->njoint > 1 ? ", and so are the other joints that do not turn" : "");
 }
 

@@ -325,8 +325,7 @@ static fw_status refuse(fw_layout_drawing *d, const fw_layout_comb_plan *p) {
         "190 um of it that nothing else holds on to. Moving parts, hinges and the base shut the "
         "pad in, or are too near: move the drive, give the die more clearance, or say "
         "pad=\"probed\"",
-        p->comb->id ? p->comb->id : "(unnamed)", fw_layout_um(x, p->pad_at.x),
-        fw_layout_um(y, p->pad_at.y));
+        fw_text_name(p->comb->id), fw_layout_um(x, p->pad_at.x), fw_layout_um(y, p->pad_at.y));
     FW_TRY(fw_layout_fault_keep(d, fault));
     return FW_GEOMETRY;
 }

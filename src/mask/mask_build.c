@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double GRID_M = 1e-9;
 static const double DEFAULT_TOLERANCE_M = 5e-9;
 static const int32_t FARTHEST_DBU = 1 << 30;
 enum { DEFAULT_VERTICES = 4094, LONGEST_NAME = 32 };
@@ -99,7 +98,7 @@ static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, fw_mask *
 static fw_status check_range(const fw_mask_shape *shape, fw_diags *diags) {
     fw_geometry_box b = shape->box;
     double far = fmax(fmax(fabs(b.x0), fabs(b.x1)), fmax(fabs(b.y0), fabs(b.y1)));
-    if (far < (FARTHEST_DBU - 1) * GRID_M) return FW_OK;
+    if (far < (FARTHEST_DBU - 1) * FW_GEOMETRY_GRID_M) return FW_OK;
     char number[32];
     return fw_diag_error(diags, 149, nowhere,
                          "%s reaches %s m from the origin; the limit of GDSII readers is 1.07 m; "
@@ -159,7 +158,7 @@ static fw_status tell_touching(fw_arena *arena, const fw_layout *layout, const f
     const fw_geometry_polygon *p = &shape->polygon;
     const fw_geometry_polygon_report *r = &shape->report;
     fw_geometry_point v = p->vertex[r->bad_i >= 0 ? r->bad_i % p->count : 0];
-    fw_geometry_vec2 place = {v.x_dbu * GRID_M, v.y_dbu * GRID_M};
+    fw_geometry_vec2 place = {v.x_dbu * FW_GEOMETRY_GRID_M, v.y_dbu * FW_GEOMETRY_GRID_M};
     char at[80];
     bool fine = false;
     fw_mask_place_text(at, sizeof at, place);
@@ -193,7 +192,8 @@ static fw_status flatten(fw_arena *arena, const fw_layout *layout, fw_mask_shape
     if (!shape->report.simple) return tell_touching(arena, layout, shape, tolerance_m, diags);
     FW_TRY(cut(arena, shape, most, diags));
     shape->area_m2 = fw_geometry_contour_area_in(&shape->contour, shape->box);
-    double flat = 0.5 * (double)fw_geometry_polygon_area2(p) * GRID_M * GRID_M;
+    double flat =
+        0.5 * (double)fw_geometry_polygon_area2(p) * FW_GEOMETRY_GRID_M * FW_GEOMETRY_GRID_M;
     shape->polygon_area_m2 = flat;
     if (fabs(flat - shape->area_m2) <= shape->bound_m2) return FW_OK;
     char got[32], want[32];

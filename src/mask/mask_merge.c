@@ -111,9 +111,10 @@ static fw_status outline_of(fw_arena *arena, const fw_geometry_polygon *p,
     out->count = p->count;
     for (int i = 0; i < p->count; i++) {
         fw_geometry_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
-        out->segment[i] = (fw_geometry_segment){.kind = FW_LINE,
-                                                .a = {a.x_dbu * 1e-9, a.y_dbu * 1e-9},
-                                                .b = {b.x_dbu * 1e-9, b.y_dbu * 1e-9}};
+        out->segment[i] = (fw_geometry_segment){
+            .kind = FW_LINE,
+            .a = {a.x_dbu * FW_GEOMETRY_GRID_M, a.y_dbu * FW_GEOMETRY_GRID_M},
+            .b = {b.x_dbu * FW_GEOMETRY_GRID_M, b.y_dbu * FW_GEOMETRY_GRID_M}};
     }
     return FW_OK;
 }

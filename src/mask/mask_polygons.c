@@ -9,7 +9,6 @@
 /* ---- joints and corners ---- */
 
 static const double SAME_M = 1e-12;
-static const double GRID_M = 1e-9;
 static const fw_place nowhere;
 
 const char *fw_mask_place_text(char *text, size_t n, fw_geometry_vec2 at) {
@@ -119,15 +118,16 @@ fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_dia
 /* the polygon's edge whose ends round from a and b; false when there is none */
 static bool edge_at(const fw_geometry_polygon *polygon, fw_geometry_vec2 a, fw_geometry_vec2 b,
                     fw_geometry_point *u, fw_geometry_point *v) {
-    double x = a.x / GRID_M; /* within the grid's range */
+    double x = a.x / FW_GEOMETRY_GRID_M; /* within the grid's range */
     int32_t low = (int32_t)floor(x) - 2, high = low + 5;
     for (int i = 0; i < polygon->count; i++) {
         fw_geometry_point s = polygon->vertex[i];
         if (s.x_dbu < low || s.x_dbu > high) continue; /* as nearly all are */
         fw_geometry_point e = polygon->vertex[i + 1 < polygon->count ? i + 1 : 0];
-        fw_geometry_vec2 ps = {s.x_dbu * GRID_M, s.y_dbu * GRID_M},
-                         pe = {e.x_dbu * GRID_M, e.y_dbu * GRID_M};
-        if (fabs(ps.x - a.x) < GRID_M && apart(ps, a) < GRID_M && apart(pe, b) < GRID_M) {
+        fw_geometry_vec2 ps = {s.x_dbu * FW_GEOMETRY_GRID_M, s.y_dbu * FW_GEOMETRY_GRID_M},
+                         pe = {e.x_dbu * FW_GEOMETRY_GRID_M, e.y_dbu * FW_GEOMETRY_GRID_M};
+        if (fabs(ps.x - a.x) < FW_GEOMETRY_GRID_M && apart(ps, a) < FW_GEOMETRY_GRID_M &&
+            apart(pe, b) < FW_GEOMETRY_GRID_M) {
             *u = s;
             *v = e;
             return true;
@@ -160,15 +160,16 @@ fw_status fw_mask_check_joints(fw_arena *arena, const fw_mask_shape *shape, int 
 }
 
 static fw_geometry_vec2 place_of(fw_geometry_point p) {
-    return (fw_geometry_vec2){p.x_dbu * GRID_M, p.y_dbu * GRID_M};
+    return (fw_geometry_vec2){p.x_dbu * FW_GEOMETRY_GRID_M, p.y_dbu * FW_GEOMETRY_GRID_M};
 }
 
 static bool ends_joint(const fw_geometry_contour *c, fw_geometry_point vertex) {
     fw_geometry_vec2 at = place_of(vertex);
     for (int i = 0; i < c->count; i++) {
         const fw_geometry_segment *s = &c->segment[i];
-        if (s->flags & FW_SEGMENT_JOINT && (hypot(s->a.x - at.x, s->a.y - at.y) < GRID_M ||
-                                            hypot(s->b.x - at.x, s->b.y - at.y) < GRID_M))
+        if (s->flags & FW_SEGMENT_JOINT &&
+            (hypot(s->a.x - at.x, s->a.y - at.y) < FW_GEOMETRY_GRID_M ||
+             hypot(s->b.x - at.x, s->b.y - at.y) < FW_GEOMETRY_GRID_M))
             return true;
     }
     return false;
@@ -368,6 +369,7 @@ void fw_mask_measure_add(fw_mask_measure *m, const fw_mask_shape *s) {
         x0 = p.x_dbu < x0 ? p.x_dbu : x0, x1 = p.x_dbu > x1 ? p.x_dbu : x1;
         y0 = p.y_dbu < y0 ? p.y_dbu : y0, y1 = p.y_dbu > y1 ? p.y_dbu : y1;
     }
-    m->box = (fw_geometry_box){fmin(m->box.x0, 1e-9 * x0), fmin(m->box.y0, 1e-9 * y0),
-                               fmax(m->box.x1, 1e-9 * x1), fmax(m->box.y1, 1e-9 * y1)};
+    m->box = (fw_geometry_box){
+        fmin(m->box.x0, FW_GEOMETRY_GRID_M * x0), fmin(m->box.y0, FW_GEOMETRY_GRID_M * y0),
+        fmax(m->box.x1, FW_GEOMETRY_GRID_M * x1), fmax(m->box.y1, FW_GEOMETRY_GRID_M * y1)};
 }

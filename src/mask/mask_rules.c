@@ -316,7 +316,7 @@ fw_status fw_mask_rules_tell(fw_mask_rules *r, fw_diags *diags, int *nbroken) {
    least 1 um, on all sides. */
 
 enum { HIGHEST = 60 };
-static const double GRID_M = 1e-9, LEAST_M = 1e-6;
+static const double LEAST_M = 1e-6;
 
 int fw_mask_marker_layer(const fw_mask_table *table) {
     for (int layer = HIGHEST; layer > 0; layer--) {
@@ -344,8 +344,10 @@ static int32_t on_grid(double x_dbu) {
 
 static fw_status mark(fw_arena *arena, const fw_mask_finding *f, int layer, fw_mask_shape *out) {
     fw_geometry_box b = marker_of(f);
-    int32_t x0 = on_grid(floor(b.x0 / GRID_M)), x1 = on_grid(ceil(b.x1 / GRID_M));
-    int32_t y0 = on_grid(floor(b.y0 / GRID_M)), y1 = on_grid(ceil(b.y1 / GRID_M));
+    int32_t x0 = on_grid(floor(b.x0 / FW_GEOMETRY_GRID_M)),
+            x1 = on_grid(ceil(b.x1 / FW_GEOMETRY_GRID_M));
+    int32_t y0 = on_grid(floor(b.y0 / FW_GEOMETRY_GRID_M)),
+            y1 = on_grid(ceil(b.y1 / FW_GEOMETRY_GRID_M));
     fw_layout_piece *piece = fw_arena_one(arena, fw_layout_piece);
     FW_NEED(piece);
     *piece = (fw_layout_piece){
@@ -355,7 +357,8 @@ static fw_status mark(fw_arena *arena, const fw_mask_finding *f, int layer, fw_m
     v[0] = (fw_geometry_point){x0, y0}, v[1] = (fw_geometry_point){x1, y0};
     v[2] = (fw_geometry_point){x1, y1}, v[3] = (fw_geometry_point){x0, y1};
     *out = (fw_mask_shape){.layer = layer, .piece = piece, .polygon = {v, 4}};
-    fw_geometry_box grid = {x0 * GRID_M, y0 * GRID_M, x1 * GRID_M, y1 * GRID_M};
+    fw_geometry_box grid = {x0 * FW_GEOMETRY_GRID_M, y0 * FW_GEOMETRY_GRID_M,
+                            x1 * FW_GEOMETRY_GRID_M, y1 * FW_GEOMETRY_GRID_M};
     return fw_geometry_contour_rectangle(arena, grid, &out->contour);
 }
 

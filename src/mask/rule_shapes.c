@@ -112,7 +112,6 @@ const fw_mask_rule_kind_row fw_mask_kind_feature = {
    In: edges of a layer, polygons on the 1 nm grid. Out: one finding for each corner, rad. Cost
    O(n log n). Test: test_rule_seeded.c. */
 
-static const double GRID_M = 1e-9;
 static const double SAME_RAD = 1e-9; /* tangents of arcs are not better */
 
 static void found_corner(fw_mask_rules *rules, const fw_mask_rule *rule, fw_geometry_vec2 at,
@@ -151,8 +150,9 @@ static fw_status corners_of_outline(fw_mask_rules *rules, const fw_mask_rule *ru
 
 static bool ends_joint(const fw_geometry_contour *c, fw_geometry_vec2 at) {
     for (int i = 0; i < c->count; i++)
-        if (c->segment[i].flags & FW_SEGMENT_JOINT && (vec_distance(c->segment[i].a, at) < GRID_M ||
-                                                       vec_distance(c->segment[i].b, at) < GRID_M))
+        if (c->segment[i].flags & FW_SEGMENT_JOINT &&
+            (vec_distance(c->segment[i].a, at) < FW_GEOMETRY_GRID_M ||
+             vec_distance(c->segment[i].b, at) < FW_GEOMETRY_GRID_M))
             return true;
     return false;
 }
@@ -173,7 +173,7 @@ static void of_polygons(fw_mask_rules *rules, const fw_mask_rule *rule) {
             double angle = angle_at(&s->polygon, i);
             if (!(angle < rule->least - 1e-12)) continue;
             fw_geometry_point v = s->polygon.vertex[i];
-            fw_geometry_vec2 at = {v.x_dbu * GRID_M, v.y_dbu * GRID_M};
+            fw_geometry_vec2 at = {v.x_dbu * FW_GEOMETRY_GRID_M, v.y_dbu * FW_GEOMETRY_GRID_M};
             if (!ends_joint(&s->contour, at))
                 found_corner(rules, rule, at, angle, s->piece->label, -1);
         }
@@ -220,17 +220,21 @@ static void found_edge(fw_mask_rules *rules, const fw_mask_rule *rule, fw_geomet
 
 static void of_polygon(fw_mask_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
     const fw_geometry_polygon *p = &shape->polygon;
-    double long_dbu = rule->least / GRID_M;
+    double long_dbu = rule->least / FW_GEOMETRY_GRID_M;
     if (p->count > 0 && shape->report.shortest_edge_m > rule->least) return;
     for (int i = 0; i < p->count; i++) {
         fw_geometry_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
         if (fabs((double)b.x_dbu - a.x_dbu) > long_dbu ||
             fabs((double)b.y_dbu - a.y_dbu) > long_dbu)
             continue;
-        double length = hypot((double)b.x_dbu - a.x_dbu, (double)b.y_dbu - a.y_dbu) * GRID_M;
+        double length =
+            hypot((double)b.x_dbu - a.x_dbu, (double)b.y_dbu - a.y_dbu) * FW_GEOMETRY_GRID_M;
         if (length < rule->least - FW_COINCIDENT_M)
-            found_edge(rules, rule, (fw_geometry_vec2){a.x_dbu * GRID_M, a.y_dbu * GRID_M},
-                       (fw_geometry_vec2){b.x_dbu * GRID_M, b.y_dbu * GRID_M}, length, shape, -1);
+            found_edge(
+                rules, rule,
+                (fw_geometry_vec2){a.x_dbu * FW_GEOMETRY_GRID_M, a.y_dbu * FW_GEOMETRY_GRID_M},
+                (fw_geometry_vec2){b.x_dbu * FW_GEOMETRY_GRID_M, b.y_dbu * FW_GEOMETRY_GRID_M},
+                length, shape, -1);
     }
 }
 

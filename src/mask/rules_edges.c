@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double GRID_M = 1e-9;
 static const double ROUND_M = FW_SQRT_HALF / 1e9; /* a vertex moves by at most g/sqrt2 */
 
 /* nearest whole number, as nearbyint finds it, without its call */
@@ -18,7 +17,7 @@ static double nearest(double n) {
 }
 
 static bool on_grid(fw_geometry_vec2 p) {
-    double x = p.x / GRID_M, y = p.y / GRID_M;
+    double x = p.x / FW_GEOMETRY_GRID_M, y = p.y / FW_GEOMETRY_GRID_M;
     return fabs(x - nearest(x)) < 1e-5 && fabs(y - nearest(y)) < 1e-5;
 }
 

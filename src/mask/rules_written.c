@@ -19,7 +19,6 @@
    every pair of edges of the polygons; KLayout's verdict: tests/accept/written_rules.py. */
 #include "mask/rule.h"
 
-static const double GRID_M = 1e-9;
 static const double SIN_LEAN = 0.1305261922200516; /* sin 7.5 deg */
 
 /* ---- findings ---- */
@@ -78,7 +77,7 @@ static fw_status points_of(const fw_mask_rule_search *in, const fw_mask_rule_edg
 }
 
 static fw_geometry_vec2 place_of(fw_geometry_point p) {
-    return (fw_geometry_vec2){p.x_dbu * GRID_M, p.y_dbu * GRID_M};
+    return (fw_geometry_vec2){p.x_dbu * FW_GEOMETRY_GRID_M, p.y_dbu * FW_GEOMETRY_GRID_M};
 }
 
 bool fw_mask_rule_write(fw_mask_rule_search *in, fw_mask_rule_edge *e) {
@@ -193,16 +192,17 @@ static void judge(fw_mask_rule_search *in, const fw_mask_rule_edge *p, const fw_
     for (int kind = FW_RULE_WIDTH; kind <= FW_RULE_SPACE; kind++) {
         if (!(in->limit_m[kind] > 0)) continue;
         apart x = across(a, b, (fw_mask_rule_kind)kind);
-        if (!fw_mask_rule_short(x.nm * GRID_M, in->limit_m[kind])) continue;
+        if (!fw_mask_rule_short(x.nm * FW_GEOMETRY_GRID_M, in->limit_m[kind])) continue;
         fw_geometry_vec2 from = place_of(a->a);
-        fw_mask_rule_report(in, (fw_mask_rule_finding){.kind = (fw_mask_rule_kind)kind,
-                                                       .shape = {p->shape, q->shape},
-                                                       .segment = {p->segment, q->segment},
-                                                       .value_m = x.nm * GRID_M,
-                                                       .slack_m = p->slack_m + q->slack_m,
-                                                       .at = {vec_along(from, GRID_M, x.at[0]),
-                                                              vec_along(from, GRID_M, x.at[1])},
-                                                       .edge = {p, q}});
+        fw_mask_rule_report(
+            in, (fw_mask_rule_finding){.kind = (fw_mask_rule_kind)kind,
+                                       .shape = {p->shape, q->shape},
+                                       .segment = {p->segment, q->segment},
+                                       .value_m = x.nm * FW_GEOMETRY_GRID_M,
+                                       .slack_m = p->slack_m + q->slack_m,
+                                       .at = {vec_along(from, FW_GEOMETRY_GRID_M, x.at[0]),
+                                              vec_along(from, FW_GEOMETRY_GRID_M, x.at[1])},
+                                       .edge = {p, q}});
     }
 }
 
@@ -251,7 +251,8 @@ double fw_mask_rule_apart(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask
             if (!(d.nm < best.nm)) continue;
             best.nm = d.nm;
             for (int j = 0; j < 2; j++)
-                at[j] = vec_along(place_of(a->a), GRID_M, d.at[j]);
+                at[j] = vec_along(place_of(a->a), FW_GEOMETRY_GRID_M, d.at[j]);
         }
-    return fw_mask_rule_short(best.nm * GRID_M, limit_m) ? best.nm * GRID_M : HUGE_VAL;
+    return fw_mask_rule_short(best.nm * FW_GEOMETRY_GRID_M, limit_m) ? best.nm * FW_GEOMETRY_GRID_M
+                                                                     : HUGE_VAL;
 }

@@ -6,10 +6,6 @@
 #include <float.h>
 #include <math.h>
 
-const char *fw_mechanism_name_or_none(const char *id) {
-    return id ? id : "(unnamed)";
-}
-
 bool fw_mechanism_all_finite(const double *value, int count) {
     for (int i = 0; i < count; i++)
         if (!isfinite(value[i])) return false;
@@ -57,7 +53,7 @@ fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i) {
             b->diags, 89, from->place,
             "spring %s must join two different bodies, with finite points and with "
             "stiffness, damping and length that are not negative",
-            fw_mechanism_name_or_none(from->id));
+            fw_text_name(from->id));
     fw_geometry_vec2 d = span(b, to->body_a, to->ax_m, to->ay_m, to->body_b, to->bx_m, to->by_m);
     /* a slack cable pushes in no direction, and so does a spring without a rest length */
     if (d.x == 0 && d.y == 0 && to->length_m > 0 && to->stiffness_N_per_m > 0 && !to->cable &&
@@ -67,7 +63,7 @@ fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i) {
                         "both ends of spring %s lie on the same point as drawn, and its length at "
                         "rest is %s m: its force has no direction and is left out until they part; "
                         "move an end, or give length=\"0 um\"",
-                        fw_mechanism_name_or_none(from->id),
+                        fw_text_name(from->id),
                         fw_number_text(length, sizeof length, to->length_m, 4));
     }
     return FW_OK;
@@ -88,7 +84,7 @@ fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i) {
     if (!two_bodies(b, to->body_a, to->body_b))
         return fw_diag_error(b->diags, 90, from->place,
                              "joint %s must join two different bodies of the mechanism",
-                             fw_mechanism_name_or_none(from->id));
+                             fw_text_name(from->id));
     if (distance && isnan(to->length_m)) {
         fw_geometry_vec2 d =
             span(b, to->body_a, to->ax_m, to->ay_m, to->body_b, to->bx_m, to->by_m);
@@ -120,14 +116,14 @@ fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i) {
             b->diags, 90, from->place,
             "points, axis, angle and lengths of joint %s must be finite, stiffness "
             "and damping not negative",
-            fw_mechanism_name_or_none(from->id));
+            fw_text_name(from->id));
     if (distance && !(to->length_m > 0))
         return fw_diag_error(
             b->diags, 90, from->place,
             "the points of distance joint %s lie on the same point as drawn, and a "
             "rod without length has no direction; give its length, or join the "
             "bodies by a <revolute>",
-            fw_mechanism_name_or_none(from->id));
+            fw_text_name(from->id));
     return FW_OK;
 }
 
@@ -141,7 +137,7 @@ fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i) {
     if (revolute == joint || (revolute ? from->joint : from->revolute) != FW_NONE)
         return fw_diag_error(b->diags, 92, from->place,
                              "driver %s must drive one revolute, prismatic or distance joint",
-                             fw_mechanism_name_or_none(from->id));
+                             fw_text_name(from->id));
     if (fw_quantity_law_is_ready(&from->law))
         fw_quantity_law_value(&from->law, 0, DBL_MIN, value); /* the piece that begins at 0 */
     if (!fw_mechanism_all_finite(value, 3))
@@ -149,10 +145,10 @@ fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i) {
             b->diags, 92, from->value_place,
             "the value of driver %s, its rate or its acceleration is not finite at the "
             "start",
-            fw_mechanism_name_or_none(from->id));
+            fw_text_name(from->id));
     if (joint && b->device->joint[from->joint].kind == FW_JOINT_DISTANCE && !(value[0] > 0))
         return fw_diag_error(b->diags, 92, from->value_place,
                              "driver %s gives its rod a length that is not above 0 at the start",
-                             fw_mechanism_name_or_none(from->id));
+                             fw_text_name(from->id));
     return FW_OK;
 }

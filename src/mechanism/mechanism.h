@@ -175,7 +175,6 @@ typedef struct fw_mechanism_builder {
     fw_mechanism *mechanism;
 } fw_mechanism_builder;
 
-const char *fw_mechanism_name_or_none(const char *id);
 bool fw_mechanism_all_finite(const double *value, int count);
 /* a message of this number for this place exists: flows share the file, but one message is enough
  */

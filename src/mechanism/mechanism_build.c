@@ -29,7 +29,7 @@ static fw_status need_property(const fw_mechanism_builder *b, const fw_quantity 
     if (!q->unknown && isfinite(q->value) && q->value > 0) return FW_OK;
     return fw_diag_error(b->diags, 81, place,
                          "%s of material %s is not known, and %s needs it; give it in <material>",
-                         what, fw_mechanism_name_or_none(b->variant->material.id), why);
+                         what, fw_text_name(b->variant->material.id), why);
 }
 
 /* ---- bodies ---- */
@@ -84,8 +84,7 @@ static void compare_mass(const fw_mechanism_builder *b, const fw_device_body *fr
                  "body %s states %s kg and %s kg m2; what is drawn of it has %s kg and, about the "
                  "same centre, %s kg m2, and its centroid is %s m from there: the stated values "
                  "hold; leave mass and inertia out to take those of the drawing",
-                 fw_mechanism_name_or_none(from->id),
-                 fw_number_text(text[0], sizeof text[0], to->mass_kg, 4),
+                 fw_text_name(from->id), fw_number_text(text[0], sizeof text[0], to->mass_kg, 4),
                  fw_number_text(text[1], sizeof text[1], to->inertia_kg_m2, 4),
                  fw_number_text(text[2], sizeof text[2], mass, 4),
                  fw_number_text(text[3], sizeof text[3], inertia, 4),
@@ -116,12 +115,12 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
         return fw_diag_error(b->diags, 82, from->place,
                              "body %s takes its mass, inertia and position from the drawing, and "
                              "nothing is drawn: %s; mend that, or give mass, inertia, x and y",
-                             fw_mechanism_name_or_none(from->id), b->layout->why_not);
+                             fw_text_name(from->id), b->layout->why_not);
     if (needs && !shape)
         return fw_diag_error(b->diags, 82, from->place,
                              "body %s has no shape that could give its mass, inertia and position; "
                              "give mass, inertia, x and y, or a width",
-                             fw_mechanism_name_or_none(from->id));
+                             fw_text_name(from->id));
     if (isnan(to->mass_kg) || isnan(to->inertia_kg_m2)) {
         FW_TRY(
             need_property(b, &v->material.density, "density", "the mass of a body", from->place));
@@ -137,12 +136,12 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
         !isfinite(to->inertia_kg_m2))
         return fw_diag_error(b->diags, 83, from->place,
                              "body %s has mass %s kg and inertia %s kg m2; both must be above 0",
-                             fw_mechanism_name_or_none(from->id),
+                             fw_text_name(from->id),
                              fw_number_text(mass, sizeof mass, to->mass_kg, 4),
                              fw_number_text(inertia, sizeof inertia, to->inertia_kg_m2, 4));
     if (!fw_mechanism_all_finite(pose, 3))
         return fw_diag_error(b->diags, 83, from->place, "the pose of body %s is not finite",
-                             fw_mechanism_name_or_none(from->id));
+                             fw_text_name(from->id));
     return FW_OK;
 }
 
@@ -188,7 +187,7 @@ static fw_status pin_points(const fw_mechanism_builder *b, const fw_device_revol
     if (!fw_mechanism_all_finite(all, 4))
         return fw_diag_error(b->diags, 84, from->place,
                              "joint %s has no place; give x and y, or local points on its bodies",
-                             fw_mechanism_name_or_none(from->id));
+                             fw_text_name(from->id));
     return FW_OK;
 }
 
@@ -214,7 +213,7 @@ static fw_status limits_of(const fw_mechanism_builder *b, fw_flexure_input *in,
         return fw_diag_error(b->diags, 235, limits->missing_place,
                              "material '%s' has no data for this: give %s on <material>, or on the "
                              "material of the flow, or remove the attribute",
-                             fw_mechanism_name_or_none(m->id), limits->missing);
+                             fw_text_name(m->id), limits->missing);
     const fw_flexure_limit *governing = fw_flexure_limits_governing(limits);
     if (governing) in->strength_Pa = governing->allowable_Pa;
     return limits->missing ? FW_INPUT : FW_OK;
@@ -266,8 +265,7 @@ static void report_left_out(const fw_mechanism_builder *b, const fw_device_flexu
         "hinge %s: its path is not its own mirror image; up to %s deg the model of compliant "
         "hinges neglects %s um of drift along its axis and a coupling of %s between the two "
         "directions of force; make the path symmetric if that matters",
-        fw_mechanism_name_or_none(joint->id),
-        fw_number_text(degrees, sizeof degrees, most * 180 / FW_PI, 3),
+        fw_text_name(joint->id), fw_number_text(degrees, sizeof degrees, most * 180 / FW_PI, 3),
         fw_number_text(um, sizeof um, 1e6 * drift, 2),
         fw_number_text(share, sizeof share, coupling, 2));
 }
@@ -302,7 +300,7 @@ static fw_status flexure_result(const fw_mechanism_builder *b, int j,
         return fw_diag_error(
             b->diags, 85, f->place,
             "flexure %s has no finite stiffness; check its length, angle and width",
-            fw_mechanism_name_or_none(f->id));
+            fw_text_name(f->id));
     FW_TRY(fw_flexure_path_strain_new(b->arena, &hinge->input, result, &hinge->section));
     if (fw_flexure_input_varies(&hinge->input)) return varying(b, f, joint, flared, hinge);
     fw_flexure_hinge_law_of(&hinge->input, result, &hinge->law);
@@ -318,7 +316,7 @@ static void compare_stiffness(const fw_mechanism_builder *b, const fw_device_rev
     fw_diag_warning(b->diags, 86, joint->place,
                     "stiffness of joint %s is given as %s N m/rad, its flexure's geometry has %s; "
                     "they differ by more than 10 %%: check which of the two is meant",
-                    fw_mechanism_name_or_none(joint->id), fw_number_text(g, sizeof g, given, 4),
+                    fw_text_name(joint->id), fw_number_text(g, sizeof g, given, 4),
                     fw_number_text(o, sizeof o, own, 4));
 }
 
@@ -328,7 +326,7 @@ static fw_status check_pin_bodies(const fw_mechanism_builder *b, const fw_device
         joint->flexure >= b->device->nflexure)
         return fw_diag_error(b->diags, 87, joint->place,
                              "joint %s must join two different bodies of the mechanism",
-                             fw_mechanism_name_or_none(joint->id));
+                             fw_text_name(joint->id));
     return FW_OK;
 }
 
@@ -456,7 +454,7 @@ static fw_status build_pin(const fw_mechanism_builder *b, int j) {
         isinf(to->stop_min_rad) || isinf(to->stop_max_rad))
         return fw_diag_error(b->diags, 88, from->place,
                              "stiffness and damping of joint %s must be finite and not negative",
-                             fw_mechanism_name_or_none(from->id));
+                             fw_text_name(from->id));
     return FW_OK;
 }
 
@@ -484,7 +482,7 @@ static fw_status check_outlines(const fw_mechanism_builder *b) {
                 b->diags, 323, p->place,
                 "probe '%s': nothing is drawn of %s%s%s, so that it has no outline; draw it, or "
                 "give points: kind=\"distance\" or \"opening\"",
-                p->id ? p->id : "", fw_mechanism_name_or_none(name_of(d, side[k])),
+                p->id ? p->id : "", fw_text_name(name_of(d, side[k])),
                 !layout->drawn && layout->why_not ? ": " : "",
                 !layout->drawn && layout->why_not ? layout->why_not : "");
             break;

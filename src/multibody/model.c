@@ -6,10 +6,6 @@
 
 /* ---- what comes in at the border of this room ---- */
 
-static const char *name_of(const char *id) {
-    return id ? id : "(unnamed)";
-}
-
 static bool finite_all(const double *value, int count) {
     for (int i = 0; i < count; i++)
         if (!isfinite(value[i])) return false;
@@ -37,7 +33,7 @@ static fw_status check_joints(const fw_mechanism *m, fw_place place, fw_diags *d
             !body_ok(m, t->body_a) || !body_ok(m, t->body_b) || t->body_a == t->body_b)
             return fw_diag_error(diags, 107, place,
                                  "joint %s needs two different bodies and finite values",
-                                 name_of(t->id));
+                                 fw_text_name(t->id));
     }
     for (int i = 0; i < m->ndriver; i++) {
         const fw_device_driver *d = &m->driver[i];
@@ -45,7 +41,7 @@ static fw_status check_joints(const fw_mechanism *m, fw_place place, fw_diags *d
         bool joint = d->joint >= 0 && d->joint < m->njoint && d->revolute == FW_NONE;
         if (!pin && !(joint && m->joint[d->joint].kind != FW_JOINT_WELD))
             return fw_diag_error(diags, 107, place, "driver %s needs one joint that can move",
-                                 name_of(d->id));
+                                 fw_text_name(d->id));
     }
     return FW_OK;
 }
@@ -58,7 +54,7 @@ static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags
         if (!finite_all(all, 5) || all[0] <= 0 || all[1] <= 0)
             return fw_diag_error(diags, 107, place,
                                  "body %s needs a finite pose, and mass and inertia above 0",
-                                 name_of(p->id));
+                                 fw_text_name(p->id));
     }
     for (int i = 0; i < m->npin; i++) {
         const fw_mechanism_pin *p = &m->pin[i];
@@ -73,7 +69,7 @@ static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags
             !body_ok(m, p->body_b) || p->body_a == p->body_b)
             return fw_diag_error(diags, 107, place,
                                  "joint %s needs two different bodies and finite values",
-                                 name_of(p->id));
+                                 fw_text_name(p->id));
     }
     for (int i = 0; i < m->nspring; i++) {
         const fw_device_spring *p = &m->spring[i];
@@ -84,7 +80,7 @@ static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags
             !body_ok(m, p->body_b) || p->body_a == p->body_b)
             return fw_diag_error(diags, 107, place,
                                  "spring %s needs two different bodies and finite values",
-                                 name_of(p->id));
+                                 fw_text_name(p->id));
     }
     return FW_OK;
 }
@@ -94,7 +90,8 @@ fw_status fw_multibody_check_motion(const fw_mechanism *m, const fw_device_scene
     char text[32];
     if (!(s->duration_s > 0) || !isfinite(s->duration_s))
         return fw_diag_error(diags, 105, s->place, "scene %s lasts %s s; give a duration above 0",
-                             name_of(s->name), fw_number_text(text, sizeof text, s->duration_s, 4));
+                             fw_text_name(s->name),
+                             fw_number_text(text, sizeof text, s->duration_s, 4));
     FW_TRY(check_mechanism(m, s->place, diags));
     FW_TRY(check_joints(m, s->place, diags));
     bool good = finite_all((const double[2]){s->gx_m_per_s2, s->gy_m_per_s2}, 2) || !s->gravity;
@@ -115,7 +112,7 @@ fw_status fw_multibody_check_motion(const fw_mechanism *m, const fw_device_scene
         diags, 105, s->place,
         "loads and initial velocities of scene %s must be finite and act on bodies of "
         "the mechanism",
-        name_of(s->name));
+        fw_text_name(s->name));
 }
 
 /* ---- names ---- */
@@ -126,7 +123,7 @@ const char *fw_multibody_block_name(const fw_mechanism *m, const fw_multibody_bl
     const char *id = b->pin != FW_NONE     ? m->pin[b->pin].id
                      : b->joint != FW_NONE ? m->joint[b->joint].id
                                            : m->driver[b->driver].id;
-    return id ? id : "(unnamed)";
+    return fw_text_name(id);
 }
 
 fw_place fw_multibody_block_place(const fw_mechanism *m, const fw_multibody_block *b) {

@@ -86,7 +86,7 @@ fw_status fw_multibody_friction_joints(fw_arena *arena, const fw_mechanism *mech
             .rest = arm * fmax(f->static_coefficient, f->kinetic_coefficient),
             .slide = arm * f->kinetic_coefficient,
             .preload = f->preload_N / newton,
-            .id = f->id ? f->id : "(unnamed)",
+            .id = fw_text_name(f->id),
             .place = f->place};
         const fw_device_joint *t = slides ? &mechanism->joint[f->joint] : NULL;
         m->friction[i].a = index_of(m, t ? t->body_a : mechanism->pin[f->pin].body_a);

@@ -287,10 +287,6 @@ static fw_status own_material(fw_plan *plan, fw_device_material *material) {
     return FW_OK;
 }
 
-static bool same(const char *a, const char *b) {
-    return a && b && strcmp(a, b) == 0;
-}
-
 /* thickness of the variant: of the <flow>, else of the device, else of the pack */
 static double thickness_of(const fw_device *d, const fw_device_flow_use *use,
                            const fw_process_flow *flow) {
@@ -312,7 +308,8 @@ static void check_orientation(fw_plan *plan, const fw_device_flow_use *use,
     bool asked = use && !isnan(use->orientation_rad);
     if (fw_device_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad)))
         return;
-    if (!asked && !same(m->id, plan->device->material_ref)) return; /* it is not about this one */
+    if (!asked && !fw_text_same(m->id, plan->device->material_ref))
+        return; /* it is not about this one */
     const fw_device_material *pack = fw_device_material_find(&plan->materials, m->id);
     fw_diag_warning(
         &plan->diags, 210, asked ? use->place : plan->device->material_place,
@@ -346,7 +343,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
                                 .substrate_expansion = {.unknown = true},
                                 .thickness_m = thickness_of(d, use, pf->flow),
                                 .orientation_rad = orientation_of(d, use)};
-    if (use && use->material && !same(use->material, d->material_ref))
+    if (use && use->material && !fw_text_same(use->material, d->material_ref))
         v->material = *fw_device_material_find(&plan->materials, use->material);
     stand_on_substrate(plan, use, v);
     if (isnan(v->thickness_m))
@@ -362,7 +359,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
             "cannot be the device layer; %s",
             m->id, material_names(plan));
     check_orientation(plan, use, m);
-    if (pf->flow && pf->flow->material && !same(pf->flow->material, m->id))
+    if (pf->flow && pf->flow->material && !fw_text_same(pf->flow->material, m->id))
         fw_diag_warning(&plan->diags, 227, place,
                         "flow '%s' makes devices of %s, but %s is asked for: give "
                         "material=\"%s\" on <flow>",
@@ -466,7 +463,7 @@ static fw_status load_flows(fw_plan *plan) {
         return make_variant(plan, &plan->flow[0], &own);
     }
     for (int i = 0; i < d->nflow; i++) {
-        if (plan->options.flow && !same(plan->options.flow, d->flow[i].ref)) continue;
+        if (plan->options.flow && !fw_text_same(plan->options.flow, d->flow[i].ref)) continue;
         fw_plan_flow *pf = &plan->flow[plan->nflow++];
         pf->use = &d->flow[i];
         FW_TRY(load_flow(plan, pf));

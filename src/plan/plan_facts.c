@@ -96,8 +96,8 @@ static fw_status name_gaps(fw_arena *arena, const fw_device *device, const fw_la
     }
     for (int i = 0; i < ndrive; i++) {
         gap[n] = (fw_process_mask_gap){.kind = FW_GAP_COMB, .gap_m = drive[i].gap_m};
-        FW_NEED(gap[n++].name = fw_arena_printf(arena, "gap of comb drive %s",
-                                                drive[i].id ? drive[i].id : "(unnamed)"));
+        FW_NEED(gap[n++].name =
+                    fw_arena_printf(arena, "gap of comb drive %s", fw_text_name(drive[i].id)));
     }
     facts->gap = gap;
     facts->ngap = n;

@@ -28,19 +28,13 @@ static void check_coupons(fw_diags *diags, const fw_process_flow *flow,
                               "step %s reads coupon '%s', which masks/%s.xml does not have", s->id,
                               a->coupon, flow->id);
         }
-        for (const char *at = s->align.to ? s->align.marks : ""; *at;) {
-            size_t n = strcspn(at, " ");
-            if (n > 0 && !on_test_die(table, at, n))
+        const char *marks = s->align.to ? s->align.marks : "";
+        for (fw_word word; fw_word_next(&marks, " ", &word);)
+            if (!on_test_die(table, word.at, word.length))
                 fw_diag_error(diags, 372, s->align.place,
                               "step %s aligns by '%.*s', which masks/%s.xml does not have", s->id,
-                              (int)n, at, flow->id);
-            at += n + strspn(at + n, " ");
-        }
+                              (int)word.length, word.at, flow->id);
     }
-}
-
-static bool same(const char *a, const char *b) {
-    return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
 /* steps print the plates of the table, each once and in its order */
@@ -67,7 +61,7 @@ static void check_order(fw_diags *diags, const fw_process_flow *flow, const fw_m
 
 static const fw_process_plate *plate_of(const fw_process_flow *flow, const char *id) {
     for (int p = 0; p < flow->nplate; p++)
-        if (same(flow->plate[p].id, id)) return &flow->plate[p];
+        if (fw_text_same(flow->plate[p].id, id)) return &flow->plate[p];
     return NULL;
 }
 
@@ -98,7 +92,7 @@ static void check_lengths(fw_diags *diags, const fw_process_flow *flow,
         for (int k = 0; row >= 0 && k < table->nlayer; k++) {
             const fw_mask_layer *l = &table->layer[k];
             const char *by = l->shrink ? l->shrink : l->grow;
-            if (!fw_mask_plate_draws(table, row, k) || same(by, shrink)) continue;
+            if (!fw_mask_plate_draws(table, row, k) || fw_text_same(by, shrink)) continue;
             fw_diag_error(diags, 421, l->place,
                           "layer \"%s\" of plate \"%s\" is drawn by %s, but the pack draws that "
                           "plate by %s (shrink); name the same quantity in both",
@@ -116,7 +110,7 @@ static void check_alignment(fw_diags *diags, const fw_process_flow *flow,
         int row = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
         if (row < 0) continue;
         const fw_mask_plate_row *t = &table->plates[row];
-        if (!same(s->align.to, t->aligned_to)) {
+        if (!fw_text_same(s->align.to, t->aligned_to)) {
             fw_diag_error(diags, 421, s->align.to ? s->align.place : s->place,
                           "step %s aligns plate \"%s\" to %s, and masks/%s.xml to %s", s->id,
                           s->mask, s->align.to ? s->align.to : "nothing", flow->id,

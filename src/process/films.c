@@ -24,15 +24,11 @@ static double known(const fw_quantity *q) {
     return q && !q->unknown ? q->value : (double)NAN;
 }
 
-static bool same(const char *a, const char *b) {
-    return strcmp(a, b) == 0;
-}
-
 static fw_status note(maker *m, const char *sentence) {
     FW_NEED(sentence);
     fw_process_films *f = m->films;
     for (int i = 0; i < f->nnote; i++)
-        if (same(f->note[i], sentence)) return FW_OK;
+        if (fw_text_same(f->note[i], sentence)) return FW_OK;
     if (f->nnote == m->note_room) {
         int more = m->note_room ? 2 * m->note_room : 4;
         FW_NEED(f->note = fw_arena_grow(m->arena, f->note, (size_t)f->nnote, (size_t)more,
@@ -179,7 +175,7 @@ static void set_wall(const maker *m, int plate, const fw_process_film *like, dou
     fw_process_films *f = m->films;
     for (int i = 0; i < f->n; i++) {
         fw_process_film *c = &f->film[i];
-        if (same(c->material, like->material) && is_parted(m, c, plate) &&
+        if (fw_text_same(c->material, like->material) && is_parted(m, c, plate) &&
             fabs(c->bottom_m - like->bottom_m) <= TOUCH_M)
             set_walls(c, plate, foot_m, head_m);
     }
@@ -193,13 +189,14 @@ static bool is_background(const maker *m, const fw_process_change *add, double *
     for (int i = 0; i < m->flow->nstep; i++)
         for (int k = 0; k < m->flow->step[i].nchange; k++) {
             const fw_process_change *c = &m->flow->step[i].change[k];
-            if (!same(c->kind, "remove") || !same(c->material, add->material)) continue;
+            if (!fw_text_same(c->kind, "remove") || !fw_text_same(c->material, add->material))
+                continue;
             double t = known(c->thickness);
             bool shallow = c->isotropic && t < 0.5 * known(add->thickness);
             if (shallow) *depth_m = fmax(*depth_m, t);
-            if (!shallow && (c->thickness || !same(c->where, "all"))) return false;
+            if (!shallow && (c->thickness || !fw_text_same(c->where, "all"))) return false;
         }
-    return same(add->where, "all");
+    return fw_text_same(add->where, "all");
 }
 
 static fw_status drawn_height(maker *m, const fw_process_change *c, double *height_m,
@@ -290,7 +287,7 @@ static fw_status add(maker *m, const fw_process_change *c) {
 /* the side that a change names; false: all of the wafer */
 static bool side_of(const maker *m, const fw_process_change *c, fw_process_side *side) {
     *side = STRUCTURE;
-    return !same(c->where, "all") && fw_process_where_side(m->flow, c->where, side);
+    return !fw_text_same(c->where, "all") && fw_process_where_side(m->flow, c->where, side);
 }
 
 /* a latent image: what of the film lies on one side becomes exposed */
@@ -302,11 +299,11 @@ static fw_status expose(maker *m, const fw_process_change *c) {
                edge_of_plate(m, side.plate) + (slope != 0.0 ? 0.5 * m->flow->edges.flare_m : 0.0);
     double base = (double)INFINITY;
     for (int i = 0; i < m->films->n; i++)
-        if (same(m->films->film[i].material, c->material))
+        if (fw_text_same(m->films->film[i].material, c->material))
             base = fmin(base, m->films->film[i].bottom_m);
     for (int i = 0, n = m->films->n; i < n; i++) {
         int at = i;
-        if (!same(m->films->film[i].material, c->material) ||
+        if (!fw_text_same(m->films->film[i].material, c->material) ||
             (part && !in_side(m, &m->films->film[i], side)))
             continue;
         if (part) FW_TRY(split(m, i, side, foot, &at));
@@ -322,7 +319,7 @@ static fw_status expose(maker *m, const fw_process_change *c) {
 static int topmost(const maker *m, int column, const char *material) {
     int at = -1;
     for (int i = 0; i < m->films->n; i++)
-        if (m->films->film[i].in[column] && same(m->films->film[i].material, material) &&
+        if (m->films->film[i].in[column] && fw_text_same(m->films->film[i].material, material) &&
             (at < 0 || m->films->film[i].top_m > m->films->film[at].top_m))
             at = i;
     return at;
@@ -407,7 +404,7 @@ static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_proces
     set_wall(m, side.plate, &gone, foot, head);
     for (int k = 0; cut && k < m->films->n; k++) { /* what stays beside it has a foot of its own */
         fw_process_film *f = &m->films->film[k];
-        if (only_in(m, f, other(side)) && same(f->material, gone.material) &&
+        if (only_in(m, f, other(side)) && fw_text_same(f->material, gone.material) &&
             fabs(f->bottom_m - gone.bottom_m) <= TOUCH_M) {
             f->cut = cut;
             f->mask_edge_m = edge;
@@ -447,7 +444,7 @@ static fw_status undercut(maker *m, const fw_process_step *s, const fw_process_c
     double reach = known(c->reach);
     for (int i = m->films->n - 1; i >= 0; i--) {
         fw_process_film *f = &m->films->film[i];
-        if (!same(f->material, c->material)) continue;
+        if (!fw_text_same(f->material, c->material)) continue;
         if (isnan(reach) || !in_side(m, f, STRUCTURE)) {
             drop(m->films, i);
             continue;
@@ -489,7 +486,7 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
     if (c->reach) return undercut(m, s, c);
     for (int i = m->films->n - 1; i >= 0; i--) { /* what is split off comes behind */
         fw_process_film *f = &m->films->film[i];
-        if (!same(f->material, c->material) || (!whole && !in_side(m, f, side))) continue;
+        if (!fw_text_same(f->material, c->material) || (!whole && !in_side(m, f, side))) continue;
         if (is_shallow(c, f)) {
             int at = i;
             if (!whole) FW_TRY(split(m, i, side, mask_edge(m, f, other(side)), &at));
@@ -536,11 +533,12 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
     for (int k = 0; k < m->columns; k++)
         top[k] = top_of(m, k);
     bool open = false, walls = fw_process_step_is_wet(s) && x->rate && m->flow->material &&
-                               same(x->material, m->flow->material);
+                               fw_text_same(x->material, m->flow->material);
     for (int i = m->films->n - 1; i >= 0; i--) {
         const fw_process_film *whole = &m->films->film[i];
         int at = -1;
-        if (same(whole->material, x->material) && !whole->shortened && !isnan(whole->thickness_m))
+        if (fw_text_same(whole->material, x->material) && !whole->shortened &&
+            !isnan(whole->thickness_m))
             FW_TRY(open_part(m, i, top, !isnan(loss) || m->flow->nplate == 0, &at));
         if (at < 0) continue;
         open = true;
@@ -565,9 +563,9 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
 /* ---- all steps ---- */
 
 static fw_status apply(maker *m, const fw_process_step *s, const fw_process_change *c) {
-    if (same(c->kind, "add")) return add(m, c);
-    if (same(c->kind, "remove")) return take_away(m, s, c);
-    if (same(c->kind, "pattern")) return expose(m, c);
+    if (fw_text_same(c->kind, "add")) return add(m, c);
+    if (fw_text_same(c->kind, "remove")) return take_away(m, s, c);
+    if (fw_text_same(c->kind, "pattern")) return expose(m, c);
     return convert(m, c);
 }
 

@@ -23,11 +23,9 @@ typedef struct matrix {
 
 /* the word at *at, "" at the end; *at moves behind it */
 static const char *word_of(fw_arena *arena, const char **at) {
-    *at += strspn(*at, " \t\r\n");
-    size_t n = strcspn(*at, " \t\r\n");
-    const char *word = fw_arena_strndup(arena, *at, n);
-    *at += n;
-    return word;
+    fw_word word;
+    fw_word_next(at, " \t\r\n", &word);
+    return fw_arena_strndup(arena, word.at, word.length);
 }
 
 static fw_status names_of(matrix *m, const fw_xml_attribute *of) {

@@ -149,7 +149,7 @@ static fw_status drive_names(fw_process_judge *j, const fw_process_drive_facts *
                              const char **names) {
     fw_text list = fw_text_new(j->arena);
     for (int i = 0; i < n; i++)
-        fw_text_printf(&list, "%s%s", i ? ", " : "", drive[i].id ? drive[i].id : "(unnamed)");
+        fw_text_printf(&list, "%s%s", i ? ", " : "", fw_text_name(drive[i].id));
     FW_TRY(fw_text_end(&list));
     *names = list.data;
     return FW_OK;
@@ -191,7 +191,7 @@ static fw_status widened(fw_process_judge *j, const fw_process_drive_facts *d) {
                 "the gap of comb drive %s, drawn %s um, is not known until the anisotropy A of "
                 "step %s is measured: at its top edge it is %s um at A = 0.99 and %s um at A = "
                 "0.95, and the force at a given voltage %s and %s of the drawn one's",
-                d->id ? d->id : "(unnamed)", as_drawn, s->id, fw_process_judge_um(&t, g + mild),
+                fw_text_name(d->id), as_drawn, s->id, fw_process_judge_um(&t, g + mild),
                 fw_process_judge_um(&t, g + strong), fw_process_judge_number(&t, g / (g + mild), 3),
                 fw_process_judge_number(&t, g / (g + strong), 3)));
         }
@@ -202,8 +202,7 @@ static fw_status drive_gap(fw_process_judge *j, const fw_process_drive_facts *d,
     fw_process_numbers t = {0};
     printing p;
     double on_mask = d->gap_m - 2.0 * j->flow->bias_m;
-    const char *what =
-        fw_arena_printf(j->arena, "gap of comb drive %s", d->id ? d->id : "(unnamed)");
+    const char *what = fw_arena_printf(j->arena, "gap of comb drive %s", fw_text_name(d->id));
     FW_NEED(what);
     bool limited = printing_of(j->flow, &p);
     if (on_mask <= 0.0) {

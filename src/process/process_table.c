@@ -83,10 +83,11 @@ static const fw_xml_attribute_row hazard_rows[] = {
     {"wets", WORD(yes_no), .fallback = "no",
      .sentence = "yes: a liquid, which a wafer carries along until it is rinsed."},
     {"reacts-as", TEXT, .datatype = "NMTOKENS",
-     .sentence =
-         "Of a liquid: what it reacts as, which says what it must not meet: some of acid, "
-         "oxidising-acid, organic-acid, base, ammonia, ammonium, alcohol, ketone, oxidiser, "
-         "hypochlorite, fluoride, iodine, cyanide; or none."},
+     .sentence = "Of a liquid: what it reacts as, which says what it must not meet: none"
+#define FW_REACTIVITY_GROUP(name, word) ", " word
+#include "process/reactivity.def"
+#undef FW_REACTIVITY_GROUP
+                 "; of all but none there may be several."},
 };
 static const fw_xml_attribute_row consumable_rows[] = {
     ID,

@@ -14,37 +14,17 @@
 #include <string.h>
 
 typedef enum group {
-    ACID,
-    OXIDISING_ACID,
-    ORGANIC_ACID,
-    BASE,
-    AMMONIA,
-    AMMONIUM,
-    ALCOHOL,
-    KETONE,
-    OXIDISER,
-    HYPOCHLORITE,
-    FLUORIDE,
-    IODINE,
-    CYANIDE,
+#define FW_REACTIVITY_GROUP(name, word) name,
+#include "process/reactivity.def"
+#undef FW_REACTIVITY_GROUP
     NONE,
     GROUPS
 } group;
 
 static const char *const groups[GROUPS] = {
-    [ACID] = "acid",
-    [OXIDISING_ACID] = "oxidising-acid",
-    [ORGANIC_ACID] = "organic-acid",
-    [BASE] = "base",
-    [AMMONIA] = "ammonia",
-    [AMMONIUM] = "ammonium",
-    [ALCOHOL] = "alcohol",
-    [KETONE] = "ketone",
-    [OXIDISER] = "oxidiser",
-    [HYPOCHLORITE] = "hypochlorite",
-    [FLUORIDE] = "fluoride",
-    [IODINE] = "iodine",
-    [CYANIDE] = "cyanide",
+#define FW_REACTIVITY_GROUP(name, word) [name] = word,
+#include "process/reactivity.def"
+#undef FW_REACTIVITY_GROUP
     [NONE] = "none",
 };
 
@@ -80,25 +60,18 @@ static const struct {
     {ACID, KETONE, "they heat each other"},
 };
 
-typedef struct word {
-    const char *at; /* its first letter, or the end of the text */
-    size_t length;
-    group is; /* GROUPS: there is none of this name */
-} word;
-
-static word word_at(const char *text) {
-    word w = {.at = text + strspn(text, " "), .is = GROUPS};
-    w.length = strcspn(w.at, " ");
-    for (int i = 0; i < GROUPS; i++)
-        if (strlen(groups[i]) == w.length && memcmp(groups[i], w.at, w.length) == 0)
-            w.is = (group)i;
-    return w;
+/* GROUPS: there is none of this name */
+static group group_of(fw_word word) {
+    int i = 0;
+    while (i < GROUPS && !fw_word_is(word, groups[i]))
+        i++;
+    return (group)i;
 }
 
 unsigned fw_process_reacts_as(const char *words) {
     unsigned set = 0;
-    for (word w = word_at(words); *w.at; w = word_at(w.at + w.length))
-        if (w.is < GROUPS) set |= 1u << w.is;
+    for (fw_word word; fw_word_next(&words, " ", &word);)
+        if (group_of(word) < GROUPS) set |= 1u << group_of(word);
     return set;
 }
 
@@ -146,13 +119,14 @@ fw_status fw_process_lint_reactivity(fw_process_pack *pack) {
                 "hazard '%s' is a liquid and does not say what it reacts as, so that nobody "
                 "knows what it must not meet; add reacts-as with some of: %s",
                 h->id, known);
-        for (word w = word_at(h->reacts_as); *w.at; w = word_at(w.at + w.length))
-            if (w.is == GROUPS)
+        const char *words = h->reacts_as;
+        for (fw_word word; fw_word_next(&words, " ", &word);)
+            if (group_of(word) == GROUPS)
                 fw_diag_error(
                     pack->diags, 502, h->place,
                     "hazard '%s' reacts as '%.*s', which is no group that is known; there "
                     "are: %s",
-                    h->id, (int)w.length, w.at, known);
+                    h->id, (int)word.length, word.at, known);
     }
     return FW_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Regions of the wafer, and the stack of layers over each of them, not to scale. */
+#include "base/text.h"
 #include "process/films.h"
 #include "process/pack.h"
 #include "process/process_law.h"
@@ -70,15 +71,13 @@ const char *fw_process_column_name(const fw_process_flow *flow, int column, char
 
 /* words of `within` that a code satisfies */
 static bool lies_within(const fw_process_flow *flow, const char *within, unsigned code) {
-    char word[64];
-    for (const char *s = within; *s;) {
-        size_t n = strcspn(s, " ");
+    char name[64];
+    for (fw_word word; fw_word_next(&within, " ", &word);) {
         fw_process_side side;
-        snprintf(word, sizeof word, "%.*s", (int)n, s);
-        if (n > 0 && n < sizeof word && fw_process_where_side(flow, word, &side) &&
+        snprintf(name, sizeof name, "%.*s", (int)word.length, word.at);
+        if (word.length < sizeof name && fw_process_where_side(flow, name, &side) &&
             (code >> side.plate & 1u) != (side.set ? 1u : 0u))
             return false;
-        s += n + strspn(s + n, " ");
     }
     return true;
 }

@@ -52,13 +52,8 @@ enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 /* how many times yes or no stands there; 0: something else stands there, too */
 static int answers_of(const char *value) {
     int n = 0;
-    while (*value) {
-        size_t word = strcspn(value, " ");
-        bool yes = word == 3 && strncmp(value, "yes", 3) == 0;
-        if (!yes && !(word == 2 && strncmp(value, "no", 2) == 0)) return 0;
-        value += word + strspn(value + word, " ");
-        n++;
-    }
+    for (fw_word word; fw_word_next(&value, " ", &word); n++)
+        if (!fw_word_is(word, "yes") && !fw_word_is(word, "no")) return 0;
     return n;
 }
 

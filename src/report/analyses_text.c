@@ -194,7 +194,7 @@ static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
         fw_text_number(out, p->voltage_V, 6);
         fw_text_printf(out, " V at comb drive %s (%s): it %s", p->comb,
                        fw_statics_pull_in_kind_text(p->kind), how[p->kind]);
-        fw_text_printf(out, ", body %s moves most\n", p->body ? p->body : "(unnamed)");
+        fw_text_printf(out, ", body %s moves most\n", fw_text_name(p->body));
     }
     fw_text_add(out, "  the scene asks for up to ");
     fw_text_number(out, p->largest_V, 6);

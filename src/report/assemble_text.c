@@ -8,10 +8,6 @@ static double degrees(double rad) {
     return rad * 180.0 / FW_PI;
 }
 
-static const char *name_of(const char *id) {
-    return id ? id : "(unnamed)";
-}
-
 /* um for a device, mm and m for what is larger */
 static const char *unit_of(double size_m, double *factor) {
     *factor = size_m < 0.02 ? 1e6 : size_m < 20 ? 1e3 : 1;
@@ -43,7 +39,7 @@ static void joint_table(const fw_report_assembly *in, double size, fw_text *out)
         if (g->gap_m <= least && g->gap_rad <= 1e-12) continue;
         if (!any) fw_text_printf(out, "\n  joint        open in the guess by\n");
         any = true;
-        fw_text_printf(out, "  %-10s", name_of(g->id));
+        fw_text_printf(out, "  %-10s", fw_text_name(g->id));
         if (g->gap_m > least) fw_text_real(out, "%12.4f ", g->gap_m * factor);
         if (g->gap_m > least) fw_text_add(out, unit);
         if (g->gap_rad > 1e-12) fw_text_real(out, "  %10.4f deg", degrees(g->gap_rad));
@@ -59,7 +55,7 @@ static void body_table(const fw_report_assembly *in, double size, fw_text *out) 
         out, "\n  body          x %-2s         y %-2s      phi deg     moved %-2s   turned deg\n",
         unit, unit, unit);
     for (int b = 0; b < a->nbody; b++) {
-        fw_text_printf(out, "  %-8s", name_of(in->mechanism->body[b].id));
+        fw_text_printf(out, "  %-8s", fw_text_name(in->mechanism->body[b].id));
         double frame[3];
         fw_mechanism_frame_pose(&in->mechanism->body[b], a->after + 3 * b, frame);
         fw_text_real(out, "%12.4f", frame[0] * factor);
@@ -187,7 +183,7 @@ static void velocities(const fw_report_assembly *in, double size, fw_text *out) 
         double v[3], a[3], phi = in->assembly->after[3 * b + 2];
         fw_mechanism_frame_velocity(&m->body[b], phi, k->v + 3 * b, v);
         fw_mechanism_frame_acceleration(&m->body[b], phi, k->v[3 * b + 2], k->a + 3 * b, a);
-        fw_text_printf(out, "  %-8s", name_of(m->body[b].id));
+        fw_text_printf(out, "  %-8s", fw_text_name(m->body[b].id));
         for (int c = 0; c < 6; c++) {
             bool turns = c % 3 == 2;
             double value = c < 3 ? v[c] : a[c - 3];
@@ -209,29 +205,31 @@ static void forces(const fw_report_assembly *in, double size, fw_text *out) {
     const fw_assembly_kinematics *k = in->kinematics;
     double most = largest_force(k);
     fw_text_printf(out, "\n  joint force on its second body%s%s%s\n",
-                   in->scene ? ", loads of scene " : "", in->scene ? name_of(in->scene->name) : "",
+                   in->scene ? ", loads of scene " : "",
+                   in->scene ? fw_text_name(in->scene->name) : "",
                    k->unique ? "" : "; redundant joints share it, the least forces are shown");
     for (int i = 0; i < m->npin; i++) {
-        fw_text_printf(out, "  %-8s", name_of(m->pin[i].id));
+        fw_text_printf(out, "  %-8s", fw_text_name(m->pin[i].id));
         force(out, k->reaction_N[2 * i], most, "N");
         force(out, k->reaction_N[2 * i + 1], most, "N\n");
     }
     for (int i = 0; i < m->njoint; i++) {
-        fw_text_printf(out, "  %-8s", name_of(m->joint[i].id));
+        fw_text_printf(out, "  %-8s", fw_text_name(m->joint[i].id));
         force(out, k->joint_N[3 * i], most, "N");
         force(out, k->joint_N[3 * i + 1], most, "N");
         force(out, k->joint_N[3 * i + 2], most * size, "N m\n");
     }
     for (int i = 0; i < m->ndriver; i++) {
         bool turns = m->driver[i].revolute != FW_NONE;
-        fw_text_printf(out, "  %-8s", name_of(m->driver[i].id));
+        fw_text_printf(out, "  %-8s", fw_text_name(m->driver[i].id));
         force(out, k->driver_N[i], most * (turns ? size : 1), turns ? "N m" : "N");
         fw_text_add(out, " along its coordinate\n");
     }
     for (int i = 0; i < k->independent.count; i++) {
         const fw_assembly_coordinate *c = &k->independent.item[i];
         bool turns = c->axis == 2;
-        fw_text_printf(out, "  %s.%s is driven by ", name_of(m->body[c->body].id), axis[c->axis]);
+        fw_text_printf(out, "  %s.%s is driven by ", fw_text_name(m->body[c->body].id),
+                       axis[c->axis]);
         fw_text_number(out, clean(k->drive[i], most * (turns ? size : 1)), 5);
         fw_text_printf(out, " %s\n", turns ? "N m" : "N");
     }

@@ -10,10 +10,6 @@ enum { DIGITS = 6 }; /* of what is looked at */
 
 /* ---- diagnostics ---- */
 
-static bool same(const char *a, const char *b) {
-    return a == b || (a && b && strcmp(a, b) == 0);
-}
-
 /* judging and moving say some things twice */
 static bool said(const fw_diags *diags, size_t i) {
     const fw_diag *d = &diags->item[i];
@@ -21,7 +17,7 @@ static bool said(const fw_diags *diags, size_t i) {
         const fw_diag *e = &diags->item[k];
         if (e->number == d->number && e->severity == d->severity &&
             e->place.line == d->place.line && e->place.column == d->place.column &&
-            same(e->place.file, d->place.file) && same(e->message, d->message))
+            fw_text_same(e->place.file, d->place.file) && fw_text_same(e->message, d->message))
             return true;
     }
     return false;
@@ -49,7 +45,7 @@ void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_j
         fw_json_text(out, "title", entry ? entry->title : NULL);
         fw_json_text(out, "message", d->message);
         fw_json_text(out, "file", d->place.file ? fw_place_file(d->place) : NULL);
-        fw_json_truth(out, "in_text", same(d->place.file, file));
+        fw_json_truth(out, "in_text", fw_text_same(d->place.file, file));
         position(out, "line", d->place.line, true);
         position(out, "column", d->place.column, d->place.line > 0);
         fw_json_text(out, "explain", entry ? entry->text : NULL);

@@ -374,7 +374,7 @@ static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags
 static fw_status warn(const seeker *k, const fw_device_scene *scene, fw_diags *diags) {
     static const char *const how[] = {"", "snaps along the drive", "moves aside", "tilts"};
     const fw_statics_pull_in *out = k->out;
-    const char *name = scene->name ? scene->name : "(unnamed)";
+    const char *name = fw_text_name(scene->name);
     char at[32], asked[32];
     if (out->margin >= 1)
         return out->kind != FW_PULL_IN_NONE && out->margin < fw_statics_pull_in_margin(out)
@@ -392,8 +392,7 @@ static fw_status warn(const seeker *k, const fw_device_scene *scene, fw_diags *d
         fw_diag_warning(diags, 248, out->place,
                         "scene %s pulls in: at %s V comb drive %s %s (body %s moves most), and the "
                         "scene asks for up to %s V",
-                        name, at, out->comb, how[out->kind], out->body ? out->body : "(unnamed)",
-                        asked);
+                        name, at, out->comb, how[out->kind], fw_text_name(out->body), asked);
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
@@ -409,7 +408,7 @@ fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism
         fw_diag_note(diags, 249, scene->comb[0].place,
                      "the pull-in voltage of scene %s was not computed: the mechanism has more "
                      "than %d bodies",
-                     scene->name ? scene->name : "(unnamed)", FW_PULL_IN_MOST / 3);
+                     fw_text_name(scene->name), FW_PULL_IN_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }
     seeker *k;

@@ -251,7 +251,7 @@ static void report_cost(const fw_device_scene *scene, const fw_effect_ledger *le
     fw_diag_warning(diags, 254, scene->place,
                     "scene %s is computed as a quasi-static sequence of equilibria, because "
                     "--effects excludes inertia: deflections may be wrong by %s%s",
-                    scene->name ? scene->name : "(unnamed)",
+                    fw_text_name(scene->name),
                     isinf(entry->bound) ? "an amount that is not bounded" : text,
                     isinf(entry->bound) ? "; use --effects all or auto to include it" : " %");
 }
@@ -282,7 +282,7 @@ static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_d
                 fw_diag_warning(diags, 254, scene->place,
                                 "scene %s was computed with inertia, although --effects "
                                 "excludes it: %s",
-                                scene->name ? scene->name : "(unnamed)", why);
+                                fw_text_name(scene->name), why);
         }
         keep_inertia(&ledger, &loads, why);
     }

@@ -166,9 +166,8 @@ fw_status fw_statics_equilibrium_nowhere(const fw_statics_equilibrium *w) {
         "no equilibrium of scene %s was found at load factor %s: body %s keeps moving (it had %s "
         "by %s %s); nothing holds %s against the loads",
         fw_statics_equilibrium_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4),
-        w->mechanism->body[b].id ? w->mechanism->body[b].id : "(unnamed)",
-        turns ? "turned" : "moved", fw_number_text(far, sizeof far, turns ? u[2] : way, 4),
-        turns ? "rad" : "m", names);
+        fw_text_name(w->mechanism->body[b].id), turns ? "turned" : "moved",
+        fw_number_text(far, sizeof far, turns ? u[2] : way, 4), turns ? "rad" : "m", names);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 

@@ -301,7 +301,7 @@ static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability
     k->out->rate_per_s = sqrt(-k->lowest) / k->w.model->scale.time_s;
     k->out->growth = k->growth;
     const char *id = k->w.mechanism->body[fw_statics_equilibrium_mover(&k->w, k->shape)].id;
-    k->out->body = id ? id : "(unnamed)";
+    k->out->body = fw_text_name(id);
     FW_TRY(fall(k, &way));
     if (travelled(k) >= fw_left * way) return FW_OK;
     FW_TRY(share(k));
@@ -320,7 +320,7 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
         fw_diag_note(diags, 259, scene->place,
                      "the stability of scene %s was not examined: the mechanism has more than "
                      "%d bodies",
-                     scene->name ? scene->name : "(unnamed)", FW_STABILITY_MOST / 3);
+                     fw_text_name(scene->name), FW_STABILITY_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }
     fw_diags silent = fw_diags_new(arena);

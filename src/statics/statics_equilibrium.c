@@ -8,7 +8,7 @@
 #include <string.h>
 
 const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w) {
-    return w->scene->name ? w->scene->name : "(unnamed)";
+    return fw_text_name(w->scene->name);
 }
 
 double fw_statics_equilibrium_per_s2(const fw_statics_equilibrium *w) {
@@ -448,13 +448,13 @@ fw_status fw_statics_equilibrium_bodies(const fw_statics_equilibrium *w, const d
     int first = fw_statics_equilibrium_mover(w, shape), named = 1, count = 1;
     fw_text text = fw_text_new(w->arena);
     const char *id = w->mechanism->body[first].id;
-    fw_text_add(&text, id ? id : "(unnamed)");
+    fw_text_add(&text, fw_text_name(id));
     for (int b = 0; b < w->model->nbody; b++) {
         if (b == first ||
             fw_statics_equilibrium_part(shape, b) < 0.1 * fw_statics_equilibrium_part(shape, first))
             continue;
         id = w->mechanism->body[b].id;
-        if (++count <= FEW && ++named) fw_text_printf(&text, ", %s", id ? id : "(unnamed)");
+        if (++count <= FEW && ++named) fw_text_printf(&text, ", %s", fw_text_name(id));
     }
     if (count > named) fw_text_printf(&text, " and %d more", count - named);
     FW_TRY(fw_text_end(&text));

@@ -197,7 +197,7 @@ static fw_status undamped_shape(const fw_statics_equilibrium *w, int k, fw_stati
         mode->shape[i] = unit * from[i] * (i % 3 == 2 ? 1 : s.length_m);
     mode->modal_mass_kg_m2 = unit * unit * s.mass_kg * s.length_m * s.length_m;
     int b = fw_statics_equilibrium_mover(w, from);
-    mode->body = w->mechanism->body[b].id ? w->mechanism->body[b].id : "(unnamed)";
+    mode->body = fw_text_name(w->mechanism->body[b].id);
     return fw_statics_equilibrium_bodies(w, from, &mode->bodies);
 }
 

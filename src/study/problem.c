@@ -104,7 +104,7 @@ static fw_status something_turns(fw_study_problem *p) {
     return fw_diag_error(&p->plan->diags, 290, p->scene->place,
                          "scene %s: no joint turns, so that there is no peak deflection whose "
                          "error could be shown; choose another with --scene, or load it",
-                         p->scene->name ? p->scene->name : "(unnamed)");
+                         fw_text_name(p->scene->name));
 }
 
 fw_status fw_study_problem_open(fw_plan *plan, double budget_s, fw_study_problem *p) {

@@ -372,7 +372,7 @@ static void headline(const fw_study_tradeoff *t, fw_text *out) {
     fw_svg_put(out,
                "text x='20' y='28' font-size='18' font-weight='600' fill='#1f2328'>{s}, {s}: what "
                "accuracy costs\n",
-               t->device, t->scene->name ? t->scene->name : "(unnamed)");
+               t->device, fw_text_name(t->scene->name));
     fw_svg_open(out, "text x='20' y='52' font-size='15' fill='#1f2328'");
     if (isfinite(t->digit_here)) {
         fw_text_add(out, "One more digit costs \u00d7");

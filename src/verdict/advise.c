@@ -229,15 +229,12 @@ static fw_status propose_widths(void *context, bool *added) {
 
 /* ---- loads and required poses: less of them ---- */
 
-static bool same(const char *a, const char *b) {
-    return a && b && strcmp(a, b) == 0;
-}
-
 /* a scene or workspace is scaled once per round, by the hinge that it strains most */
 static bool is_worst(const fw_verdict_trial *trial, const fw_verdict_trial_hinge *h) {
     for (int k = 0; k < trial->nhinge; k++) {
         const fw_verdict_trial_hinge *o = &trial->hinge[k];
-        if (o == h || o->decision == FW_ACCEPT || !same(o->scene, h->scene)) continue;
+        if (o == h || o->decision == FW_ACCEPT || !o->scene) continue;
+        if (!fw_text_same(o->scene, h->scene)) continue;
         if (excess(o) > excess(h) || (excess(o) == excess(h) && o < h)) return false;
     }
     return true;
@@ -251,19 +248,19 @@ static bool lighten(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, do
     if (h->joint == FW_NONE) by = pow(by, trial->round + 1); /* a guess: further each time */
     bool any = false; /* what is of no one scene: of all of them and of the boxes together */
     for (int i = 0; i < trial->changed->nscene; i++)
-        if (!h->scene || same(trial->changed->scene[i].name, h->scene)) {
+        if (!h->scene || fw_text_same(trial->changed->scene[i].name, h->scene)) {
             trial->share[i] *= by;
             any = fw_effects_scale(&trial->changed->scene[i], by) || any;
             if (h->scene) return any;
         }
     for (int i = 0; i < trial->changed->nworkspace; i++) {
         fw_device_workspace_box *w = &trial->changed->workspace[i];
-        if (w->flow && !same(w->flow, h->flow)) continue;
+        if (w->flow && !fw_text_same(w->flow, h->flow)) continue;
         w->x_min_m *= by, w->x_max_m *= by;
         w->y_min_m *= by, w->y_max_m *= by;
         w->phi_min_rad *= by, w->phi_max_rad *= by;
     }
-    return any || same(h->scene, "workspace");
+    return any || fw_text_same(h->scene, "workspace");
 }
 
 static double kept(double now, double was) {

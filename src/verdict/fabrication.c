@@ -166,7 +166,7 @@ static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fab
         s->comb[i].gap_m -= 2.0 * fabricated->edge_m;
         if (!(s->comb[i].gap_m > least))
             FW_NEED(*gone = fw_arena_printf(arena, "the gap of comb drive %s closes",
-                                            s->comb[i].id ? s->comb[i].id : "(unnamed)"));
+                                            fw_text_name(s->comb[i].id)));
     }
     for (size_t i = 0; i < a; i++) {
         if (s->air[i].kind != FW_AIR_SQUEEZE) continue;

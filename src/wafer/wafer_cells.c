@@ -235,7 +235,7 @@ static fw_status add_name(fw_wafer_maker *m, fw_wafer_cell_kind kind, const char
 }
 
 static int32_t dbu(double m) {
-    return (int32_t)floor(m * 1e9 + 0.5);
+    return (int32_t)fw_wafer_dbu(m);
 }
 
 /* the letters of one row, in arrays over neighbouring dies */

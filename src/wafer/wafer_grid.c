@@ -10,7 +10,7 @@
    Source of sizes: SEMI M1, specifications for polished single crystal silicon wafers (flat 15.88,
    22.22, 32.5, 42.5, 57.5 mm at 50.8, 76.2, 100, 125, 150 mm; notch at 200 and 300 mm).
    Cost: constant. Test: test_wafer_grid.c. */
-#include "wafer/wafer.h"
+#include "wafer/wafer_parts.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -23,7 +23,7 @@ static const double NEAR = 0.02, NOTCH_M = 1.25e-3;
 static const double plate_in[] = {3, 4, 5, 6, 7, 9, 14};
 static const double INCH_M = 25.4e-3, PLATE_RIM_M = 10e-3;
 
-static int64_t dbu(double m) {
+int64_t fw_wafer_dbu(double m) {
     return (int64_t)floor(m * 1e9 + 0.5);
 }
 
@@ -70,10 +70,10 @@ fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
                             .notch_m = notched ? NOTCH_M : 0,
                             .edge_m = asked->edge_m,
                             .side = asked->side,
-                            .usable_dbu = dbu(usable),
-                            .flat_dbu = dbu(flat > 0 ? chord - asked->edge_m : usable),
-                            .notch_dbu = notched ? dbu(0.5 * d) : 0,
-                            .avoid_dbu = notched ? dbu(NOTCH_M + asked->edge_m) : 0,
+                            .usable_dbu = fw_wafer_dbu(usable),
+                            .flat_dbu = fw_wafer_dbu(flat > 0 ? chord - asked->edge_m : usable),
+                            .notch_dbu = notched ? fw_wafer_dbu(0.5 * d) : 0,
+                            .avoid_dbu = notched ? fw_wafer_dbu(NOTCH_M + asked->edge_m) : 0,
                             .plate_m = plate};
     return FW_OK;
 }
@@ -183,7 +183,7 @@ static void number(fw_wafer_grid *g) {
 
 static fw_status pitch_of(double asked_m, int32_t size, const char *name, fw_place place,
                           fw_diags *diags, int64_t *pitch) {
-    *pitch = isnan(asked_m) ? size : (int64_t)floor(asked_m * 1e9 + 0.5);
+    *pitch = isnan(asked_m) ? size : fw_wafer_dbu(asked_m);
     if (*pitch >= size) return FW_OK;
     char have[32], need[32];
     return fw_diag_error(diags, 191, place,

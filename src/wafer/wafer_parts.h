@@ -22,6 +22,9 @@ typedef struct fw_wafer_sheet {
 fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, const fw_mask **mask);
 bool fw_wafer_draws(const fw_mask_table *table, fw_layout_role role);
 
+/* m to the nearest place on the grid */
+int64_t fw_wafer_dbu(double m);
+
 /* wafer_cells.c */
 enum { FW_WAFER_LONGEST_NAME = 32 };
 fw_status fw_wafer_add_cell(fw_wafer_maker *m, const char *name, const fw_mask *mask, int32_t dx,

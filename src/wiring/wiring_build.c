@@ -260,7 +260,7 @@ static fw_status collect_drives(const fw_device *device, const fw_layout *layout
             if (k == w->ndrive) {
                 plan[w->ndrive++] = e;
                 *d = (fw_wiring_drive){.comb = comb,
-                                       .id = comb->id ? comb->id : "(unnamed)",
+                                       .id = fw_text_name(comb->id),
                                        .rotor = net_of_body(layout, w, comb->body_b),
                                        .stator = net_labelled(layout, w, e ? e->stator : NULL),
                                        .at = {(double)NAN, (double)NAN}};

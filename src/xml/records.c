@@ -30,11 +30,9 @@ const fw_xml_element_row *fw_xml_row_find(const fw_xml_table *table, const char 
 
 bool fw_xml_row_inside(const fw_xml_element_row *row, const char *parent) {
     if (!parent[0]) return !row->parent[0];
-    size_t n = strlen(parent), length;
-    for (const char *at = row->parent; *at; at += length + (at[length] == ' ')) {
-        length = strcspn(at, " ");
-        if (length == n && memcmp(at, parent, n) == 0) return true;
-    }
+    const char *parents = row->parent;
+    for (fw_word word; fw_word_next(&parents, " ", &word);)
+        if (fw_word_is(word, parent)) return true;
     return false;
 }
 

@@ -200,11 +200,10 @@ void fw_xml_page_attribute(const fw_xml_table *table, const fw_xml_attribute_row
 
 void fw_xml_page_element(const fw_xml_element_row *e, fw_text *out) {
     fw_text_printf(out, "\n### `<%s>`\n\n%s", e->name, e->sentence);
-    for (const char *at = e->parent; *at;) {
-        size_t n = strcspn(at, " ");
-        fw_text_printf(out, "%s `<%.*s>`", at == e->parent ? " Inside" : " or", (int)n, at);
-        at += n + (at[n] == ' ');
-    }
+    const char *parents = e->parent;
+    for (fw_word word; fw_word_next(&parents, " ", &word);)
+        fw_text_printf(out, "%s `<%.*s>`", word.at == e->parent ? " Inside" : " or",
+                       (int)word.length, word.at);
     if (e->parent[0])
         fw_text_printf(out, "%s.",
                        e->once && e->needed ? ", exactly once"

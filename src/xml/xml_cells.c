@@ -300,15 +300,12 @@ static void read_words(fw_xml_reader *r, const fw_xml_record *record,
                        const fw_xml_attribute_row *row, fw_xml_cell *cell) {
     const fw_xml_attribute *a = cell->given;
     cell->ok = true;
-    for (const char *s = a->value; *s;) {
-        s += strspn(s, " \t\r\n");
-        size_t n = strcspn(s, " \t\r\n");
-        if (n > 0 && word_index(row->words, s, n) < 0) {
+    const char *words = a->value;
+    for (fw_word word; fw_word_next(&words, " \t\r\n", &word);)
+        if (word_index(row->words, word.at, word.length) < 0) {
             cell->ok = false;
-            say_word(r, record, row, a, s, n);
+            say_word(r, record, row, a, word.at, word.length);
         }
-        s += n;
-    }
 }
 
 static void read_form(fw_xml_reader *r, const fw_xml_record *record,
