@@ -70,8 +70,10 @@ static group group_of(fw_word word) {
 
 unsigned fw_process_reacts_as(const char *words) {
     unsigned set = 0;
-    for (fw_word word; fw_word_next(&words, " ", &word);)
-        if (group_of(word) < GROUPS) set |= 1u << group_of(word);
+    for (fw_word word; fw_word_next(&words, " ", &word);) {
+        const group is = group_of(word);
+        if (is < GROUPS) set |= 1u << is;
+    }
     return set;
 }
 

@@ -140,7 +140,8 @@ typedef struct walk {
     int met[FW_ELEMENTS_MOST]; /* per row of the table */
     /* the last one of a row that may stand once in its parent */
     const fw_xml_element *once[FW_ELEMENTS_MOST];
-    bool needs; /* some row of the table is one that must be there */
+    const fw_xml_element_row *needed[FW_ELEMENTS_MOST]; /* (nneeded) that must be there */
+    int nneeded;
 } walk;
 
 /* how often an element may stand: once in its parent, or `most` in the file */
@@ -166,10 +167,11 @@ static bool too_often(walk *w, const fw_xml_element *e, const fw_xml_element_row
 static fw_status read_element(walk *w, fw_xml_element *e, int parent);
 
 /* what must stand in an element at least once */
-static void check_needed(fw_xml_reader *r, const fw_xml_element *e, const fw_xml_element_row *row) {
-    const fw_xml_element_row *child;
-    for (int i = 0; (child = fw_xml_row_at(r->table, i)) != NULL; i++) {
-        if (!child->needed || !fw_xml_row_inside(child, row->name)) continue;
+static void check_needed(const walk *w, const fw_xml_element *e, const fw_xml_element_row *row) {
+    fw_xml_reader *r = w->r;
+    for (int i = 0; i < w->nneeded; i++) {
+        const fw_xml_element_row *child = w->needed[i];
+        if (!fw_xml_row_inside(child, row->name)) continue;
         const fw_xml_element *c = e->first_child;
         while (c && strcmp(c->name, child->name) != 0)
             c = c->next;
@@ -183,7 +185,7 @@ static fw_status read_children(walk *w, fw_xml_element *e, const fw_xml_element_
                                int self) {
     for (fw_xml_element *child = e->first_child; child; child = child->next)
         FW_TRY(read_element(w, child, self));
-    if (w->needs) check_needed(w->r, e, row);
+    check_needed(w, e, row);
     return FW_OK;
 }
 
@@ -274,7 +276,7 @@ fw_status fw_xml_records_read(fw_xml_reader *r) {
     walk w = {.r = r};
     const fw_xml_element_row *row;
     for (int i = 0; (row = fw_xml_row_at(r->table, i)) != NULL; i++)
-        w.needs = w.needs || row->needed;
+        if (row->needed) w.needed[w.nneeded++] = row;
     FW_TRY(check_root(r));
     FW_TRY(read_element(&w, r->root, -1));
     for (int i = r->nrecord - 1; i > 0; i--) { /* backwards, so that the first comes first */
