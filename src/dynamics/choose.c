@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which method: asked for by name, or by the masses. Which integrator: asked for by name, or by the
    spectrum of the scene at its start, and by trial where that may be wrong. */
+#include "base/constants.h"
 #include "dynamics/run.h"
 #include <math.h>
 #include <string.h>
@@ -337,6 +338,18 @@ static fw_status report_choice(fw_dynamics_recorder *record, const spectrum *s, 
     return FW_OK;
 }
 
+/* Loads and drivers that come slowly against what they excite do not excite it: the motion goes along
+   with them, as in a stage that a driver moves, whose static response is one of the stiffest. What is
+   left of the motion counts as one period over the scene. Test: test_choose.c */
+static void gentle(const fw_dynamics_problem *problem, const fw_effects_loads *loads, double time,
+                   double wanted, spectrum *s) {
+    if (s->touching > 0) return;
+    double unit = problem->model->scale.time_s;
+    if (!fw_dynamics_run_gentle(problem, loads, s->slow / unit, wanted)) return;
+    s->slow = 2 * FW_PI / time;
+    s->ringing = 0;
+}
+
 /* The cheaper of two costs, each a number of steps times instructions of a step. Explicit steps of
    order 8 are stable up to |eigenvalue| h of about 6 and need about one per radian of the motion
    wanted; those of radau5 pass over fast modes. Right within a factor of 1.5 of the better one on
@@ -353,6 +366,7 @@ static fw_status choose(fw_dynamics_run *r, const fw_effects_loads *loads) {
     FW_TRY(ringing(&r->record, loads, shape, time, &s));
     double most = fmax(s.fast, s.touching);
     if (!(s.slow > 0) || s.slow > most) s.slow = most; /* a nearly rigid response says nothing */
+    gentle(&r->problem, loads, time, fw_dynamics_tolerance_wanted(&r->record), &s);
     const cost p = prices(&r->record);
     double stable = time * most / 6, explicit_ = explicit_steps(r, &s, time);
     /* contacts that are open at the start touch for a part of the time: half */

@@ -295,9 +295,24 @@ static fw_status try_other(fw_dynamics_run *r, pair *two, double looser, long st
     return status == FW_CANCELLED || status == FW_NOMEM ? status : FW_OK;
 }
 
+/* with somebody looking on the trial is a run of its own: what it shows must not be mixed with the
+   other's */
+static fw_status try_unseen(fw_dynamics_run *r, pair *two, double looser) {
+    const fw_dynamics_motion_options *asked = r->problem.options;
+    fw_dynamics_motion_options unseen = *asked;
+    bool won;
+    unseen.observe = NULL, unseen.unsettled = NULL, unseen.other = NULL;
+    r->problem.options = &unseen;
+    fw_status status = try_other(r, two, looser, 0, &won);
+    r->problem.options = asked;
+    return status;
+}
+
 /* the run that is compared with, by whichever integrator is cheaper where that is in doubt */
 static fw_status first_run(fw_dynamics_run *r, pair *two, double looser) {
+    const fw_dynamics_motion_options *o = r->problem.options;
     bool won, again = fw_dynamics_integrator_trial_of(&r->control, 0).steps > 0;
+    if (o->unsettled || o->other) FW_TRY(try_unseen(r, two, looser));
     FW_TRY(try_other(r, two, looser, 0, &won));
     if (won) return FW_OK;
     FW_TRY(run_coarse(r, two, looser, NULL));

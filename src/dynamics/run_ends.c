@@ -31,6 +31,25 @@ static const fw_quantity_law *law_of(const fw_dynamics_problem *problem,
     return e->law[i];
 }
 
+bool fw_dynamics_run_gentle(const fw_dynamics_problem *problem, const fw_effects_loads *loads,
+                            double omega_per_s, double share) {
+    const fw_multibody_model *m = problem->model;
+    double end = problem->scene->duration_s;
+    bool coordinate, still = loads->nload == 0 && loads->nspring == 0 && !loads->strained &&
+                             loads->nfriction == 0 && problem->scene->ncontact == 0;
+    for (int i = 0; i < loads->nelement && still;
+         i++) /* what has no law acts at once, but for flexures */
+        still = loads->element[i].laws > 0 ||
+                (loads->element[i].pin >= 0 && loads->released[loads->element[i].pin]);
+    for (int i = 0; i < m->nq && still; i++) /* constant loads come at once */
+        still = !(fabs(loads->constant[i]) > 0) && !(fabs(problem->start[m->nq + i]) > 0);
+    for (int i = 0; i < law_count(problem, loads) && still; i++) {
+        const fw_quantity_law *law = law_of(problem, loads, i, &coordinate);
+        still = fw_quantity_law_jolt(law, coordinate, end, omega_per_s) < share;
+    }
+    return still;
+}
+
 /* the breaks of every law, one law after the other (at, counted), and the strides between them */
 static fw_status look_at_laws(fw_dynamics_problem *problem, const fw_effects_loads *loads,
                               double *at, int count) {

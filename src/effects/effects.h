@@ -133,6 +133,7 @@ typedef struct fw_effect_choice {
     fw_effects_hinge_model hinge; /* other than AUTO: whatever the mode says of nonlinear-hinge */
     double below;    /* > 0: auto came to this level because the one below was off by so much */
     bool pins_first; /* hinge is REVOLUTE because pins are tried before anything else */
+    bool ended;      /* hinge is ELASTICA because the closed form does not hold where this leads */
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there
                                             by far is taken to act here without finding its bound */
 } fw_effect_choice;

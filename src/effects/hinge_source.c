@@ -45,25 +45,45 @@ static double mass_of(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? (double)INFINITY : m->body[body].mass_kg;
 }
 
+/* the largest of all that acts on bodies; weight is there from the start and no jolt */
+static double largest_jolt(const fw_device_scene *s, double omega) {
+    double most = 0, end = s->duration_s;
+    for (int i = 0; i < s->nforce; i++)
+        most = fmax(most, fw_quantity_law_jolt(s->force[i].law, false, end, omega));
+    for (int i = 0; i < s->ntorque; i++)
+        most = fmax(most, fw_quantity_law_jolt(s->torque[i].law, false, end, omega));
+    for (int i = 0; i < s->ntendon; i++)
+        most = fmax(most, fw_quantity_law_jolt(s->tendon[i].law, false, end, omega));
+    for (int i = 0; i < s->ncomb; i++)
+        most = fmax(most, fw_quantity_law_jolt(s->comb[i].law, false, end, omega));
+    for (int i = 0; i < s->nbase; i++)
+        most = fmax(most, fw_quantity_law_jolt(s->base[i].law, false, end, omega));
+    return s->ninitial > 0 ? 1 : most;
+}
+
 /* A loss factor hardly depends on the frequency, a damper's is proportional to it. So along either
    direction the relaxation time is eta/omega, omega = sqrt(k/m) of the smaller mass of the hinge's
    bodies on the stiffness there, and no more than that of the rotation: what rings a hundred times
-   faster would be damped a hundred times too much, and its strain with it. eta is no less than this,
-   a quarter of a per cent of critical damping: what nothing but rounding and the law's first instant
-   sets off dies within the scene, and need not be followed by steps as short as its period; what
-   rings loses 0.8 % of its amplitude per half period.
-   in: s, 1; out: s. Test: test_material_damping.c what_is_stiff_rings_on */
-static const double fw_least_ringing_loss = 5e-3;
+   faster would be damped a hundred times too much, and its strain with it. Where the scene sets off
+   less than a two-hundredth of what its loads do (velocities and jumps set off all of it), eta is no
+   less than a quarter of a per cent of critical damping: what nothing but rounding and the law's
+   first instant sets off dies within the scene, and need not be followed by steps as short as its
+   period. What is set off in earnest keeps the material's loss, since the least loss takes 0.8 % of
+   its amplitude per half period, and its peak with it. Where the loss is not known it is the least.
+   in: s, 1; out: s. Source: docs/decisions/0062-what-is-jolted-rings.md. Test:
+   test_material_damping.c what_is_stiff_rings_on, judge.examples */
+static const double fw_least_ringing_loss = 5e-3, fw_jolted = 5e-3;
 
-/* Where bodies may touch it is that of the rotation: every impact sets off what is stiff, and following
-   it took twenty times as long (docs/decisions/0054-what-is-stiff-rings-on.md) */
 static void lose(const fw_effect_case *c, const fw_mechanism_pin *pin,
                  const fw_flexure_hinge_at *at, double tau_s, double out[2]) {
     const double k[2] = {at->kx_N_per_m.value, at->ky_N_per_m.value};
-    const double loss = fmax(fw_effects_loss(c), fw_least_ringing_loss);
+    double own = fw_effects_loss(c), slow = fmax(own, fw_least_ringing_loss);
     double mass = fmin(mass_of(c->mechanism, pin->body_a), mass_of(c->mechanism, pin->body_b));
-    for (int i = 0; i < 2; i++)
-        out[i] = c->scene->ncontact > 0 ? tau_s : fmin(tau_s, loss * sqrt(mass / k[i]));
+    for (int i = 0; i < 2; i++) {
+        double omega = sqrt(k[i] / mass);
+        bool rings = isfinite(own) && largest_jolt(c->scene, omega) > fw_jolted;
+        out[i] = fmin(tau_s, (rings ? own : slow) / omega);
+    }
 }
 
 fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *loads, int hinge) {
@@ -361,6 +381,8 @@ const char *fw_effects_hinge_forced_reason(const fw_effect_choice *choice) {
                "change is computed at the peak";
     if (choice->hinge == FW_HINGE_REVOLUTE)
         return "ideal pins in place of the hinges were asked for (--hinge-model revolute)";
+    if (choice->ended)
+        return "called for, as exact beams: the closed form does not hold where this leads";
     if (choice->below > 0)
         return choice->hinge == FW_HINGE_ELASTICA
                    ? "called for, as exact beams: the closed form was found to be off by more than "
@@ -386,6 +408,8 @@ static fw_status why_climbed(const fw_effect_case *c, const fw_effect_choice *ch
 static const char *why_used(const fw_effect_entry *entry, const fw_effect_choice *choice,
                             fw_effects_hinge_model used, bool touching) {
     fw_effects_hinge_model asked = choice->hinge;
+    if (choice->ended && asked == used)
+        return "closed forms were tried, and a flexure came to where its own does not hold";
     if (choice->pins_first && asked == used) return "pins are what stated stiffnesses describe";
     if (asked == used) return "asked for";
     if (!entry || !entry->called_for) return "no flexure has a law of its own";

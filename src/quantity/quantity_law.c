@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Questions about a law, put to its row, and what holds where the row does not say. */
 #include "quantity/law_kind.h"
+#include "base/sort.h"
 #include <math.h>
 #include <string.h>
 
@@ -68,6 +69,45 @@ fw_quantity_law_size fw_quantity_law_measure(const fw_quantity_law *law, double 
     size = (fw_quantity_law_size){.most = fw_quantity_law_largest(law, end_s)};
     law->kind->size(law, end_s, &size);
     return size;
+}
+
+/* total variation of the slope between two breaks */
+static double slope_varies(const fw_quantity_law *law, double a, double b, double end_s) {
+    double sum = 0, value[3], count = fmax(8, ceil(256 * (b - a) / end_s));
+    if (law->kind->slope_variation) return law->kind->slope_variation(law, a, b);
+    if (fw_quantity_law_is_straight(law)) return 0;
+    for (double i = 0; i < count; i++) {
+        fw_quantity_law_value(law, a + (b - a) * (i + 0.5) / count, 0.5 * (a + b), value);
+        sum += fabs(value[2]);
+    }
+    return sum * (b - a) / count;
+}
+
+double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double end_s,
+                            double omega_per_s) {
+    enum { MOST = 64 };
+    double at[MOST + 1], now[3], before[3] = {0}, from = 0, jolt = 0, most = 0;
+    if (fw_quantity_law_is_constant(law)) return 1;
+    int count = fw_quantity_law_breaks_of(law, end_s, at, MOST);
+    if (count > MOST) return 1; /* so many corners: nothing slow */
+    fw_sort_doubles(at, (size_t)count);
+    at[count] = end_s;
+    fw_quantity_law_value(law, 0, 0.5 * at[0], now);
+    const double start = coordinate ? now[0] : 0;
+    before[0] = start;
+    for (int i = 0; i <= count; i++) {
+        double piece = 0.5 * (from + at[i]);
+        if (!(at[i] > from)) continue;
+        fw_quantity_law_value(law, from, piece, now);
+        jolt += fabs(now[0] - before[0]) + fabs(now[1] - before[1]) / omega_per_s;
+        jolt += slope_varies(law, from, at[i], end_s) / omega_per_s;
+        fw_quantity_law_value(law, piece, piece, before);
+        most = fmax(most, fmax(fabs(now[0] - start), fabs(before[0] - start)));
+        fw_quantity_law_value(law, at[i], piece, before);
+        most = fmax(most, fabs(before[0] - start));
+        from = at[i];
+    }
+    return isfinite(jolt) && jolt < most ? jolt / most : jolt > 0 ? 1 : 0;
 }
 
 /* ---- what it is like ---- */

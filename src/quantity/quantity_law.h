@@ -64,6 +64,12 @@ typedef struct fw_quantity_law_size {
     double most, slope, variation;
 } fw_quantity_law_size;
 fw_quantity_law_size fw_quantity_law_measure(const fw_quantity_law *law, double end_s);
+/* What a law sets ringing at omega, rad/s, over what it does at rest, at most: its jumps and, over omega,
+   those of its slope and the slope's variation between them. Of a load, which nothing was before the
+   start, or of a coordinate, which has the value it begins with. An estimate: of a law that is neither
+   straight nor knows how its slope varies, by midpoints of 256 cells. 1: it comes at once (NULL, too) */
+double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double end_s,
+                            double omega_per_s);
 
 /* ---- steps that see all of it (stride.c) ---- */
 

@@ -372,13 +372,15 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         const fw_statics_level_step *step;
         fw_diags own = fw_diags_new(arena);
         bool higher = *motion != NULL;
-        fw_status status =
-            move(arena, mechanism, scene, &o, higher || tried ? &own : diags, &found);
+        fw_status status = move(arena, mechanism, scene, &o, &own, &found);
         if (tried && (status == FW_SOLVER || status == FW_INPUT)) { /* pins cannot move it */
             o.effects = options->effects, tried = false;
             continue;
         }
         if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
+        if (status == FW_SOLVER && fw_statics_level_goes_on(mechanism, asked, &own, &o.effects))
+            continue;
+        if (!higher && !tried) fw_diags_take(diags, &own);
         FW_TRY(status);
         rows_of_peaks(mechanism, found);
         FW_TRY(fw_statics_level_of_motion(arena, mechanism, scene, found, &step));

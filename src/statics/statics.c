@@ -164,14 +164,17 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
         const fw_statics_level_step *step = NULL;
         const fw_statics *found;
         bool higher = *statics != NULL;
-        fw_status status =
-            equilibrium(arena, mechanism, scene, &o, higher || tried ? &own : diags, &found, &step);
+        fw_status status = equilibrium(arena, mechanism, scene, &o, &own, &found, &step);
         if (higher && status == FW_SOLVER) return stay(arena, statics);
         if (tried && (status == FW_SOLVER || status == FW_INPUT ||
                       (status == FW_OK && !fw_statics_level_is_below(step, stated)))) {
             choice = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }
+        if (status == FW_SOLVER &&
+            fw_statics_level_goes_on(mechanism, &options->effects, &own, &choice))
+            continue;
+        if (!higher && !tried) fw_diags_take(diags, &own);
         FW_TRY(status);
         if (tried) accuracy = stated, fw_diags_take(diags, &own);
         FW_TRY(with_level(arena, found, step, accuracy, options, statics));

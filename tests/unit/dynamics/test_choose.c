@@ -134,11 +134,54 @@ static void test_a_trial_that_loses(void **state) {
     fw_arena_free(arena);
 }
 
+/* what comes slowly is gone along with: as many steps as explicit stability takes are not needed, although
+   the static answer to the load has the frequency of the only motion there is */
+static void test_what_comes_slowly(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_quantity_law slow = {.kind = &fw_quantity_law_ramp, .rise_s = 10};
+    rig r = two_bars(arena, 1);
+    rig_torque(&r, 0, 2e-7);
+    r.scene.torque[0].law = &slow;
+    r.m.pin[0].damping_Nms_per_rad = r.m.pin[1].damping_Nms_per_rad = 0;
+    r.scene.duration_s = 10;
+    const fw_dynamics_motion *m = run(arena, &r, NULL), *other = run(arena, &r, "dop853");
+    assert_string_equal(m->integrator, "radau5");
+    assert_non_null(strstr(m->reason, "stiff, ")); /* at once, without a trial */
+    assert_true(5 * m->stats.rhs < other->stats.rhs);
+    assert_near(m->peak[0].angle_rad, other->peak[0].angle_rad,
+                m->peak[0].error_rad + other->peak[0].error_rad);
+    fw_arena_free(arena);
+}
+
+static double settled(const void *one, const void *other, double margin, double wanted) {
+    (void)one, (void)other, (void)margin, (void)wanted;
+    return 0;
+}
+
+/* who looks on has the trial, too, and does not see it */
+static void test_a_trial_unseen(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    rig r = two_bars(arena, 100);
+    rig_torque(&r, 0, 2e-7);
+    r.m.pin[1].damping_Nms_per_rad = 0;
+    r.scene.duration_s = 1;
+    fw_diags diags = fw_diags_new(arena);
+    fw_dynamics_motion_options o = {.effects = {.mode = FW_EFFECTS_ALL}, .unsettled = settled};
+    const fw_dynamics_motion *m = NULL;
+    assert_int_equal(fw_dynamics_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_OK);
+    assert_string_equal(m->integrator, "radau5");
+    assert_non_null(strstr(m->reason, "tried"));
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stiff_scenes),       cmocka_unit_test(test_ordinary_scenes),
         cmocka_unit_test(test_the_border),         cmocka_unit_test(test_what_is_not_excited),
-        cmocka_unit_test(test_a_trial_that_loses),
+        cmocka_unit_test(test_a_trial_that_loses), cmocka_unit_test(test_what_comes_slowly),
+        cmocka_unit_test(test_a_trial_unseen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -176,10 +176,32 @@ static void expressions(void **state) {
     assert_true(isinf(fw_quantity_law_largest(&wild, 1)));
 }
 
+/* at rate w: all of a step, 2/(w rise) of a ramp, of a half sine pi/(w rise) (2 + 2) in sum, and of (1 - cos)/2
+   by samples what its second derivative adds up to, pi/(w T); a coordinate begins where it is */
+static void jolts(void **state) {
+    (void)state;
+    const double w = 1e4, end = 1;
+    const fw_quantity_law step = {.kind = &fw_quantity_law_step, .end_s = INFINITY};
+    const fw_quantity_law late = {.kind = &fw_quantity_law_step, .start_s = 0.3, .end_s = INFINITY};
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.5};
+    const fw_quantity_law pulse = {.kind = &fw_quantity_law_half_sine, .rise_s = 0.25};
+    assert_near(fw_quantity_law_jolt(NULL, false, end, w), 1, 0);
+    assert_near(fw_quantity_law_jolt(&step, false, end, w), 1, 0);
+    assert_near(fw_quantity_law_jolt(&late, false, end, w), 1, 0);
+    assert_near(fw_quantity_law_jolt(&ramp, false, end, w), 2 * 2 / w, 1e-12);
+    assert_near(fw_quantity_law_jolt(&pulse, false, end, w), 4 * pi / 0.25 / w, 1e-9);
+    static const double t_s[] = {0, 0.5, 1}, value[] = {2, 2, 3};
+    const fw_quantity_law table = {
+        .kind = &fw_quantity_law_table, .table_t_s = t_s, .table_value = value, .ntable = 3};
+    assert_near(fw_quantity_law_jolt(&table, false, end, w), 2.0 / 3 + 2 / w / 3, 1e-12);
+    assert_near(fw_quantity_law_jolt(&table, true, end, w), 2 / w, 1e-12);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(step),      cmocka_unit_test(ramp),  cmocka_unit_test(sine),
         cmocka_unit_test(half_sine), cmocka_unit_test(table), cmocka_unit_test(expressions),
+        cmocka_unit_test(jolts),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
