@@ -29,7 +29,7 @@
    limit is not looked at more closely. Nothing below a ten-thousandth of the range is resolved.
 
    Cost: at most MOST_TRIALS looks for a parameter, and most_work evaluations of hinges for all,
-   half of what is left for each; usually 5 to 20 looks, of which two to four are whole verdicts.
+   0.7 of what is left for each; usually 5 to 20 looks, of which two to four are whole verdicts.
    What was not settled by then is said to be so.
 
    Source: regula falsi with halving: Dekker, in Dejon & Henrici (eds), Constructive Aspects of
@@ -220,7 +220,7 @@ static fw_status step_out(parameter_search *h, const sample *outer, sample *far)
    found */
 static fw_status enclose(parameter_search *h, sample near, sample *far) {
     const sample outer = *far;
-    while (!spent(h)) {
+    for (;;) { /* what was found by glances is judged even where the time is over */
         sample inner = near;
         if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
         if (estimate(h, far) > clear_of_limit) FW_TRY(step_out(h, &outer, far));
@@ -230,11 +230,11 @@ static fw_status enclose(parameter_search *h, sample near, sample *far) {
             return tighten(h, inner.judged ? inner : near, far);
         }
         if (far->at == outer.at) return FW_OK;
+        if (spent(h)) return judge(h, outer.at, far); /* of what may be, the surest */
         near = *far; /* glances were too kind: further out, by what is known now */
         FW_TRY(glance(h, outer.at, far));
         if (far->rejected) return FW_OK;
     }
-    return FW_OK;
 }
 
 /* ---- outward ---- */
