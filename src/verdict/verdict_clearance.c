@@ -114,8 +114,8 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
     return FW_OK;
 }
 
-/* a stated place and a drawn wall need not agree better */
-static const double touches_m = 1e-6;
+/* a stated place and a drawn wall, whose corners are rounded, need not agree better */
+static const double touches_m = 10e-6;
 
 /* Is the round thing about this point, whose radius is at most the distance of the contact, part of what
    is drawn of the body? A bead that is held stands in the open: the ground may carry it, and its frame

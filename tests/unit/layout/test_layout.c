@@ -578,36 +578,6 @@ static void a_link_is_as_wide_as_stated_or_refused(void **state) {
     assert_true(low > 300e-6);
 }
 
-/* The width that is named for a bar that was refused is drawn: a narrower bar has narrower necks and other
-   ways, and the width of a first refusal was refused again, four times over. */
-static void the_width_that_is_named_is_drawn(void **state) {
-    (void)state;
-    for (int i = 0; i < 8; i++) {
-        fixture f;
-        fixture_six_bar(&f);
-        f.body[0].width_m = (300 + 150 * i) * 1e-6;
-        double named = 0;
-        for (int turn = 0; turn < 2; turn++) {
-            fw_arena *arena = fw_arena_new(0);
-            assert_non_null(arena);
-            fw_diags diags = fw_diags_new(arena);
-            const fw_layout *l;
-            fw_layout_build(arena, &f.device, &diags, &l);
-            for (size_t k = 0; k < diags.count; k++) {
-                const char *at = strstr(diags.item[k].message, "a bar ");
-                if (diags.item[k].number == 137 && turn == 1) fail_msg("%s", diags.item[k].message);
-                if (diags.item[k].number == 560 && at) named = strtod(at + 6, NULL) * 1e-6;
-            }
-            bool refused = diags.count > 0 && diags.item[0].number == 137;
-            assert_true(turn > 0 || refused == (named > 0));
-            fw_arena_free(arena);
-            if (!refused) break;
-            assert_true(named < f.body[0].width_m);
-            f.body[0].width_m = named;
-        }
-    }
-}
-
 /* what a die states is kept: its size with the stated clearance, and its title */
 static void a_die_is_as_stated_or_refused(void **state) {
     (void)state;
@@ -878,7 +848,6 @@ int main(void) {
         cmocka_unit_test(tight_devices_are_refused),
         cmocka_unit_test(a_fillet_that_does_not_fit),
         cmocka_unit_test(a_link_is_as_wide_as_stated_or_refused),
-        cmocka_unit_test(the_width_that_is_named_is_drawn),
         cmocka_unit_test(a_die_is_as_stated_or_refused),
         cmocka_unit_test(bulge_may_be_turned),
         cmocka_unit_test(gap_may_be_small_or_absent),
