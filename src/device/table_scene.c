@@ -291,8 +291,9 @@ const fw_xml_element_row fw_device_table_effects[] = {
          "centre of a tooth of radius R; b is what carries the bead (ground where it stands "
          "still; the other jaw with its face where the bead goes with both) and b-x, b-y its "
          "centre; side is outside, distance r, with a tooth r + R, and between two faces the "
-         "bead's diameter. Parts of the two bodies may then meet, except where a and b lie "
-         "farther than the distance from what is drawn of their bodies, as a bead in the open."},
+         "bead's diameter. Parts of the two bodies may then meet, unless one of two points "
+         "outside lies farther than the distance and 10 um from what is drawn of its body, as a "
+         "bead in the open."},
     {"material-damping", "scene", .once = true, ROWS(damping_rows),
      .sentence = "The material of the flexures takes energy out of an oscillation, where the "
                  "hinges state no damping of their own."},
