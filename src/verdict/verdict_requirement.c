@@ -332,8 +332,10 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
     const char *all = "";
     if (below ? r->all_low < r->low : r->all_high > r->high) { /* on the side that is asked for */
         char end[FW_PROBE_TEXT];
-        all = fw_arena_printf(arena, "; no corner of the flow is %s %s", below ? "below" : "above",
-                              fw_probe_text(end, below ? r->all_low : r->all_high, r->unit));
+        fw_probe_text(end, below ? r->all_low : r->all_high, r->unit);
+        if (!fw_text_same(end, below ? low : high))
+            all = fw_arena_printf(arena, "; no corner of the flow is %s %s",
+                                  below ? "below" : "above", end);
         if (!all) return NULL;
     }
     return fw_arena_printf(arena, "%s (%s) is %s (%s to %s%s), and at %s %s is required", r->probe,
