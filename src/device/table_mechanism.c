@@ -26,7 +26,10 @@ static const fw_xml_attribute_row hinge_rows[] = {
 static const fw_xml_attribute_row link_rows[] = {
     {"id", .kind = FW_KIND_WORD, REQUIRED, .words = link_names,
      .sentence = "Which link of ABCDEF."},
-    {"width", SIZE, .fallback = "not drawn", .sentence = "Of the bar between its hinges."},
+    {"width", SIZE, .fallback = "not drawn",
+     .sentence =
+         "Of the bar between its hinges, which begins at each with a neck that is narrower, "
+         "by 6 um and where the hinge's ring asks for it by more."},
     {"mass", D_MASS, SOME_MASS, .fallback = "from the drawn shape",
      .sentence = "Mass; together with inertia."},
     {"inertia", D_INERTIA, SOME_INERTIA, .fallback = "from the drawn shape",
@@ -67,8 +70,11 @@ static const fw_xml_attribute_row body_rows[] = {
     {"com-y", PLACE, .fallback = "0 mm with mass, else the drawn shape's centroid",
      .sentence = "Centre of mass in the body's frame; together with mass."},
     {"width", SIZE, .fallback = "not drawn",
-     .sentence = "Of the bars that join its hinges. With plate-width there are no bars: it bounds "
-                 "the width of the necks that lead into the plate."},
+     .sentence =
+         "Of the bars that join its hinges, each of which begins at its hinge with a neck that "
+         "is narrower, by 6 um and where the hinge's ring asks for it by more. With "
+         "plate-width there are no bars: it bounds the width of the necks that lead into "
+         "the plate."},
     {"inner-corner", GAP, .fallback = "0 um: sharp, as drawn",
      .sentence =
          "Radius with which inward corners of the shapes inside it are rounded, those where "

@@ -284,8 +284,16 @@ const fw_xml_element_row fw_device_table_effects[] = {
     {"friction", "scene", "on", .within = true, .most = 10000, ROWS(friction_rows),
      .sentence = "Dry friction of a joint: it sticks, and slides where the force is large enough."},
     {"contact", "scene", "id", OF_SCENE(FW_SPACE_CONTACT), .most = 10000, ROWS(contact_rows),
-     .sentence = "Surfaces that touch and push back, without friction of their own: the conjugate "
-                 "surfaces of a hinge (on), or two round things (a, b)."},
+     .sentence =
+         "Surfaces that touch and push back, without friction of their own: the conjugate "
+         "surfaces of a hinge (on), or two round things (a, b). A jaw that holds a bead of "
+         "radius r: a is the jaw and a-x, a-y the point of its face that touches, or the "
+         "centre of a tooth of radius R; b is what carries the bead (ground where it stands "
+         "still; the other jaw with its face where the bead goes with both) and b-x, b-y its "
+         "centre; side is outside, distance r, with a tooth r + R, and between two faces the "
+         "bead's diameter. Parts of the two bodies may then meet, unless one of two points "
+         "outside lies farther than the distance and 10 um from what is drawn of its body, as a "
+         "bead in the open."},
     {"material-damping", "scene", .once = true, ROWS(damping_rows),
      .sentence = "The material of the flexures takes energy out of an oscillation, where the "
                  "hinges state no damping of their own."},

@@ -59,20 +59,32 @@ static fw_status close_bar(fw_layout_drawing *d, fw_geometry_vec2 w, fw_geometry
     return fw_layout_polygon(d->arena, &local, p, 2 * n, -1, bar);
 }
 
-/* the stated width does not fit on `length_m` beyond one of the body's hinges */
+/* The stated width does not fit on `length_m` beyond one of the body's hinges. A narrower bar has narrower
+   necks, so that most_m may be too wide as well: layout_build.c looks for what fits. */
 static fw_status refuse_width(fw_layout_drawing *d, int body, int joint, double length_m,
                               double most_m) {
     const fw_device_body *b = &d->device->body[body];
+    const double neck_m = side_of(d, joint, body)->neck_end_m;
     char wide[32], length[32], most[32];
-    const char *label = fw_layout_body_label(d, body);
+    const char *label = fw_layout_body_label(d, body), *id = d->device->revolute[joint].id;
     FW_NEED(label);
-    fw_diag_error(
-        d->diags, 137, b->width_place,
-        "%s: a bar %s um wide cannot be drawn: at hinge %s it has %s um, on which the "
-        "layout widens it from the hinge's neck by 45 degrees at most and leaves half of "
-        "the bar its full width; write a width of %s um or less, or move the hinges apart",
-        label, fw_layout_um(wide, b->width_m), d->device->revolute[joint].id,
-        fw_layout_um(length, length_m), fw_layout_um(most, floor(most_m * 1e7) / 1e7));
+    fw_layout_um(wide, b->width_m), fw_layout_um(length, length_m);
+    if (length_m <= neck_m) /* no width does */
+        fw_diag_error(
+            d->diags, 137, b->width_place,
+            "%s: a bar %s um wide cannot be drawn: it ends %s um from hinge %s, whose "
+            "neck is %s um long; leave width out where all of the body is drawn by shapes "
+            "inside it, or move the hinges apart (the bar of a body with one hinge ends at "
+            "the body's x, y)",
+            label, wide, length, id, fw_layout_um(most, neck_m));
+    else
+        fw_diag_error(
+            d->diags, 137, b->width_place,
+            "%s: a bar %s um wide cannot be drawn: at hinge %s it has %s um, on which the "
+            "layout widens it from the hinge's neck by 45 degrees at most and leaves half of "
+            "the bar its full width; write a width below %s um, or move the hinges apart",
+            label, wide, id, length, fw_layout_um(most, ceil(most_m * 1e7) / 1e7));
+    if (d->diags == d->own && length_m > neck_m) d->too_wide = body, d->fits_m = most_m;
     fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint));
     fault.body[fault.nbody++] = body;
     FW_TRY(fw_layout_fault_keep(d, fault));

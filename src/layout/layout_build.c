@@ -275,6 +275,62 @@ static bool comments_drawing(int number) {
     return false;
 }
 
+/* ---- how wide a bar that was refused may be ---- */
+
+enum { MOST_NARROWER = 12 };
+
+/* the device with another width of a body is drawn, and what is said of it forgotten; *fits_m: the width, or
+   what is given as the next one where that is refused, too */
+static fw_status draw_narrower(fw_arena *arena, const fw_device *device, int body, double width_m,
+                               double *fits_m) {
+    const size_t n = (size_t)device->nbody;
+    fw_device narrower = *device;
+    fw_diags unsaid = fw_diags_new(arena);
+    fw_layout *l;
+    FW_NEED(narrower.body = fw_arena_grow(arena, device->body, n, n, sizeof *device->body));
+    narrower.body[body].width_m = width_m;
+    FW_NEED(l = fw_arena_one(arena, fw_layout));
+    FW_NEED(l->hinge = fw_arena_array(arena, fw_layout_hinge_layout, (size_t)device->nrevolute));
+    FW_NEED(l->body = fw_arena_array(arena, fw_layout_body_layout, n));
+    fw_layout_drawing d = {.arena = arena,
+                           .device = &narrower,
+                           .diags = &unsaid,
+                           .own = &unsaid,
+                           .layout = l,
+                           .too_wide = FW_NONE};
+    const fw_status status = draw(&d);
+    *fits_m = d.too_wide == body ? d.fits_m : width_m;
+    return status == FW_NOMEM ? status : FW_OK;
+}
+
+/* By the secant of what is given over what was asked for, each to 0.1 um below; what is named was drawn
+   without that refusal. */
+static fw_status name_width(const fw_layout_drawing *refused) {
+    const int body = refused->too_wide;
+    double width = floor(1e7 * refused->fits_m) * 1e-7, next = width, before = 0, lacked = 0;
+    for (int i = 0; i < MOST_NARROWER && width > 1e-6; i++) {
+        fw_arena *scratch = fw_arena_part(refused->arena, 0);
+        FW_NEED(scratch);
+        const fw_status status = draw_narrower(scratch, refused->device, body, width, &next);
+        fw_arena_free(scratch);
+        FW_TRY(status);
+        if (next >= width) break;
+        const double lacks = width - next, slope = (lacks - lacked) / (width - before);
+        double to = next;
+        if (i > 0 && slope > 0) to = fmin(next, width - lacks / slope);
+        before = width, lacked = lacks;
+        width = floor(1e7 * fmax(to, 0.5 * width)) * 1e-7;
+    }
+    if (next < width) return FW_OK;
+    char fits[32];
+    const char *label = fw_layout_body_label((fw_layout_drawing *)refused, body);
+    FW_NEED(label);
+    fw_diag_warning(refused->diags, 560, refused->device->body[body].width_place,
+                    "%s: a bar %s um wide fits between its hinges", label,
+                    fw_layout_um(fits, width));
+    return FW_OK;
+}
+
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout) {
     fw_layout *l;
@@ -286,12 +342,18 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
     if (failed) return FW_NOMEM;
     if (!l->why_not) {
         l->fill = device->die.fill;
-        fw_layout_drawing d = {
-            .arena = arena, .device = device, .diags = diags, .own = diags, .layout = l};
+        fw_layout_drawing d = {.arena = arena,
+                               .device = device,
+                               .diags = diags,
+                               .own = diags,
+                               .layout = l,
+                               .too_wide = FW_NONE};
         say_joints(device, diags);
         for (size_t i = 0; i < diags->count; i++)
             d.said = d.said || comments_drawing(diags->item[i].number);
         fw_status status = draw(&d);
+        const bool refused = status == FW_GEOMETRY && d.too_wide != FW_NONE && !d.said;
+        if (refused) FW_TRY(name_width(&d));
         if (status == FW_GEOMETRY) status = give_up(&d);
         l->drawn = status == FW_OK;
         *layout = status == FW_OK || (status == FW_GEOMETRY && l->nfault > 0) ? l : NULL;

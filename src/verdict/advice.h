@@ -29,6 +29,7 @@ typedef enum fw_verdict_look {
 
 typedef struct fw_verdict_trial {
     double work;                /* fw_verdict_options.work of the trials so far */
+    double most_work;           /* no search goes on beyond that */
     double excess_as_described; /* fw_verdict_trial_excess before anything was changed */
     fw_arena *arena;            /* of the plan: outlives the trial */
     const fw_device *device;    /* as described */
@@ -41,7 +42,8 @@ typedef struct fw_verdict_trial {
     bool *suspected; /* (nvariant) there is one */
     double *share;   /* (device->nscene) of each scene's loads that is left */
     fw_verdict_decision decision;
-    int round; /* of a change that is repeated; its caller's */
+    int round;  /* of a change that is repeated; its caller's */
+    bool ended; /* a change of one kind was, before it was done */
     bool drawn;
     int fabricated; /* flows whose making of it the last run looked at, too */
     /* (ncheck) of the last run, in an order that no change of a value alters: trial.c */
@@ -70,9 +72,9 @@ double fw_verdict_trial_excess(const fw_verdict_trial *trial);
 typedef fw_status fw_verdict_propose(void *context, bool *accepted);
 
 /* least_change.c: an accepted change, made as small as it may be in its own direction, and proposed.
-   *added: it was */
-fw_status fw_verdict_least_change(fw_verdict_trial *trial, fw_verdict_propose *propose,
-                                  void *context, bool *added);
+   *added: it was. most_work: of hinges, then what is known is proposed, and trial->ended says so */
+fw_status fw_verdict_least_change(fw_verdict_trial *trial, double most_work,
+                                  fw_verdict_propose *propose, void *context, bool *added);
 
 /* parameters.c: every declared parameter alone */
 fw_status fw_verdict_change_parameters(fw_verdict_trial *trial, fw_verdict *out);

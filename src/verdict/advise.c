@@ -10,8 +10,9 @@
 #include <string.h>
 
 enum { ROUNDS = 14 };
-/* evaluations of hinges that a search for several values may take */
-static const double most_work_together = 2e6;
+/* Evaluations of hinges, of some microseconds each: of a search for several values, or for one kind of
+   change; of all. Where a single look takes more than that the searches behind it are not begun. */
+static const double most_work_together = 1e6, most_work_in_all = 5e6;
 /* a change that is smaller is not worth looking for a smaller one of several values */
 static const double small_enough = 0.1;
 /* an advice nobody could follow is none: twelve times as long, four times as wide */
@@ -55,8 +56,12 @@ static bool change_each(fw_verdict_trial *trial, change_one *change, double extr
    worst hinge gets no better by it. Glances lead there; the end is judged wholly. */
 static fw_status repeat(fw_verdict_trial *trial, change_one *change) {
     double worst_before = HUGE_VAL;
-    const double most_work = trial->work + most_work_together;
-    for (int round = 0; round < ROUNDS && !accepted(trial) && trial->work < most_work; round++) {
+    const double most_work = fmin(trial->work + most_work_together, trial->most_work);
+    for (int round = 0; round < ROUNDS && !accepted(trial); round++) {
+        if (trial->work >= most_work) {
+            trial->ended = true;
+            return FW_OK;
+        }
         double worst, extra = 1.0 + 0.03 * round; /* what is too much is taken back after */
         trial->round = round;
         if (!change_each(trial, change, extra, &worst)) return FW_OK;
@@ -94,9 +99,17 @@ static bool lengthen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, d
 typedef struct advice { /* what is at hand while all kinds of changes are tried */
     fw_verdict_trial *trial;
     fw_verdict *out;
-    bool ended;         /* a search was, before it was done */
-    bool together, all; /* several parameters, all that the file states: were looked at */
+    bool ended;             /* a search was, before it was done */
+    fw_text tried, untried; /* kinds of changes; those that there was no time left for */
 } advice;
+
+/* is there time to begin with a kind of change? */
+static bool may_begin(advice *a, const char *kind) {
+    const bool yes = a->trial->work < a->trial->most_work;
+    fw_text *list = yes ? &a->tried : &a->untried;
+    fw_text_printf(list, "%s%s", list->length > 0 ? ", " : "", kind);
+    return yes;
+}
 
 static void add(advice *a, fw_verdict_proposal proposal) {
     a->out->proposal[a->out->nproposal++] = proposal;
@@ -119,6 +132,7 @@ static fw_status start_again(advice *a) {
     const size_t n = (size_t)was.verdict->nvariant;
     FW_TRY(fw_verdict_trial_start(t->arena, t->device, t->options, t->verdict, t));
     t->work = was.work;
+    t->most_work = was.most_work;
     memcpy(t->suspect, was.suspect, n * FW_FABRICATION_INPUTS * sizeof *t->suspect);
     memcpy(t->suspected, was.suspected, n * sizeof *t->suspected);
     return FW_OK;
@@ -182,12 +196,16 @@ static fw_status propose_lengths(void *context, bool *added) {
 }
 
 /* reaches an accepted, drawn device by one kind of change, and proposes the least of it */
-static fw_status change_by(advice *a, change_one *change, fw_verdict_propose *propose,
-                           bool *added) {
+static fw_status change_by(advice *a, const char *kind, change_one *change,
+                           fw_verdict_propose *propose, bool *added) {
     *added = false;
+    if (!may_begin(a, kind)) return FW_OK;
     FW_TRY(start_again(a));
     FW_TRY(repeat(a->trial, change));
-    return accepted(a->trial) ? fw_verdict_least_change(a->trial, propose, a, added) : FW_OK;
+    if (accepted(a->trial))
+        FW_TRY(fw_verdict_least_change(a->trial, most_work_together, propose, a, added));
+    a->ended = a->ended || a->trial->ended;
+    return FW_OK;
 }
 
 /* ---- widths: under a given load the stress goes with 1/t^2, as long as stiffness follows ---- */
@@ -404,7 +422,8 @@ static fw_status propose_several(advice *a, const fw_verdict_variable *variable,
     bool added;
     FW_TRY(start_again(a));
     FW_TRY(fw_verdict_change_several(trial, variable, count, least_so_far(a->out),
-                                     trial->work + most_work_together, &found));
+                                     fmin(trial->work + most_work_together, trial->most_work),
+                                     &found));
     a->ended = a->ended || found.ended;
     if (!found.accepted || found.size > 0.98 * least_so_far(a->out)) return FW_OK;
     FW_TRY(fw_verdict_variables_settings(trial->arena, variable, count, found.x, &proposal.set,
@@ -421,8 +440,7 @@ static fw_status change_parameters_together(advice *a) {
     int count;
     if (least_so_far(a->out) <= small_enough) return FW_OK;
     FW_TRY(fw_verdict_variables_of_parameters(a->trial, &variable, &count));
-    if (count < 2) return FW_OK;
-    a->together = true;
+    if (count < 2 || !may_begin(a, "several parameters together")) return FW_OK;
     return propose_several(a, variable, count);
 }
 
@@ -432,7 +450,7 @@ static fw_status change_all(advice *a) {
     if (a->out->nproposal > 0) return FW_OK;
     FW_TRY(fw_verdict_variables_of_attributes(a->trial, &variable, &count));
     if (count == 0) return FW_OK;
-    a->all = true;
+    if (!may_begin(a, "lengths, widths, loads and required poses together")) return FW_OK;
     return propose_several(a, variable, count);
 }
 
@@ -458,17 +476,34 @@ static bool lacks_part(const fw_verdict *verdict) {
     return verdict->layout && verdict->layout->nmissing > 0;
 }
 
-static const char ended_early[] =
-    "the search was ended where it would have taken too long: there may be smaller changes";
+/* what the time did not do for; "" where it did for all */
+static const char *left_out(const advice *a) {
+    if (a->untried.length > 0)
+        return fw_arena_printf(a->trial->arena,
+                               "the search was ended where it would have taken too long, and not "
+                               "tried were %s",
+                               a->untried.data);
+    return a->ended ? "the search was ended where it would have taken too long" : "";
+}
 
-static fw_status conclude(const advice *a, const char *why) {
+static fw_status conclude(advice *a, const char *why) {
     fw_verdict *v = a->out;
-    v->advice_note = v->nproposal > 0 && a->ended ? ended_early : NULL;
-    if (v->nproposal > 0) return FW_OK;
+    fw_arena *arena = a->trial->arena;
+    FW_TRY(fw_text_end(&a->tried));
+    FW_TRY(fw_text_end(&a->untried));
+    const char *left = left_out(a);
+    FW_NEED(left);
+    v->advice_note = NULL;
+    if (v->nproposal > 0) {
+        if (*left)
+            FW_NEED(v->advice_note =
+                        fw_arena_printf(arena, "%s: there may be smaller changes", left));
+        return FW_OK;
+    }
     if (lacks_part(v)) {
         FW_NEED(
             v->advice_note = fw_arena_printf(
-                a->trial->arena,
+                arena,
                 "%sa part that finds no room in the drawing is not drawn, which neither flexures "
                 "nor loads change: move it to its nearest room",
                 v->nparameter > 0 ? "no change of a parameter was found with which the design is "
@@ -477,14 +512,10 @@ static fw_status conclude(const advice *a, const char *why) {
         return FW_OK;
     }
     FW_NEED(v->advice_note = fw_arena_printf(
-                a->trial->arena,
+                arena,
                 "no change was found with which the design is accepted and can be drawn; tried "
-                "were %s%s%ssmaller loads and required poses%s: %s%s",
-                v->nparameter > 0 ? "every parameter alone, " : "",
-                a->together ? "several parameters together, " : "",
-                why ? "" : "longer and wider flexures, ",
-                a->all ? ", and all of these together" : "",
-                a->ended ? "the search was ended where it would have taken too long; " : "",
+                "were %s: %s%s%s",
+                a->tried.data, left, *left ? "; " : "",
                 why ? why : "reconsider hinge points, thickness or material"));
     return FW_OK;
 }
@@ -503,18 +534,25 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
     if (verdict->decision == FW_ACCEPT || !options->with_advice || !options->restated.with)
         return FW_OK;
     fw_verdict_trial trial;
-    advice a = {.trial = &trial, .out = verdict};
+    advice a = {.trial = &trial,
+                .out = verdict,
+                .tried = fw_text_new(arena),
+                .untried = fw_text_new(arena)};
     const char *why = hopeless(device, verdict);
     bool added = false;
     FW_NEED(verdict->proposal =
                 fw_arena_array(arena, fw_verdict_proposal, (size_t)device->nparameter + 4));
     FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
-    FW_TRY(fw_verdict_change_parameters(&trial, verdict));
+    trial.most_work = most_work_in_all;
+    if (device->nparameter > 0 && may_begin(&a, "every parameter alone"))
+        FW_TRY(fw_verdict_change_parameters(&trial, verdict));
     FW_TRY(propose_parameters(&a));
     const bool lacks = lacks_part(verdict);
-    if (!why && !lacks) FW_TRY(change_by(&a, lengthen, propose_lengths, &added));
-    if (!why && !lacks && !added) FW_TRY(change_by(&a, widen, propose_widths, &added));
-    if (!lacks) FW_TRY(change_by(&a, lighten, propose_shares, &added));
+    if (!why && !lacks) FW_TRY(change_by(&a, "longer flexures", lengthen, propose_lengths, &added));
+    if (!why && !lacks && !added)
+        FW_TRY(change_by(&a, "wider flexures", widen, propose_widths, &added));
+    if (!lacks)
+        FW_TRY(change_by(&a, "smaller loads and required poses", lighten, propose_shares, &added));
     FW_TRY(change_parameters_together(&a));
     if (!lacks) FW_TRY(change_all(&a));
     qsort(verdict->proposal, (size_t)verdict->nproposal, sizeof *verdict->proposal, by_change);

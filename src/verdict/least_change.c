@@ -13,7 +13,8 @@
    between there and 1, in growing steps at the least. Acceptance need not be monotonous in s: what is
    found was run as it is stated; a smaller one beyond a gap may be missed.
 
-   Cost: 5 to 12 glances for each whole judgement, of which one or two are usual, MOST_JUDGED at most.
+   Cost: 5 to 12 glances for each whole judgement, of which one or two are usual, MOST_JUDGED at most;
+   beyond most_work evaluations of hinges the change that was accepted is proposed as it is.
    Test: tests/cli/test_advice.py, test_lengths_are_the_least. */
 #include "verdict/advice.h"
 #include "effects/effects.h"
@@ -71,7 +72,12 @@ typedef struct way { /* from the device as described to `full` */
     fw_verdict_trial *trial;
     const fw_device *full;
     double *share; /* (full->nscene) */
+    double most_work;
 } way;
+
+static bool spent(const way *w) {
+    return w->trial->work >= w->most_work;
+}
 
 typedef struct place { /* on the way */
     double s;
@@ -105,7 +111,7 @@ static double between(const place *low, const place *high, double beside, bool h
 /* the least s above `low` that a glance may accept */
 static fw_status approach(const way *w, place low, place *high) {
     double beside = 0.4, before = HUGE_VAL;
-    for (int i = 0; i < MOST_GLANCES && high->s - low.s > known_to * high->s; i++) {
+    for (int i = 0; i < MOST_GLANCES && !spent(w) && high->s - low.s > known_to * high->s; i++) {
         const double gap = high->s - low.s;
         place middle;
         bool may;
@@ -117,9 +123,11 @@ static fw_status approach(const way *w, place low, place *high) {
     return FW_OK;
 }
 
-fw_status fw_verdict_least_change(fw_verdict_trial *trial, fw_verdict_propose *propose,
-                                  void *context, bool *added) {
-    way w = {.trial = trial, .full = trial->changed};
+fw_status fw_verdict_least_change(fw_verdict_trial *trial, double most_work,
+                                  fw_verdict_propose *propose, void *context, bool *added) {
+    way w = {.trial = trial,
+             .full = trial->changed,
+             .most_work = fmin(trial->work + most_work, trial->most_work)};
     FW_NEED(w.share = fw_arena_array(trial->arena, double, (size_t)w.full->nscene));
     for (int i = 0; i < w.full->nscene; i++)
         w.share[i] = trial->share[i];
@@ -130,11 +138,13 @@ fw_status fw_verdict_least_change(fw_verdict_trial *trial, fw_verdict_propose *p
     *added = false;
     for (int i = 0; i < MOST_JUDGED && !*added && low.s < 1; i++) {
         place at = full; /* there it was accepted */
-        if (i < MOST_JUDGED - 1) FW_TRY(approach(&w, low, &at));
+        const bool last = i == MOST_JUDGED - 1 || spent(&w);
+        if (!last) FW_TRY(approach(&w, low, &at));
         FW_TRY(go_to(trial, w.full, w.share, at.s));
         FW_TRY(propose(context, added));
-        low = (place){fmin(at.s * (1 + step), 1), (double)NAN};
+        low = (place){last ? 1 : fmin(at.s * (1 + step), 1), (double)NAN};
         step *= 2;
+        trial->ended = spent(&w);
     }
     return FW_OK;
 }

@@ -7,12 +7,16 @@
    Out: of every parameter the value nearest to the present one that accepts, as a text for
    --set, or that none was found.
 
-   Method: "the device with the value x is accepted" is true or false and need not be monotonous,
-   so nothing is concluded from a value about those beyond it. Looked at are, on both sides of
-   the present value and outward, values whose distances grow by a constant factor (1.5, or what
-   9 of them need) up to the bounds, where they are stated, else to a quarter and to four times
-   the value. These looks are glances: the drawn device, and the corner of its flow that is worst
-   so far, at coarse accuracy; what they reject is rejected. Between the first that may be
+   Method: "the device with the value x is accepted" is true or false and need not be monotonous.
+   Looked at are, on both sides of the present value and outward, values whose distances grow by a
+   constant factor (1.5, or what 9 of them need) up to the bounds, where they are stated, else to a
+   quarter and to four times the value. The nearest ones are looked at of all parameters first:
+   those go first that may do with the least change by the power of x that they show. A side on
+   which things get worse is looked at where the other one was in vain, and not between its
+   nearest value and its end where they are worse still there; nor is one that gets better and
+   is beyond the limit at its end all the same; a parameter with which what is furthest from its
+   limit does not go is left. These looks are glances: the drawn device, and the corner of its
+   flow that is worst so far, at coarse accuracy; what they reject is rejected. Between the first that may be
    accepted and the one before it the limit is enclosed by glances: by the secant of
    ln(utilisation), straight where that goes with a power of x, or by halving where the secant
    gains less than half. There the whole verdict is asked, on both sides of the limit, and tells
@@ -24,9 +28,9 @@
    one nearer than the first value that accepts. What a glance puts more than 5 % beyond the
    limit is not looked at more closely. Nothing below a ten-thousandth of the range is resolved.
 
-   Cost: at most MOST_TRIALS looks for a parameter, some MOST_IN_ALL for all, and most_work
-   evaluations of hinges, shared evenly; usually 15 to 25 looks, of which two to four are whole
-   verdicts. What was not settled by then is said to be so.
+   Cost: at most MOST_TRIALS looks for a parameter, and most_work evaluations of hinges for all,
+   0.7 of what is left for each; usually 5 to 20 looks, of which two to four are whole verdicts.
+   What was not settled by then is said to be so.
 
    Source: regula falsi with halving: Dekker, in Dejon & Henrici (eds), Constructive Aspects of
    the Fundamental Theorem of Algebra, 1969.
@@ -39,8 +43,10 @@
 #include <string.h>
 
 /* evaluations of hinges of all looks: some seconds. A scene of many periods takes more for one */
-static const double most_work = 6e6;
-enum { MOST_TRIALS = 40, MOST_IN_ALL = 600, FEWEST_RINGS = 4, MOST_RINGS = 9 };
+static const double most_work = 3e6;
+static const double at_first =
+    0.5; /* of what is left: for the values beside all, for one parameter */
+enum { MOST_TRIALS = 40, MOST_PARAMETERS = 30, FEWEST_RINGS = 4, MOST_RINGS = 9 };
 /* the change is known to this part of it */
 static const double known_to = 0.01;
 /* and the value to this part of it: of a small change nobody types all digits */
@@ -49,6 +55,8 @@ static const double as_typed = 1e-3;
 static const double worth_refining = 1.05;
 static const double clear_of_limit = 0.997; /* coarsely */
 static const double ring_factor = 1.5;
+static const double well_beyond = 1.2; /* of the limit: what is only guessed at */
+static const double unchanged = 1e-6;  /* a smaller difference is of rounding */
 
 typedef struct sample { /* at one value */
     double at;          /* in the unit as written */
@@ -63,7 +71,13 @@ typedef struct parameter_search { /* for one parameter; values in the unit as wr
     double bias; /* close over coarse, where both were run last */
     int trials;
     double most_work; /* trial->work may come to */
+    bool idle;        /* what is furthest from its limit does not go with it */
 } parameter_search;
+
+/* what the work of all trials may come to behind this search */
+static double limit_of(const fw_verdict_trial *trial) {
+    return fmin(trial->work + most_work, trial->most_work);
+}
 
 static bool spent(const parameter_search *h) {
     return h->trials >= MOST_TRIALS || h->trial->work >= h->most_work;
@@ -206,7 +220,7 @@ static fw_status step_out(parameter_search *h, const sample *outer, sample *far)
    found */
 static fw_status enclose(parameter_search *h, sample near, sample *far) {
     const sample outer = *far;
-    while (!spent(h)) {
+    for (;;) { /* what was found by glances is judged even where the time is over */
         sample inner = near;
         if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
         if (estimate(h, far) > clear_of_limit) FW_TRY(step_out(h, &outer, far));
@@ -216,11 +230,11 @@ static fw_status enclose(parameter_search *h, sample near, sample *far) {
             return tighten(h, inner.judged ? inner : near, far);
         }
         if (far->at == outer.at) return FW_OK;
+        if (spent(h)) return judge(h, outer.at, far); /* of what may be, the surest */
         near = *far; /* glances were too kind: further out, by what is known now */
         FW_TRY(glance(h, outer.at, far));
         if (far->rejected) return FW_OK;
     }
-    return FW_OK;
 }
 
 /* ---- outward ---- */
@@ -243,12 +257,17 @@ static int rings(const parameter_search *h, double *away) {
     return n;
 }
 
-/* one value further out; where it may be accepted, the limit before it. found->accepted: it was */
+/* what a look at one value further out says; where it may be accepted, the limit before it.
+   found->accepted: it was */
+static fw_status follow(parameter_search *h, const sample *before, sample *found) {
+    if (found->rejected || estimate(h, found) > worth_refining) return FW_OK;
+    return enclose(h, *before, found);
+}
+
 static fw_status sample_further(parameter_search *h, double at, const sample *before,
                                 sample *found) {
     FW_TRY(glance(h, at, found));
-    if (found->rejected || estimate(h, found) > worth_refining) return FW_OK;
-    return enclose(h, *before, found);
+    return follow(h, before, found);
 }
 
 /* the other side, not yet looked at as far out as `best`: something there may be nearer */
@@ -263,28 +282,104 @@ static fw_status sample_other_side(parameter_search *h, int side, const sample *
     return FW_OK;
 }
 
-static fw_status search(parameter_search *h, double excess, sample *best) {
+/* ---- both sides ---- */
+
+/* beyond a hundred times the limit, or without a number, other things are wrong */
+static bool comparable(const sample *l) {
+    return l->coarse < 100;
+}
+
+static bool is_beyond(const parameter_search *h, const sample *l) {
+    return l->rejected || estimate(h, l) > worth_refining;
+}
+
+/* what is furthest from its limit is the same on both sides */
+static bool is_flat(const sample l[2]) {
+    return comparable(&l[0]) && comparable(&l[1]) &&
+           fabs(l[0].coarse - l[1].coarse) <= unchanged * l[0].coarse;
+}
+
+/* one side, outward */
+typedef struct outward {
+    int side;          /* 1: above, -1: below the present value */
+    sample near, last; /* the first value looked at there, the furthest one */
+    sample end;        /* where the side ends, if that was looked at */
+    bool ended, left;  /* it was; nothing is looked for between last and end */
+} outward;
+
+/* Nothing is looked for between two values where what is wrong goes one way from the other side's
+   nearest value over this side's to its end, and is beyond its limit there, too. */
+static fw_status look_at_end(parameter_search *h, const outward *other, outward *o) {
+    const double at = on_side(h, o->side, h->value.range), c = o->near.coarse;
+    if (o->ended || spent(h) || at == o->last.at) return FW_OK;
+    FW_TRY(glance(h, at, &o->end));
+    o->ended = true;
+    const bool beyond = is_beyond(h, &o->near) && is_beyond(h, &o->end);
+    const bool worse = c >= (1 - unchanged) * other->near.coarse;
+    o->left = beyond && (worse ? !(o->end.coarse < (1 - unchanged) * c)
+                               : comparable(&o->end) && o->end.coarse < c);
+    return FW_OK;
+}
+
+/* by the power of x through the two values before it, the end of this side is beyond its limit */
+static bool falls_short(const parameter_search *h, const outward *other, const outward *o) {
+    const sample *inner = o->last.at == o->near.at ? &other->near : &o->near, *outer = &o->last;
+    if (!comparable(inner) || !comparable(outer) || !(inner->at * outer->at > 0)) return false;
+    const double power = log(outer->coarse / inner->coarse) / log(outer->at / inner->at);
+    const double end = on_side(h, o->side, h->value.range) / outer->at;
+    return end > 0 && h->bias * outer->coarse * pow(end, power) > well_beyond;
+}
+
+/* the next value of a side; o->last.accepted: it, or one before it, was */
+static fw_status step_outward(parameter_search *h, double away, outward *o) {
+    const double at = on_side(h, o->side, away);
+    const sample before = o->last;
+    if (at == before.at || o->left || spent(h)) return FW_OK; /* at its end */
+    if (o->ended && at == o->end.at)
+        o->last = o->end;
+    else
+        FW_TRY(glance(h, at, &o->last));
+    return follow(h, &before, &o->last);
+}
+
+/* both sides in turn, or that which got better first and the other one where it is in vain */
+static fw_status go_outward(parameter_search *h, outward o[2], sample *best) {
     double away[MOST_RINGS];
-    int n = rings(h, away);
-    sample last[2] = {{.at = h->value.now, .coarse = excess, .judged = true},
-                      {.at = h->value.now, .coarse = excess, .judged = true}};
-    for (int i = 0; i < n; i++) {
-        int first = last[0].coarse <= last[1].coarse ? 0 : 1; /* the side that got better */
-        for (int k = 0; k < 2; k++) {
-            int s = k == 0 ? first : !first;
-            double at = on_side(h, s == 0 ? 1 : -1, away[i]);
-            if (at == last[s].at || spent(h)) continue; /* at its end */
-            sample now;
-            FW_TRY(sample_further(h, at, &last[s], &now));
-            if (!now.accepted) {
-                last[s] = now;
-                continue;
-            }
-            *best = now;
-            return k == 1 ? FW_OK : sample_other_side(h, s == 0 ? -1 : 1, &last[!s], best);
-        }
+    const int n = rings(h, away) - 1; /* without the nearest */
+    const bool one_way = comparable(&o[0].near) && comparable(&o[1].near);
+    for (int m = 0; m < 2 * n; m++) {
+        const int i = 1 + (one_way ? m % n : m / 2), k = one_way ? m / n : m % 2;
+        if (one_way && (k == 1 || falls_short(h, &o[1], &o[0])))
+            FW_TRY(look_at_end(h, &o[!k], &o[k]));
+        FW_TRY(step_outward(h, away[i], &o[k]));
+        if (!o[k].last.accepted) continue;
+        *best = o[k].last;
+        return k == 1 ? FW_OK : sample_other_side(h, o[1].side, &o[1].last, best);
     }
     return FW_OK;
+}
+
+/* first: the nearest values looked at, above and below the present one, whose excess is `excess` */
+static fw_status search(parameter_search *h, const sample first[2], double excess, sample *best) {
+    const int better = first[0].coarse <= first[1].coarse ? 0 : 1; /* the side that got better */
+    const sample now = {.at = h->value.now, .coarse = excess, .judged = true};
+    outward o[2];
+    for (int k = 0; k < 2; k++) {
+        const int s = k == 0 ? better : !better;
+        o[k] = (outward){.side = s == 0 ? 1 : -1, .near = first[s], .last = first[s]};
+    }
+    for (int k = 0; k < 2; k++) {
+        if (o[k].near.at == h->value.now) continue; /* at its end */
+        FW_TRY(follow(h, &now, &o[k].last));
+        if (!o[k].last.accepted) continue;
+        *best = o[k].last;
+        return k == 1 ? FW_OK : sample_other_side(h, o[1].side, &now, best);
+    }
+    if (is_flat(first))
+        for (int k = 0; k < 2; k++)
+            FW_TRY(look_at_end(h, &o[!k], &o[k]));
+    h->idle = o[0].left && o[1].left;
+    return h->idle ? FW_OK : go_outward(h, o, best);
 }
 
 /* ---- one parameter ---- */
@@ -299,12 +394,22 @@ static fw_status report(const parameter_search *h, const sample *best,
     out->low = fw_quantity_unit_to_si(&h->value.unit, h->value.low);
     out->high = fw_quantity_unit_to_si(&h->value.unit, h->value.high);
     out->trials = h->trials;
-    out->ended = !best->accepted && spent(h);
-    if (out->ended) {
+    out->ended = spent(h);
+    if (!best->accepted && out->ended) {
         FW_NEED(
             out->text = fw_arena_printf(
                 arena,
                 "%s: no value from %s to %s was found in the time that a search is given; now %s",
+                out->name, low, high, now));
+        return FW_OK;
+    }
+    if (h->idle) {
+        out->found = FW_PARAMETER_NONE;
+        FW_NEED(
+            out->text = fw_arena_printf(
+                arena,
+                "%s: what is furthest from being accepted does not go with it (looked at from %s "
+                "to %s); now %s",
                 out->name, low, high, now));
         return FW_OK;
     }
@@ -338,9 +443,39 @@ static fw_status begin(fw_verdict_trial *trial, const fw_device_parameter *p, pa
     return fw_verdict_value_of_parameter(trial, p, &h->value, ok);
 }
 
-/* share: of the work that is left, for this parameter */
-static fw_status advise_on(fw_verdict_trial *trial, const fw_device_parameter *p, double excess,
-                           int left, double share, fw_verdict_parameter_advice *out) {
+typedef struct candidate {
+    const fw_device_parameter *parameter;
+    parameter_search h;
+    sample first[2]; /* the nearest values, above and below */
+    double need;     /* how large a change of it may do, by these */
+    bool ok;
+} candidate;
+
+/* by the power of x through the present value and the better one of those beside it */
+static double need_of(const candidate *c, double excess) {
+    const sample *l = &c->first[c->first[0].coarse <= c->first[1].coarse ? 0 : 1];
+    if (is_flat(c->first)) return HUGE_VAL;
+    if (!comparable(l)) return 1e3;
+    const double rate = log(excess / l->coarse) / distance(&c->h, l) * c->h.value.range;
+    return l->coarse <= 1 ? 0 : rate > 0 ? fmin(log(l->coarse) / rate, 1e3) : 1e3;
+}
+
+/* the nearest values on both sides are looked at */
+static fw_status look_beside(candidate *c, double excess) {
+    parameter_search *h = &c->h;
+    double away[MOST_RINGS];
+    rings(h, away);
+    for (int k = 0; k < 2; k++) {
+        const double at = on_side(h, k == 0 ? 1 : -1, away[0]);
+        c->first[k] = (sample){.at = h->value.now, .coarse = excess, .rejected = true};
+        if (at != h->value.now && !spent(h)) FW_TRY(glance(h, at, &c->first[k]));
+    }
+    c->need = need_of(c, excess);
+    return FW_OK;
+}
+
+static fw_status advise_on(candidate *c, double excess, fw_verdict_parameter_advice *out) {
+    const fw_device_parameter *p = c->parameter;
     *out = (fw_verdict_parameter_advice){.name = p->name,
                                          .found = FW_PARAMETER_NOT_LOOKED,
                                          .from = p->value,
@@ -348,18 +483,37 @@ static fw_status advise_on(fw_verdict_trial *trial, const fw_device_parameter *p
                                          .low = (double)NAN,
                                          .high = (double)NAN,
                                          .change = (double)NAN};
-    parameter_search h;
-    bool ok = false;
-    if (left > 0) FW_TRY(begin(trial, p, &h, &ok));
-    if (ok) {
+    if (c->ok && c->h.trials > 0) {
         sample best = {0};
-        h.most_work = trial->work + share * (most_work - trial->work);
-        FW_TRY(search(&h, excess, &best));
-        return report(&h, &best, out);
+        FW_TRY(search(&c->h, c->first, excess, &best));
+        return report(&c->h, &best, out);
     }
-    const char *why = left > 0 ? "state its min and max to say how far it may go"
-                               : "there are more parameters than a search has time for";
-    FW_NEED(out->text = fw_arena_printf(trial->arena, "%s: no value was tried: %s", p->name, why));
+    out->ended = c->ok;
+    const char *why = c->ok ? "the search had taken all the time that it is given"
+                            : "state its min and max to say how far it may go";
+    FW_NEED(out->text =
+                fw_arena_printf(c->h.trial->arena, "%s: no value was tried: %s", p->name, why));
+    return FW_OK;
+}
+
+/* those that may do with the least change first */
+static int by_need(const void *a, const void *b) {
+    const candidate *p = a, *q = b;
+    const int order = fw_order_doubles(p->need, q->need);
+    return order ? order : p->parameter < q->parameter ? -1 : p->parameter > q->parameter;
+}
+
+static fw_status candidates(fw_verdict_trial *trial, double excess, candidate *all) {
+    const fw_device *d = trial->device;
+    const double most = trial->work + at_first * (limit_of(trial) - trial->work);
+    for (int i = 0; i < d->nparameter; i++) {
+        candidate *c = &all[i];
+        *c = (candidate){.parameter = &d->parameter[i], .need = HUGE_VAL};
+        FW_TRY(begin(trial, c->parameter, &c->h, &c->ok));
+        c->h.most_work = most;
+        if (c->ok && i < MOST_PARAMETERS) FW_TRY(look_beside(c, excess));
+    }
+    qsort(all, (size_t)d->nparameter, sizeof *all, by_need);
     return FW_OK;
 }
 
@@ -386,16 +540,18 @@ static int by_change(const void *a, const void *b) {
 }
 
 fw_status fw_verdict_change_parameters(fw_verdict_trial *trial, fw_verdict *out) {
-    const fw_device *device = trial->device;
-    int left = MOST_IN_ALL, n = device->nparameter;
+    const int n = trial->device->nparameter;
     if (n == 0) return FW_OK;
+    candidate *all;
     FW_NEED(out->parameter = fw_arena_array(trial->arena, fw_verdict_parameter_advice, (size_t)n));
-    const double excess = fw_verdict_trial_excess(trial);
+    FW_NEED(all = fw_arena_array(trial->arena, candidate, (size_t)n));
+    const double excess = fw_verdict_trial_excess(trial), limit = limit_of(trial);
+    FW_TRY(candidates(trial, excess, all));
     for (int i = 0; i < n;
          i++) { /* what one finds to be the worst corner, the next looks at first */
-        FW_TRY(advise_on(trial, &device->parameter[i], excess, left, 1.0 / (n - i),
-                         &out->parameter[i]));
-        left -= out->parameter[i].trials;
+        const double share = fmax(1.0 / (n - i), at_first);
+        all[i].h.most_work = trial->work + share * (limit - trial->work);
+        FW_TRY(advise_on(&all[i], excess, &out->parameter[i]));
     }
     out->nparameter = n;
     qsort(out->parameter, (size_t)n, sizeof *out->parameter, by_change);

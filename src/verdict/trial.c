@@ -298,14 +298,6 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
 /* of a motion: as at a corner. A quasi-static motion is solved at every one. */
 static const int samples_of_a_glance = 65;
 
-/* of a flow whose worst corner nothing is known of, all are looked at once */
-static bool unknown_corners(const fw_verdict_trial *trial) {
-    bool unknown = false;
-    for (int i = 0; i < trial->verdict->nvariant; i++)
-        unknown = unknown || (trial->verdict->variant[i].ninput > 0 && !trial->suspected[i]);
-    return unknown;
-}
-
 static fw_verdict_options options_of(fw_verdict_trial *trial, fw_verdict_look look) {
     fw_verdict_options o = *trial->options;
     o.coarse_first = true;
@@ -315,7 +307,7 @@ static fw_verdict_options options_of(fw_verdict_trial *trial, fw_verdict_look lo
     trial->brief = look != FW_LOOK_VALUES;
     if (look == FW_LOOK_WHOLE) return o;
     if (o.motion.rtol <= 0) o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_accuracy);
-    if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial)) o.corners = FW_CORNERS_SUSPECT;
+    if (o.corners == FW_CORNERS_FIRST) o.corners = FW_CORNERS_SUSPECT;
     if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
     o.at_a_glance = true;
     o.decision_only = look == FW_LOOK_GLANCE;

@@ -252,7 +252,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, &monitor[i].bending));
         FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, &other[i].bending));
         other[i].clearance = &watch[1];
-        FW_TRY(fw_verdict_clearance_scene(scene, watch));
+        FW_TRY(fw_verdict_clearance_scene(m, scene, watch));
         fw_probe_monitor *seen[2];
         FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, seen));
         monitor[i].probe = seen[0], other[i].probe = seen[1];

@@ -263,10 +263,10 @@ typedef struct fw_verdict {
 } fw_verdict;
 
 typedef enum fw_verdict_corners {
-    FW_CORNERS_AUTO,   /* as drawn, then as made */
-    FW_CORNERS_NONE,   /* as drawn only */
-    FW_CORNERS_FIRST,  /* stop at the first corner that is not accepted: for trials */
-    FW_CORNERS_SUSPECT /* only that of `suspect`, where there is one: for looking around */
+    FW_CORNERS_AUTO,  /* as drawn, then as made */
+    FW_CORNERS_NONE,  /* as drawn only */
+    FW_CORNERS_FIRST, /* stop at the first corner that is not accepted: for trials */
+    FW_CORNERS_SUSPECT /* only that of `suspect`; where there is none, as FIRST: for looking around */
 } fw_verdict_corners;
 
 /* The same description read again with nset more settings, for advice; this room does not read

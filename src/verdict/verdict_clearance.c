@@ -114,9 +114,37 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
     return FW_OK;
 }
 
+/* a stated place and a drawn wall, whose corners are rounded, need not agree better */
+static const double touches_m = 10e-6;
+
+/* Is the round thing about this point, whose radius is at most the distance of the contact, part of what
+   is drawn of the body? A bead that is held stands in the open: the ground may carry it, and its frame
+   is none of it. */
+static bool is_drawn_there(const fw_clearance_solid *solid, fw_geometry_vec2 at,
+                           double distance_m) {
+    for (int i = 0; i < solid->count; i++)
+        if (!solid->edge[i].bends && fw_geometry_segment_nearest(&solid->edge[i].segment, at, NULL,
+                                                                 NULL) <= distance_m + touches_m)
+            return true;
+    return solid->count == 0;
+}
+
+static bool lets_meet(const fw_mechanism *m, const fw_clearance_things *things,
+                      const fw_device_contact_use *c) {
+    const int ground = things->nbody;
+    if (c->joint != FW_NONE) return false;
+    if (c->side == FW_CONTACT_INSIDE) return true; /* its hole is open */
+    const fw_clearance_solid *a = &things->solid[c->body_a == FW_GROUND ? ground : c->body_a],
+                             *b = &things->solid[c->body_b == FW_GROUND ? ground : c->body_b];
+    return is_drawn_there(a, fw_mechanism_local_place(m, c->body_a, c->ax_m, c->ay_m),
+                          c->distance_m) &&
+           is_drawn_there(b, fw_mechanism_local_place(m, c->body_b, c->bx_m, c->by_m),
+                          c->distance_m);
+}
+
 /* pairs of which the scene says itself what happens when they touch; the conjugate surfaces of a
    hinge are no edges here at all */
-fw_status fw_verdict_clearance_scene(const fw_device_scene *scene,
+fw_status fw_verdict_clearance_scene(const fw_mechanism *m, const fw_device_scene *scene,
                                      fw_verdict_clearance_watch watch[2]) {
     const fw_clearance_things *things = watch[0].things;
     if (!things) return FW_OK;
@@ -126,7 +154,7 @@ fw_status fw_verdict_clearance_scene(const fw_device_scene *scene,
         may_meet[i] = false;
     for (int i = 0; i < scene->ncontact; i++) {
         const fw_device_contact_use *c = &scene->contact[i];
-        if (c->joint != FW_NONE) continue;
+        if (!lets_meet(m, things, c)) continue;
         int a = c->body_a == FW_GROUND ? n - 1 : c->body_a,
             b = c->body_b == FW_GROUND ? n - 1 : c->body_b;
         may_meet[a * n + b] = may_meet[b * n + a] = true;
@@ -245,6 +273,11 @@ static const char *what_happens(fw_arena *arena, const fw_verdict_clearance *c) 
     return text;
 }
 
+/* in um, to a nanometre: a coordinate of 0 has been rounded off */
+static const char *place_text(char text[32], double x_m) {
+    return fw_number_text(text, 32, 1e-3 * nearbyint(1e9 * x_m) + 0.0, 5);
+}
+
 static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
                           const char **text) {
     const fw_clearance_least *l = &c->least;
@@ -261,17 +294,17 @@ static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const 
     const char *mend = "draw them further apart or let them move less";
     if (l->at.tether)
         mend = "the layout chooses where a tether stands: it wants an edge of the body that is "
-               "longer, "
-               "or further from other bodies on their way, or <die tethers=\"no\"/> and another "
-               "way to hold "
-               "the body while it is released; or let them move less";
+               "longer, or further from other bodies on their way, so draw one with the body's "
+               "width, plate-width and plate-height or a <plate> or <bar> inside it; or write "
+               "<die tethers=\"no\"/> and hold the body in another way while it is released; or "
+               "let them move less";
     else if (c->box == FW_NONE && !l->at.lane)
         mend = "draw them further apart or let them move less; where they are to meet, give the "
                "scene a <contact>";
-    FW_NEED(*text = fw_arena_printf(
-                arena, "%s and %s %s in %s, at (%s, %s) um%s: %s", name_of(l->at.a),
-                name_of(l->at.b), what, where, fw_number_text(x, sizeof x, 1e6 * l->at.at_a.x, 5),
-                fw_number_text(y, sizeof y, 1e6 * l->at.at_a.y, 5), then, mend));
+    FW_NEED(*text =
+                fw_arena_printf(arena, "%s and %s %s in %s, at (%s, %s) um%s: %s", name_of(l->at.a),
+                                name_of(l->at.b), what, where, place_text(x, l->at.at_a.x),
+                                place_text(y, l->at.at_a.y), then, mend));
     return FW_OK;
 }
 

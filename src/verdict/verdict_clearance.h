@@ -30,7 +30,7 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
                                      fw_verdict_clearance_watch watch[2],
                                      fw_verdict_variant_verdict *v);
 /* which pairs the scene lets meet */
-fw_status fw_verdict_clearance_scene(const fw_device_scene *scene,
+fw_status fw_verdict_clearance_scene(const fw_mechanism *m, const fw_device_scene *scene,
                                      fw_verdict_clearance_watch watch[2]);
 /* an fw_dynamics_tracer; context is the strain monitor */
 void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);

@@ -421,14 +421,15 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *v) {
     fw_verdict_search s;
-    bool decided, alone = options->corners == FW_CORNERS_SUSPECT;
-    bool quick = alone || options->corners == FW_CORNERS_FIRST;
+    bool decided, alone = options->corners == FW_CORNERS_SUSPECT && v->suspect;
+    bool quick = alone || options->corners != FW_CORNERS_AUTO;
     if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn == FW_REJECT)
         return FW_OK;
     /* what is undecided as drawn stays so; a glance, which does not refine, is told how much further
        its corner is from the limit */
-    if (alone ? !v->suspect : v->drawn != FW_ACCEPT) return FW_OK;
+    if (!alone && v->drawn != FW_ACCEPT) return FW_OK;
     FW_TRY(fw_verdict_search_begin(arena, device, layout, options, v, &s));
+    if (quick && !alone) s.options.corners = FW_CORNERS_FIRST;
     FW_TRY(try_suspect(&s, &decided));
     if (!decided) FW_TRY(fw_verdict_search_corners(&s));
     for (int k = 0; k < v->nhinge; k++) {

@@ -330,11 +330,12 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                r->why);
     fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
     const char *all = "";
-    if (r->all_low < r->low || r->all_high > r->high) {
-        char least[FW_PROBE_TEXT], most[FW_PROBE_TEXT];
-        all = fw_arena_printf(arena, "; at every corner of the flow %s to %s",
-                              fw_probe_text(least, r->all_low, r->unit),
-                              fw_probe_text(most, r->all_high, r->unit));
+    if (below ? r->all_low < r->low : r->all_high > r->high) { /* on the side that is asked for */
+        char end[FW_PROBE_TEXT];
+        fw_probe_text(end, below ? r->all_low : r->all_high, r->unit);
+        if (!fw_text_same(end, below ? low : high))
+            all = fw_arena_printf(arena, "; no corner of the flow is %s %s",
+                                  below ? "below" : "above", end);
         if (!all) return NULL;
     }
     return fw_arena_printf(arena, "%s (%s) is %s (%s to %s%s), and at %s %s is required", r->probe,

@@ -147,6 +147,7 @@ static fw_status draw(fw_arena *arena, const fw_device *device, const fw_verdict
 static fw_status as_fabricated(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict_options *options, fw_verdict *verdict) {
     verdict->drawn = verdict->decision;
+    if (options->decision_only && verdict->drawn == FW_REJECT) return FW_OK;
     for (int i = 0; i < verdict->nvariant; i++) {
         fw_verdict_variant_verdict *v = &verdict->variant[i];
         FW_TRY(fw_verdict_as_fabricated(arena, device, layout, options, v));

@@ -138,8 +138,8 @@ def jumps(program):
 
 def lane(program):
     """a <contact> with the ground lets a body meet what stands there, but not leave the die"""
-    contact = ('    <contact id="tips" side="outside" a="left" a-x="0.5 mm" a-y="0.4 mm" b="ground" b-x="0 mm" '
-               'b-y="3 mm" distance="1 um" stiffness="1e3 N/m"/>\n  </scene>\n  <die frame="120 um"/>')
+    contact = ('    <contact id="tips" side="inside" a="left" a-x="0.5 mm" a-y="0.4 mm" b="ground" b-x="0 mm" '
+               'b-y="3 mm" distance="10 mm" stiffness="1e3 N/m"/>\n  </scene>\n  <die frame="120 um"/>')
     with tempfile.TemporaryDirectory() as directory:
         path = changed(directory, "jaws.xml", ("  </scene>", contact), ('fx="push"', 'fx="-1*push"'),
                        ('fx="-push"', 'fx="push"'))
@@ -149,6 +149,21 @@ def lane(program):
                d["verdict"] == "reject" and met and "dicing lane" in (met[0]["a"], met[0]["b"]))
         d = check(program, path, "push=20 uN", "gap=400 um")
         expect("one that stays is not", not any(c["meet"] for c in d["clearances"]))
+
+
+def beads(program):
+    """a bead that stands in the open is no part of the frame, which a jaw that holds the bead may not meet"""
+    bead = ('    <contact id="bead" side="outside" a="left" a-x="0.5 mm" a-y="0 mm" b="ground" b-x="0.51 mm" '
+            'b-y="1.2 mm" distance="10 um" stiffness="10 N/m"/>\n  </scene>\n  <die frame="120 um"/>')
+    with tempfile.TemporaryDirectory() as directory:
+        path = changed(directory, "jaws.xml", ("  </scene>", bead), ('fx="push"', 'fx="-1*push"'),
+                       ('<force on="right" fx="-push" fy="0 mN" law="ramp" rise="16 ms"/>', ""))
+        d = check(program, path, "push=150 uN", "gap=400 um")
+        met = [c for c in d["clearances"] if c["meet"]]
+        expect("a jaw that meets the frame, away from its bead, is rejected",
+               d["verdict"] == "reject" and bool(met) and "dicing lane" not in (met[0]["a"], met[0]["b"]))
+        d = check(program, path, "push=5 uN", "gap=400 um")
+        expect("one that does not is accepted", d["verdict"] == "accept")
 
 
 def riders(program):
@@ -182,7 +197,7 @@ def folds(program):
 
 
 def main():
-    for case in (jaws, eyelets, as_made, corners, jumps, lane, riders, folds):
+    for case in (jaws, eyelets, as_made, corners, jumps, lane, beads, riders, folds):
         case(sys.argv[1])
     return 1 if FAULTS else 0
 

@@ -6,6 +6,7 @@ import hashlib
 import json
 import pathlib
 import random
+import re
 import struct
 import tempfile
 import unittest
@@ -163,6 +164,30 @@ class Shapes(unittest.TestCase):
         result = run("check", ROOT / "docs/gallery/free-form-gripper/device.xml", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(json.loads(result.stdout)["verdict"], "accept")
+
+
+class Widths(unittest.TestCase):
+    def test_the_width_that_is_named_is_drawn(self):
+        """a narrower bar has narrower necks: what a first refusal left room for was refused again, four times over"""
+        device = """<device xmlns="urn:flexwright:device:1" name="crank"><material ref="silicon-100" thickness="50 um"/>
+<flow ref="al-masked-rie"/><flexure id="f" kind="csfh" radius="60 um" angle="220 deg" width="8 um" gap="10 um"/><mechanism>
+<body id="crank" x="0 mm" y="0 mm" width="%s um"/><body id="rod" x="0 mm" y="%s mm" width="120 um"/>
+<revolute id="A" a="ground" b="crank" hinge="f"/><revolute id="B" a="crank" a-y="%s mm" b="rod" hinge="f"/>
+<revolute id="C" a="rod" a-x="0.9 mm" b="ground" b-x="0.9 mm" b-y="%s mm" hinge="f"/></mechanism>
+<scene name="push" duration="5 ms"><force on="rod" fx="1 uN"/></scene></device>"""
+
+        def said(width, length):
+            with tempfile.TemporaryDirectory() as directory:
+                path = pathlib.Path(directory, "crank.xml")
+                path.write_text(device % (width, length, length, length), encoding="utf-8")
+                return run("check", str(path), "--advice", "none").stderr
+
+        for length in ("0.42", "0.5", "0.7"):
+            text = said("600", length)
+            self.assertIn("FW-D137", text)
+            fits = re.search(r"link crank: a bar (\S+) um wide fits", text).group(1)
+            self.assertGreater(float(fits), 90)
+            self.assertNotIn("FW-D137", said(fits, length))
 
 
 def boxes(plates):
