@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the values make sense, wherever they come from: a pack, a laboratory, calibrate? Read once with the pack and again
-   when a laboratory has replaced some (fw_process_flow_lint_values). Can the prices be added? Does a filling serve a
+   when a laboratory has replaced some (fw_process_flow_lint_values). Are their
+   uncertainties ones? Can the prices be added? Does a filling serve a
    wafer? Is every mask but the first aligned to one before it? */
 #include "process/films.h"
 #include "process/pack.h"
@@ -61,6 +62,71 @@ static bool in_range(const units *u, const fw_quantity *q, fw_diags *diags) {
     return false;
 }
 
+/* ---- uncertainties ---- */
+
+/* What bounds a quantity's error: its plausible range. An interval lies within it; a standard uncertainty is at most half
+   as wide; what cannot be below 0 is not more uncertain than it is large, a temperature (K, far from its zero) not by more
+   than a quarter. */
+static double most_uncertain(const fw_quantity *q, double least, double most) {
+    const double width = 0.5 * (most - least);
+    const bool hot = fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1});
+    if (!(least >= 0.0) || !(q->value > 0.0)) return width;
+    return fmin(width, hot ? 0.25 * q->value : q->value);
+}
+
+static void too_uncertain(const units *u, const fw_quantity *q, fw_diags *diags) {
+    const int at = range_of(u, q);
+    const bool own = q->least != 0.0 || q->most != 0.0;
+    if (q->unknown || (at < 0 && !own)) return;
+    const double least = own ? q->least : fw_quantity_unit_to_si(&u->of[at], ranges[at].least),
+                 most = own ? q->most : fw_quantity_unit_to_si(&u->of[at], ranges[at].most),
+                 slack = 1e-9 * (most - least), limit = most_uncertain(q, least, most);
+    fw_quantity bound = *q;
+    char low[32], high[32];
+    if (q->interval && (q->low < least - slack || q->high > most + slack)) {
+        bound.value = q->low;
+        fw_number_text(low, sizeof low, fw_quantity_in_unit(&bound), 6);
+        bound.value = q->high;
+        fw_diag_error(diags, 530, q->place,
+                      "'%s' is said to lie between %s and %s %s, which leaves its plausible range; "
+                      "correct the ends or their unit",
+                      q->id ? q->id : "q", low,
+                      fw_number_text(high, sizeof high, fw_quantity_in_unit(&bound), 6), q->unit);
+    } else if (!q->interval && q->uncertainty > limit * (1.0 + 1e-9)) {
+        const double unit = q->value != 0.0 && !fw_quantity_dimension_equal(
+                                                   q->dimension, (fw_quantity_dimension){.K = 1})
+                                ? fw_quantity_in_unit(q) / q->value
+                                : 1.0;
+        fw_diag_error(diags, 530, q->place,
+                      "'%s' has a standard uncertainty of %s %s, but more than %s makes no sense "
+                      "for it; correct u or its unit, or leave the value unknown",
+                      q->id ? q->id : "q",
+                      fw_number_text(low, sizeof low, q->uncertainty * unit, 4), q->unit,
+                      fw_number_text(high, sizeof high, limit * unit, 4));
+    }
+}
+
+static bool is_count(const fw_quantity *q) {
+    return q->range && strcmp(q->range, "count") == 0;
+}
+
+void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diags *diags) {
+    const bool exact = !q->unknown && !q->interval && !(q->uncertainty > 0.0);
+    if (!exact || is_count(was ? was : q)) return;
+    if (q->status == FW_MEASURED)
+        fw_diag_warning(
+            diags, 531, q->place,
+            "'%s' is measured, and stated without an uncertainty (u = 0), so that times "
+            "and corners take it for exact; give what instrument and sites leave",
+            was ? was->id : q->id);
+    else if (was && was->uncertainty > 0.0)
+        fw_diag_warning(
+            diags, 531, q->place,
+            "'%s' replaces an uncertain value by an exact one (u = 0), so that its range "
+            "falls out of times and corners; give the uncertainty that is left",
+            was->id);
+}
+
 bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
     units u;
     read_units(&u);
@@ -91,7 +157,9 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
         }
         bool own = fw_process_flow_own_quantity(f, q->id) == q && q->status != FW_DERIVED;
         bool asked = q->least != 0.0 || q->most != 0.0; /* when its element was read */
-        if (own && (!asked || q->replaced)) in_range(&u, q, pack->diags);
+        if (own && (!asked || q->replaced) && !in_range(&u, q, pack->diags)) continue;
+        if (own) too_uncertain(&u, q, pack->diags);
+        if (own && !q->replaced) fw_process_warn_exact(q, NULL, pack->diags);
     }
     return FW_OK;
 }
@@ -221,17 +289,65 @@ fw_status fw_process_lint_prices(fw_process_pack *pack) {
 
 /* ---- hazards of what is used as it is, and of baths ---- */
 
+static bool names(const fw_process_step *s, const char *hazard) {
+    for (int i = 0; i < s->nhazard; i++)
+        if (strcmp(s->hazard[i]->id, hazard) == 0) return true;
+    return false;
+}
+
 static void named(fw_process_pack *pack, const fw_process_step *s, const fw_process_use *u) {
     const char *id = u->bath ? u->bath->id : u->consumable->id;
     const fw_process_hazard *hazard = u->bath ? u->bath->hazard : u->consumable->hazard;
-    bool there = !hazard;
-    for (int i = 0; i < s->nhazard && !there; i++)
-        there = s->hazard[i] == hazard;
-    if (!there)
+    if (hazard && !names(s, hazard->id))
         fw_diag_error(pack->diags, 374, u->place,
                       "step %s uses '%s', whose hazard '%s' it does not name; add <hazard-ref "
                       "ref=\"%s\"/>",
                       s->id, id, hazard->id, hazard->id);
+}
+
+/* what a wafer is rinsed in at the end */
+static void finished_in(fw_process_pack *pack, const fw_process_step *s) {
+    for (int k = 0; k < s->nfinish; k++) {
+        const fw_process_hazard *with = s->finish[k].with;
+        if (with && !names(s, with->id))
+            fw_diag_error(pack->diags, 374, s->finish[k].place,
+                          "step %s rinses in '%s', which it does not name as a hazard; add "
+                          "<hazard-ref ref=\"%s\"/>",
+                          s->id, with->id, with->id);
+    }
+}
+
+/* what hurts at a tool whatever is done there */
+static void brought(fw_process_pack *pack, const fw_process_step *s) {
+    const char *words = s->equipment ? s->equipment->brings : "";
+    for (fw_word word; fw_word_next(&words, " ", &word);) {
+        const char *id = fw_arena_strndup(pack->arena, word.at, word.length);
+        if (id && !names(s, id))
+            fw_diag_error(pack->diags, 528, s->place,
+                          "step %s is at '%s', which brings '%s', and does not name it; add "
+                          "<hazard-ref ref=\"%s\"/>",
+                          s->id, s->equipment->id, id, id);
+    }
+}
+
+static bool is_with_buddy(const fw_process_step *s) {
+    for (int i = 0; i < s->nhazard; i++)
+        if (s->hazard[i]->buddy) return true;
+    return false;
+}
+
+/* at a bench of something that nobody handles alone every step is of that kind */
+static void beside(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_process_flow *f = pack->flow;
+    if (is_with_buddy(s) || !s->equipment) return;
+    for (int i = 0; i < f->nstep; i++) {
+        if (f->step[i].equipment != s->equipment || !is_with_buddy(&f->step[i])) continue;
+        fw_diag_error(pack->diags, 528, s->place,
+                      "step %s is at '%s', where step %s works with what nobody handles alone, and "
+                      "names no such hazard; add its <hazard-ref>, or use another bench",
+                      s->id, s->equipment->id, f->step[i].id);
+        return;
+    }
 }
 
 fw_status fw_process_lint_uses(fw_process_pack *pack) {
@@ -239,6 +355,9 @@ fw_status fw_process_lint_uses(fw_process_pack *pack) {
         const fw_process_step *s = &pack->flow->step[i];
         for (int k = 0; k < s->nuse; k++)
             named(pack, s, &s->use[k]);
+        finished_in(pack, s);
+        brought(pack, s);
+        beside(pack, s);
     }
     return FW_OK;
 }
