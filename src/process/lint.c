@@ -62,6 +62,14 @@ static fw_status lint_order(fw_process_pack *pack) {
                                   "<lag> of step %s counts from step %s, which is not before it; "
                                   "name an earlier step",
                                   f->step[i].id, f->step[j].id);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].non_fail; k++)
+            for (int j = i + 1; j < f->nstep; j++)
+                if (strcmp(f->step[i].on_fail[k].go_to, f->step[j].id) == 0)
+                    fw_diag_error(pack->diags, 276, f->step[i].place,
+                                  "<on-fail> of step %s goes on with step %s, which is not done "
+                                  "yet; name the step itself or an earlier one",
+                                  f->step[i].id, f->step[j].id);
     return FW_OK;
 }
 
@@ -413,10 +421,29 @@ static fw_status lint_uncertain(fw_arena *arena, fw_process_flow *flow, const fw
             s->time.ncontribution ? s->time.contribution[0] : "its inputs"));
 }
 
+/* a time of nothing: an input is 0 that is none */
+static fw_status lint_lasts(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
+                            fw_diags *diags) {
+    if (!s->time.computable) return FW_OK;
+    if (!(s->time.nominal_s > 0.0)) {
+        fw_diag_warning(diags, 534, s->place,
+                        "step %s takes no time by its law (%s): one of its inputs is 0", s->id,
+                        s->law);
+        return fw_process_flow_add_reason(
+            arena, flow, 0,
+            fw_arena_printf(arena,
+                            "step %s takes no time by its law (%s): nothing is done. Nearest "
+                            "change: the inputs that are 0",
+                            s->id, s->law));
+    }
+    return FW_OK;
+}
+
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         FW_TRY(lint_uncertain(arena, flow, s));
+        FW_TRY(lint_lasts(arena, flow, s, diags));
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
         for (int k = 0; k < s->nderive; k++)

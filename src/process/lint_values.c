@@ -110,21 +110,21 @@ static bool is_count(const fw_quantity *q) {
     return q->range && strcmp(q->range, "count") == 0;
 }
 
+/* a pack knows which of its numbers are exact: sizes that are chosen, limits, things that are counted */
 void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diags *diags) {
-    const bool exact = !q->unknown && !q->interval && !(q->uncertainty > 0.0);
-    if (!exact || is_count(was ? was : q)) return;
+    const bool exact = !q->unknown && !q->interval && !(q->uncertainty > 0.0),
+               chosen = was && !was->unknown && !(was->uncertainty > 0.0);
+    if (!exact || chosen || is_count(was ? was : q)) return;
     if (q->status == FW_MEASURED)
-        fw_diag_warning(
-            diags, 531, q->place,
-            "'%s' is measured, and stated without an uncertainty (u = 0), so that times "
-            "and corners take it for exact; give what instrument and sites leave",
-            was ? was->id : q->id);
-    else if (was && was->uncertainty > 0.0)
-        fw_diag_warning(
-            diags, 531, q->place,
-            "'%s' replaces an uncertain value by an exact one (u = 0), so that its range "
-            "falls out of times and corners; give the uncertainty that is left",
-            was->id);
+        fw_diag_warning(diags, 531, q->place,
+                        "'%s' is measured, and stated without an uncertainty (u = 0), so that "
+                        "times and corners take it for exact; give what instrument and sites leave",
+                        was ? was->id : q->id);
+    else if (was && !was->unknown)
+        fw_diag_warning(diags, 531, q->place,
+                        "'%s' replaces an uncertain value by an exact one (u = 0), so that its "
+                        "range falls out of times and corners; give the uncertainty that is left",
+                        was->id);
 }
 
 bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
@@ -204,11 +204,95 @@ static void lint_setting(fw_process_pack *pack, const fw_process_step *s,
                   set->q->unit);
 }
 
+/* "thickness_2" after "thickness_1": what a curve is read along rises from pair to pair */
+static void lint_pairs(fw_process_pack *pack, const fw_process_step *s,
+                       const fw_process_argument *argument, int n) {
+    static const char *const along[] = {"value_", "thickness_"};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < n; k++)
+            for (size_t a = 0; a < sizeof along / sizeof *along; a++) {
+                const size_t length = strlen(along[a]);
+                const fw_quantity *p = argument[i].q, *q = argument[k].q;
+                if (strncmp(argument[i].name, along[a], length) != 0 ||
+                    strncmp(argument[k].name, along[a], length) != 0 ||
+                    argument[k].name[length] != argument[i].name[length] + 1 || p->unknown ||
+                    q->unknown || p->value < q->value)
+                    continue;
+                fw_diag_error(pack->diags, 342, q->replaced ? q->place : s->place,
+                              "step %s reads a curve whose points do not rise: '%s' is not above "
+                              "'%s'; correct them, or exchange the pairs",
+                              s->id, q->id, p->id);
+            }
+}
+
+/* a bake drives water and solvent out, which no room's warmth does */
+static void lint_cold(fw_process_pack *pack, const fw_process_step *s,
+                      const fw_process_setting *set) {
+    const double least_K = 323.15; /* 50 Cel */
+    if (!fw_process_step_is_op(s, "bake") || set->q->unknown || set->q->value >= least_K ||
+        !fw_quantity_dimension_equal(set->q->dimension, (fw_quantity_dimension){.K = 1}))
+        return;
+    char is[32];
+    fw_diag_error(
+        pack->diags, 532, set->q->replaced ? set->q->place : set->place,
+        "step %s bakes at %s %s (%s), where nothing leaves a resist or a wafer; a bake is "
+        "above 50 Cel, a rest is op=\"hold\"",
+        s->id, fw_number_text(is, sizeof is, fw_quantity_in_unit(set->q), 4), set->q->unit,
+        set->q->id);
+}
+
+/* what is measured has a unit, or is counted in a word of the laboratory: not in a misspelt unit */
+static void lint_measured_in(fw_process_pack *pack, const fw_process_step *s,
+                             const fw_process_accept *a) {
+    fw_quantity_unit unit;
+    const size_t n = strlen(a->unit), longest = 4;
+    if (n == 0 || n > longest || fw_quantity_unit_parse(a->unit, n, &unit, NULL, NULL)) return;
+    const char *better = fw_quantity_unit_suggestion(a->unit, n, NULL);
+    if (better)
+        fw_diag_warning(pack->diags, 533, a->place,
+                        "step %s measures '%s' in '%s', which is no unit; did you mean '%s'?",
+                        s->id, a->measure, a->unit, better);
+}
+
+/* thicknesses, depths and widths of laws: a length below 0 is an edge's, which no law takes */
+static void lint_lengths(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_argument *argument, int n) {
+    char is[32];
+    for (int i = 0; i < n; i++) {
+        const fw_quantity *q = argument[i].q;
+        if (q->unknown || !(q->value < 0.0) ||
+            !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
+            continue;
+        fw_diag_error(pack->diags, 278, q->place,
+                      "'%s' is %s %s, and step %s computes with it as its %s, which is not below "
+                      "0; correct the value",
+                      q->id, fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 6), q->unit,
+                      s->id, argument[i].name);
+    }
+}
+
+/* the shortest time that does is not above the longest that harms nothing */
+static void lint_between(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_quantity *least = fw_process_step_argument(s, "shortest"),
+                      *most = fw_process_step_argument(s, "longest");
+    if (!least || !most || least->unknown || most->unknown || least->value <= most->value) return;
+    fw_diag_error(pack->diags, 342, least->replaced ? least->place : s->place,
+                  "step %s: the shortest time, '%s', is above the longest one, '%s'; correct them",
+                  s->id, least->id, most->id);
+}
+
 fw_status fw_process_lint_settings(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
         for (int k = 0; k < s->nsetting; k++)
-            lint_setting(pack, s, &s->setting[k]);
+            lint_setting(pack, s, &s->setting[k]), lint_cold(pack, s, &s->setting[k]);
+        for (int k = 0; k < s->naccept; k++)
+            lint_measured_in(pack, s, &s->accept[k]);
+        lint_between(pack, s);
+        lint_pairs(pack, s, s->argument, s->nargument);
+        if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);
+        for (int k = 0; k < s->nderive; k++)
+            lint_pairs(pack, s, s->derive[k].argument, s->derive[k].nargument);
         for (int k = 0; k < s->naccept; k++)
             limits_cross(pack, s, s->accept[k].measure, bound_of(s->accept[k].low),
                          bound_of(s->accept[k].high), s->accept[k].place);
@@ -218,7 +302,20 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
 
 /* ---- thicknesses ---- */
 
-/* a layer has a thickness, and more of it cannot be turned into another one than there is */
+/* how uncertain a film is known to be, as it was put there; m */
+static double film_uncertainty(const fw_process_flow *f, int before, const char *material) {
+    double u = 0.0;
+    for (int i = 0; i < before; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && strcmp(c->material, material) == 0 && c->thickness)
+                u = fmax(u, c->thickness->uncertainty);
+        }
+    return u;
+}
+
+/* a layer has a thickness, and more of it cannot be turned into another one than there is for sure, within two standard
+   uncertainties of either */
 static fw_status lint_thickness(fw_process_pack *pack, int step, int change) {
     const fw_process_flow *f = pack->flow;
     const fw_process_change *c = &f->step[step].change[change];
@@ -236,11 +333,13 @@ static fw_status lint_thickness(fw_process_pack *pack, int step, int change) {
         for (int i = stack.n[column] - 1; i >= 0; i--) {
             const fw_process_cell *cell = &stack.cell[column][i];
             if (strcmp(cell->material, c->from) != 0) continue;
-            if (!(c->thickness->value >= cell->thickness_m)) break;
+            const double sure =
+                hypot(film_uncertainty(f, step, c->from), c->thickness->uncertainty);
+            if (!(c->thickness->value >= cell->thickness_m - 2.0 * sure)) break;
             char made[32], is[32];
             fw_diag_error(pack->diags, 344, c->thickness->replaced ? c->thickness->place : c->place,
                           "step %s turns %s um of '%s' into '%s', but the layer is only %s um "
-                          "thick",
+                          "thick, with uncertainties of which nothing may be left",
                           f->step[step].id,
                           fw_number_text(made, sizeof made, c->thickness->value * 1e6, 6), c->from,
                           c->material, fw_number_text(is, sizeof is, cell->thickness_m * 1e6, 6));

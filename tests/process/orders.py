@@ -125,6 +125,15 @@ def without_lags(text, names):
     return re.sub(rf'    <lag from="({"|".join(names)})"[^>]*/>\n', "", text) if names else text
 
 
+def text_of(steps):
+    """all steps one after the other; what is done again when one fails is itself where the other is not done yet"""
+    done, out = set(), []
+    for name, _, s in steps:
+        done.add(name)
+        out.append(re.sub(r'goto="(\w+)"', lambda m: m[0] if m[1] in done else f'goto="{name}"', s))
+    return "".join(out)
+
+
 def without(steps, k):
     gone = steps[k][0]
     rest = []
@@ -132,7 +141,7 @@ def without(steps, k):
         if i == k:
             continue
         s = without_lags(s, [gone])
-        rest.append((name, title, s.replace(f'goto="{gone}"', f'goto="{name}"')))
+        rest.append((name, title, s))
     return rest
 
 
@@ -182,7 +191,7 @@ def repeated(steps):
 
 def cases(text):
     head, steps, tail = split(text)
-    whole = lambda list_: head + "".join(s for _, _, s in list_) + tail
+    whole = lambda list_: head + text_of(list_) + tail
     yield "as it is", "", whole(steps)
     for k, (name, title, _) in enumerate(steps):
         yield f"without {name}", title, whole(without(steps, k))
@@ -216,7 +225,7 @@ def elsewhere(program, name, folder):
         part = tried[first:first + batch]
         files = [folder / f"{i:03d}.xml" for i in range(len(part))]
         for file, (_, _, made) in zip(files, part):
-            file.write_text(head + "".join(s for _, _, s in made) + tail, encoding="utf-8")
+            file.write_text(head + text_of(made) + tail, encoding="utf-8")
         run = subprocess.run([program, ROOT / "processes/base.xml", *files], capture_output=True, text=True, check=True)
         for line in run.stdout.splitlines():
             cells = line.split("\t")

@@ -89,6 +89,14 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "<hazard-ref ref=\"h.plasma\"/>", "", 528, "which brings 'h.plasma'"},
         {COPPER, "<hazard-ref ref=\"h.hf-organic\"/>", "", 528, "names no such hazard"},
         {COPPER, "<hazard-ref ref=\"h.solvent\"/>", "", 374, "step C08 rinses in 'h.solvent'"},
+        {SILICON, "<q id=\"resist.d0\" value=\"1.40\"", "<q id=\"resist.d0\" value=\"-1.40\"", 278,
+         "'resist.d0' is -1.4 um"},
+        {SILICON, "<q id=\"resist.a\" value=\"0.503\"", "<q id=\"resist.a\" value=\"0\"", 278,
+         "'resist.a' is 0"},
+        {SILICON, "then=\"rework\" goto=\"S02\">clean once",
+         "then=\"rework\" goto=\"S20\">clean once", 276, "goes on with step S20"},
+        {COPPER, "<q id=\"dose.h1\" value=\"10\"", "<q id=\"dose.h1\" value=\"24\"", 342,
+         "points do not rise"},
         {SILICON, "brings=\"h.uv\"", "brings=\"h.uw\"", 165, "did you mean 'h.uv'"},
         {SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
          "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\" etched=\"yes\"/>", 260,
@@ -279,7 +287,8 @@ static void uncertainties_make_sense(void **state) {
               {"hard.T", "value=\"115\" u=\"4\" unit=\"Cel\"", 0},
               {"litho.edge", "value=\"0\" u=\"200\" unit=\"um\"", 530},
               {"litho.edge", "value=\"0\" u=\"0.1\" unit=\"um\"", 0},
-              {"al.overetch", "value=\"0.1\" u=\"0\" unit=\"1\"", 531},
+              {"al.overetch", "value=\"0.1\" u=\"0\" unit=\"1\"", 0},
+              {"pan.T", "value=\"22\" u=\"0\" unit=\"Cel\"", 531},
               {"pan.serves", "value=\"1\" u=\"0\" unit=\"1\"", 0}};
     for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
         diags = fw_diags_new(arena);
@@ -298,6 +307,21 @@ static void uncertainties_make_sense(void **state) {
         else if (said_of(530, at[i].id) || said_of(531, at[i].id))
             fail_msg("%s %s: %s", at[i].id, at[i].says, diags.item[diags.count - 1].message);
     }
+}
+
+/* a time of nothing, a bake of nothing, a unit that is none: each as a pack and its words */
+static void steps_that_do_nothing(void **state) {
+    (void)state;
+    fw_process_flow *f =
+        computed_pack(SILICON, "id=\"spin.t\" value=\"60\"", "id=\"spin.t\" value=\"0\"");
+    assert_non_null(said_of(534, "step S07 takes no time"));
+    assert_int_equal(f->manufacturable, 0);
+    computed_pack(SILICON, "hi=\"200\" unit=\"um\"", "hi=\"200\" unit=\"umm\"");
+    assert_non_null(said_of(533, "did you mean 'um'"));
+    diags = fw_diags_new(arena);
+    const char *cold = "<q id=\"bake.T\" value=\"20\"";
+    assert_null(read_pack(arena, SILICON, "<q id=\"bake.T\" value=\"100\"", cold, &diags));
+    assert_non_null(said_of(532, "step S08 bakes at 20 Cel"));
 }
 
 /* one die in the middle of the pack's own wafer, where the description lays out none; currents against the supply */
@@ -431,6 +455,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(one_coat_is_exposed_once, setup, teardown),
         cmocka_unit_test_setup_teardown(uncertainties_make_sense, setup, teardown),
         cmocka_unit_test_setup_teardown(the_packs_own_wafer, setup, teardown),
+        cmocka_unit_test_setup_teardown(steps_that_do_nothing, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
     };
