@@ -275,7 +275,7 @@ static fw_status first_line(fw_plan *plan, const fw_plan_flow *pf, const char *h
     return fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, first);
 }
 
-/* All lines behind what the log holds; each is read back with those before it, as the next command would. The log after
+/* All lines behind what the log holds; each is read back behind those before it, as the next command would. The log after
    them is in *run. */
 static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flow *pf,
                          const char *hash, const fw_cli_options *options, fw_text *added,
@@ -286,17 +286,22 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     FW_TRY(entries_of(plan, options, &list));
     FW_TRY(first_line(plan, pf, hash, file->n > 0, options, &line));
     fw_text_bytes(&whole, file->text, file->n);
-    for (int i = 0;; i++) {
-        fw_text_add(&whole, line);
-        fw_text_add(added, line);
-        FW_TRY(fw_text_end(&whole));
-        FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data,
-                                    whole.length, &plan->diags, run));
-        if (i == 0) FW_TRY(check_head(plan->arena, &plan->diags, options->run, run));
-        if (i == list.n) return fw_text_end(added);
+    fw_text_add(&whole, line);
+    fw_text_add(added, line);
+    FW_TRY(fw_text_end(&whole));
+    FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data, whole.length,
+                                &plan->diags, run));
+    FW_TRY(check_head(plan->arena, &plan->diags, options->run, run));
+    FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,
+                                       (size_t)(run->nentry + list.n), sizeof *run->entry));
+    for (int i = 0; i < list.n; i++) {
         FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, run, list.words[i], list.place[i],
                                    options->now_s, &plan->diags, &line));
+        fw_text_add(added, line);
+        FW_TRY(fw_recipe_asrun_read_next(plan->arena, pf->flow, options->run, line, &plan->diags,
+                                         run));
     }
+    return fw_text_end(added);
 }
 
 /* the file is locked from here to the end, so that two entries never have one line before them */

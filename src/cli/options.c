@@ -157,8 +157,8 @@ static const char *take_day(fw_cli_options *o, const char *v) {
     return fw_schedule_calendar_parse(v, &day)
                ? NULL
                : "needs times like 08:00-18:00 or 08:00-12:00,13:00-18:00, or none; and \" from "
-                 "2026-11-23\" behind them for a "
-                 "first day";
+                 "2026-11-23\" behind them for a first day, \"T13:00\" for a time of it, \" UTC\" "
+                 "or \" UTC+01:00\" for a zone";
 }
 
 static const char *take_lab(fw_cli_options *o, const char *v) {
@@ -429,7 +429,8 @@ static const fw_cli_option_row table[] = {
     {"day", 0, "FROM-TO",
      "working day, Monday to Friday; default 08:00-18:00; with breaks 08:00-12:00,13:00-18:00; "
      "none: round the clock; "
-     "\"08:00-18:00 from 2026-11-23\": the first day. What needs nobody may go on over night",
+     "\"08:00-18:00 from 2026-11-23T13:00 UTC+01:00\": the first day, with a time of it and a zone "
+     "where they matter. What needs nobody may go on over night",
      FW_OPT_SCHEDULE, take_day},
     {"planned", 0, "LIST",
      "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked "

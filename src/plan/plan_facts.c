@@ -226,12 +226,28 @@ fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
     return FW_OK;
 }
 
+/* likewise its wafer, where the description lays one out */
+static void check_wafer(fw_plan *plan, const fw_plan_flow *pf) {
+    const fw_quantity *q = pf->flow ? fw_process_flow_quantity(pf->flow, "wafer.D") : NULL;
+    const double is_m = plan->device->wafer.diameter_m;
+    char is[32], was[32];
+    if (!q || !q->replaced || q->unknown || !plan->device->wafer.asked) return;
+    if (!(fabs(q->value - is_m) > 1e-9 * is_m)) return;
+    fw_number_text(was, sizeof was, q->value * 1e3, 6);
+    fw_number_text(is, sizeof is, is_m * 1e3, 6);
+    fw_diag_warning(&plan->diags, 529, q->place,
+                    "'%s' is %s mm here, but the <wafer> of the description is %s mm wide, which "
+                    "holds: state there what the laboratory uses: --set \"wafer/@diameter=%s mm\"",
+                    q->id, was, is, was);
+}
+
 /* a laboratory that has measured the wafer is overruled by the description, and told so */
 void fw_plan_check_thickness(fw_plan *plan, const fw_plan_flow *pf) {
     const fw_quantity *q = pf->flow ? pf->flow->thickness : NULL;
     const double is_m = pf->variant.thickness_m;
     const bool own = pf->use && !isnan(pf->use->thickness_m);
     char is[32], was[32];
+    check_wafer(plan, pf);
     if (!q || !q->replaced || q->unknown || fabs(q->value - is_m) <= 1e-9 * is_m) return;
     fw_number_text(was, sizeof was, q->value * 1e6, 6);
     fw_number_text(is, sizeof is, is_m * 1e6, 6);

@@ -269,6 +269,7 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
             "'%s' is %s in the process pack, and not %s; write it in a unit of that kind",
             id->value, want, is);
     }
+    fw_process_warn_exact(new, old, diags);
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));
     const fw_quantity was = *old;
@@ -338,6 +339,7 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++)
         if (flow->corner[i].aim_m > 0.0) flow->corner[i].aim_m = flow->thickness->value;
     FW_TRY(fw_process_flow_lint_values(arena, flow, diags));
+    FW_TRY(fw_process_corners_follow(arena, flow));
     FW_TRY(fw_process_flow_waits(arena, flow)); /* their longest times are values, too */
     return diags->errors > before ? FW_INPUT : FW_OK;
 }

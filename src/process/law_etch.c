@@ -26,6 +26,13 @@ static fw_status arrhenius_time(fw_process_law_call *call, const double *x, doub
     return FW_OK;
 }
 
+/* of thickness and rate; the others by difference */
+static void arrhenius_slope(const double *x, double result, double *dx) {
+    dx[0] = result / x[0];
+    dx[1] = -result / x[1];
+    dx[2] = dx[3] = dx[4] = (double)NAN;
+}
+
 static const fw_process_law_argument arrhenius_argument[] = {
     {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL},
@@ -38,6 +45,7 @@ const fw_process_law fw_process_law_arrhenius = {
     .argument = arrhenius_argument,
     .nargument = 5,
     .evaluate = arrhenius_time,
+    .slope = arrhenius_slope,
 };
 
 /* (1 + kappa A)/(1 + kappa A_ref): the etch slows down with the open area.

@@ -39,6 +39,15 @@ static fw_status lint_names(fw_process_pack *pack) {
                     fw_process_pack_find(pack, material, FW_ID_MATERIAL);
             }
     }
+    for (int i = 0; i < pack->flow->nequipment; i++) {
+        const fw_process_equipment *e = &pack->flow->equipment[i];
+        const char *words = e->brings;
+        for (fw_word word; fw_word_next(&words, " ", &word);) {
+            fw_xml_attribute brings = {.name = "brings", .place = e->place};
+            FW_NEED(brings.value = fw_arena_strndup(pack->arena, word.at, word.length));
+            fw_process_pack_find(pack, &brings, FW_ID_HAZARD);
+        }
+    }
     return FW_OK;
 }
 
@@ -52,6 +61,14 @@ static fw_status lint_order(fw_process_pack *pack) {
                     fw_diag_error(pack->diags, 276, f->step[i].lag[k].place,
                                   "<lag> of step %s counts from step %s, which is not before it; "
                                   "name an earlier step",
+                                  f->step[i].id, f->step[j].id);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].non_fail; k++)
+            for (int j = i + 1; j < f->nstep; j++)
+                if (strcmp(f->step[i].on_fail[k].go_to, f->step[j].id) == 0)
+                    fw_diag_error(pack->diags, 276, f->step[i].place,
+                                  "<on-fail> of step %s goes on with step %s, which is not done "
+                                  "yet; name the step itself or an earlier one",
                                   f->step[i].id, f->step[j].id);
     return FW_OK;
 }
@@ -148,7 +165,7 @@ static const struct {
     bool values; /* looks at values, which a laboratory may replace; and at nothing of the file */
 } rules[] = {
     {"does every value that claims to be stated name a publication?", lint_stated, false},
-    {"do hazards name hazards and materials that exist?", lint_names, false},
+    {"do hazards and tools name hazards and materials that exist?", lint_names, false},
     {"do waiting times count from earlier steps?", lint_order, false},
     {"does every value make sense, and keep dimension and range where it is replaced?",
      fw_process_lint_ranges, true},
@@ -175,10 +192,16 @@ static const struct {
      false},
     {"is resist baked before it is used, and the wafer before it is coated?", fw_process_lint_bakes,
      false},
+    {"is nothing done again that comes once?", fw_process_lint_again, false},
+    {"is resist as thick as bakes and doses are computed for?", fw_process_lint_coats, true},
+    {"is no resist baked once more before it is developed?", fw_process_lint_baked, false},
+    {"is what is prepared used, and what is wet said to be?", fw_process_lint_prepared, false},
     {"is the device finished when the flow has ended?", fw_process_lint_end, false},
+    {"is it as thick as the flow says?", fw_process_lint_made, true},
     {"is every mask but the first aligned to one before it?", fw_process_lint_plates, false},
     {"is a plate drawn smaller by what its etch takes sideways?", fw_process_lint_shrink, true},
-    {"is what a step uses up among its hazards?", fw_process_lint_uses, false},
+    {"is what a step uses up, and what its tool brings, among its hazards?", fw_process_lint_uses,
+     false},
     {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
 };
 
@@ -188,12 +211,37 @@ fw_status fw_process_pack_lint(fw_process_pack *pack) {
     return FW_OK;
 }
 
+/* how far what is on the wafer reaches across, m. Without a <wafer> one die lies in the middle of the pack's own, and of
+   all rectangles of its area the square has the shortest diagonal. 0: nothing is drawn */
+static double across_m(const fw_process_mask_facts *facts) {
+    if (!facts) return 0.0;
+    if (facts->wafer_reach_m > 0.0) return 2.0 * facts->wafer_reach_m;
+    return facts->die_area_m2 > 0.0 ? sqrt(2.0 * facts->die_area_m2) : 0.0;
+}
+
+/* a die that is larger than the pack's own wafer */
+static fw_status lint_own_wafer(fw_arena *arena, fw_process_flow *flow,
+                                const fw_process_mask_facts *facts) {
+    const fw_quantity *q = fw_process_flow_quantity(flow, "wafer.D");
+    double needs = across_m(facts);
+    if (!q || q->unknown || needs <= q->value || (facts && facts->wafer_diameter_m > 0.0))
+        return FW_OK;
+    char a[32], b[32];
+    return fw_process_flow_add_reason(
+        arena, flow, 0,
+        fw_arena_printf(arena,
+                        "the die reaches across %s mm at least, but the wafer is %s mm wide "
+                        "(wafer.D). Nearest change: a smaller die, or a <wafer> in the description",
+                        fw_number_text(a, sizeof a, needs * 1e3, 4),
+                        fw_number_text(b, sizeof b, q->value * 1e3, 4)));
+}
+
 /* dies outside the circle that a step works in: their devices are not made */
 static fw_status lint_across(fw_arena *arena, fw_process_flow *flow,
                              const fw_process_mask_facts *facts, const fw_process_step *s,
                              const fw_process_change *c) {
-    if (!c->across || c->across->unknown || !facts || !(facts->wafer_reach_m > 0.0)) return FW_OK;
-    double needs = 2.0 * facts->wafer_reach_m, is = c->across->value;
+    if (!c->across || c->across->unknown) return FW_OK;
+    double needs = across_m(facts), is = c->across->value;
     if (needs <= is) return FW_OK;
     char a[32], b[32];
     return fw_process_flow_add_reason(
@@ -209,6 +257,7 @@ static fw_status lint_across(fw_arena *arena, fw_process_flow *flow,
 
 fw_status fw_process_lint_wafer(fw_arena *arena, fw_process_flow *flow,
                                 const fw_process_mask_facts *facts) {
+    FW_TRY(lint_own_wafer(arena, flow, facts));
     for (int i = 0; i < flow->nstep; i++)
         for (int k = 0; k < flow->step[i].nchange; k++)
             FW_TRY(lint_across(arena, flow, facts, &flow->step[i], &flow->step[i].change[k]));
@@ -372,10 +421,29 @@ static fw_status lint_uncertain(fw_arena *arena, fw_process_flow *flow, const fw
             s->time.ncontribution ? s->time.contribution[0] : "its inputs"));
 }
 
+/* a time of nothing: an input is 0 that is none */
+static fw_status lint_lasts(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
+                            fw_diags *diags) {
+    if (!s->time.computable) return FW_OK;
+    if (!(s->time.nominal_s > 0.0)) {
+        fw_diag_warning(diags, 534, s->place,
+                        "step %s takes no time by its law (%s): one of its inputs is 0", s->id,
+                        s->law);
+        return fw_process_flow_add_reason(
+            arena, flow, 0,
+            fw_arena_printf(arena,
+                            "step %s takes no time by its law (%s): nothing is done. Nearest "
+                            "change: the inputs that are 0",
+                            s->id, s->law));
+    }
+    return FW_OK;
+}
+
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         FW_TRY(lint_uncertain(arena, flow, s));
+        FW_TRY(lint_lasts(arena, flow, s, diags));
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
         for (int k = 0; k < s->nderive; k++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the values make sense, wherever they come from: a pack, a laboratory, calibrate? Read once with the pack and again
-   when a laboratory has replaced some (fw_process_flow_lint_values). Can the prices be added? Does a filling serve a
+   when a laboratory has replaced some (fw_process_flow_lint_values). Are their
+   uncertainties ones? Can the prices be added? Does a filling serve a
    wafer? Is every mask but the first aligned to one before it? */
 #include "process/films.h"
 #include "process/pack.h"
@@ -61,6 +62,71 @@ static bool in_range(const units *u, const fw_quantity *q, fw_diags *diags) {
     return false;
 }
 
+/* ---- uncertainties ---- */
+
+/* What bounds a quantity's error: its plausible range. An interval lies within it; a standard uncertainty is at most half
+   as wide; what cannot be below 0 is not more uncertain than it is large, a temperature (K, far from its zero) not by more
+   than a quarter. */
+static double most_uncertain(const fw_quantity *q, double least, double most) {
+    const double width = 0.5 * (most - least);
+    const bool hot = fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1});
+    if (!(least >= 0.0) || !(q->value > 0.0)) return width;
+    return fmin(width, hot ? 0.25 * q->value : q->value);
+}
+
+static void too_uncertain(const units *u, const fw_quantity *q, fw_diags *diags) {
+    const int at = range_of(u, q);
+    const bool own = q->least != 0.0 || q->most != 0.0;
+    if (q->unknown || (at < 0 && !own)) return;
+    const double least = own ? q->least : fw_quantity_unit_to_si(&u->of[at], ranges[at].least),
+                 most = own ? q->most : fw_quantity_unit_to_si(&u->of[at], ranges[at].most),
+                 slack = 1e-9 * (most - least), limit = most_uncertain(q, least, most);
+    fw_quantity bound = *q;
+    char low[32], high[32];
+    if (q->interval && (q->low < least - slack || q->high > most + slack)) {
+        bound.value = q->low;
+        fw_number_text(low, sizeof low, fw_quantity_in_unit(&bound), 6);
+        bound.value = q->high;
+        fw_diag_error(diags, 530, q->place,
+                      "'%s' is said to lie between %s and %s %s, which leaves its plausible range; "
+                      "correct the ends or their unit",
+                      q->id ? q->id : "q", low,
+                      fw_number_text(high, sizeof high, fw_quantity_in_unit(&bound), 6), q->unit);
+    } else if (!q->interval && q->uncertainty > limit * (1.0 + 1e-9)) {
+        const double unit = q->value != 0.0 && !fw_quantity_dimension_equal(
+                                                   q->dimension, (fw_quantity_dimension){.K = 1})
+                                ? fw_quantity_in_unit(q) / q->value
+                                : 1.0;
+        fw_diag_error(diags, 530, q->place,
+                      "'%s' has a standard uncertainty of %s %s, but more than %s makes no sense "
+                      "for it; correct u or its unit, or leave the value unknown",
+                      q->id ? q->id : "q",
+                      fw_number_text(low, sizeof low, q->uncertainty * unit, 4), q->unit,
+                      fw_number_text(high, sizeof high, limit * unit, 4));
+    }
+}
+
+static bool is_count(const fw_quantity *q) {
+    return q->range && strcmp(q->range, "count") == 0;
+}
+
+/* a pack knows which of its numbers are exact: sizes that are chosen, limits, things that are counted */
+void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diags *diags) {
+    const bool exact = !q->unknown && !q->interval && !(q->uncertainty > 0.0),
+               chosen = was && !was->unknown && !(was->uncertainty > 0.0);
+    if (!exact || chosen || is_count(was ? was : q)) return;
+    if (q->status == FW_MEASURED)
+        fw_diag_warning(diags, 531, q->place,
+                        "'%s' is measured, and stated without an uncertainty (u = 0), so that "
+                        "times and corners take it for exact; give what instrument and sites leave",
+                        was ? was->id : q->id);
+    else if (was && !was->unknown)
+        fw_diag_warning(diags, 531, q->place,
+                        "'%s' replaces an uncertain value by an exact one (u = 0), so that its "
+                        "range falls out of times and corners; give the uncertainty that is left",
+                        was->id);
+}
+
 bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
     units u;
     read_units(&u);
@@ -91,7 +157,9 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
         }
         bool own = fw_process_flow_own_quantity(f, q->id) == q && q->status != FW_DERIVED;
         bool asked = q->least != 0.0 || q->most != 0.0; /* when its element was read */
-        if (own && (!asked || q->replaced)) in_range(&u, q, pack->diags);
+        if (own && (!asked || q->replaced) && !in_range(&u, q, pack->diags)) continue;
+        if (own) too_uncertain(&u, q, pack->diags);
+        if (own && !q->replaced) fw_process_warn_exact(q, NULL, pack->diags);
     }
     return FW_OK;
 }
@@ -136,11 +204,95 @@ static void lint_setting(fw_process_pack *pack, const fw_process_step *s,
                   set->q->unit);
 }
 
+/* "thickness_2" after "thickness_1": what a curve is read along rises from pair to pair */
+static void lint_pairs(fw_process_pack *pack, const fw_process_step *s,
+                       const fw_process_argument *argument, int n) {
+    static const char *const along[] = {"value_", "thickness_"};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < n; k++)
+            for (size_t a = 0; a < sizeof along / sizeof *along; a++) {
+                const size_t length = strlen(along[a]);
+                const fw_quantity *p = argument[i].q, *q = argument[k].q;
+                if (strncmp(argument[i].name, along[a], length) != 0 ||
+                    strncmp(argument[k].name, along[a], length) != 0 ||
+                    argument[k].name[length] != argument[i].name[length] + 1 || p->unknown ||
+                    q->unknown || p->value < q->value)
+                    continue;
+                fw_diag_error(pack->diags, 342, q->replaced ? q->place : s->place,
+                              "step %s reads a curve whose points do not rise: '%s' is not above "
+                              "'%s'; correct them, or exchange the pairs",
+                              s->id, q->id, p->id);
+            }
+}
+
+/* a bake drives water and solvent out, which no room's warmth does */
+static void lint_cold(fw_process_pack *pack, const fw_process_step *s,
+                      const fw_process_setting *set) {
+    const double least_K = 323.15; /* 50 Cel */
+    if (!fw_process_step_is_op(s, "bake") || set->q->unknown || set->q->value >= least_K ||
+        !fw_quantity_dimension_equal(set->q->dimension, (fw_quantity_dimension){.K = 1}))
+        return;
+    char is[32];
+    fw_diag_error(
+        pack->diags, 532, set->q->replaced ? set->q->place : set->place,
+        "step %s bakes at %s %s (%s), where nothing leaves a resist or a wafer; a bake is "
+        "above 50 Cel, a rest is op=\"hold\"",
+        s->id, fw_number_text(is, sizeof is, fw_quantity_in_unit(set->q), 4), set->q->unit,
+        set->q->id);
+}
+
+/* what is measured has a unit, or is counted in a word of the laboratory: not in a misspelt unit */
+static void lint_measured_in(fw_process_pack *pack, const fw_process_step *s,
+                             const fw_process_accept *a) {
+    fw_quantity_unit unit;
+    const size_t n = strlen(a->unit), longest = 4;
+    if (n == 0 || n > longest || fw_quantity_unit_parse(a->unit, n, &unit, NULL, NULL)) return;
+    const char *better = fw_quantity_unit_suggestion(a->unit, n, NULL);
+    if (better)
+        fw_diag_warning(pack->diags, 533, a->place,
+                        "step %s measures '%s' in '%s', which is no unit; did you mean '%s'?",
+                        s->id, a->measure, a->unit, better);
+}
+
+/* thicknesses, depths and widths of laws: a length below 0 is an edge's, which no law takes */
+static void lint_lengths(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_argument *argument, int n) {
+    char is[32];
+    for (int i = 0; i < n; i++) {
+        const fw_quantity *q = argument[i].q;
+        if (q->unknown || !(q->value < 0.0) ||
+            !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
+            continue;
+        fw_diag_error(pack->diags, 278, q->place,
+                      "'%s' is %s %s, and step %s computes with it as its %s, which is not below "
+                      "0; correct the value",
+                      q->id, fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 6), q->unit,
+                      s->id, argument[i].name);
+    }
+}
+
+/* the shortest time that does is not above the longest that harms nothing */
+static void lint_between(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_quantity *least = fw_process_step_argument(s, "shortest"),
+                      *most = fw_process_step_argument(s, "longest");
+    if (!least || !most || least->unknown || most->unknown || least->value <= most->value) return;
+    fw_diag_error(pack->diags, 342, least->replaced ? least->place : s->place,
+                  "step %s: the shortest time, '%s', is above the longest one, '%s'; correct them",
+                  s->id, least->id, most->id);
+}
+
 fw_status fw_process_lint_settings(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
         for (int k = 0; k < s->nsetting; k++)
-            lint_setting(pack, s, &s->setting[k]);
+            lint_setting(pack, s, &s->setting[k]), lint_cold(pack, s, &s->setting[k]);
+        for (int k = 0; k < s->naccept; k++)
+            lint_measured_in(pack, s, &s->accept[k]);
+        lint_between(pack, s);
+        lint_pairs(pack, s, s->argument, s->nargument);
+        if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);
+        for (int k = 0; k < s->nderive; k++)
+            lint_pairs(pack, s, s->derive[k].argument, s->derive[k].nargument);
         for (int k = 0; k < s->naccept; k++)
             limits_cross(pack, s, s->accept[k].measure, bound_of(s->accept[k].low),
                          bound_of(s->accept[k].high), s->accept[k].place);
@@ -150,7 +302,20 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
 
 /* ---- thicknesses ---- */
 
-/* a layer has a thickness, and more of it cannot be turned into another one than there is */
+/* how uncertain a film is known to be, as it was put there; m */
+static double film_uncertainty(const fw_process_flow *f, int before, const char *material) {
+    double u = 0.0;
+    for (int i = 0; i < before; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && strcmp(c->material, material) == 0 && c->thickness)
+                u = fmax(u, c->thickness->uncertainty);
+        }
+    return u;
+}
+
+/* a layer has a thickness, and more of it cannot be turned into another one than there is for sure, within two standard
+   uncertainties of either */
 static fw_status lint_thickness(fw_process_pack *pack, int step, int change) {
     const fw_process_flow *f = pack->flow;
     const fw_process_change *c = &f->step[step].change[change];
@@ -168,11 +333,13 @@ static fw_status lint_thickness(fw_process_pack *pack, int step, int change) {
         for (int i = stack.n[column] - 1; i >= 0; i--) {
             const fw_process_cell *cell = &stack.cell[column][i];
             if (strcmp(cell->material, c->from) != 0) continue;
-            if (!(c->thickness->value >= cell->thickness_m)) break;
+            const double sure =
+                hypot(film_uncertainty(f, step, c->from), c->thickness->uncertainty);
+            if (!(c->thickness->value >= cell->thickness_m - 2.0 * sure)) break;
             char made[32], is[32];
             fw_diag_error(pack->diags, 344, c->thickness->replaced ? c->thickness->place : c->place,
                           "step %s turns %s um of '%s' into '%s', but the layer is only %s um "
-                          "thick",
+                          "thick, with uncertainties of which nothing may be left",
                           f->step[step].id,
                           fw_number_text(made, sizeof made, c->thickness->value * 1e6, 6), c->from,
                           c->material, fw_number_text(is, sizeof is, cell->thickness_m * 1e6, 6));
@@ -221,17 +388,65 @@ fw_status fw_process_lint_prices(fw_process_pack *pack) {
 
 /* ---- hazards of what is used as it is, and of baths ---- */
 
+static bool names(const fw_process_step *s, const char *hazard) {
+    for (int i = 0; i < s->nhazard; i++)
+        if (strcmp(s->hazard[i]->id, hazard) == 0) return true;
+    return false;
+}
+
 static void named(fw_process_pack *pack, const fw_process_step *s, const fw_process_use *u) {
     const char *id = u->bath ? u->bath->id : u->consumable->id;
     const fw_process_hazard *hazard = u->bath ? u->bath->hazard : u->consumable->hazard;
-    bool there = !hazard;
-    for (int i = 0; i < s->nhazard && !there; i++)
-        there = s->hazard[i] == hazard;
-    if (!there)
+    if (hazard && !names(s, hazard->id))
         fw_diag_error(pack->diags, 374, u->place,
                       "step %s uses '%s', whose hazard '%s' it does not name; add <hazard-ref "
                       "ref=\"%s\"/>",
                       s->id, id, hazard->id, hazard->id);
+}
+
+/* what a wafer is rinsed in at the end */
+static void finished_in(fw_process_pack *pack, const fw_process_step *s) {
+    for (int k = 0; k < s->nfinish; k++) {
+        const fw_process_hazard *with = s->finish[k].with;
+        if (with && !names(s, with->id))
+            fw_diag_error(pack->diags, 374, s->finish[k].place,
+                          "step %s rinses in '%s', which it does not name as a hazard; add "
+                          "<hazard-ref ref=\"%s\"/>",
+                          s->id, with->id, with->id);
+    }
+}
+
+/* what hurts at a tool whatever is done there */
+static void brought(fw_process_pack *pack, const fw_process_step *s) {
+    const char *words = s->equipment ? s->equipment->brings : "";
+    for (fw_word word; fw_word_next(&words, " ", &word);) {
+        const char *id = fw_arena_strndup(pack->arena, word.at, word.length);
+        if (id && !names(s, id))
+            fw_diag_error(pack->diags, 528, s->place,
+                          "step %s is at '%s', which brings '%s', and does not name it; add "
+                          "<hazard-ref ref=\"%s\"/>",
+                          s->id, s->equipment->id, id, id);
+    }
+}
+
+static bool is_with_buddy(const fw_process_step *s) {
+    for (int i = 0; i < s->nhazard; i++)
+        if (s->hazard[i]->buddy) return true;
+    return false;
+}
+
+/* at a bench of something that nobody handles alone every step is of that kind */
+static void beside(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_process_flow *f = pack->flow;
+    if (is_with_buddy(s) || !s->equipment) return;
+    for (int i = 0; i < f->nstep; i++) {
+        if (f->step[i].equipment != s->equipment || !is_with_buddy(&f->step[i])) continue;
+        fw_diag_error(pack->diags, 528, s->place,
+                      "step %s is at '%s', where step %s works with what nobody handles alone, and "
+                      "names no such hazard; add its <hazard-ref>, or use another bench",
+                      s->id, s->equipment->id, f->step[i].id);
+        return;
+    }
 }
 
 fw_status fw_process_lint_uses(fw_process_pack *pack) {
@@ -239,6 +454,9 @@ fw_status fw_process_lint_uses(fw_process_pack *pack) {
         const fw_process_step *s = &pack->flow->step[i];
         for (int k = 0; k < s->nuse; k++)
             named(pack, s, &s->use[k]);
+        finished_in(pack, s);
+        brought(pack, s);
+        beside(pack, s);
     }
     return FW_OK;
 }

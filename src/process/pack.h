@@ -57,6 +57,9 @@ double fw_process_pack_number(const fw_xml_record *e, const char *name, double a
 void fw_process_read_plates(fw_process_pack *pack);
 void fw_process_check_regions(fw_process_pack *pack);
 
+/* process_corners.c: the uncertainty of edges that isotropic etches leave, from what those are computed from; after the
+   flow was read, and again when values were replaced */
+fw_status fw_process_corners_follow(fw_arena *arena, fw_process_flow *flow);
 /* process_corners.c: turns correlated inputs (n) into independent ones that make the same device */
 fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication_input *input,
                                          int n);
@@ -110,6 +113,8 @@ fw_status fw_process_lint_wafer(fw_arena *arena, fw_process_flow *flow,
 /* values (FW-D278, FW-D342, FW-D344) */
 fw_status fw_process_lint_ranges(fw_process_pack *pack);
 fw_status fw_process_lint_settings(fw_process_pack *pack);
+/* FW-D531: a measured value, or one in the place of `was` (NULL: of nothing), without an uncertainty */
+void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diags *diags);
 fw_status fw_process_lint_prices(fw_process_pack *pack);
 fw_status fw_process_lint_thicknesses(fw_process_pack *pack);
 /* the wafer between steps (FW-D335 to FW-D341) */
@@ -118,6 +123,12 @@ fw_status fw_process_lint_reach(fw_process_pack *pack);
 fw_status fw_process_lint_required(fw_process_pack *pack);
 fw_status fw_process_lint_bakes(fw_process_pack *pack);
 fw_status fw_process_lint_end(fw_process_pack *pack);
+/* twice, or for another layer than lies there: lint_again.c (FW-D520 to FW-D527) */
+fw_status fw_process_lint_again(fw_process_pack *pack);
+fw_status fw_process_lint_coats(fw_process_pack *pack);
+fw_status fw_process_lint_baked(fw_process_pack *pack);
+fw_status fw_process_lint_prepared(fw_process_pack *pack);
+fw_status fw_process_lint_made(fw_process_pack *pack);
 unsigned fw_process_reacts_as(const char *words); /* a bit for each group that is known */
 /* what happens where the two meet, in words; NULL: nothing that is known, or one is NULL */
 const char *fw_process_reaction(const fw_process_hazard *a, const fw_process_hazard *b);

@@ -30,7 +30,8 @@ typedef struct fw_process_hazard {
 typedef struct fw_process_equipment {
     const char *id, *class_, *text;
     int capacity;
-    const char *takes; /* groups of contaminants it may meet: "copper"; "" = none */
+    const char *takes;  /* groups of contaminants it may meet: "copper"; "" = none */
+    const char *brings; /* ids of hazards of whatever is done there; "" = none */
     fw_place place;
     bool vacuum;              /* wafers lie in a pumped chamber */
     const fw_quantity *price; /* money per s; may be unknown */
@@ -266,6 +267,7 @@ typedef struct fw_process_corner { /* <corner of q assumed>: an input of what st
     const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
     const fw_quantity *within;  /* holds this one, too, once it was measured; may be NULL */
     double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
+    bool etched;  /* of an edge: q is uncertain by what the flow's isotropic etches are */
     fw_place place;
 } fw_process_corner;
 

@@ -125,7 +125,12 @@ static void read_corner(fw_process_pack *pack, const fw_xml_record *e) {
                              .q = quantity(pack, e, "q", of),
                              .assumed = quantity(pack, e, "assumed", of),
                              .within = quantity(pack, e, "within", of),
+                             .etched = strcmp(fw_process_pack_text(e, "etched"), "yes") == 0,
                              .place = e->element->place};
+    if (c->etched && of != FW_CORNER_EDGE)
+        fw_diag_error(pack->diags, 260, e->element->place,
+                      "etched is of an edge that an isotropic etch leaves; '%s' is none",
+                      kind[of].word);
     const fw_quantity *layer = f->thickness;
     if (of == FW_CORNER_THICKNESS && layer && c->q != layer && !layer->unknown)
         c->aim_m = layer->value;
@@ -144,6 +149,68 @@ void fw_process_pack_corners(fw_process_pack *pack) {
         fw_diag_error(pack->diags, 260, pack->flow->corner[FW_FABRICATION_INPUTS].place,
                       "a flow has at most %d corners: join those that move the same edge",
                       FW_FABRICATION_INPUTS);
+}
+
+/* ---- edges that isotropic etches leave ---- */
+
+/* Standard uncertainty of an etch's own rate, relative: that of the step's time at an exact thickness. NaN: its time is
+   not computable. */
+static fw_status rate_uncertainty(fw_arena *arena, const fw_process_step *s, double *relative) {
+    fw_process_law_use use = {.law = fw_process_law_find(s->law),
+                              .shape = s->shape,
+                              .expression = s->expression,
+                              .wanted = FW_DIM_TIME,
+                              .nargument = s->nargument};
+    fw_process_argument *argument =
+        fw_arena_array(arena, fw_process_argument, (size_t)s->nargument);
+    FW_NEED(argument);
+    *relative = (double)NAN;
+    if (!use.law) return FW_OK;
+    for (int i = 0; i < s->nargument; i++) {
+        argument[i] = s->argument[i];
+        if (strcmp(argument[i].name, "thickness") != 0) continue;
+        fw_quantity *exact = fw_arena_one(arena, fw_quantity);
+        FW_NEED(exact);
+        *exact = *argument[i].q;
+        exact->uncertainty = 0.0;
+        argument[i].q = exact;
+    }
+    use.argument = argument;
+    fw_process_law_answer answer;
+    FW_TRY(fw_process_law_evaluate(arena, &use, &answer));
+    if (answer.computable && answer.value > 0.0) *relative = answer.uncertainty / answer.value;
+    return FW_OK;
+}
+
+/* The mask adds what the isotropic etches below it are planned to take sideways, L = sum d (1 + overrun); what is left of
+   it comes of their rates, each lasting as planned:
+     u(e)^2 = sum (L_i u(R_i)/R_i)^2
+   d, L, e m; R m/s. A laboratory that has measured the edge keeps what it found, and where a time is not computable the
+   pack's own number stays. Error: first order in u(R)/R. Cost: one evaluation of each law.
+   Source: docs/theory/etching.md. Test: test_corners.c edge_of_an_etch_follows_its_rate. */
+fw_status fw_process_corners_follow(fw_arena *arena, fw_process_flow *flow) {
+    double square = 0.0;
+    int etches = 0;
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_step *s = &flow->step[i];
+            const fw_process_change *c = &s->change[k];
+            const fw_quantity *more = s->overrun_from;
+            if (!c->isotropic || !c->thickness || c->thickness->unknown ||
+                !fw_process_where_is_of_device(flow, c->where))
+                continue;
+            double relative, over = more && !more->unknown ? more->value : s->overrun;
+            FW_TRY(rate_uncertainty(arena, s, &relative));
+            square += pow(c->thickness->value * (1.0 + over) * relative, 2.0);
+            etches++;
+        }
+    for (int i = 0; i < flow->ncorner && etches > 0 && !isnan(square); i++) {
+        fw_quantity *q = flow->corner[i].etched && flow->corner[i].q
+                             ? fw_process_flow_own_quantity(flow, flow->corner[i].q->id)
+                             : NULL;
+        if (q && !q->replaced && !q->unknown) q->uncertainty = sqrt(square);
+    }
+    return FW_OK;
 }
 
 /* ---- inputs of the verdict ---- */

@@ -248,6 +248,7 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
                                    .text = e->element->text,
                                    .capacity = capacity,
                                    .takes = fw_process_pack_text(e, "takes"),
+                                   .brings = fw_process_pack_text(e, "brings"),
                                    .place = e->element->place,
                                    .vacuum = strcmp(fw_process_pack_text(e, "vacuum"), "yes") == 0};
         enter(pack, id->value, FW_ID_EQUIPMENT, base, q, id->place);
@@ -417,6 +418,78 @@ static void read_finished(fw_process_pack *pack) {
     }
 }
 
+/* the flow of the records, as their alternatives stand; FW_OK although there may be mistakes in them */
+static fw_status read_flow(fw_process_pack *pack) {
+    size_t errors = pack->diags->errors;
+    fw_status status = read_sources(pack);
+    if (status != FW_OK && status != FW_INPUT) return status;
+    FW_TRY(make_room(pack));
+    FW_TRY(read_everything(pack));
+    read_head(pack);
+    fw_process_read_plates(pack);
+    fw_process_pack_corners(pack);
+    read_finished(pack);
+    FW_TRY(fw_process_pack_baths(pack));
+    FW_TRY(fw_process_pack_steps(pack));
+    FW_TRY(fw_process_pack_texts(pack));
+    fw_process_check_regions(pack);
+    if (pack->diags->errors == errors) FW_TRY(fw_process_pack_lint(pack));
+    if (pack->diags->errors > errors) return FW_OK;
+    FW_TRY(fw_process_corners_follow(pack->arena, pack->flow));
+    return fw_process_flow_waits(pack->arena, pack->flow);
+}
+
+/* ---- alternatives that nobody chose: a laboratory finds them as sound as the flow itself ---- */
+
+static bool is_said(const fw_diags *diags, const fw_diag *d) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == d->number && strcmp(diags->item[i].message, d->message) == 0)
+            return true;
+    return false;
+}
+
+/* what is said of the flow with the alternative, and not of the flow as it is */
+static fw_status tell(fw_process_pack *pack, const char *alternative, const fw_diags *of) {
+    for (size_t i = 0; i < of->count; i++) {
+        fw_diag d = of->item[i];
+        if (d.severity == FW_NOTE || is_said(pack->diags, &d)) continue;
+        FW_NEED(d.message = fw_arena_printf(pack->arena, "with the alternative '%s': %s",
+                                            alternative, d.message));
+        fw_diags_add(pack->diags, &d, d.severity);
+    }
+    return of->failed ? FW_NOMEM : FW_OK;
+}
+
+/* in the place of its step, chosen or not, and out again */
+static fw_status lint_alternative(fw_process_pack *pack, const fw_xml_record *e, const char *step) {
+    fw_diags diags = fw_diags_new(pack->arena);
+    fw_process_pack other = {
+        .arena = pack->arena, .diags = &diags, .base = pack->base, .root = pack->root};
+    fw_xml_record *before, *old = step_of(pack->root, step, &before),
+                           *inner = (fw_xml_record *)inner_step(e);
+    const fw_xml_record *next = inner->next;
+    FW_NEED(other.flow = fw_arena_one(pack->arena, fw_process_flow));
+    put(pack->root, inner, old, before);
+    fw_status status = read_flow(&other);
+    if (before)
+        before->next = old;
+    else
+        ((fw_xml_record *)pack->root)->first_child = old;
+    inner->next = next;
+    FW_TRY(status);
+    return tell(pack, fw_process_pack_text(e, "id"), &diags);
+}
+
+static fw_status lint_alternatives(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next)
+        for (int i = 0; fw_xml_is(e, "alternative") && i < f->nalternative; i++)
+            if (!f->alternative[i].chosen &&
+                strcmp(f->alternative[i].id, fw_process_pack_text(e, "id")) == 0)
+                FW_TRY(lint_alternative(pack, e, f->alternative[i].step));
+    return FW_OK;
+}
+
 /* the records of base.xml, or of the flow, checked against the table; FW_OK although there may be
    mistakes in them */
 static fw_status check(fw_xml_reader *r, bool is_base, const fw_xml_record **root) {
@@ -469,20 +542,8 @@ fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, co
     FW_NEED(pack.flow->sha256 = fw_arena_strdup(arena, hash));
     pack.flow->file = file;
     FW_TRY(choose_alternatives(&pack, choice, nchoice));
-    fw_status status = read_sources(&pack);
-    if (status != FW_OK && status != FW_INPUT) return status;
-    FW_TRY(make_room(&pack));
-    FW_TRY(read_everything(&pack));
-    read_head(&pack);
-    fw_process_read_plates(&pack);
-    fw_process_pack_corners(&pack);
-    read_finished(&pack);
-    FW_TRY(fw_process_pack_baths(&pack));
-    FW_TRY(fw_process_pack_steps(&pack));
-    FW_TRY(fw_process_pack_texts(&pack));
-    fw_process_check_regions(&pack);
-    if (diags->errors == errors) FW_TRY(fw_process_pack_lint(&pack));
-    if (diags->errors == errors) FW_TRY(fw_process_flow_waits(arena, pack.flow));
+    FW_TRY(read_flow(&pack));
+    if (diags->errors == errors) FW_TRY(lint_alternatives(&pack));
     if (diags->failed) return FW_NOMEM;
     if (diags->errors > errors) return FW_INPUT;
     *flow = pack.flow;

@@ -72,6 +72,8 @@ static const fw_xml_attribute_row equipment_rows[] = {
     {"class", TEXT, REQUIRED, .sentence = "What sort of equipment it is."},
     {"capacity", COUNT, REQUIRED, .sentence = "Wafers that it takes at once."},
     {"takes", TEXT, .datatype = "NMTOKENS", .sentence = "Groups of contaminants that it may meet."},
+    {"brings", TEXT, .datatype = "NMTOKENS",
+     .sentence = "Hazards of whatever is done there: every step at it names them."},
     {"vacuum", WORD(yes_no), .fallback = "no", .sentence = "yes: wafers lie in a pumped chamber."},
 };
 static const fw_xml_attribute_row hazard_rows[] = {
@@ -167,6 +169,9 @@ static const fw_xml_attribute_row corner_rows[] = {
     {"within", TO(QUANTITY),
      .sentence =
          "A quantity that holds this one, too, once it was measured: the corner falls away then."},
+    {"etched", WORD(yes_no),
+     .sentence =
+         "yes: q is an edge that isotropic etches leave, and as uncertain as their rates make it."},
 };
 static const fw_xml_attribute_row plate_rows[] = {
     {"id", TOKEN, REQUIRED, .sentence = "That of its row in the layer table."},

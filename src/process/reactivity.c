@@ -42,6 +42,8 @@ static const struct {
     {OXIDISER, KETONE, "they make peroxides that explode"},
     {OXIDISER, ORGANIC_ACID, "they make peroxides that explode"},
     {FLUORIDE, OXIDISING_ACID, "hydrogen fluoride is set free"},
+    {FLUORIDE, ACID, "hydrogen fluoride is set free"},
+    {FLUORIDE, ORGANIC_ACID, "hydrogen fluoride is set free"},
     {HYPOCHLORITE, ACID, "chlorine is set free"},
     {HYPOCHLORITE, OXIDISING_ACID, "chlorine is set free"},
     {HYPOCHLORITE, ORGANIC_ACID, "chlorine is set free"},

@@ -131,6 +131,16 @@ static fw_status read_first(const fw_recipe_asrun_reader *r, const char *plan, c
     return FW_OK;
 }
 
+/* a line behind the first one, into the next of run->entry */
+static fw_status read_entry(fw_recipe_asrun_reader *r, const char *line, size_t length,
+                            fw_recipe_asrun *run) {
+    size_t words;
+    FW_TRY(unchain(r, line, length, run->chain, &words));
+    FW_TRY(fw_recipe_asrun_entry_read(r, line, words, '\t', &run->entry[run->nentry]));
+    memcpy(run->entry[run->nentry++].chain, run->chain, sizeof run->chain);
+    return FW_OK;
+}
+
 fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
                                const char *plan_sha256, const char *file, const char *text,
                                size_t n, fw_diags *diags, fw_recipe_asrun *run) {
@@ -143,18 +153,22 @@ fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
     if (n == 0 || text[n - 1] != '\n') return damaged(&r, "its last line is not complete");
     if (memchr(text, '\0', n)) return damaged(&r, "it holds a NUL byte");
     for (const char *line = text; line < text + n; r.place.line++) {
-        size_t length = strcspn(line, "\n"), words;
+        size_t length = strcspn(line, "\n");
         if (r.place.line == 1) {
             FW_TRY(read_first(&r, plan_sha256, line, length, run));
             memcpy(run->begun, run->chain, sizeof run->begun);
         } else {
-            FW_TRY(unchain(&r, line, length, run->chain, &words));
-            FW_TRY(fw_recipe_asrun_entry_read(&r, line, words, '\t', &run->entry[run->nentry]));
-            memcpy(run->entry[run->nentry++].chain, run->chain, sizeof run->chain);
+            FW_TRY(read_entry(&r, line, length, run));
         }
         line += length + 1;
     }
     return FW_OK;
+}
+
+fw_status fw_recipe_asrun_read_next(fw_arena *arena, const fw_process_flow *flow, const char *file,
+                                    const char *line, fw_diags *diags, fw_recipe_asrun *run) {
+    fw_recipe_asrun_reader r = {arena, flow, run, true, diags, {file, run->nentry + 2, 1}};
+    return read_entry(&r, line, strcspn(line, "\n"), run);
 }
 
 /* of one wafer, or one of them of the whole lot */

@@ -66,6 +66,10 @@ fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
                                const char *plan_sha256, const char *file, const char *text,
                                size_t n, fw_diags *diags, fw_recipe_asrun *run);
 
+/* one line more behind what was read, of the same plan; run->entry has room for it */
+fw_status fw_recipe_asrun_read_next(fw_arena *arena, const fw_process_flow *flow, const char *file,
+                                    const char *line, fw_diags *diags, fw_recipe_asrun *run);
+
 /* "6" or "A1,A2,B7" as the ids of a lot with commas between; NULL and *wrong: it is neither */
 const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong);
 /* the line that begins a log (lot and wafers may be NULL), and the line of one entry written as

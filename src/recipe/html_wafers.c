@@ -4,7 +4,9 @@
 #include "recipe/recipe_words.h"
 #include <string.h>
 
-enum { WAFERS_ABREAST = 3 }; /* columns that still hold five sites that one can write into */
+/* Wafers side by side that still hold five sites that one can write into; cells of a line for each wafer, wide ones and
+   narrow ones, beside which start, tool and initials find room on A4 */
+enum { WAFERS_ABREAST = 3, WIDE_CELLS = 10, MOST_CELLS = 15 };
 
 /* ---- values of wafers ---- */
 
@@ -39,6 +41,14 @@ static void blank_row(const char *name, int n, fw_text *out) {
     fw_text_add(out, "</tr>\n");
 }
 
+static void measure(const fw_process_accept *a, fw_text *out) {
+    fw_text_escaped(out, a->measure);
+    if (!a->coupon[0]) return;
+    fw_text_add(out, " <span class=\"muted\">on coupon ");
+    fw_text_escaped(out, a->coupon);
+    fw_text_add(out, "</span>");
+}
+
 static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bool one,
                         fw_text *out) {
     fw_text_add(out, "<table class=\"small wafers\"><thead><tr><th style=\"width:30%\">Accept when"
@@ -51,12 +61,7 @@ static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bo
     fw_text_add(out, "</tr></thead><tbody>\n");
     for (int i = 0; i < s->naccept; i++) {
         fw_text_add(out, "<tr><td>");
-        fw_text_escaped(out, s->accept[i].measure);
-        if (s->accept[i].coupon[0]) {
-            fw_text_add(out, " <span class=\"muted\">on coupon ");
-            fw_text_escaped(out, s->accept[i].coupon);
-            fw_text_add(out, "</span>");
-        }
+        measure(&s->accept[i], out);
         fw_text_add(out, "</td><td>");
         limits(&s->accept[i], out);
         fw_text_add(out, "</td>");
@@ -74,6 +79,42 @@ static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bo
     fw_text_add(out, "</tbody></table>\n");
 }
 
+static int cells_of(const fw_process_step *s) {
+    int n = 0;
+    for (int i = 0; i < s->naccept; i++)
+        n += s->accept[i].sites < 9 ? s->accept[i].sites : 9;
+    return n;
+}
+
+/* a line for each wafer; what a load has in common is written once for it */
+static void wafer_lines(const fw_process_step *s, int wafers, fw_text *out) {
+    const int load = fw_process_step_load(s);
+    fw_text_printf(out,
+                   "<table class=\"small wafers%s\"><thead><tr><th style=\"width:4%%\">Wafer</th>",
+                   cells_of(s) > WIDE_CELLS ? " narrow" : "");
+    for (int i = 0; i < s->naccept; i++) {
+        fw_text_add(out, "<th>");
+        measure(&s->accept[i], out);
+        fw_text_add(out, "<br><span class=\"muted\">");
+        limits(&s->accept[i], out);
+        fw_text_add(out, "</span></th>");
+    }
+    fw_text_printf(out,
+                   "<th style=\"width:15%%\">Start; end</th><th style=\"width:14%%\">Tool; bath or "
+                   "bottle lot</th><th style=\"width:9%%\">%s</th></tr></thead><tbody>\n",
+                   s->second_signature ? "Initials; second signature" : "Initials");
+    for (int w = 0; w < wafers; w++) {
+        fw_text_printf(out, "<tr><td>%d</td>", w + 1);
+        for (int i = 0; i < s->naccept; i++)
+            sites(&s->accept[i], w, out);
+        const int rest = wafers - w, rows = load < rest ? load : rest;
+        for (int k = 0; k < 3 && w % load == 0; k++)
+            fw_text_printf(out, "<td class=\"w\" rowspan=\"%d\"></td>", rows);
+        fw_text_add(out, "</tr>\n");
+    }
+    fw_text_add(out, "</tbody></table>\n");
+}
+
 static void one_line(const fw_process_step *s, fw_text *out) {
     fw_text_printf(out,
                    "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool</td><td>Bath or "
@@ -86,7 +127,9 @@ void fw_recipe_html_wafers(const fw_process_step *s, const fw_recipe_header *hea
     int wafers = fw_recipe_wafers(header);
     bool lot = fw_process_step_is_of_lot(s);
     if (lot) wafers = 1;
-    for (int first = 0; first < wafers; first += WAFERS_ABREAST)
+    const bool lines = wafers > 1 && cells_of(s) <= MOST_CELLS;
+    if (lines) wafer_lines(s, wafers, out);
+    for (int first = 0; first < wafers && !lines; first += WAFERS_ABREAST)
         some_wafers(s, first, wafers - first < WAFERS_ABREAST ? wafers - first : WAFERS_ABREAST,
                     lot, wafers == 1, out);
     if (wafers == 1) {

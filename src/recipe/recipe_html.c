@@ -135,6 +135,7 @@ static const char style[] =
     ".wafers td{height:5.4mm}\n.wafers td.w{white-space:nowrap}\n.wafers td.off{background:#ddd;"
     "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"
     ".s{display:inline-block;width:8.6mm;height:4.4mm;border:0.4pt solid #888;margin-right:0.5mm}\n"
+    ".narrow .s{width:6.8mm}\n"
     ".rejected{border:2.2pt solid #000;text-align:center;font-size:13pt;font-weight:bold;"
     "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n.because{font-weight:bold}\n"
     "@media screen{.rejected{position:sticky;top:0;background:#fff;z-index:1}}\n"

@@ -341,6 +341,10 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
         words(out, "first_day", date);
     } else
         fw_json_null(out, "first_day");
+    if (shop->calendar.zoned)
+        fw_json_whole(out, "zone_min", shop->calendar.zone_min);
+    else
+        fw_json_null(out, "zone_min");
     fw_json_truth(out, "feasible", s->feasible);
     words(out, "why", s->why);
     words(out, "at_stop_times", s->late);

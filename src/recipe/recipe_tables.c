@@ -2,6 +2,7 @@
 /* What other programs read of a recipe: tables of the flow and of the schedule, and the schedule as a calendar. */
 #include "recipe/recipe_words.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- tables (CSV, RFC 4180) ---- */
@@ -204,7 +205,8 @@ static void escaped(fw_text *out, const char *text) {
     }
 }
 
-/* a time of the laboratory's own clock, of no zone (RFC 5545, 3.3.5, form 1) */
+/* a time of the laboratory's own clock, of no zone (RFC 5545, 3.3.5, form 1); of a stated zone its callers add (forms 2
+   and 3) */
 static void put_date(fw_text *out, long seconds) {
     long day = seconds / 86400, rest = seconds % 86400, civil[3];
     if (rest < 0) rest += 86400, day--; /* before 1970 */
@@ -225,10 +227,36 @@ static fw_status property(fw_text *out, const char *name, const char *value, boo
     return FW_OK;
 }
 
-static fw_status date_property(fw_text *out, const char *name, long seconds) {
+/* "UTC+0100", as a zone of the calendar is called; NULL: the plan states none, or it is UTC itself */
+static const char *zone_name(fw_arena *arena, const fw_schedule_calendar *c) {
+    int ahead = c && c->zoned ? c->zone_min : 0, size = abs(ahead);
+    return ahead ? fw_arena_printf(arena, "UTC%c%02d%02d", ahead < 0 ? '-' : '+', size / 60,
+                                   size % 60)
+                 : NULL;
+}
+
+/* a zone that keeps its distance from UTC: whoever states one, states that of the days of the lot */
+static fw_status zone(fw_text *out, const char *name) {
+    const char *ahead = name + 3;
+    FW_TRY(property(out, "BEGIN", "VTIMEZONE", false));
+    FW_TRY(property(out, "TZID", name, false));
+    FW_TRY(property(out, "BEGIN", "STANDARD", false));
+    FW_TRY(property(out, "DTSTART", "19700101T000000", false));
+    FW_TRY(property(out, "TZOFFSETFROM", ahead, false));
+    FW_TRY(property(out, "TZOFFSETTO", ahead, false));
+    FW_TRY(property(out, "END", "STANDARD", false));
+    return property(out, "END", "VTIMEZONE", false);
+}
+
+static fw_status date_property(fw_text *out, const fw_schedule *plan, const char *name,
+                               long seconds) {
+    const fw_schedule_calendar *c = plan ? &plan->shop->calendar : NULL;
+    const char *of = zone_name(out->arena, c);
     fw_text text = fw_text_new(out->arena);
     put_date(&text, seconds);
+    if (c && c->zoned && !of) fw_text_add(&text, "Z");
     FW_TRY(fw_text_end(&text));
+    if (of) FW_NEED(name = fw_arena_printf(out->arena, "%s;TZID=%s", name, of));
     return property(out, name, text.data, false);
 }
 
@@ -287,8 +315,8 @@ static fw_status entry(fw_text *out, const fw_process_flow *flow, const fw_recip
     FW_TRY(property(out, "BEGIN", kind, false));
     FW_TRY(property(out, "UID", uid, false));
     FW_TRY(property(out, "DTSTAMP", stamp, false));
-    FW_TRY(date_property(out, "DTSTART", start));
-    if (end > start) FW_TRY(date_property(out, event ? "DTEND" : "DUE", end));
+    FW_TRY(date_property(out, header->schedule, "DTSTART", start));
+    if (end > start) FW_TRY(date_property(out, header->schedule, event ? "DTEND" : "DUE", end));
     FW_TRY(property(out, "SUMMARY", summary, true));
     FW_TRY(description(out, s));
     if (s->equipment) FW_TRY(property(out, "LOCATION", s->equipment->class_, true));
@@ -316,7 +344,10 @@ static fw_status scheduled(fw_text *out, const fw_process_flow *flow,
 /* one wafer, one step after the other */
 static fw_status in_a_row(fw_text *out, const fw_process_flow *flow,
                           const fw_recipe_header *header) {
-    long at = midnight(header->schedule) + 8L * 3600L;
+    const fw_schedule *plan = header->schedule;
+    long at = midnight(plan) + (plan && plan->shop->calendar.first_s > 0.0
+                                    ? lround(plan->shop->calendar.first_s)
+                                    : 8L * 3600L);
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         double run = fmin(s->booked_s, 1e8);
@@ -338,6 +369,9 @@ fw_status fw_recipe_write_ics(const fw_process_flow *flow, const fw_recipe_heade
     FW_TRY(property(out, "VERSION", "2.0", false));
     FW_TRY(property(out, "PRODID", "-//Flexwright//Run sheet//EN", false));
     FW_TRY(property(out, "X-WR-CALNAME", name, true));
+    const char *of =
+        zone_name(out->arena, header->schedule ? &header->schedule->shop->calendar : NULL);
+    if (of) FW_TRY(zone(out, of));
     bool planned = header->schedule && header->schedule->feasible;
     FW_TRY(planned ? scheduled(out, flow, header) : in_a_row(out, flow, header));
     FW_TRY(property(out, "END", "VCALENDAR", false));

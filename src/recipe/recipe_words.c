@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "recipe/recipe_words.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool listed(const fw_recipe_row *row, int n, const fw_quantity *q) {
@@ -164,17 +165,25 @@ static void put_span(fw_text *out, double from_s, double to_s) {
     fw_text_printf(out, "%02ld:%02ld to %02ld:%02ld", from / 60, from % 60, to / 60, to % 60);
 }
 
+static void put_zone(fw_text *out, const fw_schedule_calendar *c) {
+    int size = abs(c->zone_min);
+    if (!c->zoned) return;
+    fw_text_add(out, ", UTC");
+    if (size) fw_text_printf(out, "%c%02d:%02d", c->zone_min < 0 ? '-' : '+', size / 60, size % 60);
+}
+
 static void put_day(fw_text *out, const fw_schedule_calendar *c) {
-    if (fw_schedule_calendar_round(c)) {
+    if (fw_schedule_calendar_round(c))
         fw_text_add(out, "round the clock");
-        return;
+    else {
+        put_span(out, c->open_s, c->close_s);
+        fw_text_add(out, ", Monday to Friday");
     }
-    put_span(out, c->open_s, c->close_s);
-    fw_text_add(out, ", Monday to Friday");
     for (int i = 0; i < c->breaks; i++) {
         fw_text_add(out, i ? ", " : ", nobody there ");
         put_span(out, c->break_s[i][0], c->break_s[i][1]);
     }
+    put_zone(out, c);
 }
 
 static void put_machine_days(fw_text *out, const fw_schedule_calendar *c) {

@@ -104,7 +104,7 @@ double fw_schedule_calendar_worked(const fw_schedule_calendar *c, double from_s,
 }
 
 double fw_schedule_calendar_start(const fw_schedule_calendar *c) {
-    return fw_schedule_calendar_fit(c, 0.0, 1.0);
+    return fw_schedule_calendar_fit(c, c->first_s, 1.0);
 }
 
 /* "08:00" at text; 24:00 is the end of the day */
@@ -133,13 +133,31 @@ bool fw_schedule_date_parse(const char *text, long *day) {
     return civil[0] == part[0] && civil[1] == part[1] && civil[2] == part[2];
 }
 
-/* " from 2026-11-23" to the end of the text; a plan that begins in 9999 could end where dates have no four digits */
+/* " UTC", " UTC+01:00" or nothing, to the end of the text; zones reach from UTC-12:00 to UTC+14:00 */
+static bool zone_of(const char *text, fw_schedule_calendar *c) {
+    static const char utc[] = " UTC";
+    double ahead_s = 0.0;
+    if (!*text) return true;
+    if (strncmp(text, utc, sizeof utc - 1) != 0) return false;
+    text += sizeof utc - 1;
+    const char sign = *text, *end = sign ? clock_of(text + 1, &ahead_s) : text;
+    if (!end || *end || (sign && sign != '+' && sign != '-')) return false;
+    c->zoned = true;
+    c->zone_min = (int)lround(ahead_s / 60.0) * (sign == '-' ? -1 : 1);
+    return c->zone_min >= -12 * 60 && c->zone_min <= 14 * 60;
+}
+
+/* " from 2026-11-23", "T13:00" behind it, a zone behind that; a plan that begins in 9999 could end where dates have no
+   four digits */
 static bool date_of(const char *text, fw_schedule_calendar *c) {
     static const char before[] = " from ", last[] = "9999";
     const size_t n = sizeof before - 1;
-    return c->dated = strncmp(text, before, n) == 0 &&
-                      fw_schedule_date_parse(text + n, &c->first_day) && text[n + 10] == '\0' &&
-                      strncmp(text + n, last, sizeof last - 1) != 0;
+    c->dated = strncmp(text, before, n) == 0 && fw_schedule_date_parse(text + n, &c->first_day) &&
+               strncmp(text + n, last, sizeof last - 1) != 0;
+    if (!c->dated) return false;
+    text += n + sizeof "2026-11-23" - 1;
+    if (*text == 'T') text = clock_of(text + 1, &c->first_s);
+    return text && zone_of(text, c);
 }
 
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {

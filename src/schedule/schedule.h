@@ -17,6 +17,10 @@ typedef struct fw_schedule_calendar {
     unsigned closed_days; /* bit 0: Monday; on them it is closed */
     bool dated;           /* first_day is stated; without it day 1 is a Monday */
     long first_day;       /* of the plan, days since 1970-01-01, negative before */
+    double first_s;       /* it begins no earlier on that day */
+    bool
+        zoned; /* its times are zone_min ahead of UTC; without it those of the laboratory's own clock */
+    int zone_min;
 } fw_schedule_calendar;
 
 typedef struct fw_schedule_machine { /* takes one load at a time, or so many wafers on their own */
@@ -110,7 +114,8 @@ typedef struct fw_schedule_options {
 } fw_schedule_options;
 
 /* "08:00-18:00", "08:00-12:00,13:00-18:00" with breaks between, or "none"; behind it " from 2026-11-23" where the plan
-   begins on a date; false: it is none of these */
+   begins on a date, "T13:00" where on a time of it, " UTC" or " UTC+01:00" where its zone is stated; false: it is none of
+   these */
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *calendar);
 /* FW_OK also when there is no schedule: feasible is false and `why` says it. FW_LIMIT: too large */
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,

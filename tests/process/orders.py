@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """orders.py LINT_PACKS [--update]: the packs with every step left out once, every pair of neighbouring steps exchanged
-once, and every rinse, drying, cooling and venting left out once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
-can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
+once, every rinse, drying, cooling, venting and hazard left out once, every step done twice, and what the program says
+of each: docs/process-orders.md, kept as a golden file that a process engineer can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
 import os
 import pathlib
 import re
@@ -12,16 +12,19 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "silicon-on-glass")
-HEAD = """# What is said of a flow with a step or a rinse too few, or two steps in the wrong order
+HEAD = """# What is said of a flow with a step or a rinse too few or too many, or two steps in the wrong order
 
 Every step of the packs left out once, every pair of neighbouring steps exchanged once, every rinse, drying, cooling
-and venting at the end of a step left out once (`tests/process/orders.py`).
+and venting at the end of a step and every hazard of a step left out once, every step done once more right behind itself
+and at the end of its phase, which is the next strip (`tests/process/orders.py`).
 *refused*: an error, no plan is made. *warned*: the plan is made, and says so. *accepted*: nothing is said; the last
 column has the reason why that is right. A message is the first of its case.
 """
 
 # why nothing need be said where nothing is: of a step that is left out (id), or of a pair that is exchanged (id id)
 LOOKS = "it measures and changes nothing; what it would have found stays unseen"
+SHARP = "loose and free parts are sharp: no tool brings that, the pack says it"
+GAS = "hydrogen comes of the current: no tool brings it, the pack says it"
 FINE = {
     "S04": LOOKS, "S12": LOOKS, "S15": LOOKS, "S19": LOOKS, "S23": LOOKS, "C19": LOOKS, "C23": LOOKS, "C28": LOOKS,
     "D11": LOOKS, "D13": LOOKS,
@@ -47,16 +50,46 @@ FINE = {
     "G30 G29": "the sheet resistance may be measured after the bake as well",
     "G36 G35": "the resist may be measured after its hard bake as well",
     "G40 G39": "the aluminium may be measured with the resist as well",
-    "dry 2 of C02": "it is the alternative's, which nobody has chosen; chosen, it is refused",
     "the dry of G12": "the next step is in a liquid", "the dry of G37": "the saw is wet",
-    "rinse 2 of C02": "it is the alternative's, which nobody has chosen; chosen, it is refused",
     "the rinse of G20": "solvents may be dried", "the rinse of G27": "solvents may be dried",
     "the rinse of G38": "the saw rinses with water itself", "the rinse of G46": "the other one is left",
     "rinse 2 of G46": "the first one is left",
+    **{f"h.sharp of {name}": SHARP for name in "S20 S21 D13 G19 G44 G45 G50".split()},
+    "h.hydrogen of C05": GAS, "h.hydrogen of C22": GAS,
+    "h.voltage of G51": "the prober brings what is probed with, which the pack says",
     "G50 G49": "the device may be looked at without its tethers as well",
 }
 
 
+# ... of a step that is done once more
+LOOKS_AGAIN = "it measures once more and changes nothing"
+CLEANS = "a clean wafer is cleaned"
+DRIES = "a dry wafer bears the dryer once more, and nothing else comes of it"
+BAKES = "a wafer without resist bears the bake, and a resist that is developed bears it twice as long"
+FINE_AGAIN = {
+    **{name: LOOKS_AGAIN for name in "S04 S12 S15 S19 S23 C19 C23 C28 D11 D13 G16 G17 G29 G35 G40 G43 G49 G51".split()},
+    **{name: CLEANS for name in "S02 C06 D02 G02 G18 G20".split()},
+    **{name: DRIES for name in "S22 C08 C27 G47".split()},
+    **{name: BAKES for name in "S13 C09 D08 G04 G09 G21 G30 G36".split()},
+    "S06": "a primer of one molecule does not grow", "D03": "a primer of one molecule does not grow",
+    "C03": "a second filling is mixed; none of it meets the wafer, and the bill of the lot has it",
+    "C04": "mounted and looked at for leaks once more",
+    "C14": "the rim is free already", "C15": "twice the time is within the day that it may wait",
+    "C17": "twice the time is within what an image lasts",
+    "C20": "the resist loses as much again, at the rate that its <exposed> names; the second dip takes the second oxide",
+    "G38": "the blade runs in its own cut", "G48": "what is broken is apart",
+    "G50": "there is no tether left", "G52": "what is glued stays", "G53": "a bonded chip bears another wire",
+}
+
+
+BATHS = """
+## Out of one liquid into another without a rinse
+
+Every ordered pair of the liquids of the packs, on one wafer.
+
+| wet with | must not go into | is warned of before |
+|---|---|---|
+"""
 MOVES = """
 ## Every step at every other place
 
@@ -92,6 +125,15 @@ def without_lags(text, names):
     return re.sub(rf'    <lag from="({"|".join(names)})"[^>]*/>\n', "", text) if names else text
 
 
+def text_of(steps):
+    """all steps one after the other; what is done again when one fails is itself where the other is not done yet"""
+    done, out = set(), []
+    for name, _, s in steps:
+        done.add(name)
+        out.append(re.sub(r'goto="(\w+)"', lambda m: m[0] if m[1] in done else f'goto="{name}"', s))
+    return "".join(out)
+
+
 def without(steps, k):
     gone = steps[k][0]
     rest = []
@@ -99,7 +141,7 @@ def without(steps, k):
         if i == k:
             continue
         s = without_lags(s, [gone])
-        rest.append((name, title, s.replace(f'goto="{gone}"', f'goto="{name}"')))
+        rest.append((name, title, s))
     return rest
 
 
@@ -121,9 +163,35 @@ def unfinished(steps):
                 steps[:k] + [(name, title, s[:finish.start()] + s[finish.end():])] + steps[k + 1:]
 
 
+def harmless(steps):
+    """each hazard of a step left out, one after the other"""
+    for k, (name, title, s) in enumerate(steps):
+        for hazard in re.finditer(r'<hazard-ref ref="([^"]*)"/>', s):
+            yield f"without {hazard[1]} of {name}", title, \
+                steps[:k] + [(name, title, s[:hazard.start()] + s[hazard.end():])] + steps[k + 1:]
+
+
+def copied(step):
+    """the step a second time: under an id of its own, without holds, and without ids of what it derives"""
+    name, title, s = step
+    s = re.sub(r"    <lag [^>]*/>\n", "", s).replace(f'<step id="{name}"', f'<step id="{name}B"', 1)
+    return name + "B", title, re.sub(r'(<derive [^>]*?) id="[^"]*"', r"\1", s)
+
+
+def repeated(steps):
+    """each step once more right behind itself, and once more at the end of its phase, which is the next strip"""
+    ends = [k for k, (_, _, s) in enumerate(steps) if 'op="strip"' in s.split(">")[0]] + [len(steps) - 1]
+    for k, step in enumerate(steps):
+        end = next(e for e in ends if e >= k)
+        for at in sorted({k, end}):
+            later = [(n, t, s.replace(f'<lag from="{step[0]}"', f'<lag from="{step[0]}B"')) for n, t, s in steps[at + 1:]]
+            case = f"{step[0]} once more" + (f" after {steps[at][0]}" if at > k else "")
+            yield case, step[1], steps[:at + 1] + [copied(step)] + later
+
+
 def cases(text):
     head, steps, tail = split(text)
-    whole = lambda list_: head + "".join(s for _, _, s in list_) + tail
+    whole = lambda list_: head + text_of(list_) + tail
     yield "as it is", "", whole(steps)
     for k, (name, title, _) in enumerate(steps):
         yield f"without {name}", title, whole(without(steps, k))
@@ -131,6 +199,10 @@ def cases(text):
         yield f"{steps[k + 1][0]} before {steps[k][0]}", f"{steps[k + 1][1]} / {steps[k][1]}", whole(exchanged(steps, k))
     for case, title, left in unfinished(steps):
         yield case, title, whole(left)
+    for case, title, left in harmless(steps):
+        yield case, title, whole(left)
+    for case, title, more in repeated(steps):
+        yield case, title, whole(more)
 
 
 def moved(steps):
@@ -153,7 +225,7 @@ def elsewhere(program, name, folder):
         part = tried[first:first + batch]
         files = [folder / f"{i:03d}.xml" for i in range(len(part))]
         for file, (_, _, made) in zip(files, part):
-            file.write_text(head + "".join(s for _, _, s in made) + tail, encoding="utf-8")
+            file.write_text(head + text_of(made) + tail, encoding="utf-8")
         run = subprocess.run([program, ROOT / "processes/base.xml", *files], capture_output=True, text=True, check=True)
         for line in run.stdout.splitlines():
             cells = line.split("\t")
@@ -176,6 +248,58 @@ def moves(program, count):
                     count.setdefault("unexplained", []).append(f"{name}: {step} before {', '.join(places)}")
                 out.append(f"| {name} | {step} | {', '.join(places)} | {FINE_ELSEWHERE.get(step, '')} |\n")
             out.append(f"| {name} | {tried} moves | all others are refused or warned of | |\n")
+    return "".join(out)
+
+
+def liquids():
+    """id: name of every hazard that wets, of the shared pack and of all flows"""
+    found = {}
+    for name in ("base",) + PACKS:
+        text = (ROOT / f"processes/{name}.xml").read_text(encoding="utf-8")
+        for hazard in re.finditer(r'<hazard ([^>]*wets="yes"[^>]*)>', text):
+            found[re.search(r'id="([^"]*)"', hazard[1])[1]] = re.search(r'name="([^"]*)"', hazard[1])[1]
+    return found
+
+
+def dipped(name, hazard, rinses):
+    return f'''  <step id="{name}" op="clean" title="{name}" equipment="dip-{name}" in-source="no" batch="1" second-signature="yes">
+    <purpose>x</purpose><time law="const" overrun="0" k="2"><arg name="time" q="inspect.t"/></time>
+    <endpoint>x</endpoint><accept measure="x" lo="" hi="" unit="1" sites="1" every="1"/>
+    <hazard-ref ref="{hazard}"/><on-fail if="x" then="hold">x</on-fail>{rinses}
+  </step>
+'''
+
+
+def baths(program, count):
+    """what is said where a wafer goes out of one liquid into another without a rinse, of every ordered pair"""
+    of = liquids()
+    head, steps, tail = split((ROOT / "processes/silicon-on-glass.xml").read_text(encoding="utf-8"))
+    bench = "".join(f'  <equipment id="dip-{x}" class="bath" capacity="1">x</equipment>\n' for x in ("X1", "X2"))
+    rinses = '<finish kind="rinse"/><finish kind="dry" by="spin"/>'
+    pairs = [(a, b) for a in of for b in of if a != b]
+    out = [BATHS]
+    with tempfile.TemporaryDirectory() as kept:
+        files = [pathlib.Path(kept) / f"{i:03d}.xml" for i in range(len(pairs))]
+        for file, (a, b) in zip(files, pairs):
+            two = dipped("X1", a, "") + dipped("X2", b, rinses)
+            file.write_text(head + bench + steps[0][2] + two + "".join(s for _, _, s in steps[1:]) + tail,
+                            encoding="utf-8")
+        run = subprocess.run([program, ROOT / "processes/base.xml", *files], capture_output=True, text=True, check=True)
+        says = {pair: "" for pair in pairs}
+        for line in run.stdout.splitlines():
+            cells = line.split("\t")
+            pair = pairs[files.index(pathlib.Path(cells[0]))]
+            if cells[2] in ("FW-D336", "FW-D503") and "step X2 brings" in cells[3]:
+                says[pair] = re.search("must not meet: ([^;]*);", cells[3])[1] if cells[2] == "FW-D336" else "spoils"
+    for a in of:
+        refused = [f"{of[b]}: {says[a, b]}" for b in of if a != b and says[a, b] not in ("", "spoils")]
+        warned = [of[b] for b in of if a != b and says[a, b] == "spoils"]
+        out.append(f"| {of[a]} | {'; '.join(refused)} | {', '.join(warned)} |\n")
+    for a, b in pairs:
+        if not says[a, b]:
+            count.setdefault("unexplained", []).append(f"{a} into {b}: nothing is said")
+        if says[a, b] != says[b, a]:
+            count.setdefault("unexplained", []).append(f"{a} with {b} is not {b} with {a}")
     return "".join(out)
 
 
@@ -215,8 +339,9 @@ def page(program):
             out.append(f"\n## {name}\n\n| case | step | outcome | first message |\n|---|---|---|---|\n")
             for case, title, word, first in said(program, name, folder):
                 key = case.replace("without ", "").replace(" before ", " ")
-                text = f"{first[2]}: {first[3]}" if first and len(first) > 3 else FINE.get(key, "")
-                if word == "accepted" and case != "as it is" and key not in FINE:
+                why = FINE_AGAIN.get(case.split()[0], "") if " once more" in case else FINE.get(key, "")
+                text = f"{first[2]}: {first[3]}" if first and len(first) > 3 else why
+                if word == "accepted" and case != "as it is" and not why:
                     count.setdefault("unexplained", []).append(f"{name}: {case}")
                 count[word] = count.get(word, 0) + 1
                 out.append(f"| {case} | {title} | {word} | {text.replace('|', '/')} |\n")
@@ -226,6 +351,7 @@ def page(program):
 def main():
     text, count = page(sys.argv[1])
     golden = ROOT / "docs/process-orders.md"
+    text += baths(sys.argv[1], count)
     if os.environ.get("FW_TEST_ALL"):
         text += moves(sys.argv[1], count)
     else:

@@ -81,9 +81,15 @@ static void checked_as_it_is_run(void **state) {
         "</alternative><step id=\"S17\"";
     fw_process_choice c = {.alternative = "acid"};
     fw_process_flow *flow;
-    assert_int_equal(chosen(SILICON, "<step id=\"S17\"", put, NULL, 0, &flow), FW_OK);
     assert_int_equal(chosen(SILICON, "<step id=\"S17\"", put, &c, 1, &flow), FW_INPUT);
     expect(269, "'h.piranha' attacks 'aluminium'");
+    /* and of the one that nobody has chosen yet, said of it; the flow itself stays as it is */
+    assert_int_equal(chosen(SILICON, "<step id=\"S17\"", put, NULL, 0, &flow), FW_INPUT);
+    expect(269, "with the alternative 'acid': step S16: 'h.piranha' attacks 'aluminium'");
+    const char *wet = replaced(arena, put, "<finish kind=\"dry\" by=\"spin\"/>", "", &(size_t){0});
+    wet = replaced(arena, wet, "h.piranha", "h.solvent", &(size_t){0});
+    assert_int_equal(chosen(SILICON, "<step id=\"S17\"", wet, NULL, 0, &flow), FW_INPUT);
+    expect(335, "with the alternative 'acid': step S17"); /* at the step behind it */
     const char *elsewhere = replaced(arena, put, "id=\"S16\"", "id=\"S99\"", &(size_t){0});
     assert_int_equal(chosen(SILICON, "<step id=\"S17\"", elsewhere, NULL, 0, &flow), FW_INPUT);
     expect(375, "there is no step 'S99'");

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Corners of the packs as inputs of the verdict. */
 #include "pack_fixture.h"
+#include "process/calibrate.h"
 #include "process/process.h"
 #include "process/judge.h"
+#include <math.h>
 
 static fw_mechanism_variant variant_of(double thickness_m, double youngs_u) {
     return (fw_mechanism_variant){
@@ -126,8 +128,53 @@ static void mistakes_have_a_place(void **state) {
     }
 }
 
+static double edge_u(fw_process_flow *flow) {
+    return fw_process_flow_quantity(flow, "made.al-edge")->uncertainty;
+}
+
+/* L u(R)/R with L = d (1 + over-etch): what the pack has written is what its inputs give, and goes with each of them */
+static void edge_of_an_etch_follows_its_rate(void **state) {
+    (void)state;
+    static const struct {
+        const char *from, *to;
+        double u_um;
+    } at[] = {
+        {NULL, NULL, 0.11},
+        {"value=\"10\" urel=\"0.1\" unit=\"Ao/s\"", "value=\"10\" urel=\"0.05\" unit=\"Ao/s\"",
+         0.055},
+        {"id=\"al.overetch\" value=\"0.1\"", "id=\"al.overetch\" value=\"0.5\"", 0.15},
+        {"id=\"al.d\" value=\"1\"", "id=\"al.d\" value=\"2\"", 0.22},
+        {"id=\"al.d\" value=\"1\" urel=\"0.025\"", "id=\"al.d\" value=\"1\" urel=\"0.2\"", 0.11}};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        fw_process_flow *flow = read_pack(arena, SILICON, at[i].from, at[i].to, &diags);
+        assert_non_null(flow);
+        assert_near(edge_u(flow), at[i].u_um * 1e-6, 1e-14);
+    }
+    /* a warm bath is known less well: its activation energy counts */
+    fw_process_flow *warm = read_pack(arena, SILICON, "id=\"pan.T\" unknown=\"true\"",
+                                      "id=\"pan.T\" value=\"40\" u=\"1\"", &diags);
+    const double k = 8.617333262e-5, step = 1.0 / 295.15 - 1.0 / 313.15,
+                 relative = hypot(0.1, hypot(0.5 / k * 1.0 / (313.15 * 313.15), 0.09 / k * step));
+    assert_relative(edge_u(warm), 1.1e-6 * relative, 1e-3);
+    /* what a laboratory has found of the edge itself holds */
+    static const char lab[] = "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\">"
+                              "<source id=\"m\" kind=\"measured\">x</source>%s"
+                              "<q id=\"pan.R\" value=\"12\" u=\"0.12\" unit=\"Ao/s\" "
+                              "status=\"measured\" src=\"m\"/></process>",
+                      edge[] = "<q id=\"made.al-edge\" value=\"0.2\" u=\"0.03\" unit=\"um\" "
+                               "status=\"measured\" src=\"m\"/>";
+    for (int own = 0; own < 2; own++) {
+        const char *text = fw_arena_printf(arena, lab, own ? edge : "");
+        fw_process_flow *flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+        assert_int_equal(fw_process_lab_apply(arena, "lab.xml", text, strlen(text), flow, &diags),
+                         FW_OK);
+        assert_near(edge_u(flow), own ? 0.03e-6 : 0.011e-6, 1e-14);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(edge_of_an_etch_follows_its_rate),
         cmocka_unit_test(the_silicon_flow_leaves_the_trapezoid_of_its_etch),
         cmocka_unit_test(a_known_anisotropy_is_compensated),
         cmocka_unit_test(the_copper_flow),

@@ -3,6 +3,7 @@
    the packs as they are pass (test_pack.c, packs_are_clean). */
 #include "process/pack.h"
 #include "pack_fixture.h"
+#include "process/calibrate.h"
 
 static void expect(int number, const char *says) {
     const fw_diag *d = said_of(number, says);
@@ -46,12 +47,8 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "<change kind=\"remove\" material=\"resist\"/>", "", 269, "'resist'"},
         {SILICON, "<q id=\"hard.T\" value=\"115\"", "<q id=\"hard.T\" value=\"131\"", 271,
          "step S13"},
-        {COPPER,
-         "id=\"plater\" class=\"copper sulfate plating cell, galvanostat 0 to 2 A\" "
-         "capacity=\"1\" takes=\"copper\"",
-         "id=\"plater\" class=\"copper sulfate plating cell, galvanostat 0 to 2 A\" "
-         "capacity=\"1\" takes=\"gold coppery\"",
-         272, "step C21"},
+        {COPPER, "capacity=\"1\" brings=\"h.copper-acid\" takes=\"copper\"",
+         "capacity=\"1\" brings=\"h.copper-acid\" takes=\"gold coppery\"", 272, "step C21"},
         {SILICON, "in-source=\"yes\" mask=\"M1\"", "in-source=\"yes\"", 274, "without naming"},
         {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>", "", 274,
          "develops 'resist'"},
@@ -69,6 +66,54 @@ static void mistakes_of_a_flow(void **state) {
          "525 um lie in the field"},
         {SILICON, "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.sharp\"/>",
          "<hazard-ref ref=\"h.sharp\"/>", 374, "uses 'pan2', whose hazard 'h.pan'"},
+        {SILICON, "material=\"thermal-paste\" thickness=\"paste.d\"",
+         "material=\"carrier\" thickness=\"paste.d\"", 520, "puts 'carrier' where it lies"},
+        {COPPER, "<step id=\"C08\"",
+         "<step id=\"C07B\" op=\"displace\" title=\"x\" equipment=\"hf-bench\" "
+         "in-source=\"no\" second-signature=\"yes\"><purpose>x</purpose><change kind=\"add\" "
+         "material=\"copper-seed\" thickness=\"seed.d\"/><time law=\"const\" overrun=\"0\" "
+         "k=\"2\"><arg name=\"time\" q=\"cell.t\"/></time><endpoint>x</endpoint><accept "
+         "measure=\"x\" lo=\"\" hi=\"\" unit=\"1\" sites=\"1\" every=\"1\"/><hazard-ref "
+         "ref=\"h.hf-copper\"/><on-fail if=\"x\" then=\"hold\">x</on-fail><finish "
+         "kind=\"rinse\"/></step><step id=\"C08\"",
+         521, "on 'copper-seed' itself"},
+        {COPPER, "<q id=\"coat.d\" value=\"8\"", "<q id=\"coat.d\" value=\"6\"", 523,
+         "computed for 16 um of 'resist' (mould.height), but 12 um"},
+        {COPPER, "<q id=\"mould.height\" value=\"16\"", "<q id=\"mould.height\" value=\"20\"", 523,
+         "computed for 20 um of 'resist' (mould.height), but 16 um"},
+        {SILICON,
+         "<hazard-ref ref=\"h.pan\"/>\n    <on-fail if=\"residue\" then=\"rework\" "
+         "goto=\"S14\">",
+         "<on-fail if=\"residue\" then=\"rework\" goto=\"S14\">", 527,
+         "step S14 (wet-etch) is done in a liquid"},
+        {SILICON, "<hazard-ref ref=\"h.plasma\"/>", "", 528, "which brings 'h.plasma'"},
+        {COPPER, "<hazard-ref ref=\"h.hf-organic\"/>", "", 528, "names no such hazard"},
+        {COPPER, "<hazard-ref ref=\"h.solvent\"/>", "", 374, "step C08 rinses in 'h.solvent'"},
+        {SILICON, "<q id=\"resist.d0\" value=\"1.40\"", "<q id=\"resist.d0\" value=\"-1.40\"", 278,
+         "'resist.d0' is -1.4 um"},
+        {SILICON, "<q id=\"resist.a\" value=\"0.503\"", "<q id=\"resist.a\" value=\"0\"", 278,
+         "'resist.a' is 0"},
+        {SILICON, "then=\"rework\" goto=\"S02\">clean once",
+         "then=\"rework\" goto=\"S20\">clean once", 276, "goes on with step S20"},
+        {COPPER, "<q id=\"dose.h1\" value=\"10\"", "<q id=\"dose.h1\" value=\"24\"", 342,
+         "points do not rise"},
+        {SILICON, "brings=\"h.uv\"", "brings=\"h.uw\"", 165, "did you mean 'h.uv'"},
+        {SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+         "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\" etched=\"yes\"/>", 260,
+         "'thickness' is none"},
+        {"silicon-on-glass", "<step id=\"G16\"",
+         "<step id=\"G15B\" op=\"wet-etch\" title=\"x\" equipment=\"hf-bench\" "
+         "in-source=\"no\" second-signature=\"yes\"><purpose>x</purpose><change "
+         "kind=\"remove\" material=\"glass-carrier\" thickness=\"cavity.d\" where=\"cavity\" "
+         "profile=\"isotropic\"/><time law=\"const\" overrun=\"0\" k=\"2\"><arg name=\"time\" "
+         "q=\"inspect.t\"/></time><endpoint>x</endpoint><accept measure=\"x\" lo=\"\" hi=\"\" "
+         "unit=\"1\" sites=\"1\" every=\"1\"/><hazard-ref ref=\"h.hf\"/><on-fail if=\"x\" "
+         "then=\"hold\">x</on-fail><finish kind=\"rinse\"/><finish kind=\"dry\" by=\"spin\"/>"
+         "</step><step id=\"G16\"",
+         522, "where step G12 has etched it already"},
+        {COPPER, "material=\"copper-plated\" thickness=\"cu.d\">",
+         "material=\"copper-plated\" thickness=\"mould.height\">", 525,
+         "the steps leave 9 um of 'copper-plated', but the device layer is 16 um thick"},
         {SILICON, "<finish kind=\"vent\"/>", "", 505, "lies under vacuum in 'sputter'"},
         {SILICON, "<finish kind=\"cool\"/>", "", 504, "hot from step S06"},
         {SILICON, "<lag from=\"S02\"", "<lag from=\"S09\"", 276, "not before it"},
@@ -200,6 +245,9 @@ static void liquids_react_by_their_groups(void **state) {
         {"iodine", "base ammonia oxidiser", "nitrogen triiodide"},
         {"cyanide base", "acid", "hydrogen cyanide"},
         {"cyanide", "organic-acid", "hydrogen cyanide"},
+        {"fluoride ammonium", "acid", "hydrogen fluoride"},
+        {"fluoride", "organic-acid", "hydrogen fluoride"},
+        {"acid fluoride", "acid", NULL},
         {"acid fluoride", "alcohol", NULL},
         {"acid fluoride alcohol organic-acid", "alcohol", NULL},
         {"acid oxidising-acid alcohol", "alcohol", NULL},
@@ -220,6 +268,90 @@ static void liquids_react_by_their_groups(void **state) {
         }
     assert_null(fw_process_reaction(
         NULL, &(fw_process_hazard){.id = "a", .reacts = fw_process_reacts_as("acid")}));
+}
+
+/* an uncertainty that no quantity of its kind can have; the pack as it is, and a laboratory that says so */
+static void uncertainties_make_sense(void **state) {
+    (void)state;
+    static const struct {
+        const char *id, *says; /* of a laboratory's <q> */
+        int number;            /* 0: fine */
+    } at[] = {{"pan.R", "value=\"10\" u=\"11\" unit=\"Ao/s\"", 530},
+              {"pan.R", "value=\"10\" urel=\"1.5\" unit=\"Ao/s\"", 530},
+              {"pan.R", "value=\"10\" urel=\"0.9\" unit=\"Ao/s\"", 0},
+              {"pan.R", "value=\"10\" u=\"-1\" unit=\"Ao/s\"", 71},
+              {"pan.R", "value=\"10\" u=\"0\" unit=\"Ao/s\"", 531},
+              {"rie.A", "value=\"0.97\" lo=\"0.9\" hi=\"1.02\" unit=\"1\"", 530},
+              {"rie.A", "value=\"0.97\" lo=\"0.9\" hi=\"1\" unit=\"1\"", 0},
+              {"hard.T", "value=\"115\" u=\"120\" unit=\"Cel\"", 530},
+              {"hard.T", "value=\"115\" u=\"4\" unit=\"Cel\"", 0},
+              {"litho.edge", "value=\"0\" u=\"200\" unit=\"um\"", 530},
+              {"litho.edge", "value=\"0\" u=\"0.1\" unit=\"um\"", 0},
+              {"al.overetch", "value=\"0.1\" u=\"0\" unit=\"1\"", 0},
+              {"pan.T", "value=\"22\" u=\"0\" unit=\"Cel\"", 531},
+              {"pan.serves", "value=\"1\" u=\"0\" unit=\"1\"", 0}};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        diags = fw_diags_new(arena);
+        fw_process_flow *flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+        const char *lab = fw_arena_printf(
+            arena,
+            "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\"><source id=\"m\" "
+            "kind=\"measured\">x</source><q id=\"%s\" %s status=\"measured\" src=\"m\"/>"
+            "</process>",
+            at[i].id, at[i].says);
+        fw_status status = fw_process_lab_apply(arena, "lab.xml", lab, strlen(lab), flow, &diags);
+        bool error = at[i].number == 530 || at[i].number == 71;
+        assert_int_equal(status, error ? FW_INPUT : FW_OK);
+        if (at[i].number)
+            expect(at[i].number, at[i].number == 71 ? "negative" : at[i].id);
+        else if (said_of(530, at[i].id) || said_of(531, at[i].id))
+            fail_msg("%s %s: %s", at[i].id, at[i].says, diags.item[diags.count - 1].message);
+    }
+}
+
+/* a time of nothing, a bake of nothing, a unit that is none: each as a pack and its words */
+static void steps_that_do_nothing(void **state) {
+    (void)state;
+    fw_process_flow *f =
+        computed_pack(SILICON, "id=\"spin.t\" value=\"60\"", "id=\"spin.t\" value=\"0\"");
+    assert_non_null(said_of(534, "step S07 takes no time"));
+    assert_int_equal(f->manufacturable, 0);
+    computed_pack(SILICON, "hi=\"200\" unit=\"um\"", "hi=\"200\" unit=\"umm\"");
+    assert_non_null(said_of(533, "did you mean 'um'"));
+    diags = fw_diags_new(arena);
+    const char *cold = "<q id=\"bake.T\" value=\"20\"";
+    assert_null(read_pack(arena, SILICON, "<q id=\"bake.T\" value=\"100\"", cold, &diags));
+    assert_non_null(said_of(532, "step S08 bakes at 20 Cel"));
+}
+
+/* one die in the middle of the pack's own wafer, where the description lays out none; currents against the supply */
+static void the_packs_own_wafer(void **state) {
+    (void)state;
+    static const struct {
+        const char *pack;
+        double side_mm;
+        const char *says; /* NULL: it fits */
+    } at[] = {{COPPER, 29.0, NULL},
+              {COPPER, 30.0, "inside a circle of 42 mm"},
+              {COPPER, 40.0, "but the wafer is 50.8 mm wide"},
+              {SILICON, 70.0, NULL},
+              {SILICON, 71.0, "but the wafer is 100 mm wide"}};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        fw_process_mask_facts facts = plain_facts;
+        facts.die_area_m2 = 1e-6 * at[i].side_mm * at[i].side_mm, facts.dies = 1;
+        diags = fw_diags_new(arena);
+        fw_process_flow *f = read_pack(arena, at[i].pack, NULL, NULL, &diags);
+        assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+        assert_int_equal(reasons(f, "reaches across"),
+                         at[i].says ? (strstr(at[i].says, "wafer is 50") ? 2 : 1) : 0);
+        if (at[i].says) assert_true(reasons(f, at[i].says) == 1);
+    }
+    fw_process_flow *f =
+        computed_pack(COPPER, "id=\"wafer.D\" value=\"50.8\"", "id=\"wafer.D\" value=\"150\"");
+    assert_int_equal(reasons(f, "step C05: current, against what the galvanostat gives is 3.1"), 1);
+    f = computed_pack(COPPER, "id=\"ps.J\" least=\"0.5\" most=\"500\" value=\"20\"",
+                      "id=\"ps.J\" least=\"0.5\" most=\"500\" value=\"150\"");
+    assert_int_equal(reasons(f, "step C05: current, against what the galvanostat gives is 2.0"), 1);
 }
 
 static void loss(void **state) {
@@ -321,6 +453,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(shared_hazards, setup, teardown),
         cmocka_unit_test(liquids_react_by_their_groups),
         cmocka_unit_test_setup_teardown(one_coat_is_exposed_once, setup, teardown),
+        cmocka_unit_test_setup_teardown(uncertainties_make_sense, setup, teardown),
+        cmocka_unit_test_setup_teardown(the_packs_own_wafer, setup, teardown),
+        cmocka_unit_test_setup_teardown(steps_that_do_nothing, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
     };

@@ -106,6 +106,33 @@ static void calendar(void **state) {
         assert_in_range(hour, 8, 17);
     }
     assert_non_null(strstr(ics, "operator 2"));
+    assert_null(strstr(ics, "VTIMEZONE"));
+}
+
+/* a stated zone: UTC as such, any other with a component that says what it is (RFC 5545, 3.6.5); all times are of it */
+static void zones(void **state) {
+    (void)state;
+    static const struct {
+        const char *day, *first;
+        int zones, plain;
+    } at[] = {{"08:00-18:00 from 2026-11-23T13:00 UTC", "DTSTART:20261123T130000Z\r\n", 0, 0},
+              {"08:00-18:00 from 2026-11-23 UTC+05:30", "DTSTART;TZID=UTC+0530:20261123T080000\r\n",
+               1, 1},
+              {"none from 2026-11-23 UTC-03:30", "DTSTART;TZID=UTC-0330:20261123T000000\r\n", 1, 1},
+              {"08:00-18:00 from 2026-11-23T13:00", "DTSTART:20261123T130000\r\n", 0, -1}};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        const fw_process_flow *f = computed(SILICON, NULL, NULL);
+        const fw_schedule *s = NULL;
+        const fw_schedule_options options = {.wafers = 1, .operators = 1, .day = at[i].day};
+        assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+        const char *ics = written(fw_recipe_write_ics, f, s);
+        if (!strstr(ics, at[i].first)) fail_msg("%s: no %s", at[i].day, at[i].first);
+        assert_int_equal(occurrences(ics, "BEGIN:VTIMEZONE\r\n"), at[i].zones);
+        int plain = 0;
+        for (const char *line = ics; (line = strstr(line, "\nDTSTART:")) != NULL; line++)
+            plain += strcspn(line + 1, "\r") == strlen("DTSTART:20261123T130000");
+        if (at[i].plain >= 0) assert_int_equal(plain, at[i].plain); /* the component's own */
+    }
 }
 
 /* planning times fill what is not computable; the run sheet says so and names where to stop */
@@ -153,8 +180,9 @@ static void contradiction(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(json_and_csv), cmocka_unit_test(picture),
-                                       cmocka_unit_test(calendar), cmocka_unit_test(planning_times),
-                                       cmocka_unit_test(contradiction)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(json_and_csv),   cmocka_unit_test(picture),
+        cmocka_unit_test(calendar),       cmocka_unit_test(zones),
+        cmocka_unit_test(planning_times), cmocka_unit_test(contradiction)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

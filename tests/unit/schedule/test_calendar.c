@@ -69,6 +69,13 @@ static void parsing(void **state) {
                                       "08:00-18:00 from 2026-02-29",
                                       "08:00-18:00 from 2026-2-9",
                                       "none from",
+                                      "08:00-18:00 from 2026-11-23T24:01",
+                                      "08:00-18:00 from 2026-11-23T9:00",
+                                      "08:00-18:00 from 2026-11-23 CET",
+                                      "08:00-18:00 from 2026-11-23 UTC+1",
+                                      "08:00-18:00 from 2026-11-23 UTC+15:00",
+                                      "08:00-18:00 from 2026-11-23 UTC-12:30",
+                                      "08:00-18:00 UTC",
                                       "08-18"};
     assert_true(fw_schedule_calendar_parse("none from 2024-02-29", &c));
     assert_int_equal(fw_schedule_calendar_weekday(&c, 0), 3); /* a Thursday */
@@ -79,6 +86,17 @@ static void parsing(void **state) {
     assert_true(civil[0] == 2126 && civil[1] == 2 && civil[2] == 1);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         assert_false(fw_schedule_calendar_parse(bad[i], &c));
+    /* a time of the first day, and a zone */
+    assert_true(fw_schedule_calendar_parse("08:00-18:00 from 2026-11-23T13:00 UTC+05:30", &c));
+    assert_true(c.zoned && c.zone_min == 330);
+    assert_near(fw_schedule_calendar_start(&c), 13.0 * 3600.0, 1e-9);
+    assert_true(fw_schedule_calendar_parse("08:00-18:00 from 2026-11-23T07:00", &c) && !c.zoned);
+    assert_near(fw_schedule_calendar_start(&c), 8.0 * 3600.0, 1e-9);
+    assert_true(fw_schedule_calendar_parse("08:00-18:00 from 2026-11-23T19:00 UTC", &c));
+    assert_true(c.zoned && c.zone_min == 0);
+    assert_near(fw_schedule_calendar_start(&c), 32.0 * 3600.0, 1e-9); /* Tuesday morning */
+    assert_true(fw_schedule_calendar_parse("none from 2026-11-23 UTC-03:30", &c));
+    assert_int_equal(c.zone_min, -210);
 }
 
 /* every day of the years 1 to 9999, counted one by one by the rule of leap years */
