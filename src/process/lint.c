@@ -179,6 +179,7 @@ static const struct {
     {"is every mask but the first aligned to one before it?", fw_process_lint_plates, false},
     {"is a plate drawn smaller by what its etch takes sideways?", fw_process_lint_shrink, true},
     {"is what a step uses up among its hazards?", fw_process_lint_uses, false},
+    {"is a wafer that is in pieces handled as dies?", fw_process_lint_parted, false},
     {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
 };
 

@@ -40,14 +40,14 @@ static void blank_row(const char *name, int n, fw_text *out) {
 }
 
 static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bool one,
-                        fw_text *out) {
+                        bool of_dies, fw_text *out) {
     fw_text_add(out, "<table class=\"small wafers\"><thead><tr><th style=\"width:30%\">Accept when"
                      "</th><th style=\"width:17%\">Limits</th>");
     for (int w = first; w < first + n; w++)
         if (lot)
             fw_text_add(out, "<th>Lot</th>");
         else
-            fw_text_printf(out, "<th>Wafer %d</th>", w + 1);
+            fw_text_printf(out, of_dies ? "<th>Dies of wafer %d</th>" : "<th>Wafer %d</th>", w + 1);
     fw_text_add(out, "</tr></thead><tbody>\n");
     for (int i = 0; i < s->naccept; i++) {
         fw_text_add(out, "<tr><td>");
@@ -74,27 +74,31 @@ static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bo
     fw_text_add(out, "</tbody></table>\n");
 }
 
-static void one_line(const fw_process_step *s, fw_text *out) {
+static void one_line(const fw_process_step *s, bool of_dies, fw_text *out) {
     fw_text_printf(out,
                    "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool</td><td>Bath or "
-                   "bottle lot</td><td>%s</td><td>Wafers in, out</td><td>Scrapped, on hold</td>"
+                   "bottle lot</td><td>%s</td><td>%s in, out</td><td>Scrapped, on hold</td>"
                    "<td>Deviation no.</td></tr></table>\n",
-                   s->second_signature ? "Initials; <b>second signature</b>" : "Initials");
+                   s->second_signature ? "Initials; <b>second signature</b>" : "Initials",
+                   of_dies ? "Dies" : "Wafers");
 }
 
-void fw_recipe_html_wafers(const fw_process_step *s, const fw_recipe_header *header, fw_text *out) {
+void fw_recipe_html_wafers(const fw_process_step *s, bool of_dies, const fw_recipe_header *header,
+                           fw_text *out) {
     int wafers = fw_recipe_wafers(header);
     bool lot = fw_process_step_is_of_lot(s);
     if (lot) wafers = 1;
     for (int first = 0; first < wafers; first += WAFERS_ABREAST)
         some_wafers(s, first, wafers - first < WAFERS_ABREAST ? wafers - first : WAFERS_ABREAST,
-                    lot, wafers == 1, out);
+                    lot, wafers == 1, of_dies, out);
     if (wafers == 1) {
-        one_line(s, out);
+        one_line(s, of_dies, out);
         return;
     }
-    fw_text_add(out, "<p class=\"small\">Wafers in ______ out ______ scrapped ______ on hold "
-                     "______&ensp;Deviation no. ______</p>\n");
+    fw_text_printf(out,
+                   "<p class=\"small\">%s in ______ out ______ scrapped ______ on hold "
+                   "______&ensp;Deviation no. ______</p>\n",
+                   of_dies ? "Dies" : "Wafers");
 }
 
 /* ---- hazards ---- */
