@@ -291,24 +291,24 @@ static fw_status files_of(writer *w, const char *flow, const char *behind, fw_ou
 
 /* ".cavity" where a flow prints several plates, "" where it prints one; NULL: no memory */
 static const char *of_plate(writer *w, const fw_mask_table *table, int plate) {
-    if (fw_mask_plates(table) < 2) return "";
-    return fw_arena_printf(w->plan->arena, ".%s", fw_mask_plate_at(table, plate).id);
+    const char *id = fw_mask_plate_at(table, plate).id;
+    return fw_mask_plates(table) < 2 ? "" : fw_arena_printf(w->plan->arena, ".%s", id);
 }
 
 static fw_status order_ending(writer *w, const fw_mask_table *table, int plate, const char *form,
                               const char **ending) {
     const char *of = of_plate(w, table, plate);
-    FW_NEED(*ending = of ? fw_arena_printf(w->plan->arena, "%s.order.%s", of, form) : NULL);
-    return FW_OK;
+    *ending = of ? fw_arena_printf(w->plan->arena, "%s.order.%s", of, form) : NULL;
+    return *ending ? FW_OK : FW_NOMEM;
 }
 
 /* an order sheet for each plate; they name what was written before them */
 static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
     fw_output_file *own;
-    const char *ending;
     int n;
     FW_TRY(files_of(w, name, ".", &own, &n));
     for (int i = 0; i < 2 * fw_mask_plates(mask->table); i++) {
+        const char *ending;
         fw_text text = fw_text_new(w->scratch);
         FW_TRY(order_ending(w, mask->table, i / 2, i % 2 ? "txt" : "json", &ending));
         FW_TRY(
@@ -379,38 +379,35 @@ static fw_status write_violations(writer *w, const fw_plan_flow *pf) {
     return put(w, "masks/", pf->use->ref, ".violations.gds", &text);
 }
 
-static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
-    unsigned set;
-    if (!pf->wafer) return FW_OK;
-    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+static fw_status write_wafer(writer *w, const fw_plan_flow *pf, unsigned set) {
+    const fw_mask_format *format;
     const char *name = fw_arena_printf(w->plan->arena, "%s-wafer", pf->use->ref);
     FW_NEED(name);
-    const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
         if (!(set & 1u << i) || !format->plate) continue;
         bool composed = format->write == fw_mask_write_gds; /* for its hash */
-        fw_text text = composed ? pf->wafer_gds : fw_text_new(w->scratch);
-        if (!composed) FW_TRY(fw_wafer_write_format(pf->wafer, format, &text));
-        FW_TRY(put(w, "masks/", name, format->ending, &text));
+        fw_text data = composed ? pf->wafer_gds : fw_text_new(w->scratch);
+        if (!composed) FW_TRY(fw_wafer_write_format(pf->wafer, format, &data));
+        FW_TRY(put(w, "masks/", name, format->ending, &data));
     }
-    fw_text csv = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_csv(pf->wafer, &csv));
-    FW_TRY(put(w, "masks/", name, ".csv", &csv));
-    fw_text map = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_map(pf->wafer, &map));
-    FW_TRY(put(w, "masks/", name, "-map.svg", &map));
-    fw_text json = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_json(pf->wafer, pf->wafer_sha256, &json));
-    FW_TRY(put(w, "masks/", name, ".json", &json));
+    fw_text text = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_csv(pf->wafer, &text));
+    FW_TRY(put(w, "masks/", name, ".csv", &text));
+    text = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_map(pf->wafer, &text));
+    FW_TRY(put(w, "masks/", name, "-map.svg", &text));
+    text = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_json(pf->wafer, pf->wafer_sha256, &text));
+    FW_TRY(put(w, "masks/", name, ".json", &text));
     fw_output_file *own;
     int n;
     FW_TRY(files_of(w, pf->use->ref, "-wafer", &own, &n));
     for (int plate = 0; plate < fw_mask_plates(pf->table); plate++) {
         const char *ending;
-        fw_text order = fw_text_new(w->scratch);
+        text = fw_text_new(w->scratch);
         FW_TRY(order_ending(w, pf->table, plate, "txt", &ending));
-        FW_TRY(fw_wafer_write_order(pf->wafer, plate, own, n, &order));
-        FW_TRY(put(w, "masks/", name, ending, &order));
+        FW_TRY(fw_wafer_write_order(pf->wafer, plate, own, n, &text));
+        FW_TRY(put(w, "masks/", name, ending, &text));
     }
     return FW_OK;
 }
@@ -431,8 +428,8 @@ static fw_status write_written_plate(writer *w, const fw_plan_flow *pf, const fw
     }
     fw_output_file *own;
     int n;
-    FW_TRY(files_of(w, name, ".", &own, &n));
     fw_text order = fw_text_new(w->scratch);
+    FW_TRY(files_of(w, name, ".", &own, &n));
     FW_TRY(fw_wafer_write_written_order_json(wafer, &written, own, n, &order));
     FW_TRY(put(w, "masks/", name, ".order.json", &order));
     order = fw_text_new(w->scratch);
@@ -440,11 +437,12 @@ static fw_status write_written_plate(writer *w, const fw_plan_flow *pf, const fw
     return put(w, "masks/", name, ".order.txt", &order);
 }
 
-/* the plates as the shop writes them, each with order sheets of its own; no picture, no notes */
-static fw_status write_written(writer *w, const fw_plan_flow *pf) {
+/* the layered plate, and each plate as the shop writes it */
+static fw_status write_plates(writer *w, const fw_plan_flow *pf) {
     const fw_wafer *wafer = pf->wafer ? pf->wafer : pf->single;
     unsigned set;
     if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    if (pf->wafer) FW_TRY(write_wafer(w, pf, set));
     for (int plate = 0; wafer && plate < fw_mask_plates(pf->table); plate++)
         FW_TRY(write_written_plate(w, pf, wafer, plate, set));
     return FW_OK;
@@ -554,8 +552,7 @@ static fw_status write_all(writer *w, unsigned what) {
         if ((what & FW_WRITE_MASKS) && plan->flow[i].mask) FW_TRY(write_mask(w, &plan->flow[i]));
         if ((what & FW_WRITE_MASKS) && plan->flow[i].violated)
             FW_TRY(write_violations(w, &plan->flow[i]));
-        if (what & FW_WRITE_MASKS) FW_TRY(write_wafer(w, &plan->flow[i]));
-        if (what & FW_WRITE_MASKS) FW_TRY(write_written(w, &plan->flow[i]));
+        if (what & FW_WRITE_MASKS) FW_TRY(write_plates(w, &plan->flow[i]));
         if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
             FW_TRY(write_recipe(w, &plan->flow[i]));
     }

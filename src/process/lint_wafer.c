@@ -299,12 +299,12 @@ fw_status fw_process_lint_parted(fw_process_pack *pack) {
         fw_process_stack stack;
         FW_TRY(fw_process_flow_stack(pack->arena, f, i, &stack, NULL));
         bool pieces = in_pieces(f, &stack), dies = before || s->parts;
-        if (pieces && !dies) {
-            fw_diag_error(pack->diags, 552, s->place,
-                          "after step %s nothing is left between the dies: the wafer is in pieces, "
-                          "and the steps behind it are of wafers; say leaves=\"dies\" in the step "
-                          "that parts it, or leave a layer in the field",
-                          s->id);
+        if (pieces && !dies && i + 1 < f->nstep) {
+            fw_diag_warning(pack->diags, 552, s->place,
+                            "after step %s nothing is left between the dies: the wafer is in "
+                            "pieces, and the steps behind it are of wafers; say leaves=\"dies\" in "
+                            "the step that parts it, or leave a layer in the field",
+                            s->id);
             return FW_OK;
         }
         if (s->parts && !pieces && strcmp(s->op, "dice") != 0)
