@@ -326,13 +326,17 @@ static void waits(const fw_process_flow *flow, int index, fw_text *out) {
 /* the step parts the wafer: what the sheet is of behind it */
 static void parting(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
     const fw_quantity *dies = fw_process_flow_quantity(flow, "mask.dies");
+    bool mapped = dies && !dies->unknown && dies->value > 1; /* else of one die, without a map */
     if (!s->parts) return;
     fw_text_add(out, "<p class=\"note\"><b>From here on the sheet is of dies");
-    if (dies && !dies->unknown) fw_text_printf(out, ", %.0f devices of each wafer", dies->value);
+    if (mapped) fw_text_printf(out, ", %.0f devices of each wafer", dies->value);
     fw_text_add(out, ":</b> those of a wafer stay together in a box or basket of its own, with the "
-                     "wafer's number on it. A die is told by its row and column on the wafer map: "
-                     "they stand on its frame where ids are drawn. Alignment sites and test dies "
-                     "come off with them.</p>\n");
+                     "wafer's number on it.");
+    if (mapped)
+        fw_text_add(out, " A die is told by its row and column on the wafer map: they stand on its "
+                         "frame where ids are drawn. Alignment sites and test dies come off with "
+                         "them.");
+    fw_text_add(out, "</p>\n");
 }
 
 static void endpoints(const fw_process_step *s, fw_text *out) {
