@@ -288,28 +288,89 @@ static int whole_or(const fw_xml_record *record, const char *name, int other) {
     return isfinite(value) ? (int)value : other;
 }
 
-static fw_device_order_asked order_of(const fw_xml_record *record) {
-    return (fw_device_order_asked){.quartz = says(record, "material", "quartz"),
-                                   .thickness_m = fw_xml_number_of(record, "thickness"),
-                                   .cd_m = fw_xml_number_of(record, "cd-tolerance"),
-                                   .registration_m = fw_xml_number_of(record, "registration"),
-                                   .defect_m = fw_xml_number_of(record, "defect"),
-                                   .mirror = says(record, "mirror", "yes")  ? FW_MIRROR_YES
-                                             : says(record, "mirror", "no") ? FW_MIRROR_NO
-                                                                            : FW_MIRROR_READ,
-                                   .pellicle = says(record, "pellicle", "yes"),
-                                   .quantity = whole_or(record, "quantity", 1),
-                                   .barcode = fw_xml_text_of(record, "barcode"),
-                                   .flat_line = says(record, "flat-line", "yes"),
-                                   .place = record->element->place};
-}
-
 /* nothing is said */
-static const fw_device_order_asked no_order = {.thickness_m = (double)NAN,
+static const fw_device_order_asked no_order = {.scale = 1,
+                                               .size_m = (double)NAN,
+                                               .thickness_m = (double)NAN,
                                                .cd_m = (double)NAN,
                                                .registration_m = (double)NAN,
                                                .defect_m = (double)NAN,
                                                .quantity = 1};
+
+/* what it does not say is that of `other` */
+static fw_device_order_asked order_of(const fw_xml_record *record,
+                                      const fw_device_order_asked *other) {
+    fw_device_order_asked o = *other;
+    const struct {
+        const char *name;
+        double *value;
+    } number[] = {{"scale", &o.scale},
+                  {"size", &o.size_m},
+                  {"thickness", &o.thickness_m},
+                  {"cd-tolerance", &o.cd_m},
+                  {"registration", &o.registration_m},
+                  {"defect", &o.defect_m}};
+    for (size_t i = 0; i < sizeof number / sizeof number[0]; i++)
+        *number[i].value = fw_xml_number_or(record, number[i].name, *number[i].value);
+    if (fw_xml_given(record, "material")) o.quartz = says(record, "material", "quartz");
+    if (fw_xml_given(record, "tone")) o.inverted = says(record, "tone", "inverted");
+    if (fw_xml_given(record, "mirror"))
+        o.mirror = says(record, "mirror", "yes")  ? FW_MIRROR_YES
+                   : says(record, "mirror", "no") ? FW_MIRROR_NO
+                                                  : FW_MIRROR_READ;
+    if (fw_xml_given(record, "pellicle")) o.pellicle = says(record, "pellicle", "yes");
+    if (fw_xml_given(record, "flat-line")) o.flat_line = says(record, "flat-line", "yes");
+    if (fw_xml_given(record, "barcode")) o.barcode = fw_xml_text_of(record, "barcode");
+    o.quantity = whole_or(record, "quantity", o.quantity);
+    o.plate = fw_xml_text_of(record, "plate");
+    o.place = record->element->place;
+    return o;
+}
+
+static void twice(fw_device_reader *r, fw_place place, const char *plate) {
+    fw_diag_error(r->diags, 550, place, "<order>: there is one of %s%s%s already; keep one of them",
+                  plate ? "plate \"" : "all plates", plate ? plate : "", plate ? "\"" : "");
+}
+
+const fw_device_order_asked *fw_device_order_of(const fw_device_wafer_asked *wafer,
+                                                const char *plate) {
+    for (int i = 0; i < wafer->nordered; i++)
+        if (strcmp(wafer->ordered[i].plate, plate) == 0) return &wafer->ordered[i];
+    return &wafer->order;
+}
+
+/* the one of all plates first: those of one plate take from it what they do not say */
+static fw_status read_orders(fw_device_reader *r) {
+    fw_device_wafer_asked *w = &r->device->wafer;
+    int n = 0;
+    w->order = no_order;
+    for (int i = 0; i < r->xml.nrecord; i++) {
+        const fw_xml_record *e = &r->xml.record[i];
+        if (!fw_xml_is(e, "order")) continue;
+        n++;
+        if (fw_xml_given(e, "plate")) continue;
+        if (w->written) twice(r, e->element->place, NULL);
+        w->order = order_of(e, &no_order);
+        w->written = true;
+    }
+    fw_device_order_asked *one = fw_arena_array(r->arena, fw_device_order_asked, (size_t)n);
+    FW_NEED(one);
+    w->ordered = one;
+    w->written = n > 0;
+    for (int i = 0; i < r->xml.nrecord; i++) {
+        const fw_xml_record *e = &r->xml.record[i];
+        if (!fw_xml_is(e, "order") || !fw_xml_given(e, "plate")) continue;
+        fw_device_order_asked o = order_of(e, &w->order);
+        for (int k = 0; o.plate && k < w->nordered; k++)
+            if (strcmp(one[k].plate, o.plate) == 0) twice(r, o.place, o.plate);
+        if (fw_xml_given(e, "size"))
+            fw_diag_error(r->diags, 550, fw_xml_place_of(e, "size"),
+                          "<order>: size is one for all plates; state it in the <order> without "
+                          "plate, or as plate of <wafer>");
+        if (o.plate) one[w->nordered++] = o;
+    }
+    return FW_OK;
+}
 
 static fw_device_wafer_asked wafer_of(const fw_xml_record *record) {
     double tests = fw_xml_number_or(record, "test-dies", 0);
@@ -328,7 +389,6 @@ static fw_device_wafer_asked wafer_of(const fw_xml_record *record) {
                                    .blocks = says(record, "assign", "blocks"),
                                    .plate_m = fw_xml_number_of(record, "plate"),
                                    .title = fw_xml_text_of(record, "title"),
-                                   .order = no_order,
                                    .place = record->element->place};
 }
 
@@ -396,9 +456,7 @@ static fw_status add_sweep(fw_device_reader *r, const fw_xml_record *record) {
 fw_status fw_device_build_wafer(fw_device_reader *r) {
     for (int i = 0; i < r->xml.nrecord; i++)
         if (fw_xml_is(&r->xml.record[i], "wafer")) r->device->wafer = wafer_of(&r->xml.record[i]);
-    for (int i = 0; i < r->xml.nrecord; i++)
-        if (fw_xml_is(&r->xml.record[i], "order"))
-            r->device->wafer.order = order_of(&r->xml.record[i]);
+    FW_TRY(read_orders(r));
     for (int i = 0; i < r->xml.nrecord; i++)
         if (fw_xml_is(&r->xml.record[i], "sweep")) FW_TRY(add_sweep(r, &r->xml.record[i]));
     return r->diags->failed ? FW_NOMEM : FW_OK;

@@ -374,8 +374,12 @@ typedef struct fw_device_sweep { /* <sweep parameter from to steps> */
     fw_place place;
 } fw_device_sweep;
 
-typedef struct fw_device_order_asked { /* <order> of a wafer; NaN, NULL: chosen by the wafer room */
-    bool quartz;                       /* else soda-lime glass */
+typedef struct fw_device_order_asked { /* <order>; NaN, NULL: chosen by the wafer room */
+    const char *plate; /* id of the one plate of a flow that it is of; NULL: of all others */
+    bool quartz;       /* else soda-lime glass */
+    bool inverted;     /* written is what the drawing leaves free */
+    double scale;      /* of all that lies on a wafer, about the plate's middle */
+    double size_m;     /* edge of the square; NaN: the wafer's */
     double thickness_m, cd_m, registration_m, defect_m;
     enum {
         FW_MIRROR_READ,
@@ -403,9 +407,15 @@ typedef struct fw_device_wafer_asked { /* <wafer>; NaN: chosen by the wafer room
     const char *title;        /* NULL: the die's */
     fw_device_sweep sweep[2]; /* (nsweep) along columns, along rows */
     int nsweep;
-    fw_device_order_asked order;
+    fw_device_order_asked order;          /* of every plate that has none of its own */
+    const fw_device_order_asked *ordered; /* (nordered) those of one plate */
+    int nordered;
+    bool written; /* there is an <order>: a plate is written without a wafer, too, of one die */
     fw_place place;
 } fw_device_wafer_asked;
+/* what is ordered of a plate: its own <order>, or that of all */
+const fw_device_order_asked *fw_device_order_of(const fw_device_wafer_asked *wafer,
+                                                const char *plate);
 
 typedef struct fw_device_limits_asked { /* <limits>, beside the safety factor */
     double cycles;                      /* repetitions of every scene; NaN: static */

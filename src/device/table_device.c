@@ -116,6 +116,7 @@ static const char *const wafer_centres[] = {"auto", "die", "street", NULL};
 static const char *const wafer_sides[] = {"bottom", "top", "left", "right", NULL};
 static const char *const wafer_alignments[] = {"none", "2 sites", NULL};
 static const char *const order_materials[] = {"soda-lime", "quartz", NULL};
+static const char *const order_tones[] = {"as drawn", "inverted", NULL};
 static const char *const order_mirrors[] = {"as read", "yes", "no", NULL};
 static const char *const wafer_assignments[] = {"round-robin", "blocks", NULL};
 
@@ -320,6 +321,9 @@ static bool is_code_39(const char *text) {
 }
 
 static const fw_xml_attribute_row order_rows[] = {
+    {"plate", .kind = FW_KIND_ID, .fallback = "all plates that have no <order> of their own",
+     .sentence = "Plate of a flow that prints several, by its id in the layer table. What it does "
+                 "not say is as in the <order> of all plates."},
     {"material", .kind = FW_KIND_WORD, .words = order_materials, .fallback = "soda-lime",
      .sentence = "Of the plate. Quartz is for exposure below 350 nm and for close registration."},
     {"thickness", D_LENGTH, .unit = "mm", RANGE(0.5e-3, 20e-3, "plates are 1 to 13 mm thick"),
@@ -327,6 +331,16 @@ static const fw_xml_attribute_row order_rows[] = {
     {"mirror", .kind = FW_KIND_WORD, .words = order_mirrors, .fallback = "as read",
      .sentence = "Are the written data the mirror image of the drawing? as read: the written file "
                  "is what is seen with the chrome up."},
+    {"tone", .kind = FW_KIND_WORD, .words = order_tones, .fallback = "as drawn",
+     .sentence = "inverted: the written polygons are what the drawing leaves free within 4 mm of "
+                 "the plate's edge, and the tone of the data is the other one."},
+    {"scale", D_PURE, RANGE(0.1, 10, "projection printers reduce at most ten times"),
+     .fallback = "1",
+     .sentence = "Of all that lies on the wafer, about the plate's middle: 5 for a reticle, 1.0002 "
+                 "where a bond shrinks. Title, barcode and crosses of the plate stay."},
+    {"size", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.4, "plates are at most 14 inches wide"),
+     .fallback = "plate of <wafer>; of one die the next plate in inches, 20 mm larger",
+     .sentence = "Edge of the square plate; one for all plates."},
     {"cd-tolerance", D_LENGTH, .unit = "um",
      RANGE(10e-9, 10e-6, "plates are held to 0.01 to 10 um"),
      .fallback = "from the verdict: what the governing hinge can bear",
@@ -377,8 +391,11 @@ static const fw_xml_element_row own[] = {
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
     {"wafer", "device", .once = true, ROWS(wafer_rows),
      .sentence = "Step and repeat of the die on a wafer, and the mask plate for it."},
-    {"order", "wafer", .once = true, ROWS(order_rows),
-     .sentence = "What the mask shop is asked for; all that is not said has a value of its own."},
+    {"order", "device", .most = 20, ROWS(order_rows),
+     .sentence = "What the mask shop is asked for; all that is not said has a value of its own. "
+                 "Without a <wafer> one die stands in the plate's middle."},
+    {"order", "wafer", .most = 20, ROWS(order_rows),
+     .sentence = "The same, of the plates of the wafer."},
     {"sweep", "wafer", .most = 2, ROWS(sweep_rows),
      .sentence = "A parameter that differs from die to die: the first along columns, the second "
                  "along rows."},

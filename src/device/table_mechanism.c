@@ -305,7 +305,7 @@ static const fw_xml_attribute_row disc_rows[] = {
 };
 static const fw_xml_attribute_row lettering_rows[] = {
     {"text", TEXT, REQUIRED,
-     .sentence = "Of letters, digits and . , - + = / _ ( ) : % #; any other is drawn as a star."},
+     .sentence = "Of ASCII, letters of Latin-1 and a Greek mu; any other character is refused at its place."},
     {"x", POSITION, .fallback = "0 mm", .sentence = "Its lower left corner in the body's frame."},
     {"y", POSITION, .fallback = "0 mm", .sentence = "Its lower left corner in the body's frame."},
     {"height", D_LENGTH, .unit = "um",

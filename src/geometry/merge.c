@@ -2,6 +2,7 @@
 /* Winding numbers of every set on both sides of every edge, and the edges that bound a region. */
 #include "geometry/merge.h"
 #include "base/sort.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -269,7 +270,7 @@ fw_status fw_geometry_merge(fw_arena *arena, const fw_geometry_merge_input *inpu
                             fw_geometry_merged *out) {
     fw_geometry_merge_edges edges, nodes;
     fw_geometry_merge_sides sides;
-    *out = (fw_geometry_merged){0};
+    *out = (fw_geometry_merged){.clear_m = HUGE_VAL};
     for (int i = 0; i < ninput; i++)
         if (input[i].set < 0 || input[i].set >= FW_MERGE_SETS) return FW_LIMIT;
     for (int i = 0; i < nterm; i++)

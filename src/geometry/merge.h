@@ -25,7 +25,8 @@ typedef struct fw_geometry_merged {
     int n;
     int outlines, holes; /* of the region that they cover */
     int cuts;     /* edges that two polygons share: where a hole, or too many vertices, needs it */
-    double cut_m; /* their length in all */
+    double cut_m;   /* their length in all */
+    double clear_m; /* least distance of one from a vertex that it does not end at; INFINITY: none */
     int rounded;  /* crossings that were not on the grid */
     int64_t area2_dbu; /* twice the area */
     int vertices;      /* of all polygons */

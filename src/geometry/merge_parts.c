@@ -369,6 +369,30 @@ static int by_first(const void *left, const void *right) {
     return order ? order : fw_order_wholes(a->count, b->count);
 }
 
+/* from a side to a point that is not one of its ends, m */
+static double away_from(const fw_geometry_merge_side *s, fw_geometry_point p) {
+    double dx = (double)s->b.x_dbu - s->a.x_dbu, dy = (double)s->b.y_dbu - s->a.y_dbu;
+    double px = (double)p.x_dbu - s->a.x_dbu, py = (double)p.y_dbu - s->a.y_dbu;
+    double t = fmin(fmax((px * dx + py * dy) / (dx * dx + dy * dy), 0), 1);
+    return 1e-9 * hypot(px - t * dx, py - t * dy);
+}
+
+/* Least distance of a cut from a vertex of a polygon that has it as an edge; every cut is an edge of two, and what
+   is nearest to it lies in one of them. */
+static void clear_cuts(const fw_geometry_merge_sides *s, const int *next, int start,
+                       const fw_geometry_polygon *p, fw_geometry_merged *out) {
+    int i = start;
+    do {
+        const fw_geometry_merge_side *c = &s->side[i];
+        for (int k = 0; c->cut && k < p->count; k++) {
+            int64_t key = fw_geometry_merge_key(p->vertex[k]);
+            if (key == fw_geometry_merge_key(c->a) || key == fw_geometry_merge_key(c->b)) continue;
+            out->clear_m = fmin(out->clear_m, away_from(c, p->vertex[k]));
+        }
+        i = next[i];
+    } while (i != start);
+}
+
 static void account(const fw_geometry_merge_sides *s, fw_geometry_merged *out) {
     for (int i = 0; i < s->n; i++)
         if (s->side[i].cut &&
@@ -406,6 +430,7 @@ fw_status fw_geometry_merge_parts(fw_arena *arena, fw_geometry_merge_sides *side
         fw_geometry_polygon *p = &out->polygon[out->n++];
         p->vertex = vertex;
         trace(&left, j.next, i, done, p);
+        clear_cuts(&left, j.next, i, p, out);
         turn_to_least(p, scratch);
         vertex += p->count;
     }

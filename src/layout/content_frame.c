@@ -87,12 +87,13 @@ static fw_status find_place(sheet *s, bool right, double width, double height, f
     return FW_OK;
 }
 
-static fw_status add_mark(sheet *s, const fw_layout_coupon *c, fw_geometry_vec2 at) {
+fw_status fw_layout_coupon_put(fw_arena *arena, const fw_layout_coupon *c, fw_geometry_vec2 at,
+                               fw_layout_piece **list, int *count, int *capacity) {
     for (int i = 0; i < c->npiece; i++) {
         fw_layout_piece piece = c->piece[i];
         const fw_geometry_contour *from = &c->piece[i].contour;
         size_t n = (size_t)from->count;
-        FW_NEED(piece.contour.segment = fw_arena_array(s->arena, fw_geometry_segment, n));
+        FW_NEED(piece.contour.segment = fw_arena_array(arena, fw_geometry_segment, n));
         for (int k = 0; k < from->count; k++) {
             fw_geometry_segment *e = &piece.contour.segment[k];
             *e = from->segment[k];
@@ -101,7 +102,7 @@ static fw_status add_mark(sheet *s, const fw_layout_coupon *c, fw_geometry_vec2 
             e->b = (fw_geometry_vec2){fw_layout_to_grid(e->b.x + at.x),
                                       fw_layout_to_grid(e->b.y + at.y)};
         }
-        FW_TRY(fw_layout_add(s->arena, piece, &s->piece, &s->npiece, &s->capacity));
+        FW_TRY(fw_layout_add(arena, piece, list, count, capacity));
     }
     return FW_OK;
 }
@@ -371,7 +372,7 @@ fw_status fw_layout_content_on_frame(fw_arena *arena, const fw_layout *device,
             bool found;
             FW_TRY(find_place(&s, k == 1, c.width_m, c.height_m, &at, &found));
             if (found)
-                FW_TRY(add_mark(&s, &c, at));
+                FW_TRY(fw_layout_coupon_put(arena, &c, at, &s.piece, &s.npiece, &s.capacity));
             else
                 ++*left_out;
         }

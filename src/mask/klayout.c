@@ -2,6 +2,7 @@
 /* KLayout layer properties: colours and names of the table. */
 #include "mask/mask.h"
 #include "mask/mask_writers.h"
+#include <string.h>
 
 static void layer(fw_text *out, const fw_mask *mask, const fw_mask_layer *y) {
     fw_text_printf(out,
@@ -39,6 +40,12 @@ fw_status fw_mask_write_lyp(const fw_mask *mask, fw_text *out) {
    get the numbers of GDSII and arcs the mask's tolerance, and how to write what every reader takes.
    Members as KLayout 0.28 writes them; what is not said keeps its default. */
 
+/* KLayout takes letters, digits and _ as they are, a letter first; other names in quotes */
+static bool is_plain(const char *name) {
+    bool letter = *name == '_' || (*name >= 'A' && *name <= 'Z') || (*name >= 'a' && *name <= 'z');
+    return letter && !strchr(name, '-');
+}
+
 static fw_status layer_map(const fw_mask *mask, fw_text *out) {
     fw_text_add(out, "   <layer-map>layer_map(");
     bool some = false;
@@ -47,7 +54,9 @@ static fw_status layer_map(const fw_mask *mask, fw_text *out) {
         if (!y->roles) continue;
         const char *name = fw_mask_dxf_layer(out->arena, mask, k); /* nothing to be escaped in it */
         FW_NEED(name);
-        fw_text_printf(out, "%s'%s : %d/%d'", some ? ";" : "", name, y->layer, y->datatype);
+        const char *quote = is_plain(name) ? "" : "\\'";
+        fw_text_printf(out, "%s'%s%s%s : %d/%d'", some ? ";" : "", quote, name, quote, y->layer,
+                       y->datatype);
         some = true;
     }
     fw_text_add(out, ")</layer-map>\n");

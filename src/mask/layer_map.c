@@ -307,9 +307,8 @@ fw_status fw_mask_layer_map_finish(fw_arena *arena, const fw_mask_layer_map *map
         if (planned)
             fw_diag_error(diags, 381, e->place,
                           "no layer has the id or the role \"%s\": %s; roles are structure, "
-                          "flexure, frame, tether, text, mark, dicing, back; \"plate\" is the "
-                          "layer of the plate "
-                          "as it is written",
+                          "flexure, frame, tether, text, mark, dicing, back, cavity, land, metal; "
+                          "\"plate\" is the layer of the plate as it is written",
                           e->layer, names_of(arena, table, ntable, e->flow));
         else if (!told || strcmp(told, e->flow) != 0)
             fw_diag_warning(diags, 383, e->place,

@@ -450,15 +450,23 @@ typedef struct fw_mask_window { /* dbu, in coordinates of the cell; x1 <= x0: no
 
 typedef struct fw_mask_merge_options {
     const fw_mask_table *written; /* of one layer: fw_mask_written_table */
-    fw_mask_window window;        /* a part of the cell that another cell draws */
-    int under; /* -1: the window is left out; else this is the other cell: all that lies in the window,
+    int plate;                    /* of the mask's table */
+    const fw_mask_window
+        *window; /* (nwindow) parts of the cell that other cells draw, as written */
+    int nwindow;
+    int under; /* -1: the windows are left out; else this is the other cell: all that lies in the window,
                      where layer `under` of the mask's table is whole */
-    bool mirror;  /* x becomes -x */
-    int vertices; /* most of a polygon */
+    bool inverted;        /* written is what is left free of `field` */
+    fw_mask_window field; /* as written */
+    double scale;         /* of the mask, each vertex to the nearest point of the grid */
+    bool mirror;          /* x becomes -x */
+    int vertices;         /* most of a polygon */
 } fw_mask_merge_options;
 
 typedef struct fw_mask_merge_sums { /* added up over calls, each so many times */
     double polygons, vertices, cuts, holes, area_m2;
+    double
+        clear_m; /* least distance of a cut from a vertex that it does not end at; INFINITY: no cut */
     int rounded;
 } fw_mask_merge_sums;
 
@@ -468,9 +476,9 @@ typedef struct fw_mask_merge_sums { /* added up over calls, each so many times *
    and no cut. Test: tests/accept/wafer.sh, against KLayout */
 fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *options,
                          const fw_mask **out, fw_mask_merge_sums *sums);
-/* the one layer: number and name of the laboratory for "plate", else those of the first layer of the
-   order, and its tone */
-fw_status fw_mask_written_table(fw_arena *arena, const fw_mask_table *table,
-                                const fw_mask_table **out);
+/* the one layer of a plate: number and name of the laboratory for "plate", else those of the first layer
+   of its order, and its tone, or the other one */
+fw_status fw_mask_written_table(fw_arena *arena, const fw_mask_table *table, int plate,
+                                bool inverted, const fw_mask_table **out);
 
 #endif

@@ -46,7 +46,7 @@ static void line_text(fw_json *json, const char *key, const char *value) {
 }
 
 /* a list with one line per file; without any, its brackets stand together */
-static void files(fw_json *json, const fw_output_file *file, int n) {
+void fw_mask_json_files(fw_json *json, const fw_output_file *file, int n) {
     fw_json_line(json, 2);
     fw_json_list(json, "files");
     for (int i = 0; i < n; i++) {
@@ -357,7 +357,7 @@ static fw_status certificate(fw_json *json, const fw_mask *mask, const char *gds
         layer(json, &mask->table->layer[k], &mask->measure[k]);
     fw_json_end_line(json, 2);
     line_text(json, "flattening", fw_mask_flattening_name(mask->flattening));
-    files(json, file, nfile);
+    fw_mask_json_files(json, file, nfile);
     if (nfile)
         fw_json_end_line(json, 2);
     else
@@ -474,8 +474,7 @@ static void yes_no(fw_json *json, const char *key, int value) {
         fw_json_truth(json, key, value);
 }
 
-/* only where a flow prints several */
-static void plate_of_set(fw_json *json, const fw_mask_table *table, const fw_mask_order *order) {
+void fw_mask_json_set(fw_json *json, const fw_mask_table *table, const fw_mask_order *order) {
     const fw_mask_plate_row own = fw_mask_plate_at(table, order->plate_index), *row = &own;
     if (fw_mask_plates(table) < 2) return;
     fw_json_line(json, 2);
@@ -502,7 +501,7 @@ static void order_head(fw_json *json, const fw_mask *mask, const fw_mask_order *
     fw_json_line(json, 2);
     yes_no(json, "rejected", mask->rejected);
     fw_mask_json_because(json, mask);
-    plate_of_set(json, mask->table, order);
+    fw_mask_json_set(json, mask->table, order);
     line_text(json, "plate", row->layers);
     line_text(json, "plate_text", row->order);
     line_text(json, "polygon_tone", order->tone);
@@ -590,7 +589,7 @@ fw_status fw_mask_write_order(const fw_mask *mask, int plate, const fw_output_fi
         site(&json, mask, &order.site[i], i + 1);
     fw_json_end_line(&json, 2);
     fw_mask_wiring_order_json(&json, mask);
-    files(&json, file, nfile);
+    fw_mask_json_files(&json, file, nfile);
     fw_json_end_line(&json, 2);
     fw_json_end_line(&json, 0);
     return fw_json_finish(&json, "\n");

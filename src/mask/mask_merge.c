@@ -5,15 +5,21 @@
 #include <math.h>
 #include <string.h>
 
-fw_status fw_mask_written_table(fw_arena *arena, const fw_mask_table *table,
-                                const fw_mask_table **out) {
+static const char *other_tone(const char *tone) {
+    if (!tone) return NULL;
+    return strcmp(tone, "data dark") == 0 ? "data clear" : "data dark";
+}
+
+fw_status fw_mask_written_table(fw_arena *arena, const fw_mask_table *table, int plate,
+                                bool inverted, const fw_mask_table **out) {
     fw_mask_plate_term *term;
     int n;
-    FW_TRY(fw_mask_plate_terms(arena, table, &term, &n));
+    FW_TRY(fw_mask_plate_terms_of(arena, table, plate, &term, &n));
     fw_mask_table *t = fw_arena_one(arena, fw_mask_table);
     fw_mask_layer *layer = fw_arena_one(arena, fw_mask_layer);
     FW_NEED(t && layer ? t : NULL);
     if (n > 0) *layer = table->layer[term[0].layer];
+    if (inverted) layer->tone = other_tone(layer->tone);
     layer->id = "plate";
     layer->name = table->written_name ? table->written_name : "PLATE";
     layer->purpose = "the plate as it is written: the layers of the order joined";
@@ -25,6 +31,9 @@ fw_status fw_mask_written_table(fw_arena *arena, const fw_mask_table *table,
     t->layer = layer;
     t->nlayer = 1;
     t->plate = t->order = NULL;
+    t->plates = NULL;
+    t->nplate = t->device_plate = 0;
+    t->reading = fw_mask_plate_at(table, plate).reading;
     t->rule = NULL;
     t->nrule = 0;
     *out = t;
@@ -40,13 +49,17 @@ typedef struct joined {
     int nterm;
 } joined;
 
-/* set 0 is the window, set 1 + k the k-th different layer of the expression */
+/* Set 0 is the windows, set 1 the field of what is inverted, set 2 + k the k-th different layer of the
+   expression. Terms are joined from the left, so "field NOT expression" is "expression AND field XOR
+   field". */
+enum { WINDOWS, FIELD, LAYERS };
+
 static fw_status terms_of(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
                           joined *j, int *set_of) {
     fw_mask_plate_term *term;
-    int n, sets = 1;
-    FW_TRY(fw_mask_plate_terms(arena, mask->table, &term, &n));
-    FW_NEED(j->term = fw_arena_array(arena, fw_geometry_merge_term, (size_t)n + 1));
+    int n, sets = LAYERS;
+    FW_TRY(fw_mask_plate_terms_of(arena, mask->table, o->plate, &term, &n));
+    FW_NEED(j->term = fw_arena_array(arena, fw_geometry_merge_term, (size_t)n + 3));
     for (int k = 0; k < mask->table->nlayer; k++)
         set_of[k] = -1;
     for (int i = 0; i < n; i++) {
@@ -55,9 +68,13 @@ static fw_status terms_of(fw_arena *arena, const fw_mask *mask, const fw_mask_me
         if (sets > FW_MERGE_SETS) return FW_LIMIT;
         j->term[j->nterm++] = (fw_geometry_merge_term){*set, term[i].rule};
     }
-    bool windowed = o->window.x1 > o->window.x0;
-    if (windowed)
-        j->term[j->nterm++] = (fw_geometry_merge_term){0, o->under < 0 ? FW_SET_NOT : FW_SET_AND};
+    if (o->inverted) {
+        j->term[j->nterm++] = (fw_geometry_merge_term){FIELD, FW_SET_AND};
+        j->term[j->nterm++] = (fw_geometry_merge_term){FIELD, FW_SET_XOR};
+    }
+    if (o->nwindow > 0)
+        j->term[j->nterm++] =
+            (fw_geometry_merge_term){WINDOWS, o->under < 0 ? FW_SET_NOT : FW_SET_AND};
     return FW_OK;
 }
 
@@ -65,24 +82,58 @@ static void add(joined *j, const fw_geometry_polygon *polygon, int set) {
     if (set >= 0 && polygon->count > 2) j->input[j->n++] = (fw_geometry_merge_input){polygon, set};
 }
 
+static int32_t scaled(int32_t v, double scale) {
+    return (int32_t)llround(v * scale);
+}
+
+/* of a mask, as it is written */
+static fw_status add_scaled(fw_arena *arena, joined *j, const fw_geometry_polygon *polygon, int set,
+                            double scale) {
+    fw_geometry_polygon *own = fw_arena_one(arena, fw_geometry_polygon);
+    if (scale == 1 || set < 0) {
+        add(j, polygon, set);
+        return FW_OK;
+    }
+    FW_NEED(own);
+    FW_NEED(own->vertex = fw_arena_array(arena, fw_geometry_point, (size_t)polygon->count));
+    own->count = polygon->count;
+    for (int i = 0; i < polygon->count; i++)
+        own->vertex[i] = (fw_geometry_point){scaled(polygon->vertex[i].x_dbu, scale),
+                                             scaled(polygon->vertex[i].y_dbu, scale)};
+    add(j, own, set);
+    return FW_OK;
+}
+
+static fw_status rectangle(fw_arena *arena, fw_mask_window w, const fw_geometry_polygon **out) {
+    fw_geometry_polygon *r = fw_arena_one(arena, fw_geometry_polygon);
+    fw_geometry_point *p = fw_arena_array(arena, fw_geometry_point, 4);
+    FW_NEED(r && p ? r : NULL);
+    for (int i = 0; i < 4; i++)
+        p[i] = (fw_geometry_point){i == 1 || i == 2 ? w.x1 : w.x0, i > 1 ? w.y1 : w.y0};
+    *r = (fw_geometry_polygon){p, 4};
+    *out = r;
+    return FW_OK;
+}
+
 static fw_status collect(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
                          joined *j) {
     int *set_of = fw_arena_array(arena, int, (size_t)mask->table->nlayer + 1);
+    size_t most = (size_t)mask->nshape + 2 * (size_t)o->nwindow + 1;
+    const fw_geometry_polygon *r;
     FW_NEED(set_of);
     FW_TRY(terms_of(arena, mask, o, j, set_of));
-    FW_NEED(j->input = fw_arena_array(arena, fw_geometry_merge_input, (size_t)mask->nshape + 2));
+    FW_NEED(j->input = fw_arena_array(arena, fw_geometry_merge_input, most));
     for (int i = 0; i < mask->nshape; i++)
-        add(j, &mask->shape[i].polygon, set_of[mask->shape[i].layer]);
-    if (o->window.x1 <= o->window.x0) return FW_OK;
-    fw_geometry_polygon *window = fw_arena_one(arena, fw_geometry_polygon);
-    fw_geometry_point *p = fw_arena_array(arena, fw_geometry_point, 4);
-    FW_NEED(window && p ? window : NULL);
-    for (int i = 0; i < 4; i++)
-        p[i] = (fw_geometry_point){i == 1 || i == 2 ? o->window.x1 : o->window.x0,
-                                   i > 1 ? o->window.y1 : o->window.y0};
-    *window = (fw_geometry_polygon){p, 4};
-    add(j, window, 0);
-    if (o->under >= 0) add(j, window, set_of[o->under]);
+        FW_TRY(
+            add_scaled(arena, j, &mask->shape[i].polygon, set_of[mask->shape[i].layer], o->scale));
+    for (int i = 0; i < o->nwindow; i++) {
+        FW_TRY(rectangle(arena, o->window[i], &r));
+        add(j, r, WINDOWS);
+        if (o->under >= 0) add(j, r, set_of[o->under]);
+    }
+    if (!o->inverted) return FW_OK;
+    FW_TRY(rectangle(arena, o->field, &r));
+    add(j, r, FIELD);
     return FW_OK;
 }
 
@@ -156,6 +207,7 @@ fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_mer
     *sums = (fw_mask_merge_sums){.cuts = merged.cuts,
                                  .holes = merged.holes,
                                  .rounded = merged.rounded,
+                                 .clear_m = merged.clear_m,
                                  .area_m2 = 0.5e-18 * (double)merged.area2_dbu};
     for (int i = 0; i < merged.n; i++) {
         fw_geometry_polygon p;
@@ -165,6 +217,7 @@ fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_mer
         extend(m, s->box);
         sums->polygons += s->npart > 0 ? s->npart : 1;
         sums->cuts += s->npart > 1 ? s->npart - 1 : 0;
+        sums->clear_m = fmin(sums->clear_m, s->cut_clear_dbu * FW_GEOMETRY_GRID_M);
         sums->vertices += s->polygon.count + (s->npart > 1 ? 2 * (s->npart - 1) : 0);
     }
     *out = m;

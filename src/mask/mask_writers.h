@@ -38,6 +38,11 @@ void fw_mask_wiring_json(fw_json *json, const fw_mask *mask);
 void fw_mask_wiring_order_json(fw_json *json, const fw_mask *mask);
 fw_status fw_mask_wiring_order_text(const fw_mask *mask, fw_text *out);
 
+/* which plate of a flow that prints several, as a member; files with their hashes, without the last
+   bracket (mask_json.c) */
+void fw_mask_json_set(fw_json *json, const fw_mask_table *table, const fw_mask_order *order);
+void fw_mask_json_files(fw_json *json, const fw_output_file *file, int n);
+
 /* ---- bytes of an OASIS file: octets.c ----
    A buffer that is made large enough once per record and then filled
    without further checks, and the format's integers. */

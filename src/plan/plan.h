@@ -64,7 +64,8 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_mask_coupons *coupons; /* test die; NULL: the table has none, or it has no room */
     fw_text coupons_gds;
     const char *coupons_sha256;
-    const fw_wafer *wafer; /* NULL: none asked for, or no mask */
+    const fw_wafer *wafer;  /* NULL: none asked for, or no mask */
+    const fw_wafer *single; /* without <wafer>, but with <order>: the plate of one die; else NULL */
     fw_text wafer_gds;     /* composed once, as above */
     const char *wafer_sha256;
     const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */

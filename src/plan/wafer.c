@@ -129,24 +129,51 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
     }
     fw_wafer_width_effect effect;
     FW_TRY(width_effect(plan, flow, &effect));
-    const fw_wafer_input input = {
-        .effect = effect,
-        .overlay_m = overlay_of(pf->flow),
-        .device = plan->device,
-        .table = pf->table,
-        .variant = v,
-        .nvariant = n,
-        .stand_in = own,
-        .test = {.mask = pf->coupons ? pf->coupons->mask : NULL, .die = plan->layout->die},
-        .mask = {.bias_m = pf->mask->bias_m,
-                 .layer_bias_m = pf->mask->layer_bias_m,
-                 .tolerance_m = pf->mask->tolerance_m,
-                 .vertex_limit = pf->mask->vertex_limit,
-                 .flattening = pf->mask->flattening}};
+    const fw_mask *test = w->asked && pf->coupons ? pf->coupons->mask : NULL;
+    const fw_wafer_input input = {.single = !w->asked,
+                                  .effect = effect,
+                                  .overlay_m = overlay_of(pf->flow),
+                                  .device = plan->device,
+                                  .table = pf->table,
+                                  .variant = v,
+                                  .nvariant = n,
+                                  .stand_in = own,
+                                  .test = {.mask = test, .die = plan->layout->die},
+                                  .mask = {.bias_m = pf->mask->bias_m,
+                                           .layer_bias_m = pf->mask->layer_bias_m,
+                                           .tolerance_m = pf->mask->tolerance_m,
+                                           .vertex_limit = pf->mask->vertex_limit,
+                                           .flattening = pf->mask->flattening}};
+    if (!w->asked) return fw_wafer_build(plan->arena, &input, &plan->diags, &pf->single);
     FW_TRY(fw_wafer_build(plan->arena, &input, &plan->diags, &pf->wafer));
     pf->wafer_gds = fw_text_new(plan->arena);
     FW_TRY(fw_wafer_write_gds(pf->wafer, &pf->wafer_gds));
     return fw_plan_hash(plan, &pf->wafer_gds, &pf->wafer_sha256);
+}
+
+/* an <order> of one plate names one that a flow prints */
+static fw_status check_orders(fw_plan *plan) {
+    const fw_device_wafer_asked *w = &plan->device->wafer;
+    for (int i = 0; i < w->nordered; i++) {
+        const fw_device_order_asked *o = &w->ordered[i];
+        fw_text known = fw_text_new(plan->arena);
+        bool found = false;
+        for (int f = 0; f < plan->nflow; f++) {
+            const fw_mask_table *t = plan->flow[f].table;
+            for (int p = 0; t && p < fw_mask_plates(t); p++) {
+                const char *id = fw_mask_plate_at(t, p).id;
+                found = found || strcmp(id, o->plate) == 0;
+                fw_text_printf(&known, "%s%s of %s", known.length ? ", " : "", id, t->flow);
+            }
+        }
+        FW_TRY(fw_text_end(&known));
+        if (!found)
+            fw_diag_error(&plan->diags, 550, o->place,
+                          "<order>: no flow of this device prints a plate \"%s\"; there are: %s",
+                          o->plate, known.data);
+        if (!found) return FW_INPUT;
+    }
+    return FW_OK;
 }
 
 /* wafers of the flows that have a mask, with the devices of the sweeps, each planned by itself */
@@ -155,7 +182,8 @@ static fw_status make_all(fw_plan *plan) {
     bool any = false;
     for (int i = 0; i < plan->nflow; i++)
         any = any || plan->flow[i].mask;
-    if (!w->asked || plan->options.dies > 0 || !any) return FW_OK;
+    if ((!w->asked && !w->written) || plan->options.dies > 0 || !any) return FW_OK;
+    FW_TRY(check_orders(plan));
     int n = fw_plan_sweep_steps(w);
     double(*value)[2] = fw_arena_alloc(plan->arena, (size_t)n, sizeof *value);
     const char **why = fw_arena_array(plan->arena, const char *, (size_t)n);

@@ -289,29 +289,30 @@ static fw_status files_of(writer *w, const char *flow, const char *behind, fw_ou
     return FW_OK;
 }
 
-/* ".cavity.order.txt" where a flow prints several plates, ".order.txt" where it prints one */
+/* ".cavity" where a flow prints several plates, "" where it prints one; NULL: no memory */
+static const char *of_plate(writer *w, const fw_mask_table *table, int plate) {
+    const char *id = fw_mask_plate_at(table, plate).id;
+    return fw_mask_plates(table) < 2 ? "" : fw_arena_printf(w->plan->arena, ".%s", id);
+}
+
 static fw_status order_ending(writer *w, const fw_mask_table *table, int plate, const char *form,
                               const char **ending) {
-    bool several = fw_mask_plates(table) > 1;
-    FW_NEED(*ending = fw_arena_printf(w->plan->arena, "%s%s.order.%s", several ? "." : "",
-                                      several ? fw_mask_plate_at(table, plate).id : "", form));
-    return FW_OK;
+    const char *of = of_plate(w, table, plate);
+    *ending = of ? fw_arena_printf(w->plan->arena, "%s.order.%s", of, form) : NULL;
+    return *ending ? FW_OK : FW_NOMEM;
 }
 
 /* an order sheet for each plate; they name what was written before them */
 static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
     fw_output_file *own;
-    const char *ending;
     int n;
     FW_TRY(files_of(w, name, ".", &own, &n));
-    for (int plate = 0; plate < fw_mask_plates(mask->table); plate++) {
-        FW_TRY(order_ending(w, mask->table, plate, "json", &ending));
-        fw_text json = fw_text_new(w->scratch);
-        FW_TRY(fw_mask_write_order(mask, plate, own, n, &json));
-        FW_TRY(put(w, "masks/", name, ending, &json));
-        FW_TRY(order_ending(w, mask->table, plate, "txt", &ending));
+    for (int i = 0; i < 2 * fw_mask_plates(mask->table); i++) {
+        const char *ending;
         fw_text text = fw_text_new(w->scratch);
-        FW_TRY(fw_mask_write_order_text(mask, plate, own, n, &text));
+        FW_TRY(order_ending(w, mask->table, i / 2, i % 2 ? "txt" : "json", &ending));
+        FW_TRY(
+            (i % 2 ? fw_mask_write_order_text : fw_mask_write_order)(mask, i / 2, own, n, &text));
         FW_TRY(put(w, "masks/", name, ending, &text));
     }
     return FW_OK;
@@ -350,8 +351,8 @@ static fw_status write_one(writer *w, const mask_files *m) {
                       : fw_mask_write_certificate_of(m->mask, m->sha256, own, n, &text));
     FW_TRY(put(w, "masks/", m->name, ".json", &text));
     FW_TRY(write_order(w, m->mask, m->name));
-    if (m->coupons) return FW_OK;
-    return write_formats(w, m, set, true); /* behind the order sheets, which do not name them */
+    /* behind the order sheets, which do not name them */
+    return m->coupons ? FW_OK : write_formats(w, m, set, true);
 }
 
 static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
@@ -378,51 +379,46 @@ static fw_status write_violations(writer *w, const fw_plan_flow *pf) {
     return put(w, "masks/", pf->use->ref, ".violations.gds", &text);
 }
 
-static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
-    unsigned set;
-    if (!pf->wafer) return FW_OK;
-    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+static fw_status write_wafer(writer *w, const fw_plan_flow *pf, unsigned set) {
+    const fw_mask_format *format;
     const char *name = fw_arena_printf(w->plan->arena, "%s-wafer", pf->use->ref);
     FW_NEED(name);
-    const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
         if (!(set & 1u << i) || !format->plate) continue;
         bool composed = format->write == fw_mask_write_gds; /* for its hash */
-        fw_text text = composed ? pf->wafer_gds : fw_text_new(w->scratch);
-        if (!composed) FW_TRY(fw_wafer_write_format(pf->wafer, format, &text));
-        FW_TRY(put(w, "masks/", name, format->ending, &text));
+        fw_text data = composed ? pf->wafer_gds : fw_text_new(w->scratch);
+        if (!composed) FW_TRY(fw_wafer_write_format(pf->wafer, format, &data));
+        FW_TRY(put(w, "masks/", name, format->ending, &data));
     }
-    fw_text csv = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_csv(pf->wafer, &csv));
-    FW_TRY(put(w, "masks/", name, ".csv", &csv));
-    fw_text map = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_map(pf->wafer, &map));
-    FW_TRY(put(w, "masks/", name, "-map.svg", &map));
-    fw_text json = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_json(pf->wafer, pf->wafer_sha256, &json));
-    FW_TRY(put(w, "masks/", name, ".json", &json));
+    fw_text text = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_csv(pf->wafer, &text));
+    FW_TRY(put(w, "masks/", name, ".csv", &text));
+    text = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_map(pf->wafer, &text));
+    FW_TRY(put(w, "masks/", name, "-map.svg", &text));
+    text = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_json(pf->wafer, pf->wafer_sha256, &text));
+    FW_TRY(put(w, "masks/", name, ".json", &text));
     fw_output_file *own;
     int n;
     FW_TRY(files_of(w, pf->use->ref, "-wafer", &own, &n));
     for (int plate = 0; plate < fw_mask_plates(pf->table); plate++) {
         const char *ending;
-        fw_text order = fw_text_new(w->scratch);
+        text = fw_text_new(w->scratch);
         FW_TRY(order_ending(w, pf->table, plate, "txt", &ending));
-        FW_TRY(fw_wafer_write_order(pf->wafer, plate, own, n, &order));
-        FW_TRY(put(w, "masks/", name, ending, &order));
+        FW_TRY(fw_wafer_write_order(pf->wafer, plate, own, n, &text));
+        FW_TRY(put(w, "masks/", name, ending, &text));
     }
     return FW_OK;
 }
 
-/* the plate as the shop writes it, with an order sheet of its own; no picture, no notes */
-static fw_status write_written(writer *w, const fw_plan_flow *pf) {
-    unsigned set;
+static fw_status write_written_plate(writer *w, const fw_plan_flow *pf, const fw_wafer *wafer,
+                                     int plate, unsigned set) {
     fw_wafer_written written;
-    if (!pf->wafer) return FW_OK;
-    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
-    const char *name = fw_arena_printf(w->plan->arena, "%s-plate", pf->use->ref);
+    const char *of = of_plate(w, pf->table, plate);
+    const char *name = of ? fw_arena_printf(w->plan->arena, "%s-plate%s", pf->use->ref, of) : NULL;
     FW_NEED(name);
-    FW_TRY(fw_wafer_written_of(w->plan->arena, pf->wafer, &written));
+    FW_TRY(fw_wafer_written_of(w->plan->arena, wafer, plate, &written));
     const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
         if (!(set & 1u << i) || !format->plate || format->plate == fw_mask_plate_svg) continue;
@@ -432,10 +428,24 @@ static fw_status write_written(writer *w, const fw_plan_flow *pf) {
     }
     fw_output_file *own;
     int n;
-    FW_TRY(files_of(w, pf->use->ref, "-plate", &own, &n));
     fw_text order = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_written_order(pf->wafer, &written, own, n, &order));
+    FW_TRY(files_of(w, name, ".", &own, &n));
+    FW_TRY(fw_wafer_write_written_order_json(wafer, &written, own, n, &order));
+    FW_TRY(put(w, "masks/", name, ".order.json", &order));
+    order = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_written_order(wafer, &written, own, n, &order));
     return put(w, "masks/", name, ".order.txt", &order);
+}
+
+/* the layered plate, and each plate as the shop writes it */
+static fw_status write_plates(writer *w, const fw_plan_flow *pf) {
+    const fw_wafer *wafer = pf->wafer ? pf->wafer : pf->single;
+    unsigned set;
+    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    if (pf->wafer) FW_TRY(write_wafer(w, pf, set));
+    for (int plate = 0; wafer && plate < fw_mask_plates(pf->table); plate++)
+        FW_TRY(write_written_plate(w, pf, wafer, plate, set));
+    return FW_OK;
 }
 
 static fw_status write_release(writer *w, fw_plan_flow *pf) {
@@ -542,8 +552,7 @@ static fw_status write_all(writer *w, unsigned what) {
         if ((what & FW_WRITE_MASKS) && plan->flow[i].mask) FW_TRY(write_mask(w, &plan->flow[i]));
         if ((what & FW_WRITE_MASKS) && plan->flow[i].violated)
             FW_TRY(write_violations(w, &plan->flow[i]));
-        if (what & FW_WRITE_MASKS) FW_TRY(write_wafer(w, &plan->flow[i]));
-        if (what & FW_WRITE_MASKS) FW_TRY(write_written(w, &plan->flow[i]));
+        if (what & FW_WRITE_MASKS) FW_TRY(write_plates(w, &plan->flow[i]));
         if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
             FW_TRY(write_recipe(w, &plan->flow[i]));
     }

@@ -202,6 +202,7 @@ static const struct {
     {"is a plate drawn smaller by what its etch takes sideways?", fw_process_lint_shrink, true},
     {"is what a step uses up, and what its tool brings, among its hazards?", fw_process_lint_uses,
      false},
+    {"is a wafer that is in pieces handled as dies?", fw_process_lint_parted, false},
     {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
 };
 

@@ -273,3 +273,52 @@ fw_status fw_process_lint_through(fw_process_pack *pack) {
                 FW_TRY(lint_through(pack, i, &f->step[i].change[k]));
     return FW_OK;
 }
+
+/* ---- wafers that are in pieces ----
+   What a device's plate leaves of the field lies between all dies. Where nothing of any layer is left there, and the
+   structure still is, what was a wafer is as many pieces as there are dies, whatever the plate is of. Test:
+   test_parted.c. */
+
+static bool in_pieces(const fw_process_flow *f, const fw_process_stack *stack) {
+    fw_process_side field;
+    bool stands = false;
+    if (!fw_process_where_side(f, "field", &field)) return false;
+    for (int column = 0; column < stack->columns; column++) {
+        bool of_field = fw_process_side_holds(f, field, column);
+        if (of_field && stack->n[column] > 0) return false;
+        stands = stands || (!of_field && stack->n[column] > 0);
+    }
+    return stands;
+}
+
+fw_status fw_process_lint_parted(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    bool before = false;
+    for (int i = 0; i < f->nstep; i++) {
+        const fw_process_step *s = &f->step[i];
+        fw_process_stack stack;
+        FW_TRY(fw_process_flow_stack(pack->arena, f, i, &stack, NULL));
+        bool pieces = in_pieces(f, &stack), dies = before || s->parts;
+        if (pieces && !dies && i + 1 < f->nstep) {
+            fw_diag_warning(pack->diags, 552, s->place,
+                            "after step %s nothing is left between the dies: the wafer is in "
+                            "pieces, and the steps behind it are of wafers; say leaves=\"dies\" in "
+                            "the step that parts it, or leave a layer in the field",
+                            s->id);
+            return FW_OK;
+        }
+        if (s->parts && !pieces && strcmp(s->op, "dice") != 0)
+            fw_diag_error(pack->diags, 552, s->place,
+                          "step %s leaves dies, but layers of the wafer still join them in the "
+                          "field and the step is no \"dice\"; remove leaves=\"dies\", or say what "
+                          "it takes away",
+                          s->id);
+        if (s->parts && before)
+            fw_diag_error(pack->diags, 552, s->place,
+                          "step %s leaves dies, and a step before it has parted the wafer already; "
+                          "keep leaves=\"dies\" in one of them",
+                          s->id);
+        before = dies;
+    }
+    return FW_OK;
+}

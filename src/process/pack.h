@@ -98,6 +98,7 @@ fw_status fw_process_pack_lint(fw_process_pack *pack);
 fw_status fw_process_lint_absent(fw_process_pack *pack);
 fw_status fw_process_lint_attacked(fw_process_pack *pack);
 fw_status fw_process_lint_heat(fw_process_pack *pack);
+fw_status fw_process_lint_parted(fw_process_pack *pack);
 fw_status fw_process_lint_contamination(fw_process_pack *pack);
 fw_status fw_process_lint_exposure(fw_process_pack *pack);
 fw_status fw_process_lint_masking(fw_process_pack *pack);

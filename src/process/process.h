@@ -212,7 +212,7 @@ typedef struct fw_process_time { /* what a law returns */
 typedef struct fw_process_step {
     const char *id, *op, *title, *purpose, *mask;
     const fw_process_equipment *equipment;
-    bool in_source;
+    bool in_source, parts; /* parts: leaves="dies" */
     int batch;
     fw_process_change *change;
     fw_process_exposed *exposed;
@@ -466,6 +466,8 @@ void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
 /* once for all wafers together, whatever the machine takes */
 bool fw_process_step_is_of_lot(const fw_process_step *step);
+/* does step `index` handle the dies of each wafer, because one before it parted them? */
+bool fw_process_step_is_of_dies(const fw_process_flow *flow, int index);
 /* is it measured on this wafer of the lot (from 0)? The first one, and every so many behind it */
 bool fw_process_accept_is_due(const fw_process_accept *accept, int wafer);
 /* most wafers that go through a step at once: what the pack and the machine both allow */

@@ -55,6 +55,13 @@ bool fw_process_step_is_of_lot(const fw_process_step *s) {
     return s->batch >= ONCE_PER_LOT;
 }
 
+bool fw_process_step_is_of_dies(const fw_process_flow *flow, int index) {
+    bool parted = false;
+    for (int i = 0; i < index; i++)
+        parted = parted || flow->step[i].parts;
+    return parted;
+}
+
 int fw_process_step_load(const fw_process_step *s) {
     int capacity = s->equipment && s->equipment->capacity > 0 ? s->equipment->capacity : 1;
     int load = s->batch < capacity ? s->batch : capacity;

@@ -33,6 +33,7 @@ static const char *const faces[] = {"top", "middle", "bottom", NULL};
 static const char *const shapes[] = {"slot", "cylinder", "linear", NULL};
 static const char *const finishes[] = {"rinse", "dry", "cool", "vent", NULL};
 static const char *const dryings[] = {"spin", "nitrogen", "oven", "vapour", "critical-point", NULL};
+static const char *const leavings[] = {"wafers", "dies", NULL};
 static const char *const there[] = {"present", "absent", NULL};
 static const char *const states[] = {
 #define X(name, key, longest, is, why) key,
@@ -198,6 +199,9 @@ static const fw_xml_attribute_row step_rows[] = {
     {"in-source", WORD(yes_no), REQUIRED, .sentence = "Does the publication describe the step?"},
     {"mask", TEXT, .sentence = "Layer of the mask that it exposes."},
     {"batch", COUNT, .fallback = "1", .sentence = "Wafers at once."},
+    {"leaves", WORD(leavings), .fallback = "wafers",
+     .sentence = "dies: the step parts the wafer, and from the next one on the sheet is of the dies "
+                 "of each wafer, in a box of their own."},
     {"second-signature", WORD(yes_no), .fallback = "no", .sentence = "Two people sign."},
     {"attended", AMOUNT, .fallback = "0", .sentence = "How many minutes somebody must be there."},
 };

@@ -458,6 +458,7 @@ static fw_status read_step(fw_process_pack *pack, const fw_xml_record *e, fw_pro
                            .purpose = "",
                            .mask = fw_process_pack_text(e, "mask"),
                            .in_source = strcmp(fw_process_pack_text(e, "in-source"), "yes") == 0,
+                           .parts = strcmp(fw_process_pack_text(e, "leaves"), "dies") == 0,
                            .batch = (int)fw_process_pack_number(e, "batch", 1.0),
                            .expression = "",
                            .shape = "",

@@ -140,6 +140,7 @@ static void ways(const fw_process_flow *flow, const fw_process_step *s, fw_text 
 
 static void step_head(const fw_process_flow *flow, const fw_process_step *s, bool picture,
                       fw_text *out) {
+    bool of_dies = fw_process_step_is_of_dies(flow, (int)(s - flow->step));
     fw_text_add(out, "<header><h2><span class=\"box\"></span>");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "&ensp;");
@@ -160,7 +161,8 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
             fw_text_escaped(out, s->equipment->text);
         }
         if (s->batch > 1 && !fw_process_step_is_of_lot(s))
-            fw_text_printf(out, ". Up to %d wafers at once", s->batch);
+            fw_text_printf(out, ". Up to %s%d wafers at once", of_dies ? "the dies of " : "",
+                           s->batch);
         if (fw_process_step_is_of_lot(s)) fw_text_add(out, ". Once per lot");
         fw_text_add(out, ".</p>\n");
     }
@@ -321,6 +323,22 @@ static void waits(const fw_process_flow *flow, int index, fw_text *out) {
     }
 }
 
+/* the step parts the wafer: what the sheet is of behind it */
+static void parting(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
+    const fw_quantity *dies = fw_process_flow_quantity(flow, "mask.dies");
+    bool mapped = dies && !dies->unknown && dies->value > 1; /* else of one die, without a map */
+    if (!s->parts) return;
+    fw_text_add(out, "<p class=\"note\"><b>From here on the sheet is of dies");
+    if (mapped) fw_text_printf(out, ", %.0f devices of each wafer", dies->value);
+    fw_text_add(out, ":</b> those of a wafer stay together in a box or basket of its own, with the "
+                     "wafer's number on it.");
+    if (mapped)
+        fw_text_add(out, " A die is told by its row and column on the wafer map: they stand on its "
+                         "frame where ids are drawn. Alignment sites and test dies come off with "
+                         "them.");
+    fw_text_add(out, "</p>\n");
+}
+
 static void endpoints(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->nendpoint; i++) {
         fw_text_add(out, "<p><b>Endpoint:</b> ");
@@ -423,7 +441,8 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
     if (finishes(s, out) != FW_OK) out->failed = 1;
     endpoints(s, out);
-    fw_recipe_html_wafers(s, header, out);
+    fw_recipe_html_wafers(s, fw_process_step_is_of_dies(flow, index), header, out);
+    parting(flow, s, out);
     waits(flow, index, out);
     failures(s, out);
     fw_text_add(out, "</section>\n");

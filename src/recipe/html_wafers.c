@@ -50,14 +50,14 @@ static void measure(const fw_process_accept *a, fw_text *out) {
 }
 
 static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bool one,
-                        fw_text *out) {
+                        bool of_dies, fw_text *out) {
     fw_text_add(out, "<table class=\"small wafers\"><thead><tr><th style=\"width:30%\">Accept when"
                      "</th><th style=\"width:17%\">Limits</th>");
     for (int w = first; w < first + n; w++)
         if (lot)
             fw_text_add(out, "<th>Lot</th>");
         else
-            fw_text_printf(out, "<th>Wafer %d</th>", w + 1);
+            fw_text_printf(out, of_dies ? "<th>Dies of wafer %d</th>" : "<th>Wafer %d</th>", w + 1);
     fw_text_add(out, "</tr></thead><tbody>\n");
     for (int i = 0; i < s->naccept; i++) {
         fw_text_add(out, "<tr><td>");
@@ -87,11 +87,12 @@ static int cells_of(const fw_process_step *s) {
 }
 
 /* a line for each wafer; what a load has in common is written once for it */
-static void wafer_lines(const fw_process_step *s, int wafers, fw_text *out) {
+static void wafer_lines(const fw_process_step *s, int wafers, bool of_dies, fw_text *out) {
     const int load = fw_process_step_load(s);
     fw_text_printf(out,
-                   "<table class=\"small wafers%s\"><thead><tr><th style=\"width:4%%\">Wafer</th>",
-                   cells_of(s) > WIDE_CELLS ? " narrow" : "");
+                   "<table class=\"small wafers%s\"><thead><tr><th style=\"width:%d%%\">%s</th>",
+                   cells_of(s) > WIDE_CELLS ? " narrow" : "", of_dies ? 7 : 4,
+                   of_dies ? "Dies of wafer" : "Wafer");
     for (int i = 0; i < s->naccept; i++) {
         fw_text_add(out, "<th>");
         measure(&s->accept[i], out);
@@ -115,29 +116,33 @@ static void wafer_lines(const fw_process_step *s, int wafers, fw_text *out) {
     fw_text_add(out, "</tbody></table>\n");
 }
 
-static void one_line(const fw_process_step *s, fw_text *out) {
+static void one_line(const fw_process_step *s, bool of_dies, fw_text *out) {
     fw_text_printf(out,
                    "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool</td><td>Bath or "
-                   "bottle lot</td><td>%s</td><td>Wafers in, out</td><td>Scrapped, on hold</td>"
+                   "bottle lot</td><td>%s</td><td>%s in, out</td><td>Scrapped, on hold</td>"
                    "<td>Deviation no.</td></tr></table>\n",
-                   s->second_signature ? "Initials; <b>second signature</b>" : "Initials");
+                   s->second_signature ? "Initials; <b>second signature</b>" : "Initials",
+                   of_dies ? "Dies" : "Wafers");
 }
 
-void fw_recipe_html_wafers(const fw_process_step *s, const fw_recipe_header *header, fw_text *out) {
+void fw_recipe_html_wafers(const fw_process_step *s, bool of_dies, const fw_recipe_header *header,
+                           fw_text *out) {
     int wafers = fw_recipe_wafers(header);
     bool lot = fw_process_step_is_of_lot(s);
     if (lot) wafers = 1;
     const bool lines = wafers > 1 && cells_of(s) <= MOST_CELLS;
-    if (lines) wafer_lines(s, wafers, out);
+    if (lines) wafer_lines(s, wafers, of_dies, out);
     for (int first = 0; first < wafers && !lines; first += WAFERS_ABREAST)
         some_wafers(s, first, wafers - first < WAFERS_ABREAST ? wafers - first : WAFERS_ABREAST,
-                    lot, wafers == 1, out);
+                    lot, wafers == 1, of_dies, out);
     if (wafers == 1) {
-        one_line(s, out);
+        one_line(s, of_dies, out);
         return;
     }
-    fw_text_add(out, "<p class=\"small\">Wafers in ______ out ______ scrapped ______ on hold "
-                     "______&ensp;Deviation no. ______</p>\n");
+    fw_text_printf(out,
+                   "<p class=\"small\">%s in ______ out ______ scrapped ______ on hold "
+                   "______&ensp;Deviation no. ______</p>\n",
+                   of_dies ? "Dies" : "Wafers");
 }
 
 /* ---- hazards ---- */

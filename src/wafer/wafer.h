@@ -25,6 +25,10 @@ typedef struct fw_wafer_form {
 /* FW_INPUT (FW-D190): no flat known, or what is stated contradicts itself */
 fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
                            fw_wafer_form *form);
+/* of a plate with one die, `across_m` from corner to corner as written, and no wafer; FW-D551: it does not
+   hold it */
+fw_status fw_wafer_form_single(const fw_device_wafer_asked *asked, double across_m, fw_diags *diags,
+                               fw_wafer_form *form);
 /* do all points of the rectangle lie in the usable area? exact */
 bool fw_wafer_holds(const fw_wafer_form *form, int64_t x0, int64_t y0, int64_t x1, int64_t y1);
 
@@ -93,6 +97,7 @@ typedef struct fw_wafer_input {
                                   alignment site */
     fw_wafer_width_effect effect;
     double overlay_m;     /* closest that the flow aligns a mask; NaN: it aligns none */
+    bool single;          /* no wafer: one die in the plate's middle, which is written alone */
     fw_mask_options mask; /* bias, tolerance, vertex limit of the plate's own cells */
 } fw_wafer_input;
 
@@ -141,6 +146,8 @@ typedef struct fw_wafer {
                                     place: they share an edge */
     fw_wafer_width_effect effect;
     double overlay_m; /* as in fw_wafer_input */
+    bool single;
+    double fiducial_m; /* |x| and |y| of the crosses in the plate's corners; 0: it has none */
     bool rejected;
     const fw_mask *rejecting; /* the first mask of its dies that is; NULL: none */
 } fw_wafer;
@@ -156,19 +163,27 @@ fw_status fw_wafer_write_csv(const fw_wafer *wafer, fw_text *out); /* one line p
 fw_status fw_wafer_write_map(const fw_wafer *wafer, fw_text *out); /* SVG for people */
 fw_status fw_wafer_write_json(const fw_wafer *wafer, const char *gds_sha256, fw_text *out);
 
-/* ---- the plate as the shop writes it: wafer_write.c ---- */
+/* ---- the plates as the shop writes them: wafer_write.c, written_order.c ----
+   Of one plate of the flow its layers joined to one, scaled about the middle, mirrored, and what it leaves
+   free instead where the other tone is ordered. */
 typedef struct fw_wafer_written {
-    fw_mask_plate plate;     /* one layer */
-    fw_mask_merge_sums sums; /* over all places */
+    int of;                             /* which of the flow's plates */
+    const fw_device_order_asked *asked; /* what is ordered of it */
+    fw_mask_plate plate;                /* one layer */
+    fw_mask_merge_sums sums;            /* over all places */
     int cells, references;
     bool mirrored;
+    double field_m; /* inverted: edge of the square within which the rest is written; else 0 */
 } fw_wafer_written;
-fw_status fw_wafer_written_of(fw_arena *arena, const fw_wafer *wafer, fw_wafer_written *written);
+fw_status fw_wafer_written_of(fw_arena *arena, const fw_wafer *wafer, int plate,
+                              fw_wafer_written *written);
 /* in a format that has plates */
 fw_status fw_wafer_write_written(const fw_wafer_written *written, const fw_mask_format *format,
                                  fw_text *out);
 fw_status fw_wafer_write_written_order(const fw_wafer *wafer, const fw_wafer_written *written,
                                        const fw_output_file *file, int nfile, fw_text *out);
+fw_status fw_wafer_write_written_order_json(const fw_wafer *wafer, const fw_wafer_written *written,
+                                            const fw_output_file *file, int nfile, fw_text *out);
 
 /* of one plate of the flow, for the mask shop, with the files that go with it */
 fw_status fw_wafer_write_order(const fw_wafer *wafer, int plate, const fw_output_file *file,

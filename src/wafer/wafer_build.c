@@ -12,6 +12,62 @@ static void enlarge(const fw_wafer_variant *v, double *width, double *height) {
     *height = fmax(*height, v->die.y1 - v->die.y0);
 }
 
+/* farthest scale of a plate */
+static double largest_scale(const fw_wafer *w) {
+    double most = 0;
+    for (int p = 0; p < fw_mask_plates(w->table); p++)
+        most = fmax(most,
+                    fw_device_order_of(&w->device->wafer, fw_mask_plate_at(w->table, p).id)->scale);
+    return most;
+}
+
+/* one die about the plate's middle */
+static fw_status single_place(fw_wafer_maker *m, int32_t width, int32_t height) {
+    fw_wafer *w = m->wafer;
+    fw_wafer_site *site = fw_arena_one(m->arena, fw_wafer_site);
+    FW_NEED(site);
+    *site = (fw_wafer_site){.x = -(width / 2), .y = -(height / 2), .kind = FW_WAFER_DIE};
+    w->grid = (fw_wafer_grid){.width = width,
+                              .height = height,
+                              .pitch_x = width,
+                              .pitch_y = height,
+                              .rows = 1,
+                              .columns = 1,
+                              .site = site,
+                              .nsite = 1};
+    double reach_m = 1e-9 * hypot(width, height) * largest_scale(w);
+    return fw_wafer_form_single(&w->device->wafer, reach_m, m->diags, &w->form);
+}
+
+/* scaled, the dies stay clear of title and crosses */
+static fw_status check_scale(fw_wafer_maker *m) {
+    const fw_wafer *w = m->wafer;
+    double reach_m = 0, free_m = 0.5 * w->form.diameter_m + 1e-3;
+    for (int i = 0; i < w->grid.nsite && !w->single; i++) {
+        const fw_wafer_site *s = &w->grid.site[i];
+        double x = fmax(fabs((double)s->x), fabs((double)s->x + w->grid.width));
+        double y = fmax(fabs((double)s->y), fabs((double)s->y + w->grid.height));
+        reach_m = fmax(reach_m, 1e-9 * hypot(x, y));
+    }
+    for (int p = 0; p < fw_mask_plates(w->table); p++) {
+        const char *id = fw_mask_plate_at(w->table, p).id;
+        const fw_device_order_asked *o = fw_device_order_of(&w->device->wafer, id);
+        char times[32], to[32], from[32], most[32];
+        if (o->scale * reach_m <= free_m) continue;
+        return fw_diag_error(
+            m->diags, 551, o->place,
+            "<order>: scaled by %s, dies of plate \"%s\" reach %s mm from its middle, and its "
+            "title "
+            "begins at %s mm; a scale of at most %s is left, or remove <wafer>: a plate of one die "
+            "takes any",
+            fw_number_text(times, sizeof times, o->scale, 6), id,
+            fw_number_text(to, sizeof to, o->scale * reach_m * 1e3, 4),
+            fw_number_text(from, sizeof from, free_m * 1e3, 4),
+            fw_number_text(most, sizeof most, floor(1e4 * free_m / reach_m) * 1e-4, 6));
+    }
+    return FW_OK;
+}
+
 /* a place holds the largest of the dies */
 static fw_status fill_grid(fw_wafer_maker *m) {
     const fw_wafer_input *in = m->input;
@@ -22,9 +78,10 @@ static fw_status fill_grid(fw_wafer_maker *m) {
     enlarge(&in->stand_in, &width, &height);
     enlarge(&in->test, &width, &height);
     const fw_device_wafer_asked *asked = &in->device->wafer;
+    int32_t x = (int32_t)ceil(width * 1e9 - 1e-3), y = (int32_t)ceil(height * 1e9 - 1e-3);
+    if (in->single) return single_place(m, x, y);
     FW_TRY(fw_wafer_form_of(asked, m->diags, &w->form));
-    FW_TRY(fw_wafer_grid_fill(m->arena, &w->form, asked, (int32_t)ceil(width * 1e9 - 1e-3),
-                              (int32_t)ceil(height * 1e9 - 1e-3), m->diags, &w->grid));
+    FW_TRY(fw_wafer_grid_fill(m->arena, &w->form, asked, x, y, m->diags, &w->grid));
     return fw_wafer_assign(&w->form, asked, m->diags, &w->grid);
 }
 
@@ -154,13 +211,15 @@ static fw_status place(fw_wafer_maker *m) {
                                                             : marks;
     }
     FW_TRY(fw_wafer_add_rows(m, of_site));
-    return fw_wafer_ids(m);
+    return w->single ? FW_OK : fw_wafer_ids(m);
 }
 
 /* name of the top cell: that of the device and what it is */
 static fw_status name_top(fw_wafer_maker *m) {
     fw_wafer *w = m->wafer;
-    const char *tail = w->rejected ? "_WAFER_REJECTED" : "_WAFER";
+    const char *tail = w->single     ? (w->rejected ? "_PLATE_REJECTED" : "_PLATE")
+                       : w->rejected ? "_WAFER_REJECTED"
+                                     : "_WAFER";
     char *top = fw_arena_printf(m->arena, "%.*s%s", FW_WAFER_LONGEST_NAME - (int)strlen(tail),
                                 w->device->name, tail);
     FW_NEED(top);
@@ -185,6 +244,7 @@ fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags 
                     .stand_in = input->stand_in,
                     .effect = input->effect,
                     .overlay_m = input->overlay_m,
+                    .single = input->single,
                     .title = title,
                     .flow = input->table->flow};
     FW_NEED(w->variant = fw_arena_array(arena, fw_wafer_variant, (size_t)input->nvariant));
@@ -192,7 +252,8 @@ fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags 
         w->variant[i] = input->variant[i];
     FW_TRY(fill_grid(&m));
     count(&m);
-    FW_TRY(check_spaces(&m));
+    FW_TRY(check_scale(&m));
+    if (!w->single) FW_TRY(check_spaces(&m));
     FW_TRY(name_top(&m));
     FW_TRY(place(&m));
     FW_TRY(fw_wafer_plate(&m));

@@ -228,7 +228,7 @@ static fw_status add_name(fw_wafer_maker *m, fw_wafer_cell_kind kind, const char
     const char *name = fw_arena_printf(m->arena, "%s_%s", prefix, text);
     FW_NEED(name);
     const fw_mask *mask;
-    FW_TRY(fw_wafer_sheet_mask(&s, name, &mask));
+    FW_TRY(fw_wafer_sheet_mask(&s, name, false, &mask));
     FW_TRY(fw_wafer_add_cell(m, name, mask, 0, 0, cell));
     m->wafer->cell[*cell].kind = kind;
     return FW_OK;

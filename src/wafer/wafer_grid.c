@@ -21,7 +21,7 @@ static const struct {
 /* 4 in for a wafer of 100 mm is 1.6 % off */
 static const double NEAR = 0.02, NOTCH_M = 1.25e-3;
 static const double plate_in[] = {3, 4, 5, 6, 7, 9, 14};
-static const double INCH_M = 25.4e-3, PLATE_RIM_M = 10e-3;
+static const double INCH_M = 25.4e-3, PLATE_RIM_M = 10e-3, LARGEST_PLATE_M = 0.4;
 
 int64_t fw_wafer_dbu(double m) {
     return (int64_t)floor(m * 1e9 + 0.5);
@@ -41,6 +41,23 @@ static double plate_for(double diameter_m) {
     return diameter_m + 2 * PLATE_RIM_M;
 }
 
+fw_status fw_wafer_form_single(const fw_device_wafer_asked *asked, double across_m, fw_diags *diags,
+                               fw_wafer_form *form) {
+    double own = plate_for(across_m), stated = asked->order.size_m;
+    char is[32], need[32];
+    *form = (fw_wafer_form){.diameter_m = across_m, .plate_m = stated > 0 ? stated : own};
+    if (form->plate_m >= across_m + 2 * PLATE_RIM_M && form->plate_m <= LARGEST_PLATE_M)
+        return FW_OK;
+    return fw_diag_error(
+        diags, 551, asked->order.place,
+        "<order>: the die is %s mm across as it is written, and needs a plate of %s mm, that is "
+        "10 mm on either side for crosses and title, at most %s mm; the plate is %s mm: change "
+        "size or scale",
+        fw_number_text(is, sizeof is, across_m * 1e3, 4),
+        fw_number_text(need, sizeof need, (across_m + 2 * PLATE_RIM_M) * 1e3, 4), "400",
+        fw_number_text((char[32]){0}, 32, form->plate_m * 1e3, 4));
+}
+
 fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
                            fw_wafer_form *form) {
     int known = -1;
@@ -55,7 +72,9 @@ fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
         return refuse(asked, diags, "diameter", d,
                       "SEMI M1 has no such wafer, so state flat (0: none) as well");
     bool notched = isnan(asked->flat_m) && semi[known].flat_m == 0;
-    double plate = isnan(asked->plate_m) ? plate_for(d) : asked->plate_m;
+    double plate = !isnan(asked->plate_m)    ? asked->plate_m
+                   : asked->order.size_m > 0 ? asked->order.size_m
+                                             : plate_for(d);
     if (!(flat < d))
         return refuse(asked, diags, "flat", flat, "no chord is as long as the diameter");
     if (!(plate >= d + PLATE_RIM_M))

@@ -3,8 +3,9 @@
    each corner of the plate, and the cell of an alignment site. All are pieces like those of a die,
    so that bias, rules and flattening are those of the flow.
 
-   Beside the wafer nothing carries lettering, so its strokes are drawn on the layer of the frame:
-   the plate's tone then makes them readable. Within a place the cross is cut out of a block of that
+   Beside the wafer nothing carries lettering, so its strokes are drawn on the layer of the frame, and
+   those of plates that do not draw it on the first layer of theirs: the plate's tone then makes them
+   readable. Within a place the cross is cut out of a block of that
    layer, as the crosses of a die are cut out of its frame. */
 #include "layout/layout_text.h"
 #include "wafer/wafer_parts.h"
@@ -90,13 +91,15 @@ static fw_status sheet_add(fw_wafer_sheet *sheet, fw_layout_role role, const cha
     return fw_layout_add(arena, item, &sheet->piece, &sheet->npiece, &sheet->capacity);
 }
 
-fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, const fw_mask **mask) {
+fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, bool as_read,
+                              const fw_mask **mask) {
     fw_wafer_maker *m = sheet->maker;
     fw_mask_options options = m->input->mask;
     options.rejected = false; /* the device's own cells and the library say it */
     options.note = NULL;
     options.nnote = 0;
     options.no_islands = false;
+    if (as_read) options.layer_bias_m = NULL;
     fw_layout layout = {.drawn = true, .piece = sheet->piece, .npiece = sheet->npiece};
     /* such a cell is a part of a picture: what relates layers to each other holds where it lies */
     fw_mask_table *alone = fw_arena_one(m->arena, fw_mask_table);
@@ -133,14 +136,14 @@ static fw_status add_line(fw_wafer_sheet *s, const char *text, double middle, do
     double width = fw_layout_text_width(shown, HIGH * stroke, stroke);
     return fw_layout_text(
         arena, shown, (fw_geometry_vec2){-0.5 * width, middle - 0.5 * HIGH * stroke}, HIGH * stroke,
-        stroke, FW_ROLE_FRAME, "plate text", &s->piece, &s->npiece, &s->capacity);
+        stroke, s->role, "plate text", &s->piece, &s->npiece, &s->capacity);
 }
 
 /* a bar along x, from (x0, y0) to (x1, y1) */
 static fw_status add_bar(fw_wafer_sheet *s, const char *label, double x0, double y0, double x1,
                          double y1) {
     const fw_geometry_vec2 p[] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-    return sheet_add(s, FW_ROLE_FRAME, label, p, 4);
+    return sheet_add(s, s->role, label, p, 4);
 }
 
 /* Code 39 in the strip left of the wafer, read upwards: bars lie along x. A wide bar or gap is three
@@ -182,54 +185,96 @@ static fw_status add_flat_line(fw_wafer_sheet *s, const fw_wafer_form *form) {
     return FW_OK;
 }
 
-static const char *identification(fw_wafer_maker *m) {
+/* of lettering on a plate: the frame's, or that of its first layer; false: it draws nothing */
+static bool role_on(const fw_mask_table *table, int plate, fw_layout_role *role) {
+    int first = -1;
+    const char *wrong, *layers = fw_mask_plate_at(table, plate).layers;
+    if (layers && !fw_mask_plate_layers(table, layers, NULL, &first, &wrong)) return false;
+    for (int k = 0; k < table->nlayer; k++)
+        if (table->layer[k].roles & 1u << FW_ROLE_FRAME &&
+            (!layers || fw_mask_plate_draws(table, plate, k))) {
+            *role = FW_ROLE_FRAME;
+            return true;
+        }
+    for (int r = 0; first >= 0 && r < FW_ROLE_COUNT; r++)
+        if (table->layer[first].roles & 1u << r) {
+            *role = (fw_layout_role)r;
+            return true;
+        }
+    return false;
+}
+
+static const char *identification(fw_wafer_maker *m, int plate, fw_layout_role role) {
     const fw_mask_table *t = m->input->table;
+    bool several = fw_mask_plates(t) > 1;
     const char *tone = "";
     for (int k = 0; k < t->nlayer; k++)
-        if (t->layer[k].roles & 1u << FW_ROLE_FRAME)
-            tone = t->layer[k].tone ? t->layer[k].tone : "";
-    return fw_arena_printf(m->arena, "%s  %s  %s  FLEXWRIGHT " FW_VERSION, t->flow, tone,
-                           t->reading);
+        if (t->layer[k].roles & 1u << role) tone = t->layer[k].tone ? t->layer[k].tone : "";
+    if (fw_device_order_of(&m->wafer->device->wafer, fw_mask_plate_at(t, plate).id)->inverted)
+        tone = strcmp(tone, "data dark") == 0 ? "data clear" : "data dark";
+    return fw_arena_printf(m->arena, "%s%s%s  %s  %s  FLEXWRIGHT " FW_VERSION, t->flow,
+                           several ? "  " : "", several ? fw_mask_plate_at(t, plate).id : "", tone,
+                           fw_mask_plate_at(t, plate).reading);
+}
+
+/* "COMB STAGE  2/3 PADS" */
+static const char *title_on(fw_wafer_maker *m, int plate) {
+    const fw_wafer *w = m->wafer;
+    const char *id = fw_mask_plate_at(w->table, plate).id, *dead = w->rejected ? "REJECTED  " : "";
+    /* of the die, which is checked, or the name, of which the die's drawing says that it cannot be */
+    const char *own = fw_layout_text_lacks(w->title) ? "" : w->title;
+    if (fw_mask_plates(w->table) < 2) return fw_arena_printf(m->arena, "%s%s", dead, own);
+    return fw_arena_printf(m->arena, "%s%s  %d/%d %s", dead, own, plate + 1,
+                           fw_mask_plates(w->table), fw_layout_text_lacks(id) ? "" : id);
+}
+
+/* crosses, title, identification and what is ordered, on one plate of the flow */
+static fw_status draw_plate(fw_wafer_maker *m, fw_wafer_sheet *s, int plate, bool *whole) {
+    fw_wafer *w = m->wafer;
+    if (!role_on(m->input->table, plate, &s->role)) return FW_OK;
+    double half = 0.5 * w->form.plate_m, corner = half - RIM_M - ARM_M;
+    w->fiducial_m = corner;
+    for (int k = 0; k < 4; k++)
+        FW_TRY(add_cross(s, s->role,
+                         (fw_geometry_vec2){k % 2 ? corner : -corner, k / 2 ? corner : -corner},
+                         ARM_M, HALF_M));
+    double inner = 0.5 * w->form.diameter_m + BESIDE_M, outer = half - RIM_M;
+    double length = 2 * (corner - ARM_M - BESIDE_M);
+    const char *title = title_on(m, plate), *line = identification(m, plate, s->role);
+    FW_NEED(title && line ? title : NULL);
+    bool above, below, beside = true;
+    FW_TRY(add_line(s, title, 0.5 * (inner + outer), outer - inner, length, &above));
+    FW_TRY(add_line(s, line, -0.5 * (inner + outer), outer - inner, length, &below));
+    const fw_device_order_asked *order =
+        fw_device_order_of(&w->device->wafer, fw_mask_plate_at(w->table, plate).id);
+    if (order->barcode) /* title and identification stand beyond it */
+        FW_TRY(add_barcode(s, order->barcode, inner, outer, 2 * inner, &beside));
+    if (order->flat_line) FW_TRY(add_flat_line(s, &w->form));
+    if (!beside)
+        fw_diag_warning(
+            m->diags, 195, order->place,
+            "<order>: the barcode does not fit beside the wafer with bars of 0.1 mm, and "
+            "is left out; shorten it, or state a larger plate");
+    *whole = *whole && above && below;
+    return FW_OK;
 }
 
 fw_status fw_wafer_plate(fw_wafer_maker *m) {
     fw_wafer *w = m->wafer;
     if (!fw_wafer_draws(m->input->table, FW_ROLE_FRAME)) return FW_OK;
     fw_wafer_sheet s = {.maker = m};
-    double half = 0.5 * w->form.plate_m, corner = half - RIM_M - ARM_M;
-    for (int k = 0; k < 4; k++)
-        FW_TRY(add_cross(&s, FW_ROLE_FRAME,
-                         (fw_geometry_vec2){k % 2 ? corner : -corner, k / 2 ? corner : -corner},
-                         ARM_M, HALF_M));
-    double inner = 0.5 * w->form.diameter_m + BESIDE_M, outer = half - RIM_M;
-    double length = 2 * (corner - ARM_M - BESIDE_M);
+    bool whole = true;
     const fw_device_wafer_asked *stated = &w->device->wafer;
     if (stated->title)
         FW_TRY(fw_layout_text_check(stated->title, "<wafer>: the title", stated->place, m->diags));
-    /* of the die, which is checked, or the name, of which the die's drawing says that it cannot be */
-    const char *own = fw_layout_text_lacks(w->title) ? "" : w->title;
-    const char *title = fw_arena_printf(m->arena, "%s%s", w->rejected ? "REJECTED  " : "", own);
-    const char *line = identification(m);
-    FW_NEED(title && line ? title : NULL);
-    bool above, below;
-    FW_TRY(add_line(&s, title, 0.5 * (inner + outer), outer - inner, length, &above));
-    FW_TRY(add_line(&s, line, -0.5 * (inner + outer), outer - inner, length, &below));
-    const fw_device_order_asked *order = &w->device->wafer.order;
-    bool beside = true;
-    if (order->barcode) /* title and identification stand beyond it */
-        FW_TRY(add_barcode(&s, order->barcode, inner, outer, 2 * inner, &beside));
-    if (order->flat_line) FW_TRY(add_flat_line(&s, &w->form));
-    if (!beside)
-        fw_diag_warning(
-            m->diags, 195, order->place,
-            "<order>: the barcode does not fit beside the wafer with bars of 0.1 mm, and "
-            "is left out; shorten it, or state a larger plate");
-    if (!above || !below)
+    for (int p = 0; p < fw_mask_plates(w->table); p++)
+        FW_TRY(draw_plate(m, &s, p, &whole));
+    if (!whole)
         fw_diag_warning(
             m->diags, 195, w->device->wafer.place,
             "<wafer>: the title of the plate does not fit whole beside the wafer, where "
             "it is cut or left out; shorten it");
-    return fw_wafer_sheet_mask(&s, "PLATE", &w->plate);
+    return fw_wafer_sheet_mask(&s, "PLATE", true, &w->plate);
 }
 
 /* a block of 0.6 of the die, 2 mm at most, with a cross of five fine arms' lengths: coarse near the
@@ -238,6 +283,32 @@ static fw_status add_target(fw_wafer_sheet *s, fw_layout_role role, fw_geometry_
     fw_geometry_vec2 p[FW_LAYOUT_CROSS];
     fw_layout_cross(o, q, 3 * q, 0.3 * q, 5 * q, p);
     return sheet_add(s, role, "alignment site", p, FW_LAYOUT_CROSS);
+}
+
+/* Where a flow aligns plates to each other: the window that its table has for the frame of a die, with
+   the cross of the other side and bars of metal, in each quarter of the block where it has room. So two
+   sites have of every pair of plates what a die has, at the wafer's rim. */
+static fw_status add_pair_marks(fw_wafer_sheet *s, fw_geometry_vec2 o, double q) {
+    const fw_mask_table *table = s->maker->input->table;
+    const fw_mask_layer *frame = NULL;
+    for (int k = 0; k < table->nlayer; k++)
+        if (table->layer[k].roles & 1u << FW_ROLE_FRAME) frame = &table->layer[k];
+    for (int i = 0; frame && i < table->npattern; i++) {
+        fw_layout_coupon c;
+        if (strcmp(table->pattern[i].kind->name, "frame-mark") != 0) continue;
+        if (fw_mask_plate_of_role(table, FW_ROLE_BACK) < 0) continue;
+        FW_TRY(fw_layout_pattern_draw(s->maker->arena, &table->pattern[i], frame->min_width_m,
+                                      frame->min_space_m, 0, &c));
+        /* between the arms, q wide, and the edge of the block */
+        if (fmax(c.width_m, c.height_m) > 5 * q) continue;
+        for (int k = 0; k < 4; k++) {
+            fw_geometry_vec2 at = {o.x + (k % 2 ? 4 * q : -4 * q) - 0.5 * c.width_m,
+                                   o.y + (k / 2 ? 4 * q : -4 * q) - 0.5 * c.height_m};
+            FW_TRY(
+                fw_layout_coupon_put(s->maker->arena, &c, at, &s->piece, &s->npiece, &s->capacity));
+        }
+    }
+    return FW_OK;
 }
 
 fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask) {
@@ -256,5 +327,6 @@ fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask) {
                                       {o.x - half, o.y + half}};
     if (cut) FW_TRY(sheet_add(&s, FW_ROLE_FRAME, "alignment site", block, 4));
     FW_TRY(add_target(&s, cut ? FW_ROLE_MARK : FW_ROLE_FRAME, o, q));
-    return fw_wafer_sheet_mask(&s, "ALIGNMENT_SITE", mask);
+    if (cut) FW_TRY(add_pair_marks(&s, o, q));
+    return fw_wafer_sheet_mask(&s, "ALIGNMENT_SITE", false, mask);
 }

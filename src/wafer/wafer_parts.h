@@ -16,10 +16,13 @@ typedef struct fw_wafer_maker {
 /* a list of pieces that becomes a mask with the bias and the rules of the flow */
 typedef struct fw_wafer_sheet {
     fw_wafer_maker *maker;
+    fw_layout_role role; /* of lettering, bars and crosses beside the dies */
     fw_layout_piece *piece;
     int npiece, capacity;
 } fw_wafer_sheet;
-fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, const fw_mask **mask);
+/* as_read: other plates than the device's are drawn as they are read, without what an etch takes */
+fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, bool as_read,
+                              const fw_mask **mask);
 bool fw_wafer_draws(const fw_mask_table *table, fw_layout_role role);
 
 /* m to the nearest place on the grid */
@@ -55,6 +58,9 @@ typedef struct fw_wafer_sum { /* of one layer over the whole plate */
     double polygons, vertices, area_m2, width_m, space_m;
 } fw_wafer_sum;
 fw_status fw_wafer_sums(const fw_wafer *wafer, fw_arena *arena, fw_wafer_sum **sum);
+/* the die whose middle is nearest to a point, not one of those before; NULL: none is left */
+const fw_wafer_site *fw_wafer_nearest_die(const fw_wafer *wafer, double x, double y,
+                                          const fw_wafer_site *const *before, int n);
 /* of all that is drawn: the fiducials stand outermost, without them the places do */
 fw_geometry_box fw_wafer_extent(const fw_wafer *wafer);
 

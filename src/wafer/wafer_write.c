@@ -55,12 +55,45 @@ fw_status fw_wafer_write_gds(const fw_wafer *w, fw_text *out) {
 }
 
 /* ---- as it is written ----
-   The layers of the order joined to one, cell by cell, mirrored as
-   the plate is read. Dies are still cells. Cells do not overlap: the letters of a die's id lie in a window
-   of its frame, which the cells of rows and columns draw and dies leave out. */
+   The layers of one plate's order joined to one, cell by cell. Dies are still cells. Cells do not overlap:
+   the letters of a die's id lie in a window of its frame, which the cells of rows and columns draw and dies
+   leave out. Of the other tone each cell writes what it leaves free of its place, and the top cell what
+   the places leave free.
 
-static fw_mask_window moved(fw_mask_window w, int32_t dx, int32_t dy) {
-    return (fw_mask_window){w.x0 - dx, w.y0 - dy, w.x1 - dx, w.y1 - dy};
+   Scale: vertices of a cell, its place and its windows are each rounded to the grid, so that cells share the
+   edges that they shared; places stand on a lattice of the rounded pitch, which is off by at most half a
+   nanometre a step. Test: test_wafer_written.c, tests/accept/wafer.sh. */
+
+typedef struct pen {
+    fw_arena *arena;
+    const fw_wafer *wafer;
+    fw_mask_merge_options base;
+    bool ids; /* the plate draws the frame, in which they lie */
+    double scale;
+    fw_mask_plate_cell *cell; /* (ncell) those that draw something */
+    int *as, ncell;           /* as: of each cell of the wafer; -1: nothing */
+    fw_mask_plate_place *place;
+    int nplace;
+} pen;
+
+static int32_t scaled(const pen *p, int64_t v) {
+    return (int32_t)llround((double)v * p->scale);
+}
+
+/* of a place that is whole steps from the first one */
+static int32_t on_lattice(const pen *p, int64_t at, int64_t first, int32_t pitch) {
+    return scaled(p, first) + (int32_t)((at - first) / pitch) * scaled(p, pitch);
+}
+
+/* of a place, in coordinates of a cell, as written */
+static fw_mask_window in_cell(const pen *p, const fw_wafer_cell *c, fw_mask_window w) {
+    int32_t dx = scaled(p, c->dx), dy = scaled(p, c->dy);
+    return (fw_mask_window){scaled(p, w.x0) - dx, scaled(p, w.y0) - dy, scaled(p, w.x1) - dx,
+                            scaled(p, w.y1) - dy};
+}
+
+static bool is_lettering(const fw_wafer_cell *c) {
+    return c->kind == FW_WAFER_CELL_ROW || c->kind == FW_WAFER_CELL_COLUMN;
 }
 
 /* the layer that is whole where ids are */
@@ -70,23 +103,20 @@ static int frame_layer(const fw_mask_table *table) {
     return -1;
 }
 
-static fw_mask_merge_options options_for(const fw_wafer *w, const fw_wafer_cell *c,
-                                         fw_mask_merge_options o) {
-    fw_mask_window whole = w->id_window[0];
-    whole.x1 = w->id_window[1].x1;
-    o.under = -1;
-    switch (c->kind) {
-    case FW_WAFER_CELL_OTHER:
-        break;
-    case FW_WAFER_CELL_DIE:
-        if (w->ids) o.window = moved(whole, c->dx, c->dy);
-        break;
-    case FW_WAFER_CELL_ROW:
-    case FW_WAFER_CELL_COLUMN:
-        o.window = moved(w->id_window[c->kind == FW_WAFER_CELL_COLUMN], c->dx, c->dy);
-        o.under = frame_layer(w->table);
-        break;
-    }
+static fw_mask_merge_options options_for(const pen *p, const fw_wafer_cell *c,
+                                         fw_mask_window *window) {
+    const fw_wafer *w = p->wafer;
+    const fw_mask_window place = {0, 0, w->grid.width, w->grid.height};
+    fw_mask_merge_options o = p->base;
+    fw_mask_window own = w->id_window[c->kind == FW_WAFER_CELL_COLUMN];
+    if (c->kind == FW_WAFER_CELL_DIE) own.x1 = w->id_window[1].x1;
+    *window = in_cell(p, c, own);
+    o.scale = p->scale;
+    o.field = is_lettering(c) ? *window : in_cell(p, c, place);
+    if (!p->ids || c->kind == FW_WAFER_CELL_OTHER) return o;
+    o.window = window;
+    o.nwindow = 1;
+    if (is_lettering(c)) o.under = frame_layer(w->table);
     return o;
 }
 
@@ -96,17 +126,92 @@ static void add_up(fw_mask_merge_sums *all, const fw_mask_merge_sums *s, double 
     all->cuts += times * s->cuts;
     all->holes += times * s->holes;
     all->area_m2 += times * s->area_m2;
+    all->clear_m = fmin(all->clear_m, s->clear_m);
     all->rounded += s->rounded;
 }
 
-/* of an array: mirrored, its last column is its first */
-static fw_mask_plate_place place_of(const fw_wafer_run *r, bool mirror) {
-    int32_t x = mirror ? -(r->x + (r->columns - 1) * r->step_x) : r->x;
-    return (fw_mask_plate_place){r->cell, x, r->y, r->columns, r->rows, r->step_x, r->step_y};
+static fw_status write_cells(pen *p, fw_wafer_written *out) {
+    const fw_wafer *w = p->wafer;
+    for (int c = 0; c < w->ncell; c++) {
+        const fw_wafer_cell *cell = &w->cell[c];
+        fw_mask_window window;
+        fw_mask_merge_options o = options_for(p, cell, &window);
+        fw_mask_merge_sums sums;
+        const fw_mask *mask;
+        p->as[c] = -1;
+        if (is_lettering(cell) && !p->ids) continue;
+        FW_TRY(fw_mask_merged(p->arena, cell->mask, &o, &mask, &sums));
+        if (mask->nshape == 0) continue;
+        p->as[c] = p->ncell;
+        p->cell[p->ncell++] = (fw_mask_plate_cell){cell->name, mask};
+        add_up(&out->sums, &sums, cell->placed);
+    }
+    return FW_OK;
 }
 
-static bool mirrored(const fw_wafer *w, const fw_mask_order *order) {
-    switch (w->device->wafer.order.mirror) {
+/* of an array: mirrored, its last column is its first */
+static void write_places(pen *p) {
+    const fw_wafer *w = p->wafer;
+    const fw_wafer_grid *g = &w->grid;
+    for (int i = 0; i < w->nrun; i++) {
+        const fw_wafer_run *r = &w->run[i];
+        const fw_wafer_cell *c = &w->cell[r->cell];
+        if (p->as[r->cell] < 0) continue;
+        int32_t x = on_lattice(p, (int64_t)r->x - c->dx, g->site[0].x, g->pitch_x);
+        int32_t y = on_lattice(p, (int64_t)r->y - c->dy, g->site[0].y, g->pitch_y);
+        int32_t step_x = r->step_x / g->pitch_x * scaled(p, g->pitch_x);
+        int32_t step_y = r->step_y / g->pitch_y * scaled(p, g->pitch_y);
+        x += scaled(p, c->dx);
+        if (p->base.mirror) x = -(x + (r->columns - 1) * step_x);
+        p->place[p->nplace++] = (fw_mask_plate_place){
+            p->as[r->cell], x, y + scaled(p, c->dy), r->columns, r->rows, step_x, step_y};
+    }
+}
+
+static const double FREE_RIM_M = 4e-3; /* of the plate: nothing is written there */
+
+/* places that cells write of the other tone themselves */
+static fw_status taken_places(const pen *p, fw_mask_merge_options *o) {
+    const fw_wafer_grid *g = &p->wafer->grid;
+    fw_mask_window *list = fw_arena_array(p->arena, fw_mask_window, (size_t)g->nsite);
+    FW_NEED(list);
+    o->window = list;
+    for (int i = 0; i < p->wafer->nrun; i++) {
+        const fw_wafer_run *r = &p->wafer->run[i];
+        const fw_wafer_cell *c = &p->wafer->cell[r->cell];
+        for (int k = 0; k < r->columns && !is_lettering(c); k++) {
+            int32_t x = on_lattice(p, (int64_t)r->x - c->dx + (int64_t)k * r->step_x, g->site[0].x,
+                                   g->pitch_x);
+            int32_t y = on_lattice(p, (int64_t)r->y - c->dy, g->site[0].y, g->pitch_y);
+            list[o->nwindow++] =
+                (fw_mask_window){x, y, x + scaled(p, g->width), y + scaled(p, g->height)};
+        }
+    }
+    return FW_OK;
+}
+
+/* what lies beside the dies: title, crosses; they belong to the plate and have its scale */
+static fw_status write_top(pen *p, fw_wafer_written *out, const fw_mask **drawn) {
+    const fw_wafer *w = p->wafer;
+    fw_mask_merge_options o = p->base;
+    fw_mask_merge_sums sums;
+    *drawn = NULL;
+    if (!w->plate && !o.inverted) return FW_OK;
+    fw_mask nothing = *(w->plate ? w->plate : w->cell[0].mask);
+    if (!w->plate) nothing.nshape = 0;
+    if (o.inverted) {
+        out->field_m = w->form.plate_m - 2 * FREE_RIM_M;
+        int32_t half = (int32_t)lround(0.5e9 * out->field_m);
+        o.field = (fw_mask_window){-half, -half, half, half};
+        FW_TRY(taken_places(p, &o));
+    }
+    FW_TRY(fw_mask_merged(p->arena, &nothing, &o, drawn, &sums));
+    add_up(&out->sums, &sums, 1);
+    return FW_OK;
+}
+
+static bool mirrored(const fw_device_order_asked *asked, const fw_mask_order *order) {
+    switch (asked->mirror) {
     case FW_MIRROR_YES:
         return true;
     case FW_MIRROR_NO:
@@ -117,43 +222,53 @@ static bool mirrored(const fw_wafer *w, const fw_mask_order *order) {
     return order->mirror == 1;
 }
 
-fw_status fw_wafer_written_of(fw_arena *arena, const fw_wafer *w, fw_wafer_written *out) {
+static fw_status pen_new(fw_arena *arena, const fw_wafer *w, const fw_wafer_written *out, pen *p) {
     fw_mask_order order;
     const fw_mask *any = w->ncell > 0 ? w->cell[0].mask : w->plate;
-    fw_mask_merge_options base = {.under = -1, .vertices = any->vertex_limit};
-    fw_mask_plate_cell *cell = fw_arena_array(arena, fw_mask_plate_cell, (size_t)w->ncell);
-    fw_mask_plate_place *place = fw_arena_array(arena, fw_mask_plate_place, (size_t)w->nrun);
-    FW_NEED(cell && place ? cell : NULL);
-    FW_TRY(fw_mask_order_gather(arena, any, w->table->device_plate, &order));
-    FW_TRY(fw_mask_written_table(arena, w->table, &base.written));
-    base.mirror = mirrored(w, &order);
-    *out =
-        (fw_wafer_written){.mirrored = base.mirror, .cells = w->ncell + 1, .references = w->nrun};
-    for (int c = 0; c < w->ncell; c++) {
-        fw_mask_merge_options o = options_for(w, &w->cell[c], base);
-        fw_mask_merge_sums sums;
-        cell[c].name = w->cell[c].name;
-        FW_TRY(fw_mask_merged(arena, w->cell[c].mask, &o, &cell[c].mask, &sums));
-        add_up(&out->sums, &sums, w->cell[c].placed);
-    }
-    for (int i = 0; i < w->nrun; i++)
-        place[i] = place_of(&w->run[i], base.mirror);
-    const fw_mask *drawn = NULL;
-    if (w->plate) {
-        fw_mask_merge_sums sums;
-        FW_TRY(fw_mask_merged(arena, w->plate, &base, &drawn, &sums));
-        add_up(&out->sums, &sums, 1);
-    }
-    out->plate = (fw_mask_plate){.table = base.written,
+    int frame = frame_layer(w->table);
+    FW_TRY(fw_mask_order_gather(arena, any, out->of, &order));
+    *p = (pen){.arena = arena,
+               .wafer = w,
+               .ids = w->ids && frame >= 0 && order.plate[frame],
+               .scale = out->asked->scale,
+               .base = {.plate = out->of,
+                        .under = -1,
+                        .scale = 1,
+                        .vertices = any->vertex_limit,
+                        .inverted = out->asked->inverted,
+                        .mirror = mirrored(out->asked, &order)}};
+    p->cell = fw_arena_array(arena, fw_mask_plate_cell, (size_t)w->ncell);
+    p->as = fw_arena_array(arena, int, (size_t)w->ncell);
+    p->place = fw_arena_array(arena, fw_mask_plate_place, (size_t)w->nrun);
+    FW_NEED(p->cell && p->as && p->place ? p->cell : NULL);
+    return fw_mask_written_table(arena, w->table, out->of, p->base.inverted, &p->base.written);
+}
+
+fw_status fw_wafer_written_of(fw_arena *arena, const fw_wafer *w, int plate,
+                              fw_wafer_written *out) {
+    const char *id = fw_mask_plate_at(w->table, plate).id;
+    pen p;
+    const fw_mask *drawn;
+    *out = (fw_wafer_written){.of = plate,
+                              .asked = fw_device_order_of(&w->device->wafer, id),
+                              .sums = {.clear_m = HUGE_VAL}};
+    FW_TRY(pen_new(arena, w, out, &p));
+    FW_TRY(write_cells(&p, out));
+    write_places(&p);
+    FW_TRY(write_top(&p, out, &drawn));
+    out->mirrored = p.base.mirror;
+    out->cells = p.ncell + 1;
+    out->references = p.nplace;
+    out->plate = (fw_mask_plate){.table = p.base.written,
                                  .top = w->top,
                                  .title = w->title,
                                  .flow = w->flow,
                                  .rejected = w->rejected,
                                  .edge_m = w->form.plate_m,
-                                 .cell = cell,
-                                 .ncell = w->ncell,
-                                 .place = place,
-                                 .nplace = w->nrun,
+                                 .cell = p.cell,
+                                 .ncell = p.ncell,
+                                 .place = p.place,
+                                 .nplace = p.nplace,
                                  .drawn = drawn};
     return FW_OK;
 }

@@ -1,30 +1,58 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # kl_plate.py: klayout -b -r kl_plate.py -rd a=FLOW-wafer.gds -rd b=FLOW-plate.gds -rd expression="1/0 NOT 2/0" -rd layer=1/0 -rd mirror=1
-# The layered plate, joined by KLayout's booleans and mirrored, against the written one: no difference. Of the written one: one layer,
+#   [-rd scale=1.0002] [-rd field=119] [-rd tol=4] [-rd die=1]
+# The layered plate, joined by KLayout's booleans, its dies scaled, mirrored, or what it leaves free within a square of `field` mm, against the
+# written one: no difference wider than tol nm. die=1: a is one die, and b has it in its middle. Of the written one: one layer,
 # no overlap between polygons, 4094 vertices at most. Exit 1 if not.
 import pya, sys
 A = pya.Layout(); A.read(a); B = pya.Layout(); B.read(b); bad = 0
+given = globals()
+scale, field, tol, single = float(given.get("scale", 1)), float(given.get("field", 0)), int(given.get("tol", 0)), int(given.get("die", 0))
 
-def region(l, key):
+def own(l, key, children):
     n, d = (int(v) for v in key.split("/"))
-    i = l.find_layer(n, d)
-    return pya.Region() if i is None else pya.Region(l.top_cell().begin_shapes_rec(i))
+    i, top = l.find_layer(n, d), l.top_cell()
+    if i is None: return pya.Region()
+    if not children: return pya.Region(top.shapes(i))
+    return pya.Region(top.begin_shapes_rec(i)) - pya.Region(top.shapes(i))
 
 def say(text, wrong):
     global bad
     print(("FAIL  " if wrong else "ok    ") + text); bad += bool(wrong)
 
-words = expression.split()
-want = region(A, words[0]).merged()
-for op, key in zip(words[1::2], words[2::2]):
-    r = region(A, key)
-    want = {"OR": want + r, "AND": want & r, "NOT": want - r, "XOR": want ^ r}[op].merged()
-if int(globals().get("mirror", 0)): want = want.transformed(pya.Trans.M90)
-raw = region(B, layer); raw.merged_semantics = False
+def joined(get):
+    words = expression.split()
+    want = get(words[0]).merged()
+    for op, key in zip(words[1::2], words[2::2]):
+        r = get(key)
+        want = {"OR": want + r, "AND": want & r, "NOT": want - r, "XOR": want ^ r}[op].merged()
+    return want
+
+def everything(key):
+    n, d = (int(v) for v in key.split("/"))
+    i = A.find_layer(n, d)
+    return pya.Region() if i is None else pya.Region(A.top_cell().begin_shapes_rec(i))
+
+raw = pya.Region(B.top_cell().begin_shapes_rec(B.find_layer(*(int(v) for v in layer.split("/"))))); raw.merged_semantics = False
+if single: # the written plate has lettering besides, in its top cell: only the die is compared
+    cell = [c for c in B.each_cell() if c.cell_index() != B.top_cell().cell_index()]
+    say("one die, %d" % len(cell), len(cell) != 1)
+    raw = pya.Region(cell[0].begin_shapes_rec(B.find_layer(*(int(v) for v in layer.split("/"))))); raw.merged_semantics = False
+    want = joined(everything).transformed(pya.ICplxTrans(scale))
+elif scale != 1:
+    want = joined(lambda k: own(A, k, True)).transformed(pya.ICplxTrans(scale)) + joined(lambda k: own(A, k, False))
+else:
+    want = joined(everything)
+if int(given.get("mirror", 0)): want = want.transformed(pya.Trans.M90)
+if field:
+    h = int(round(field * 5e5)); whole = pya.Region(pya.Box(-h, -h, h, h))
+    if single: whole = pya.Region(raw.bbox()) # of the place: lanes are not drawn
+    want = whole - want
 drawn = [i for i in B.layer_indexes() if any(not c.shapes(i).is_empty() for c in B.each_cell())]
 say("one layer, %d" % len(drawn), len(drawn) != 1)
 got = raw.merged()
 x = want ^ got
+if tol: x = x.sized(-tol // 2)
 say("XOR: %d polygons, %g um2, of %d" % (x.count(), x.area() * B.dbu ** 2, want.count()), not x.is_empty() or want.is_empty())
 # KLayout's own merging rounds where slanted edges meet cuts: some square nanometres
 say("areas of the polygons add up to that of the whole but for %d nm2: nothing overlaps" % (raw.area() - got.area()), abs(raw.area() - got.area()) > 1000)

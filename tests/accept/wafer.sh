@@ -59,6 +59,49 @@ judge "written plate: KLayout's booleans of the layered one" klayout -b -r "$her
     -rd "b=$written.gds" -rd "expression=1/0 NOT 2/0 NOT 3/0" -rd layer=1/0 -rd mirror=1
 judge "written plate: strict reading without warnings" "$here/kl_nowarn.sh" "$written.gds"
 judge "written plate: OASIS equal to GDSII" klayout -b -r "$here/kl_xor.py" -rd "a=$written.gds" -rd "b=$written.oas"
+# the same plate as another one is ordered: every <order> against KLayout's booleans of the layered file
+order() { # order NAME DEVICE ELEMENT: the device with the element in its <wafer>
+    sed "s|</wafer>|$3</wafer>|" "$2" >"$work/$1.xml"
+}
+order inverted "$device" '<order tone="inverted" mirror="no"/>'
+order scaled "$device" '<order scale="1.0002" barcode="A-7" flat-line="yes"/>'
+order both "$device" '<order scale="0.9997" tone="inverted"/>'
+for name in inverted scaled both; do
+    # the steps of the sweep are looked at above; one device is on all places here
+    sed -i '/<sweep/d' "$work/$name.xml"
+    "$program" mask "$work/$name.xml" -q -o "$work/$name" --corners none "$@" >"$work/out" 2>&1 || { cat "$work/out"; failed=1; }
+    size=$(sed -n 's/.*"size_mm": \([0-9.]*\).*/\1/p' "$work/$name/masks/$flow-plate.order.json")
+    case $name in
+    inverted) more="-rd mirror=0 -rd field=$(/usr/bin/python3 -c "print($size - 8)")" ;;
+    scaled) more="-rd mirror=1 -rd scale=1.0002 -rd tol=40" ;;
+    both) more="-rd mirror=1 -rd scale=0.9997 -rd tol=40 -rd field=$(/usr/bin/python3 -c "print($size - 8)")" ;;
+    esac
+    judge "written plate, $name: KLayout's booleans" klayout -b -r "$here/kl_plate.py" -rd "a=$work/$name/masks/$flow-wafer.gds" \
+        -rd "b=$work/$name/masks/$flow-plate.gds" -rd "expression=1/0 NOT 2/0 NOT 3/0" -rd layer=1/0 $more
+    judge "written plate, $name: strict reading without warnings" "$here/kl_nowarn.sh" "$work/$name/masks/$flow-plate.gds"
+done
+# a flow of three plates, and its plates of one die
+comb=docs/gallery/comb-stage/device.xml glass=silicon-on-glass
+sed 's|<die tethers="no"/>|&<wafer diameter="32 mm" flat="10 mm" alignment="2 sites" test-dies="1"/><order plate="cavity" quantity="2"/>|' "$comb" >"$work/three.xml"
+sed 's|<die tethers="no"/>|&<order scale="5"/><order plate="pads" tone="inverted" mirror="no" scale="1"/>|' "$comb" >"$work/one.xml"
+for name in three one; do
+    "$program" mask "$work/$name.xml" -q -o "$work/$name" --corners none --mask-format all >"$work/out" 2>&1 || { cat "$work/out"; failed=1; }
+    while read -r plate layer expression; do
+        written=$work/$name/masks/$glass-plate.$plate
+        more="-rd mirror=1" layered=$work/three/masks/$glass-wafer.gds
+        [ "$name" = one ] && layered=$work/one/masks/$glass.gds more="-rd mirror=1 -rd scale=5 -rd die=1"
+        [ "$name$plate" = onepads ] && more="-rd die=1 -rd field=1"
+        judge "$name: written plate of $plate: KLayout's booleans" klayout -b -r "$here/kl_plate.py" -rd "a=$layered" -rd "b=$written.gds" \
+            -rd "expression=$expression" -rd "layer=$layer" $more
+        judge "$name: $plate: strict reading without warnings" "$here/kl_nowarn.sh" "$written.gds"
+        judge "$name: $plate: OASIS equal to GDSII" klayout -b -r "$here/kl_xor.py" -rd "a=$written.gds" -rd "b=$written.oas"
+        judge "$name: $plate: order sheet is JSON" /usr/bin/python3 -m json.tool "$written.order.json"
+    done <<'END'
+cavity 6/0 6/0 NOT 7/0 OR 5/0
+pads 8/0 8/0
+device 1/0 1/0 NOT 2/0 NOT 3/0
+END
+done
 judge "SVG and map are well-formed" xmllint --noout --huge "$stem.svg" "$stem-map.svg"
 [ "$failed" -eq 0 ] && echo "WAFER PASS" || echo "WAFER FAIL"
 exit "$failed"

@@ -3,7 +3,7 @@
 """written_rules.py PROGRAM [--keep DIR]: width and space rules of random devices before KLayout, in both directions.
 
 FW_RULES_COUNT (3; with FW_TEST_ALL=1, as in ./test --all, 24) devices of random_devices.py from seed FW_RULES_FIRST (3) on, in
-every flow that they name and, of every third one, in soi-deep-rie; with tolerances from 0.5 to 1000 nm, both ways of flattening
+every flow that they name and, of every third one each, in soi-deep-rie or silicon-on-glass; with tolerances from 0.5 to 1000 nm, both ways of flattening
 and every vertex limit; the test die with one of three. Rules are rows of the layer tables, as warnings, so that the masks are written. Each is judged
   - with a limit of 12 um: every pair of edges that KLayout finds lies in a place that the certificate lists, and every place
     has a pair in it with the value of the certificate, to 1e-3 nm;
@@ -62,8 +62,8 @@ class Mask:
     def __init__(self, program, seed, where):
         self.program, self.seed, self.where, self.runs = program, seed, where, 0
         text, self.options = random_devices.device(seed)
-        if seed % 3 == 2:
-            text = text.replace('ref="al-masked-rie"', 'ref="soi-deep-rie"')
+        if seed % 3:  # of three plates, two of them with lengths that an etch takes
+            text = text.replace('ref="al-masked-rie"', 'ref="%s"' % ("soi-deep-rie" if seed % 3 == 2 else "silicon-on-glass"))
         self.file = where / ("%d.xml" % seed)
         self.file.write_text(text, encoding="utf-8")
         self.more = ["--mask-tolerance", TOLERANCES[seed % len(TOLERANCES)], "--mask-vertices", VERTICES[seed % 3],

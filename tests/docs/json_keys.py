@@ -128,6 +128,7 @@ with tempfile.TemporaryDirectory() as here:
     subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,
                    timeout=240)
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")
+    walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-plate.order.json").read_text()), "written plate")
 
     for name in ("width-and-arc", "worst-load", "widest-hinge", "how-many-survive", "which-matters"):
         form = (ROOT / f"docs/studies/{name}.xml").read_text().replace("../gallery", str(ROOT / "docs/gallery"))

@@ -62,6 +62,65 @@ static void two_squares(void **state) {
     }
 }
 
+static bool has_edge(const fw_geometry_polygon *p, fw_geometry_point a, fw_geometry_point b) {
+    for (int i = 0; i < p->count; i++) {
+        fw_geometry_point u = p->vertex[i], v = p->vertex[(i + 1) % p->count];
+        if (u.x_dbu == a.x_dbu && u.y_dbu == a.y_dbu && v.x_dbu == b.x_dbu && v.y_dbu == b.y_dbu)
+            return true;
+    }
+    return false;
+}
+
+static double from_edge(fw_geometry_point a, fw_geometry_point b, fw_geometry_point p) {
+    double dx = b.x_dbu - a.x_dbu, dy = b.y_dbu - a.y_dbu, l2 = dx * dx + dy * dy;
+    double t = ((p.x_dbu - a.x_dbu) * dx + (p.y_dbu - a.y_dbu) * dy) / l2;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    return hypot(p.x_dbu - a.x_dbu - t * dx, p.y_dbu - a.y_dbu - t * dy);
+}
+
+/* by every vertex of every polygon against every edge that two of them share */
+static double clear_by_hand(const fw_geometry_merged *m) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < m->n; i++)
+        for (int k = 0; k < m->polygon[i].count; k++) {
+            fw_geometry_point a = m->polygon[i].vertex[k],
+                              b = m->polygon[i].vertex[(k + 1) % m->polygon[i].count];
+            bool cut = false;
+            for (int j = 0; j < m->n; j++)
+                cut = cut || has_edge(&m->polygon[j], b, a);
+            for (int j = 0; cut && j < m->n; j++)
+                for (int v = 0; v < m->polygon[j].count; v++) {
+                    fw_geometry_point p = m->polygon[j].vertex[v];
+                    bool end = (p.x_dbu == a.x_dbu && p.y_dbu == a.y_dbu) ||
+                               (p.x_dbu == b.x_dbu && p.y_dbu == b.y_dbu);
+                    if (!end) least = fmin(least, from_edge(a, b, p));
+                }
+        }
+    return least * 1e-9;
+}
+
+/* cuts and what is nearest to them: of a square with random holes, and of one without */
+static void clearance_of_cuts(void **state) {
+    (void)state;
+    fw_geometry_merged m;
+    const fw_geometry_merge_input alone = {box(0, 0, 10, 10), 0};
+    assert_int_equal(fw_geometry_merge(arena, &alone, 1, first, 1, 4094, &m), FW_OK);
+    assert_true(isinf(m.clear_m));
+    srand(21);
+    for (int round = 0; round < 40; round++) {
+        fw_geometry_merge_input in[10] = {{box(0, 0, 1000, 1000), 0}};
+        for (int i = 1; i < 10; i++) {
+            int32_t x = 20 + 100 * i - rand() % 60, y = 20 + rand() % 800;
+            in[i] =
+                (fw_geometry_merge_input){box(x, y, x + 3 + rand() % 30, y + 3 + rand() % 150), 1};
+        }
+        assert_int_equal(fw_geometry_merge(arena, in, 10, without, 2, 4094, &m), FW_OK);
+        check_parts(&m);
+        assert_true(m.cuts > 0);
+        assert_near(m.clear_m, clear_by_hand(&m), 1e-15);
+    }
+}
+
 /* a frame of two halves that share two cuts, letters out of it: the joints vanish, each hole costs two
    cuts */
 static void a_frame(void **state) {
@@ -215,6 +274,7 @@ static void nothing_and_too_much(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(clearance_of_cuts, setup, teardown),
         cmocka_unit_test_setup_teardown(two_squares, setup, teardown),
         cmocka_unit_test_setup_teardown(a_frame, setup, teardown),
         cmocka_unit_test_setup_teardown(a_sieve, setup, teardown),

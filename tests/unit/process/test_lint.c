@@ -49,6 +49,12 @@ static void mistakes_of_a_flow(void **state) {
          "step S13"},
         {COPPER, "capacity=\"1\" brings=\"h.copper-acid\" takes=\"copper\"",
          "capacity=\"1\" brings=\"h.copper-acid\" takes=\"gold coppery\"", 272, "step C21"},
+        /* on the carrier it still is a wafer */
+        {SILICON, "<step id=\"S19\" op=\"inspect\"",
+         "<step id=\"S19\" leaves=\"dies\" op=\"inspect\"", 552,
+         "step S19 leaves dies, but layers"},
+        {SILICON, "<step id=\"S22\" op=\"clean\"", "<step id=\"S22\" leaves=\"dies\" op=\"clean\"",
+         552, "has parted the wafer already"},
         {SILICON, "in-source=\"yes\" mask=\"M1\"", "in-source=\"yes\"", 274, "without naming"},
         {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>", "", 274,
          "develops 'resist'"},
@@ -205,6 +211,32 @@ static void shared_hazards(void **state) {
         FW_INPUT);
     expect(174, "'h.hf-organic' is hydrofluoric acid");
     expect(174, "'h.hf-copper' is hydrofluoric acid");
+}
+
+/* from which step on a sheet is of dies */
+static void sheets_go_over_to_dies(void **state) {
+    (void)state;
+    static const struct {
+        const char *flow, *last_of_wafers; /* NULL: all are */
+    } packs[] = {
+        {SILICON, "S20"}, {"silicon-on-glass", "G48"}, {COPPER, NULL}, {"soi-deep-rie", NULL}};
+    for (size_t i = 0; i < sizeof packs / sizeof packs[0]; i++) {
+        diags = fw_diags_new(arena);
+        const fw_process_flow *f = read_pack(arena, packs[i].flow, NULL, NULL, &diags);
+        assert_non_null(f);
+        bool dies = false;
+        for (int k = 0; k < f->nstep; k++) {
+            assert_int_equal(fw_process_step_is_of_dies(f, k), dies);
+            dies = dies ||
+                   (packs[i].last_of_wafers && strcmp(f->step[k].id, packs[i].last_of_wafers) == 0);
+        }
+        assert_int_equal(dies, packs[i].last_of_wafers != NULL);
+    }
+    /* what comes off the carrier is dies, though the pack says nothing of it */
+    diags = fw_diags_new(arena);
+    assert_non_null(read_pack(arena, SILICON, " attended=\"10\" leaves=\"dies\">",
+                              " attended=\"10\">", &diags));
+    expect(552, "after step S20 nothing is left between the dies");
 }
 
 /* a copy of the exposure behind itself */
@@ -456,6 +488,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(uncertainties_make_sense, setup, teardown),
         cmocka_unit_test_setup_teardown(the_packs_own_wafer, setup, teardown),
         cmocka_unit_test_setup_teardown(steps_that_do_nothing, setup, teardown),
+        cmocka_unit_test_setup_teardown(sheets_go_over_to_dies, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
     };

@@ -132,6 +132,13 @@ static inline plate *plate_new(double bar) {
                                               .pitch_x_m = none,
                                               .pitch_y_m = none,
                                               .plate_m = none,
+                                              .order = {.scale = 1,
+                                                        .size_m = none,
+                                                        .thickness_m = none,
+                                                        .cd_m = none,
+                                                        .registration_m = none,
+                                                        .defect_m = none,
+                                                        .quantity = 1},
                                               .title = "TINY PLATE"};
     p->input = (fw_wafer_input){.device = &p->device,
                                 .table = &p->table,

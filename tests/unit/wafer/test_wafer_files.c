@@ -306,11 +306,12 @@ static void cd_tolerance(void **state) {
                                                         .cd_m = row[i].stated_m,
                                                         .registration_m = none,
                                                         .defect_m = none,
+                                                        .scale = 1,
                                                         .quantity = 2};
         const fw_wafer *w = plate_build(p);
         fw_wafer_written written;
         fw_text out = fw_text_new(p->arena);
-        assert_int_equal(fw_wafer_written_of(p->arena, w, &written), FW_OK);
+        assert_int_equal(fw_wafer_written_of(p->arena, w, 0, &written), FW_OK);
         assert_int_equal(fw_wafer_write_written_order(w, &written, NULL, 0, &out), FW_OK);
         const char *line = strstr(out.data, "CD tolerance +-");
         assert_non_null(line);
