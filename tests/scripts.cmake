@@ -102,6 +102,9 @@ fw_script_test(docs.solids LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/
 fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(docs.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/names.py)
+# what the schema for editors refuses and takes, before the program
+fw_script_test(docs.schema COMMAND ${Python3_EXECUTABLE} tests/docs/schema.py ${FW_PROGRAM} TIMEOUT 900)
+set_tests_properties(docs.schema PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(docs.theory LABEL longer COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
 fw_script_test(docs.limits COMMAND ${Python3_EXECUTABLE} tests/docs/limits.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 1500)
