@@ -11,7 +11,7 @@ FACTOR = {"um": 1e3, "deg": math.pi / 180, "um2": 1e6, "1": 1.0}
 
 
 def number(value):
-    return repr(round(value, 9)) if value != int(value) else "%d" % value
+    return "%d" % round(value) if abs(value - round(value)) < 1e-9 * max(1, value) else "%.16g" % value
 
 
 def category(rule):
