@@ -34,21 +34,24 @@ class DevicePCell(pya.PCellDeclarationHelper):
     def display_text_impl(self):
         return "%s, %s" % (self.title or self.file, self.flow)
 
-    def changed(self):
+    def changed(self, values):
+        """{parameter: value} of what is not as in the file; values: all of the PCell's by name"""
         if self.path is None:
-            pairs = [p.split("=", 1) for p in re.split(r"[;\n]", self.set) if p.strip()]
+            pairs = [p.split("=", 1) for p in re.split(r"[;\n]", values["set"]) if p.strip()]
             if any(len(p) != 2 for p in pairs):
-                raise program.Failure(["'%s': parameters are written NAME=VALUE, with ; between, for example link=120 um; arc=230 deg" % self.set])
+                raise program.Failure(["'%s': parameters are written NAME=VALUE, with ; between, for example link=120 um; arc=230 deg" % values["set"]])
             return {k.strip(): v.strip() for k, v in pairs}
-        now = {k: v for k, v, _ in program.parameters(program.read(self.path) or program.ET.Element("none"))}
-        return {key: getattr(self, name) for name, key in self.own.items() if getattr(self, name).strip() != now.get(key, "").strip()}
+        root = program.read(self.path)
+        now = {k: v for k, v, _ in program.parameters(root)} if root is not None else {}
+        return {key: values[name] for name, key in self.own.items() if values[name].strip() != now.get(key, "").strip()}
 
     def wanted(self, info):
         return self.layers.strip() in ("", "all") or "%d/%d" % (info.layer, info.datatype) in re.split(r"[\s,;]+", self.layers)
 
     def produce_impl(self):
         try:
-            data, rejected, broken = program.mask(self.path or self.file, self.flow, self.changed())
+            values = {name: getattr(self, name) for name in self.own} or {"set": getattr(self, "set", "")}
+            data, rejected, broken = program.mask(self.path or self.file, self.flow, self.changed(values))
             self.draw(data)
             if rejected:
                 self.say(["REJECTED: a hinge leaves its elastic range; flexwright check says which, and what would be accepted"])

@@ -39,9 +39,8 @@ def plan(path, settings=None, out=None, window=None):
     drawn = {p.stem for p in masks}
     # a flow whose mask is not made has the outlines with their markers all the same
     masks += [p for p in sorted((out / "masks").glob("*.violations.gds")) if p.name[:-len(".violations.gds")] not in drawn]
-    if not masks or status not in (0, 1, 4):
-        if not masks:
-            raise program.Failure(program.errors(said, status))
+    if not masks:
+        raise program.Failure(program.errors(said, status))
     return [show(gds, path, settings, window) for gds in masks]
 
 
@@ -107,9 +106,7 @@ def selected(window):
         declaration = instance.pcell_declaration() if instance.is_pcell() else None
         if isinstance(declaration, library.DevicePCell):
             values = instance.pcell_parameters_by_name()
-            path = declaration.path or values["file"]
-            now = {k: v for k, v, _ in program.parameters(program.read(path) or program.ET.Element("none"))}
-            return path, {key: values[name] for name, key in declaration.own.items() if values[name].strip() != now.get(key, "").strip()}
+            return declaration.path or values["file"], declaration.changed(values)
     return None
 
 
