@@ -3,6 +3,7 @@
 """make_tech.py PROGRAM [TO]: the technologies of tech/, one for each flow of masks/: layers and properties as the program writes them
 beside a mask, and the rules as a DRC script. FLEXWRIGHT_DATA: a laboratory's own tables. tests/klayout compares."""
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -19,7 +20,8 @@ DEVICE = """<device xmlns="urn:flexwright:device:1" name="any"><flow ref="%s"/>%
 
 
 def body():
-    text = (HERE.parent / "docs/gallery/reference-six-bar/device.xml").read_text(encoding="utf-8")
+    here = HERE / "devices/reference-six-bar.xml"  # installed, else in the source
+    text = (here if here.exists() else HERE.parent / "docs/gallery/reference-six-bar/device.xml").read_text(encoding="utf-8")
     rest = text[text.index("<parameter"):text.index("</device>")]
     lines = [line for line in rest.splitlines() if "<flow " not in line]
     return re.sub(r' flow="[^"]*"', "", "\n".join(lines))
@@ -47,7 +49,8 @@ def technologies(program, flows):
 
 def main():
     to = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else HERE / "tech"
-    flows = sorted(p.stem for p in (HERE.parent / "masks").glob("*.xml"))
+    tables = pathlib.Path(os.environ.get("FLEXWRIGHT_DATA", HERE.parent)) / "masks"
+    flows = sorted(p.stem for p in tables.glob("*.xml"))
     for name, text in technologies(sys.argv[1], flows).items():
         (to / name).parent.mkdir(parents=True, exist_ok=True)
         (to / name).write_text(text, encoding="utf-8")

@@ -92,7 +92,7 @@ try:
     out["categories"] = [[c.path() for c in v.rdb(0).each_category()] if v.num_rdbs() else [] for v in shown]
     shown[0].save_image(str(here / "shown.png"), 900, 700)
     text = (here / "narrow.xml").read_text()
-    (here / "narrow.xml").write_text(text.replace('width="2 um"', 'width="%s"' % wide))
+    (here / "narrow.xml").write_text(text.replace('gap="5 um"', 'gap="8 um"'))
     again = menu.reload(window)
     out["reloaded"] = [again == views, [window.view(i).rdb(0).num_items() if window.view(i).num_rdbs() else 0 for i in again], window.views()]
     try:
@@ -102,4 +102,3 @@ try:
 except Exception:
     out["trace"] = traceback.format_exc()
 (here / "result.json").write_text(json.dumps(out))
-pya.Application.instance().exit(0)

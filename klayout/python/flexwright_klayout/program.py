@@ -7,7 +7,6 @@ import re
 import shutil
 import subprocess
 import tempfile
-import time
 import xml.etree.ElementTree as ET
 
 HERE = pathlib.Path(__file__).resolve().parents[2]  # the package: share/flexwright/klayout, or klayout/ of the source
@@ -91,24 +90,14 @@ def flows(root):
     return [e.get("ref", "") for e in root.findall(SPACE + "flow")]
 
 
-def wait(arguments, **options):
-    """a run that lets the window live"""
+def wait(arguments):
+    """status and messages of a run. No events of the window are handled meanwhile: KLayout would ask at once whether to reload the files
+    that the run writes."""
     try:
-        from pya import QApplication  # not where KLayout was built without Qt
-        alive = QApplication.processEvents
-    except (ImportError, AttributeError):
-        alive = None
-    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as said:
-        try:
-            run = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=out, stderr=said, **options)
-        except OSError as error:
-            raise Failure(["%s cannot be run: %s" % (arguments[0], error.strerror)]) from error
-        while run.poll() is None:
-            if alive:
-                alive()
-            time.sleep(0.01)
-        said.seek(0)
-        return run.returncode, said.read().decode("utf-8", "replace")
+        done = subprocess.run(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
+    except OSError as error:
+        raise Failure(["%s cannot be run: %s" % (arguments[0], error.strerror)]) from error
+    return done.returncode, done.stderr.decode("utf-8", "replace")
 
 
 def errors(text, status):
