@@ -71,6 +71,12 @@ try:
             out["xor_any"] = (region(layout, cell) ^ region(changed, changed.top_cell())).area()
     layout.write(str(here / "written.gds"))
 
+    # every device of the gallery in the first of its flows: outlines, and no message
+    out["gallery"] = {}
+    for name in sorted(p.stem for p in (program.HERE / "devices").glob("*.xml")):
+        cell, _ = place(layout, name, {})
+        out["gallery"][name] = [region(layout, cell).area(), [t for t in texts(cell) if "error" in t or "declaration" in t]]
+
     # the file changes: what is drawn of it follows
     mine = here / "devices/mine.xml"
     cell, _ = place(layout, "mine", {"flow": "al-masked-rie"})

@@ -84,6 +84,13 @@ class Package(unittest.TestCase):
         self.assertEqual(after, changed)
         self.assertNotEqual(before, after)
 
+    def test_every_device_is_drawn(self):
+        """each with its own parameters, beside the others"""
+        self.assertGreater(len(self.out["gallery"]), 6)
+        for name, (area, said) in self.out["gallery"].items():
+            self.assertEqual(said, [], name)
+            self.assertGreater(area, 0, name)
+
     def test_redraws_quickly(self):
         """a second on a quiet machine; what did not change is not drawn again"""
         print("first %(first_s).2f s, other parameter %(redraw_s).2f s, other layers %(again_s).2f s, plan %(plan_s).1f s" % self.out)

@@ -87,11 +87,16 @@ class DevicePCell(pya.PCellDeclarationHelper):
             y -= LINE_UM
 
 
+def declared(name, path):
+    """a PCell of a class of its own: KLayout's helper makes parameters attributes of the class"""
+    return type("DevicePCell", (DevicePCell,), {})(name, path)
+
+
 class Flexwright(pya.Library):
     def __init__(self):
         super().__init__()
         self.description = "Flexwright: compliant micromanipulators"
         for name, path in program.device_files().items():
-            self.layout().register_pcell(name, DevicePCell(name, path))
-        self.layout().register_pcell("device file", DevicePCell("", None))
+            self.layout().register_pcell(name, declared(name, path))
+        self.layout().register_pcell("device file", declared("", None))
         self.register("Flexwright")
