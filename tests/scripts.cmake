@@ -93,6 +93,11 @@ fw_script_test(accept.nets COMMAND ${Python3_EXECUTABLE} tests/accept/nets.py ${
 fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
 # width and space as written before KLayout's, in both directions; with FW_TEST_ALL=1 24 devices
 fw_script_test(accept.written COMMAND tests/accept/written_rules.py ${FW_PROGRAM} TIMEOUT 600)
+# the package for KLayout; its rules before the program's on random devices (FW_DRC_COUNT=200: many)
+fw_script_test(klayout.package COMMAND /usr/bin/python3 tests/klayout/test_package.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(klayout.rules COMMAND /usr/bin/python3 tests/klayout/rules.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(klayout.gdspy COMMAND /usr/bin/python3 tests/klayout/gdspy_cell.py ${FW_PROGRAM})
+set_tests_properties(klayout.package klayout.rules klayout.gdspy PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
@@ -102,6 +107,9 @@ fw_script_test(docs.solids LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/
 fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(docs.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/names.py)
+# what the schema for editors refuses and takes, before the program
+fw_script_test(docs.schema COMMAND ${Python3_EXECUTABLE} tests/docs/schema.py ${FW_PROGRAM} TIMEOUT 900)
+set_tests_properties(docs.schema PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(docs.theory LABEL longer COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
 fw_script_test(docs.limits COMMAND ${Python3_EXECUTABLE} tests/docs/limits.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 1500)

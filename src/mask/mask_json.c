@@ -351,6 +351,7 @@ static fw_status certificate(fw_json *json, const fw_mask *mask, const char *gds
     head(json, mask, gds_sha256);
     proven(json, mask);
     findings(json, mask);
+    FW_TRY(fw_mask_rules_json(json, mask->table));
     fw_json_line(json, 2);
     fw_json_list(json, "layers");
     for (int k = 0; k < mask->table->nlayer; k++)

@@ -79,7 +79,7 @@ static void add_rule(fw_mask_rules *r, const fw_mask_rule_kind_row *kind, int la
                                          .place = l->place};
 }
 
-static fw_status list_rules(fw_mask_rules *r) {
+fw_status fw_mask_rules_list(fw_mask_rules *r) {
     const fw_mask_table *t = r->table;
     size_t most = (size_t)t->nrule + 3 * (size_t)t->nlayer;
     FW_NEED(r->rule = fw_arena_array(r->arena, fw_mask_rule, most));
@@ -148,7 +148,7 @@ static fw_status look_at_layer(fw_mask_rules *r, int k, fw_mask_measure *m) {
 
 fw_status fw_mask_rules_start(fw_mask_rules *r, fw_mask_measure *measure) {
     int n = r->table->nlayer;
-    FW_TRY(list_rules(r));
+    FW_TRY(fw_mask_rules_list(r));
     FW_NEED(r->search = fw_arena_array(r->arena, fw_mask_rule_search, (size_t)n));
     for (int k = 0; k < n; k++)
         r->search[k] = (fw_mask_rule_search){

@@ -205,6 +205,11 @@ fw_status fw_mask_rules_tell(fw_mask_rules *rules, fw_diags *diags, int *nbroken
 
 /* ---- findings in files ---- */
 
+/* all rules of a table, those that its layers state included, into rule and nrule */
+fw_status fw_mask_rules_list(fw_mask_rules *rules);
+/* rules_json.c: the same as `rules` of the certificate */
+fw_status fw_mask_rules_json(fw_json *json, const fw_mask_table *table);
+
 /* the highest layer up to 60 that the table does not use */
 int fw_mask_marker_layer(const fw_mask_table *table);
 

@@ -27,6 +27,190 @@ static void schema_decimal(fw_text *out, const fw_xml_attribute_row *a) {
     fw_text_add(out, "</data>");
 }
 
+/* ---- values with units, as patterns ----
+   What the program refuses by the form of a value: a lone number without the unit that is wanted, or with a unit of
+   another dimension, a unit that there is not, a comma, two values side by side. A regular expression cannot count: of
+   products of several units ("N m/rad") only the symbols are looked at, of longer expressions that values and operators
+   alternate; parentheses, names and what comes out of it are the program's to judge. Nothing that the program takes is
+   refused. Test: test_device_table.c, tests/docs/schema.py. */
+
+#define SCHEMA_NUMBER   "([0-9]+(\\.[0-9]*)?|\\.[0-9]+)([eE][+\\-]?[0-9]+)?"
+#define SCHEMA_NAME     "[A-Za-z_][A-Za-z0-9_]*"
+#define SCHEMA_SIGNS    "[\\s+\\-]*"
+#define SCHEMA_EXPONENT "(\\^-?[0-9]{1,3}|[0-9]{1,3})?"
+#define SCHEMA_OPEN     "[\\s+\\-(]*(" SCHEMA_NAME "\\s*\\([\\s+\\-(]*)*"
+#define SCHEMA_CLOSE    "[\\s)]*"
+
+/* a symbol in a pattern; of ours only braces mean something there */
+static void schema_symbol(fw_text *out, const char *symbol) {
+    if (symbol[0] == '{')
+        fw_text_printf(out, "\\{%.*s\\}", (int)strlen(symbol) - 2, symbol + 1);
+    else
+        fw_text_add(out, symbol);
+}
+
+/* the exponent that takes a symbol to the dimension; 0: none does */
+static int schema_exponent(const char *symbol, fw_quantity_dimension wanted) {
+    enum { LARGEST = 6 };
+    for (int e = -LARGEST; e <= LARGEST; e++) {
+        char text[FW_LABEL];
+        fw_quantity_unit unit;
+        snprintf(text, sizeof text, "%s^%d", symbol, e);
+        bool plain = symbol[0] == '1' || symbol[0] == '%'; /* they take no exponent */
+        if (e == 0 || (plain && e != 1)) continue;
+        const char *given = plain ? symbol : text;
+        if (fw_quantity_unit_parse(given, strlen(given), &unit, NULL, NULL) &&
+            fw_quantity_dimension_equal(unit.dimension, wanted))
+            return e;
+    }
+    return 0;
+}
+
+/* "um|mm|...": every symbol, or with `wanted` those that have this dimension to some power */
+static int schema_symbols(fw_text *out, const fw_quantity_dimension *wanted) {
+    size_t n;
+    int count = 0;
+    const char *const *symbol = fw_quantity_unit_names(&n);
+    for (size_t i = 0; i < n; i++) {
+        if (strcmp(symbol[i], "1") == 0) continue; /* stands before a "/" only */
+        int e = wanted ? schema_exponent(symbol[i], *wanted) : 1;
+        if (e == 0) continue;
+        fw_text_add(out, count++ ? "|" : "");
+        schema_symbol(out, symbol[i]);
+        if (!wanted || symbol[i][0] == '%') continue;
+        if (e == 1)
+            fw_text_add(out, "(\\^?0*1)?");
+        else
+            fw_text_printf(out, e > 0 ? "\\^?0*%d" : "\\^-0*%d", e > 0 ? e : -e);
+    }
+    return count;
+}
+
+#define SCHEMA_JOIN "(\\s+|\\s*[/*.]\\s*)"
+
+/* one symbol with its exponent */
+static void schema_factor(fw_text *out, const char *before) {
+    fw_text_printf(out, "%s(", before);
+    schema_symbols(out, NULL);
+    fw_text_add(out, ")" SCHEMA_EXPONENT);
+}
+
+/* products of two symbols and more, of which the first may be a 1 */
+static void schema_products_of(fw_text *out) {
+    schema_factor(out, "((1" SCHEMA_JOIN ")?");
+    schema_factor(out, "(" SCHEMA_JOIN);
+    schema_factor(out, ")+|1" SCHEMA_JOIN);
+    fw_text_add(out, ")");
+}
+
+#define SCHEMA_DATA "<data type=\"string\"><param name=\"pattern\">"
+#define SCHEMA_END  "</param></data>\n"
+
+/* a number alone, with the unit that it has to have; `wanted` NULL: with any, or none */
+static void schema_number(fw_text *out, const char *name, const fw_quantity_dimension *wanted) {
+    bool bare = !wanted || fw_quantity_dimension_equal(*wanted, (fw_quantity_dimension){0});
+    size_t start = out->length;
+    fw_text_printf(out, "  <define name=\"number.%s\">\n    <choice>\n", name);
+    if (bare) fw_text_add(out, "      " SCHEMA_DATA SCHEMA_SIGNS SCHEMA_NUMBER "\\s*" SCHEMA_END);
+    start = out->length;
+    fw_text_add(out, "      " SCHEMA_DATA SCHEMA_SIGNS SCHEMA_NUMBER "\\s*(");
+    if (schema_symbols(out, wanted) > 0)
+        fw_text_printf(out, ")%s\\s*" SCHEMA_END, wanted ? "" : SCHEMA_EXPONENT);
+    else if (!out->failed)
+        out->length = start; /* only products have this dimension */
+    fw_text_add(out, "      <ref name=\"product\"/>\n      <ref name=\"expression\"/>\n"
+                     "    </choice>\n  </define>\n");
+}
+
+/* "torsional stiffness" as a name of XML */
+static const char *schema_dimension(fw_arena *arena, fw_quantity_dimension d) {
+    const char *text = fw_quantity_dimension_text(arena, d);
+    if (fw_quantity_dimension_equal(d, (fw_quantity_dimension){0})) return "pure";
+    char *name = fw_arena_strndup(arena, text, strlen(text));
+    for (char *c = name; c && *c; c++)
+        if (*c == ' ')
+            *c = '.';
+        else if (*c == '^')
+            *c = '_';
+    return name ? name : "any";
+}
+
+/* is the dimension of this attribute known? */
+static bool schema_fixed(const fw_xml_attribute_row *a) {
+    fw_quantity_unit unit;
+    return (a->kind == FW_KIND_NUMBER || a->kind == FW_KIND_TIMED) && a->unit &&
+           fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) &&
+           fw_quantity_dimension_equal(unit.dimension, a->dimension);
+}
+
+static void schema_products(fw_text *out) {
+    fw_text_add(out,
+                "  <define name=\"product\">\n    " SCHEMA_DATA SCHEMA_SIGNS SCHEMA_NUMBER "\\s*");
+    schema_products_of(out);
+    fw_text_add(out, "\\s*" SCHEMA_END "  </define>\n");
+}
+
+/* An expression: two values and more with operators between them, a name, something in parentheses, or arguments with
+   commas. Written so that at most places one way is open, because libxml2 tries all of them: units are words here, and
+   their "/", "*" and "^" are operators. */
+#define SCHEMA_WORD "[A-Za-z]*[0-9]{0,3}"
+#define SCHEMA_ANY  "A-Za-z0-9_.%{}\\s+\\-*/^()"
+
+/* a number with words behind it, or a name; behind a digit an e begins a unit only where there is such a unit */
+static fw_status schema_operand(fw_text *out) {
+    size_t n;
+    const char *const *symbol = fw_quantity_unit_names(&n);
+    fw_text_add(out, "(" SCHEMA_NUMBER "((\\s+1|\\s+[A-Za-z]" SCHEMA_WORD
+                     "|\\s*%|\\s*\\{[a-z]+\\}|[A-DF-Za-df-z]" SCHEMA_WORD);
+    for (size_t i = 0; i < n; i++)
+        if (symbol[i][0] == 'e' || symbol[i][0] == 'E')
+            fw_text_printf(out, "|%s[0-9]{0,3}", symbol[i]);
+    fw_text_add(out, ")((\\s+|\\s*\\.\\s*)[A-Za-z]" SCHEMA_WORD ")*)?|" SCHEMA_NAME ")");
+    return fw_text_end(out);
+}
+
+static fw_status schema_expressions(fw_text *out) {
+    fw_text value = fw_text_new(out->arena);
+    FW_TRY(schema_operand(&value));
+    const char *v = value.data;
+    fw_text_add(out, "  <define name=\"expression\">\n    <choice>\n");
+    fw_text_printf(out,
+                   "      " SCHEMA_DATA SCHEMA_OPEN "%s" SCHEMA_CLOSE "([+\\-*/^]" SCHEMA_OPEN
+                   "%s" SCHEMA_CLOSE ")+" SCHEMA_END,
+                   v, v);
+    fw_text_add(out, "      " SCHEMA_DATA SCHEMA_OPEN SCHEMA_NAME SCHEMA_CLOSE SCHEMA_END);
+    fw_text_printf(out,
+                   "      " SCHEMA_DATA SCHEMA_SIGNS "(" SCHEMA_NAME "\\s*)?\\(" SCHEMA_OPEN
+                   "%s" SCHEMA_CLOSE SCHEMA_END,
+                   v);
+    fw_text_add(out, "      " SCHEMA_DATA "[" SCHEMA_ANY "]*\\([" SCHEMA_ANY "]+,[," SCHEMA_ANY
+                     "]+" SCHEMA_END "    </choice>\n  </define>\n");
+    return FW_OK;
+}
+
+/* definitions of the dimensions that the table's attributes have, each once */
+static fw_status schema_dimensions(const fw_xml_table *table, fw_text *out) {
+    fw_quantity_dimension known[FW_ELEMENTS_MOST];
+    int n = 0;
+    const fw_xml_element_row *e;
+    for (int i = 0; (e = fw_xml_row_at(table, i)) != NULL; i++) {
+        fw_xml_attributes all;
+        FW_TRY(fw_xml_attributes_of(out->arena, e, &all));
+        for (int k = 0; k < all.count; k++) {
+            const fw_xml_attribute_row *a = &all.item[k];
+            bool new = schema_fixed(a) && n < FW_ELEMENTS_MOST;
+            for (int j = 0; j < n; j++)
+                new = new && !fw_quantity_dimension_equal(known[j], a->dimension);
+            if (!new) continue;
+            known[n++] = a->dimension;
+            schema_number(out, schema_dimension(out->arena, a->dimension), &a->dimension);
+        }
+    }
+    schema_number(out, "any", NULL);
+    schema_products(out);
+    return schema_expressions(out);
+}
+
 static void schema_value(fw_text *out, const fw_xml_attribute_row *a) {
     if (a->kind == FW_KIND_WORD || a->kind == FW_KIND_WORDS) {
         const char *open = a->kind == FW_KIND_WORD ? "" : "<list><zeroOrMore>";
@@ -42,8 +226,11 @@ static void schema_value(fw_text *out, const fw_xml_attribute_row *a) {
         schema_pattern(out, "[A-Za-z_][A-Za-z0-9_\\-]{0,63}");
     else if (a->kind == FW_KIND_NAME)
         schema_pattern(out, "[A-Za-z_][A-Za-z0-9_]{0,63}");
-    else if (is_expression(a->kind))
+    else if (a->kind == FW_KIND_TABLE)
         schema_pattern(out, "[ -~\\s]*\\S[ -~\\s]*");
+    else if (is_expression(a->kind))
+        fw_text_printf(out, "<ref name=\"number.%s\"/>",
+                       schema_fixed(a) ? schema_dimension(out->arena, a->dimension) : "any");
     else
         fw_text_add(out, "<text/>");
 }
@@ -121,6 +308,7 @@ fw_status fw_xml_schema(const fw_xml_table *table, fw_text *out) {
             fw_text_add(out, "      <empty/>\n");
         fw_text_add(out, "    </element>\n  </define>\n");
     }
+    FW_TRY(schema_dimensions(table, out));
     fw_text_add(out, "</grammar>\n");
     return fw_text_end(out);
 }

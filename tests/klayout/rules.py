@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""rules.py PROGRAM [--keep DIR]: the DRC script of a flow's rules before the program's own checker, on random devices.
+
+FW_DRC_COUNT (4; with FW_TEST_ALL=1, as in ./test --all, 24; 200 on demand) devices of random_devices.py from seed FW_DRC_FIRST (40) on,
+whose masks break rules: limits are larger than the tables', as warnings. What the script finds lies in places of the certificate, and
+each of its places has something of the script's in it."""
+import argparse
+import collections
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path[:0] = [str(ROOT / "tests/accept"), str(ROOT / "klayout/python")]
+sys.dont_write_bytecode = True
+import random_devices  # noqa: E402
+import random_masks  # noqa: E402
+from flexwright_klayout import rules as drc  # noqa: E402
+
+ROWS = """
+<rule kind="width" layer="{device}" min="12 um" source="t" severity="warning"/>
+<rule kind="space" layer="{device}" min="11 um" source="t" severity="warning"/>
+{notch}
+<rule kind="width" layer="text" min="4.5 um" source="t" severity="warning"/>
+<rule kind="feature" layer="marks" wavelength="405 nm" gap="60 um" resist="8 um" min="1.5*sqrt(wavelength*(gap + resist/2))" source="t" severity="warning"/>
+<rule kind="enclosure" layer="text" inside="{device}" min="30 um" source="t" severity="warning"/>
+<rule kind="enclosure" layer="marks" inside="{device}" min="15 um" source="t" severity="warning"/>
+<rule kind="separation" layer="marks" from="text" min="90 um" source="t" severity="warning"/>
+<rule kind="area" layer="text" of="island" min="700 um2" source="t" severity="warning"/>
+<rule kind="area" layer="{device}" of="hole" min="9000 um2" source="t" severity="warning"/>
+<rule kind="angle" layer="{device}" of="polygon" min="100 deg" source="t" severity="warning"/>
+<rule kind="angle" layer="{device}" of="outline" min="85 deg" source="t" severity="warning"/>
+<rule kind="edge" layer="{device}" of="polygon" min="700 nm" source="t" severity="warning"/>
+<rule kind="density" layer="{device}" min="12 %" max="70 %" window="700 um" step="350 um" source="t" severity="warning"/>
+"""
+CHORDS = ("width", "space", "notch", "feature", "enclosure", "separation")
+
+
+def data_with(where):
+    """FLEXWRIGHT_DATA whose tables have the rows above only; every other one with notches"""
+    where.mkdir()
+    os.symlink(ROOT / "processes", where / "processes")
+    (where / "masks").mkdir()
+    for k, table in enumerate(sorted((ROOT / "masks").glob("*.xml"))):
+        text = re.sub(r' min-(?:width|space)="[^"]*"', "", table.read_text(encoding="utf-8"))
+        head, tail = text.split("<rule ", 1)[0], text[text.rindex("<rule "):].split("/>", 1)[1]
+        device = re.search(r'gds="1/0" id="(\w+)"', text).group(1)
+        notch = '<rule kind="notch" layer="%s" min="9 um" source="t" severity="warning"/>' % device if k % 2 else ""
+        (where / "masks" / table.name).write_text(head + ROWS.format(device=device, notch=notch) + tail, encoding="utf-8")
+    return where
+
+
+def off_edge(x, y, edge):
+    (ax, ay), (bx, by) = edge
+    dx, dy = bx - ax, by - ay
+    square = dx * dx + dy * dy
+    t = max(0.0, min(1.0, ((x - ax) * dx + (y - ay) * dy) / square)) if square else 0
+    return math.hypot(x - ax - t * dx, y - ay - t * dy)
+
+
+def inside(points, box, near):
+    return any(box[0] - near <= x <= box[2] + near and box[1] - near <= y <= box[3] + near for x, y in points)
+
+
+def reaches(points, box, near):
+    """do the points' own box and that box meet?"""
+    x, y = [p[0] for p in points], [p[1] for p in points]
+    return min(x) <= box[2] + near and max(x) >= box[0] - near and min(y) <= box[3] + near and max(y) >= box[1] - near
+
+
+class Verdict:
+    def __init__(self):
+        self.wrong, self.count, self.straight = [], collections.Counter(), 0
+
+    def say(self, text):
+        self.wrong.append(text)
+        print("FAIL  " + text, flush=True)
+
+    def compare(self, name, rule, findings, found):
+        kind, near = rule["kind"], 1.5
+        if kind in CHORDS:
+            near += 0.25e3 * rule["min"]
+        boxes = [[1e3 * v for v in f["box_um"]] for f in findings]
+        self.count[kind + " places"] += len(findings)
+        self.count[kind + " shapes"] += len(found)
+        for shape in found:
+            if not any(reaches(shape, box, near) for box in boxes):
+                self.say("%s: %s: KLayout alone has %s" % (name, drc.category(rule), shape))
+        for f, box in zip(findings, boxes):
+            ends = [[1e3 * v for v in p] for p in f["at_um"]]
+            if kind in CHORDS and f["value"] > 0:
+                there = any(len(s) == 4 and min(max(off_edge(*ends[0], s[:2]), off_edge(*ends[1], s[2:])),
+                                                max(off_edge(*ends[0], s[2:]), off_edge(*ends[1], s[:2]))) < 1 for s in found)
+            elif kind in CHORDS:
+                there = any(reaches(s, box, near) for s in found)
+            elif kind == "density":
+                there = any(inside(s, box, near) for s in found)
+            else:  # a corner, an edge, an island or hole: the very same
+                there = any(reaches(s, box, near) and abs(min(p[0] for p in s) - box[0]) < near and abs(max(p[1] for p in s) - box[3]) < near
+                            for s in found)
+            if not there and kind == "edge" and self.straight > 0:
+                self.straight -= 0.5  # KLayout drops a vertex exactly between its neighbours, and with it two edges
+                self.count["edges between straight vertices"] += 1
+            elif not there:
+                self.say("%s: %s: KLayout has not %s" % (name, drc.category(rule), {k: f[k] for k in ("value", "at_um", "pieces")}))
+
+
+def draw(program, seed, where, data):
+    """[(name, certificate, gds)] of the device's masks"""
+    text, options = random_devices.device(seed)
+    if seed % 3 == 2:
+        text = text.replace('ref="al-masked-rie"', 'ref="soi-deep-rie"')
+    file, out = where / ("%d.xml" % seed), where / str(seed)
+    file.write_text(text, encoding="utf-8")
+    fast = [o for o in random_masks.FAST if o not in ("--mask-format", "all")]
+    done = subprocess.run([program, "mask", file, *fast, *options, "--mask-format", "gds", "-o", out], capture_output=True, text=True, check=False,
+                          env=dict(os.environ, FLEXWRIGHT_DATA=str(data)))
+    found = []
+    for path in sorted((out / "masks").glob("*.json")) if out.exists() else []:
+        if "." in path.stem or not path.with_suffix(".gds").exists() or path.stem.endswith("-coupons"):
+            continue
+        found.append(("seed %d %s" % (seed, path.stem), json.loads(path.read_text(encoding="utf-8")), path.with_suffix(".gds")))
+    return found, done
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--keep", type=pathlib.Path)
+    asked = parser.parse_args()
+    if not shutil.which("klayout"):
+        print("SKIPPED: klayout is not installed (Debian: apt-get install klayout)")
+        return 77
+    first, count = (int(os.environ.get("FW_DRC_" + k, v)) for k, v in (("FIRST", 40), ("COUNT", 24 if os.environ.get("FW_TEST_ALL") else 4)))
+    verdict, masks, seed = Verdict(), [], first
+    devices = 0
+    with tempfile.TemporaryDirectory() as temporary:
+        where = asked.keep or pathlib.Path(temporary)
+        where.mkdir(parents=True, exist_ok=True)
+        data = data_with(where / "data")
+        while devices < count and seed < first + 3 * count + 10:
+            found, done = draw(asked.program, seed, where, data)
+            if not found and not re.search(r"error: .*\[FW-D\d+\]", done.stderr):
+                verdict.say("seed %d: status %d: %s" % (seed, done.returncode, done.stderr[-500:]))
+            seed, devices = seed + 1, devices + bool(found)
+            masks += found
+        for _, certificate, gds in masks:
+            gds.with_suffix(".lydrc").write_text(drc.script(certificate), encoding="utf-8")
+        (where / "jobs.json").write_text(json.dumps([{"script": str(gds.with_suffix(".lydrc")), "gds": str(gds)} for _, _, gds in masks]))
+        home = where / "home"
+        home.mkdir()
+        done = subprocess.run(["klayout", "-b", "-r", HERE / "run_rules.rb", "-rd", "jobs=%s" % (where / "jobs.json"), "-rd",
+                               "result=%s" % (where / "result.json")], capture_output=True, text=True, check=False,
+                              env=dict(os.environ, QT_QPA_PLATFORM="offscreen", LC_ALL="C", KLAYOUT_HOME=str(home), KLAYOUT_PATH=str(home)))
+        if not (where / "result.json").exists():
+            sys.exit("KLayout does not run: " + done.stdout + done.stderr)
+        seconds = []
+        for (name, certificate, _), result in zip(masks, json.loads((where / "result.json").read_text(encoding="utf-8"))):
+            seconds.append(result["s"])
+            for rule in certificate["rules"]:
+                shapes = [s for path, some in result["categories"].items() for s in some
+                          if path == drc.category(rule) or path.startswith(drc.category(rule) + ", ")]
+                own = [f for f in certificate["findings"] if f["rule"] == rule["kind"] and f["layer"] == rule["layer"] and f["other"] == rule["other"]
+                       and f["limit"] in (rule["min"], rule["max"])]
+                verdict.straight = sum(y["straight_vertices"] for y in certificate["layers"] if y["gds"] == rule["layer"])
+                verdict.compare(name, rule, own, shapes)
+    print("%d devices, seeds %d to %d, %d masks: %s; %d wrong; %.1f s a mask in KLayout, at most %.1f" %
+          (devices, first, seed - 1, len(masks), ", ".join("%s %d" % c for c in sorted(verdict.count.items())), len(verdict.wrong),
+           sum(seconds) / len(seconds), max(seconds)))
+    enough = devices == count and all(verdict.count[k + " places"] for k in (*CHORDS, "area", "angle", "edge", "density"))
+    if not enough:
+        print("too few devices or kinds of findings")
+    return 0 if enough and not verdict.wrong else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
