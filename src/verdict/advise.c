@@ -458,6 +458,17 @@ static bool lacks_part(const fw_verdict *verdict) {
     return verdict->layout && verdict->layout->nmissing > 0;
 }
 
+/* a joint or a spring that no drawing has: no change of a number draws it */
+static bool lacks_joint(const fw_verdict *verdict) {
+    for (int i = 0; verdict->layout && i < verdict->layout->nmissing; i++)
+        if (verdict->layout->missing[i].number == 130) return true;
+    return false;
+}
+
+static const char never_drawn[] =
+    "a joint or a spring that is never drawn is in the motion, and no change of a number makes the "
+    "design accepted with it: draw what does its work";
+
 static const char ended_early[] =
     "the search was ended where it would have taken too long: there may be smaller changes";
 
@@ -502,6 +513,10 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict) {
     if (verdict->decision == FW_ACCEPT || !options->with_advice || !options->restated.with)
         return FW_OK;
+    if (lacks_joint(verdict)) {
+        verdict->advice_note = never_drawn;
+        return FW_OK;
+    }
     fw_verdict_trial trial;
     advice a = {.trial = &trial, .out = verdict};
     const char *why = hopeless(device, verdict);
