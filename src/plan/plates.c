@@ -227,11 +227,12 @@ static void of_workspace(const fw_layout *layout, const fw_mechanism *m,
     }
     for (int j = 0; j < FW_SIX; j++)
         at[j] = layout->hinge[j].centre;
+    const fw_device_body *platform = &device->body[2];
+    double off = hypot(m->drawn[2].x_m - platform->x_m, m->drawn[2].y_m - platform->y_m);
     for (int j = 2; j < 4; j++) /* C and D go with the platform, about wherever it is stated */
         way[j] = shift + 2.0 * sin(0.5 * turn) *
                              (hypot(at[j].x - m->drawn[2].x_m, at[j].y - m->drawn[2].y_m) +
-                              hypot(m->drawn[2].x_m - device->body[2].x_m,
-                                    m->drawn[2].y_m - device->body[2].y_m));
+                              (isfinite(off) ? off : 0.0));
     way[1] =
         2.0 * sin(0.5 * fabs(w->peak[0].angle_rad)) * hypot(at[1].x - at[0].x, at[1].y - at[0].y);
     way[4] =
