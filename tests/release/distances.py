@@ -142,17 +142,19 @@ def main():
             refused.setdefault(why.group(1) if why else "no reason", []).append(device.stem)
             if not why or (why.group(1) == "FW-D147" and "whatever the tolerance" in why.group(0)):
                 wrong.append("%s: drawn, but no mask: %s" % (device.stem, said.strip()[:400]))
+                print(wrong[-1], flush=True)
             continue
         compared.append(device)
         windows += got[0]["release"]["window"]
         parts += len(got[0]["release"]["parts"])
-        wrong += list(compare(g, device.stem, *got))
+        for what in compare(g, device.stem, *got):
+            wrong.append(what)
+            print(what, flush=True)
         g.free()
         if len(compared) % 20 == 0:
             print("%d compared, last %s; %d wrong" % (len(compared), device.stem, len(wrong)), flush=True)
         shutil.rmtree(pathlib.Path(where) / ("out-" + device.stem), ignore_errors=True)
     shutil.rmtree(where, ignore_errors=True)
-    print("\n".join(wrong))
     print("not drawn: " + "; ".join("%s %d" % (code, len(which)) for code, which in sorted(refused.items())))
     print("%d devices compared, %d parts, %d with a window, %d refused; %d wrong"
           % (len(compared), parts, windows, sum(map(len, refused.values())), len(wrong)))
