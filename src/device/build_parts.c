@@ -207,6 +207,8 @@ static void build_die(fw_device *d, const fw_xml_record *record) {
                              .frame_m = fw_xml_number_of(record, "frame"),
                              .lane_m = fw_xml_number_of(record, "lane"),
                              .clearance_m = fw_xml_number_of(record, "clearance"),
+                             .anchor_m = fw_xml_number_of(record, "anchor"),
+                             .pad_m = fw_xml_number_of(record, "pad"),
                              .title = fw_xml_text_of(record, "title"),
                              .tethers = !tethers || strcmp(tethers, "no") != 0,
                              .fill = fill && strcmp(fill, "yes") == 0,
@@ -240,6 +242,8 @@ fw_status fw_device_build_parts(fw_device_reader *r) {
                              .frame_m = nan_,
                              .lane_m = nan_,
                              .clearance_m = nan_,
+                             .anchor_m = nan_,
+                             .pad_m = nan_,
                              .tethers = true};
     FW_TRY(build_material(r, NULL));
     FW_TRY(build_flows(r));

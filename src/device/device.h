@@ -348,6 +348,7 @@ typedef struct fw_device_workspace_box { /* <workspace>: platform poses relative
 
 typedef struct fw_device_die { /* <die>; NaN: from the drawn mechanism */
     double width_m, height_m, frame_m, lane_m, clearance_m;
+    double anchor_m, pad_m; /* of bases; of pads of stators: NaN or 0: chosen by the layout */
     const char *title;
     bool tethers;
     bool fill; /* what the flow has for the window: thief and fill */

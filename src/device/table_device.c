@@ -273,6 +273,17 @@ static const fw_xml_attribute_row die_rows[] = {
     {"lane", GAP, .fallback = "chosen by the layout", .sentence = "Width of the dicing lane."},
     {"clearance", GAP, .fallback = "chosen by the layout",
      .sentence = "Between moving parts and the frame."},
+    {"anchor", D_LENGTH, .unit = "um",
+     RANGE(40e-6, 5e-3, "narrower than a tether nothing holds; " WAFER),
+     .fallback = "chosen by the layout",
+     .sentence =
+         "Width of the bases of ground hinges: of their bars, and of what leads from them to "
+         "the frame. What is wider keeps its bond longer in a release."},
+    {"pad", D_LENGTH, .unit = "um",
+     RANGE(100e-6, 5e-3, "a probe needs a square of 80 um, clear of edges; " WAFER),
+     .fallback = "150 um",
+     .sentence = "Side of the part of a stator's pad that is bonded. What is wider keeps its bond "
+                 "longer in a release."},
     {"title", TEXT, .fallback = "the device's name", .sentence = "Written on the die."},
     {"tethers", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "yes",
      .sentence = "Thin bridges that hold the mechanism until they are broken."},

@@ -159,9 +159,10 @@ static fw_status stator_crosses(fw_layout_drawing *d, const fw_geometry_contour 
     }
     if (!*what && fw_layout_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
         fw_geometry_contour bar;
-        FW_TRY(fw_geometry_contour_bar(d->arena, fw_layout_joint_point(d->device, joint[0]),
-                                       fw_layout_joint_point(d->device, joint[1]),
-                                       fw_layout_rule.base_width_m + BASE_M, &bar));
+        FW_TRY(fw_geometry_contour_bar(
+            d->arena, fw_layout_joint_point(d->device, joint[0]),
+            fw_layout_joint_point(d->device, joint[1]),
+            fmax(fw_layout_rule.base_width_m, d->device->die.anchor_m) + BASE_M, &bar));
         if (close_by(c, &bar, LEAST_M, &at)) FW_TRY(name(d, at, "", "the base", what));
     }
     return FW_OK;
@@ -173,6 +174,10 @@ typedef struct candidate {
     double from, ahead, aside; /* along the bar; away from it; then to one side */
     const char *letter;
 } candidate;
+
+static double pad_of(const fw_layout_drawing *d) {
+    return d->device->die.pad_m > 0.0 ? d->device->die.pad_m : PAD_M;
+}
 
 /* bars of the lead and the pad (axis-parallel, on the grid), each a part to unite */
 static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, const candidate *c,
@@ -192,8 +197,9 @@ static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, c
                                        &part[(*npart)++]));
     }
     double text = fw_layout_text_width(c->letter, 9.0 * STROKE_M, STROKE_M);
-    double wide = fmax(PAD_M, text + 2.0 * MARGIN_M), strip = 9.0 * STROKE_M + 2.0 * MARGIN_M;
-    double high = PAD_M + strip;
+    double pad = pad_of(d), wide = fmax(pad, text + 2.0 * MARGIN_M),
+           strip = 9.0 * STROKE_M + 2.0 * MARGIN_M;
+    double high = pad + strip;
     double reach = fmin(fabs(way.x) > 1e-9 ? 0.5 * wide / fabs(way.x) : HUGE_VAL,
                         fabs(way.y) > 1e-9 ? 0.5 * high / fabs(way.y) : HUGE_VAL);
     fw_geometry_vec2 middle = fw_add(end, reach - 0.25 * BACK_M, way);
@@ -204,7 +210,7 @@ static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, c
                                    &part[(*npart)++]));
     *letter_at =
         fw_v(fw_layout_to_grid(x0 + 0.5 * (wide - text)), fw_layout_to_grid(y0 + MARGIN_M));
-    *pad_at = fw_v(fw_layout_to_grid(x0 + 0.5 * wide), fw_layout_to_grid(y0 + strip + 0.5 * PAD_M));
+    *pad_at = fw_v(fw_layout_to_grid(x0 + 0.5 * wide), fw_layout_to_grid(y0 + strip + 0.5 * pad));
     return fw_geometry_contour_rectangle(d->arena, (fw_geometry_box){x0, y0, x0 + wide, y0 + high},
                                          &part[(*npart)++]);
 }

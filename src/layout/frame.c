@@ -44,6 +44,7 @@ static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
         f.middle = fw_add(f.middle, begin + fw_layout_rule.pedestal_share * (cut - begin),
                           side->direction);
         f.half = fw_layout_rule.pedestal_widths * side->half_width_m;
+        if (d->device->die.anchor_m > 0.0) f.half = 0.5 * d->device->die.anchor_m;
     }
     if (n == 2) {
         fw_geometry_vec2 between = fw_sub(fw_layout_joint_point(d->device, joint[1]),
@@ -52,7 +53,9 @@ static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
                                                    d->layout->hinge[joint[1]].keep_out_m);
         f.axis = side->direction;
         f.reach = 0.5 * length - q - fw_layout_rule.pedestal_clear_m;
-        f.half = fmin(fw_layout_rule.pedestal_bar_share * length, f.reach);
+        f.half = fw_layout_rule.pedestal_bar_share * length;
+        if (d->device->die.anchor_m > 0.0) f.half = 0.5 * d->device->die.anchor_m;
+        f.half = fmin(f.half, f.reach);
     }
     return f;
 }

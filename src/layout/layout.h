@@ -85,7 +85,8 @@ typedef struct fw_layout_electrode {
     fw_geometry_box edge_pad;
 } fw_layout_electrode;
 /* What the motion has, or the file asks for, and what finds no room in the drawing: an electrode pair,
-   an eyelet, the tethers of a body. It is left out whole, and the device is not accepted with it. */
+   an eyelet, the tethers of a body; or what is never drawn: a joint that does not turn, a spring between two
+   bodies. It is left out whole, and the device is not accepted with it. */
 typedef struct fw_layout_missing {
     int number;                     /* FW-Dnnn of its warning */
     const fw_device_comb *comb;     /* of the device; else NULL */
@@ -97,6 +98,8 @@ typedef struct fw_layout_missing {
     const char *why;  /* what is in its way, and where: a clause */
     const char *room; /* the nearest change with which it is drawn; NULL: not looked for */
 } fw_layout_missing;
+/* what stands between its `why` and its `room` */
+const char *fw_layout_missing_way(const fw_layout_missing *missing);
 
 typedef struct fw_layout_tether { /* a straight finger of the frame with a neck at the body */
     int body;

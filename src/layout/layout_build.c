@@ -250,26 +250,75 @@ static fw_status give_up(fw_layout_drawing *d) {
     return FW_GEOMETRY;
 }
 
-/* what the mechanism computes and the drawing cannot show: once per file */
-static void say_joints(const fw_device *device, fw_diags *diags) {
-    static const char *const kind[] = {[FW_JOINT_PRISMATIC] = "prismatic",
-                                       [FW_JOINT_DISTANCE] = "distance",
-                                       [FW_JOINT_WELD] = "weld"};
-    if (device->njoint == 0) return;
-    const fw_device_joint *t = &device->joint[0];
-    for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].number == 130) return;
-    fw_diag_warning(diags, 130, t->place,
-                    "%s joint %s is not drawn%s: flexures are the only joints that can be "
-                    "fabricated, so the masks leave its bodies apart; the motion is computed with "
-                    "it",
-                    kind[t->kind], fw_text_name(t->id),
-                    device->njoint > 1 ? ", and so are the other joints that do not turn" : "");
+/* ---- what the motion has and no drawing ----
+   A guide that slides, a rod and a weld hold bodies together in the motion, and the masks leave them apart; so
+   does a spring from one body to another. (A spring to the ground is a load from outside, as a force is.)
+   Decision 60. */
+
+/* where point a of a joint stands as it is stated; not a number: nobody states it */
+static fw_geometry_vec2 stated_at(const fw_device *device, int body, double x_m, double y_m) {
+    if (body == FW_GROUND) return fw_v(x_m, y_m);
+    const fw_device_body *b = &device->body[body];
+    return fw_add(fw_add(fw_v(b->x_m, b->y_m), x_m, fw_polar(b->phi_rad)), y_m,
+                  fw_left(fw_polar(b->phi_rad)));
+}
+
+/* "body cart" or "the ground" */
+static const char *holds_on(fw_layout_drawing *d, int body) {
+    return body == FW_GROUND ? "the ground"
+                             : fw_arena_printf(d->arena, "body %s", d->device->body[body].id);
+}
+
+static const char *instead_of(fw_device_joint_kind kind) {
+    switch (kind) {
+    case FW_JOINT_PRISMATIC:
+        return "two pairs of leaves guide a stage as straight, as in docs/gallery/straight-stage";
+    case FW_JOINT_DISTANCE:
+        return "a body with a width between two hinges is a rod that is drawn, with its mass";
+    case FW_JOINT_WELD:
+        return "draw both as one body: a body may have several <outline> and <plate> elements";
+    }
+    return "";
+}
+
+static fw_status add_undrawn(fw_layout_drawing *d, const char *what, const char *id, int a, int b,
+                             fw_geometry_vec2 at, fw_place place, const char *instead) {
+    fw_layout_missing m = {
+        .number = 130, .body = b >= 0 ? b : a, .at = at, .place = place, .room = instead};
+    const char *from = holds_on(d, a), *to = holds_on(d, b);
+    FW_NEED(from && to ? d : NULL);
+    FW_NEED(m.name = fw_arena_printf(d->arena, "%s %s", what, fw_text_name(id)));
+    FW_NEED(m.why = fw_arena_printf(d->arena,
+                                    "flexures are the only joints that are fabricated, and the "
+                                    "masks leave %s and %s apart",
+                                    from, to));
+    return fw_layout_missing_add(d, m);
+}
+
+static fw_status add_joints(fw_layout_drawing *d) {
+    static const char *const kind[] = {[FW_JOINT_PRISMATIC] = "prismatic joint",
+                                       [FW_JOINT_DISTANCE] = "distance joint",
+                                       [FW_JOINT_WELD] = "weld joint"};
+    const fw_device *device = d->device;
+    for (int i = 0; i < device->njoint; i++) {
+        const fw_device_joint *t = &device->joint[i];
+        FW_TRY(add_undrawn(d, kind[t->kind], t->id, t->body_a, t->body_b,
+                           stated_at(device, t->body_a, t->ax_m, t->ay_m), t->place,
+                           instead_of(t->kind)));
+    }
+    for (int i = 0; i < device->nspring; i++) {
+        const fw_device_spring *s = &device->spring[i];
+        if (s->body_a == FW_GROUND || s->body_b == FW_GROUND) continue;
+        FW_TRY(add_undrawn(d, s->cable ? "cable" : "spring", s->id, s->body_a, s->body_b,
+                           stated_at(device, s->body_a, s->ax_m, s->ay_m), s->place,
+                           "a leaf or a path between both is a spring that is drawn"));
+    }
+    return FW_OK;
 }
 
 /* warnings and notes of a drawing, which are not repeated when the device is drawn again */
 static bool comments_drawing(int number) {
-    static const int of_drawing[] = {127, 131, 138, 139, 189, 255, 258};
+    static const int of_drawing[] = {127, 130, 131, 138, 139, 189, 255, 258};
     for (size_t i = 0; i < sizeof of_drawing / sizeof of_drawing[0]; i++)
         if (number == of_drawing[i]) return true;
     return false;
@@ -348,9 +397,9 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
                                .own = diags,
                                .layout = l,
                                .too_wide = FW_NONE};
-        say_joints(device, diags);
         for (size_t i = 0; i < diags->count; i++)
             d.said = d.said || comments_drawing(diags->item[i].number);
+        FW_TRY(add_joints(&d));
         fw_status status = draw(&d);
         const bool refused = status == FW_GEOMETRY && d.too_wide != FW_NONE && !d.said;
         if (refused) FW_TRY(name_width(&d));

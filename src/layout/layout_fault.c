@@ -156,7 +156,7 @@ fw_status fw_layout_show(fw_layout_drawing *d) {
 }
 
 /* ---- what finds no room ----
-   Kept with its place, and said (FW-D131, FW-D127). The verdict
+   Kept with its place, and said (FW-D131, FW-D127; FW-D130 of what is never drawn). The verdict
    rejects a device whose motion has what its masks lack. docs/theory/layout.md, section 13 */
 
 /* of a try nothing is said, nor of a device that was drawn before */
@@ -175,6 +175,10 @@ fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item) {
         item.name, fw_layout_um(x, item.at.x), fw_layout_um(y, item.at.y),
         item.number == 127 ? "are" : "is", item.why);
     return FW_OK;
+}
+
+const char *fw_layout_missing_way(const fw_layout_missing *missing) {
+    return missing->number == 130 ? "; instead: " : "; nearest room: ";
 }
 
 bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q) {

@@ -94,6 +94,7 @@ static double half_width(const fw_layout_drawing *d, int body) {
         if (isnan(plate)) return isnan(wide) ? 0.5 * fw_layout_rule.neck_width_m : wide;
         return fmin(isnan(wide) ? 0.5 * fw_layout_rule.neck_width_m : wide, plate);
     }
+    if (device->die.anchor_m > 0.0) return 0.5 * device->die.anchor_m;
     double widest = 0.0;
     for (int i = 0; i < device->nbody; i++)
         if (device->body[i].width_m > widest) widest = device->body[i].width_m;

@@ -8,8 +8,8 @@
    flexures, seams and their roots three times the flexure's width besides, so that the strain at a root is
    that of the whole head to exp(-3 pi/2) by Saint-Venant's rule.
 
-   Each is opened by a cut along the way to the nearest edge or hole that has room for its two sides; so
-   nothing else can lie in that way. Cut and cap are as in release.c, and so are moments. In: the body with
+   Each is opened by a cut along the way to the nearest edge or hole that has room for its two sides, and
+   keeps off the cuts of others: so nothing else lies in that way, nor comes there later. Cut and cap are as in release.c, and so are moments. In: the body with
    the holes of its grid. Out: the same with more. Error: a point of the body where holes may lie is at most
    half the pitch and a lattice step's diagonal from an opening. Cost: lattice points times edges near the
    grid's gaps. Test: test_release.c, holes_keep_away. */
@@ -238,9 +238,23 @@ static bool is_free(const grid *g, const way *w) {
     return true;
 }
 
+/* would a hole leave the cuts of others whole? A long cut passes places that are far from every opening. */
+static bool is_off_cuts(const grid *g, fw_geometry_vec2 middle) {
+    const double need = 0.5 * g->hole_m + SEAM_M;
+    for (int i = 0; i < g->outline.count; i++) {
+        const fw_geometry_segment *s = &g->outline.segment[i];
+        fw_geometry_vec2 at;
+        double t;
+        if (!is_seam(s) || at_least(s, middle) > need) continue;
+        if (fw_geometry_segment_nearest(s, middle, &t, &at) < need) return false;
+    }
+    return true;
+}
+
 /* the shortest of the first few */
 static bool find_way(const grid *g, fw_geometry_vec2 middle, way *best) {
     double tried = 0.0; /* ways up to here were tried */
+    if (!is_off_cuts(g, middle)) return false;
     for (int n = 0; n < TRIES; n++) {
         int edge = -1;
         double least = 2.5 * g->pitch_m, t;

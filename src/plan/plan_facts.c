@@ -48,6 +48,10 @@ static void add_areas(const fw_layout *layout, bool islands, fw_process_mask_fac
 static void narrowest(const fw_device *device, const fw_layout *layout,
                       fw_process_mask_facts *facts) {
     facts->narrowest_slot_m = layout->narrowest_gap_m;
+    if (device->release_pitch_m > 0.0) /* holes are openings of the device layer as well */
+        facts->narrowest_slot_m = fmin(
+            facts->narrowest_slot_m,
+            device->release_hole_m > 0.0 ? device->release_hole_m : 0.3 * device->release_pitch_m);
     facts->narrowest_line_m = (double)INFINITY;
     for (int j = 0; j < device->nrevolute; j++)
         if (device->revolute[j].flexure != FW_NONE)

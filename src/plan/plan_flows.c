@@ -2,21 +2,37 @@
 /* The flows computed with what the mask of a die, or the plate of a wafer, hands to them: times, bias,
    judgement, and for a release the distances of the drawing and the least change that opens a window; and
    which measurement pays. */
+#include "base/text.h"
+#include "base/sort.h"
+#include "layout/layout_rules.h"
 #include "plan/stages.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- the release ----
    The least change that opens a window for it: the device is drawn again with it, its distances found again,
    and the flow judged with them.
 
-   Tried are release holes, from the coarsest grid to the finest that can be drawn, then, to 1 um, between the
-   last pitch that opens nothing and the first that does; a wider frame, where the frame is lost first; and
-   narrower bars, where bars alone come free too late. In: a plan with a flow that has no window. Out: words
-   for its reason. Cost: some ten drawings, only for what is refused. Test: test_release_change.c. */
+   Tried are release holes, from the coarsest grid to the finest that can be drawn; where there are some,
+   larger ones; narrower bars, where a bar is free last; and wider frame, bases and pads, whichever would be lost
+   before all that moves is free, all by the same factor. Each is looked for from what is stated in steps, then,
+   to 1 um, between the last that opens nothing and the first that does. Where none opens a window by itself,
+   holes and wider anchors are tried together. In: a plan with a flow that has no window. Out: words for its
+   reason, the least change first: of ln(new/old), new holes counted as a factor of e. Cost: some ten drawings
+   for each, only for what is refused. Test: test_release_change.c. */
+
+typedef enum knob {             /* what may be changed */
+                    KNOB_PITCH, /* m */
+                    KNOB_HOLE,
+                    KNOB_BAR,
+                    KNOB_WIDER, /* factor */
+                    KNOBS
+} knob;
 
 typedef struct change {
-    double pitch_m, frame_m, bar_m; /* 0: as stated */
+    double size[KNOBS];              /* 0: as stated */
+    double frame_m, anchor_m, pad_m; /* as drawn now, of those that are made wider; else 0 */
 } change;
 
 typedef struct answer {
@@ -24,7 +40,14 @@ typedef struct answer {
     double needed_m, lost_m;
 } answer;
 
-static const double FINEST_M = 27e-6, COARSEST_M = 400e-6, STEP_M = 1e-6;
+typedef struct proposal {
+    change made;
+    answer found;
+    double far; /* how large the change is */
+} proposal;
+
+static const double FINEST_M = 27e-6, COARSEST_M = 400e-6, STEP_M = 1e-6, WIDEST = 6.0,
+                    PAD_M = 150e-6, NARROWEST_BAR_M = 30e-6;
 
 /* distances of a drawing from its openings, with the flow's own marks */
 static fw_status solve_release(fw_plan *plan, const fw_plan_flow *pf, const fw_layout *layout,
@@ -37,24 +60,32 @@ static fw_status solve_release(fw_plan *plan, const fw_plan_flow *pf, const fw_l
                             release);
 }
 
+static double to_grid(double x_m) {
+    return STEP_M * round(x_m / STEP_M);
+}
+
 /* the device as changed: bodies are copied where bars become narrower */
 static fw_status changed_device(fw_arena *arena, const fw_device *from, const change *c,
                                 fw_device *to) {
+    double bar = c->size[KNOB_BAR], wider = c->size[KNOB_WIDER];
     *to = *from;
-    if (c->pitch_m > 0.0) {
-        to->release_pitch_m = c->pitch_m;
+    if (c->size[KNOB_PITCH] > 0.0) {
+        to->release_pitch_m = c->size[KNOB_PITCH];
         to->release_hole_m = 0.0; /* in proportion */
     }
-    if (c->frame_m > 0.0) to->die.frame_m = c->frame_m;
-    if (!(c->bar_m > 0.0)) return FW_OK;
+    if (c->size[KNOB_HOLE] > 0.0) to->release_hole_m = c->size[KNOB_HOLE];
+    if (wider > 0.0 && c->frame_m > 0.0) to->die.frame_m = to_grid(wider * c->frame_m);
+    if (wider > 0.0 && c->anchor_m > 0.0) to->die.anchor_m = to_grid(wider * c->anchor_m);
+    if (wider > 0.0 && c->pad_m > 0.0) to->die.pad_m = to_grid(wider * c->pad_m);
+    if (!(bar > 0.0)) return FW_OK;
     size_t n = (size_t)from->nbody;
     FW_NEED(to->body = fw_arena_grow(arena, from->body, n, n, sizeof *to->body));
     for (int i = 0; i < to->nbody; i++)
-        if (to->body[i].width_m > c->bar_m) to->body[i].width_m = c->bar_m;
+        if (to->body[i].width_m > bar) to->body[i].width_m = bar;
     return FW_OK;
 }
 
-/* drawn, measured and judged; *out.opens false where it cannot be drawn, too */
+/* drawn, measured and judged; *out.opens false where it cannot be drawn as whole as it is now, too */
 static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, answer *out) {
     fw_device device;
     const fw_layout *layout = NULL;
@@ -66,7 +97,7 @@ static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, an
     fw_status status = fw_layout_build(plan->arena, &device, &quiet, &layout);
     if (status == FW_GEOMETRY || status == FW_INPUT) return FW_OK;
     FW_TRY(status);
-    if (!layout || !layout->drawn) return FW_OK;
+    if (!layout || !layout->drawn || layout->nmissing > plan->layout->nmissing) return FW_OK;
     FW_TRY(solve_release(plan, pf, layout, &release));
     FW_TRY(fw_plan_mask_facts(plan->arena, &device, layout, &pf->variant, pf->table,
                               fw_plan_insulated(pf), &facts));
@@ -79,111 +110,166 @@ static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, an
     return FW_OK;
 }
 
-static double to_grid(double x_m, double step_m) {
-    return step_m * round(x_m / step_m);
-}
-
-/* the coarsest grid of holes that opens a window */
-static fw_status find_pitch(fw_plan *plan, fw_plan_flow *pf, double *pitch_m, answer *found) {
-    double was = plan->device->release_pitch_m, high = was > 0.0 ? was : COARSEST_M, low = 0.0;
-    *pitch_m = 0.0;
-    /* what a square grid leaves is some 0.56 of the pitch, and with its over-etch less than is lost */
-    double guess = fmin(high, 2.0 * pf->release->lost_m);
-    for (double p = guess; p >= FINEST_M && low == 0.0; p *= 0.82) {
-        double here = to_grid(p, STEP_M);
-        FW_TRY(try_change(plan, pf, &(change){.pitch_m = here}, found));
-        *(found->opens ? &low : &high) = here;
+/* One number alone, beside what *p has already: from `first` on by `ratio` up to `last`, then between the last
+   that opens nothing (`fails` before the first) and the first that does. p->found.opens: it was found. */
+static fw_status find_size(fw_plan *plan, fw_plan_flow *pf, knob k, double fails, double first,
+                           double last, double ratio, proposal *p) {
+    double step = k == KNOB_WIDER ? 0.01 : STEP_M, good = 0.0;
+    p->found = (answer){0};
+    for (double x = first; (ratio > 1.0 ? x <= last : x >= last) && good == 0.0; x *= ratio) {
+        p->made.size[k] = step * round(x / step);
+        FW_TRY(try_change(plan, pf, &p->made, &p->found));
+        *(p->found.opens ? &good : &fails) = p->made.size[k];
     }
-    if (low == 0.0) return FW_OK;
-    answer best = *found;
-    while (high < COARSEST_M && high - low > 1.5 * STEP_M) {
-        double middle = to_grid(0.5 * (low + high), STEP_M);
-        FW_TRY(try_change(plan, pf, &(change){.pitch_m = middle}, found));
-        if (found->opens) best = *found;
-        *(found->opens ? &low : &high) = middle;
+    if (good == 0.0) return FW_OK;
+    answer best = p->found;
+    while (fabs(good - fails) > 1.5 * step) {
+        p->made.size[k] = step * round(0.5 * (good + fails) / step);
+        FW_TRY(try_change(plan, pf, &p->made, &p->found));
+        if (p->found.opens) best = p->found;
+        *(p->found.opens ? &good : &fails) = p->made.size[k];
     }
-    *pitch_m = low;
-    *found = best;
+    p->made.size[k] = good;
+    p->found = best;
     return FW_OK;
 }
 
-/* the narrowest frame that opens one: up to four times as wide */
-static fw_status find_frame(fw_plan *plan, fw_plan_flow *pf, double *frame_m, answer *found) {
-    double low = plan->device->die.frame_m, high = 4.0 * low;
-    *frame_m = 0.0;
-    if (!(low > 0.0)) return FW_OK;
-    FW_TRY(try_change(plan, pf, &(change){.frame_m = high}, found));
-    if (!found->opens) return FW_OK;
-    answer best = *found;
-    while (high - low > 10.0 * STEP_M) {
-        double middle = to_grid(0.5 * (low + high), STEP_M);
-        FW_TRY(try_change(plan, pf, &(change){.frame_m = middle}, found));
-        if (found->opens) best = *found;
-        *(found->opens ? &high : &low) = middle;
-    }
-    *frame_m = high;
-    *found = best;
+/* the coarsest grid of holes: what a square grid leaves is some 0.56 of the pitch, and with its over-etch less
+   than is lost */
+static fw_status find_pitch(fw_plan *plan, fw_plan_flow *pf, double lost_m, proposal *p) {
+    double was = plan->device->release_pitch_m, high = was > 0.0 ? was : COARSEST_M;
+    FW_TRY(find_size(plan, pf, KNOB_PITCH, high, fmin(high, 2.0 * lost_m), FINEST_M, 0.82, p));
+    p->far += was > 0.0 ? log(was / p->made.size[KNOB_PITCH]) : 1.0;
     return FW_OK;
 }
 
-/* the widest bars that open one */
-static fw_status find_bars(fw_plan *plan, fw_plan_flow *pf, double *bar_m, answer *found) {
-    double widest = 0.0, most = 2.0 * pf->release->lost_m;
-    *bar_m = 0.0;
+static fw_status find_hole(fw_plan *plan, fw_plan_flow *pf, proposal *p) {
+    double pitch = plan->device->release_pitch_m, was = plan->device->release_hole_m;
+    if (!(pitch > 0.0)) return FW_OK;
+    if (!(was > 0.0)) was = 0.3 * pitch;
+    FW_TRY(find_size(plan, pf, KNOB_HOLE, was, 1.2 * was, 0.5 * pitch, 1.2, p));
+    p->far = log(p->made.size[KNOB_HOLE] / was);
+    return FW_OK;
+}
+
+/* the widest bars, where a bar is free last */
+static fw_status find_bars(fw_plan *plan, fw_plan_flow *pf, proposal *p) {
+    const fw_release_part *slow = &pf->release->part[pf->release->slowest];
+    double widest = 0.0;
+    if (slow->body < 0 || !(plan->device->body[slow->body].width_m > 0.0) ||
+        plan->device->body[slow->body].plate_width_m > 0.0)
+        return FW_OK;
     for (int i = 0; i < plan->device->nbody; i++)
         widest = fmax(widest, plan->device->body[i].width_m);
-    for (double w = fmin(most, widest) * 0.95; w > 30e-6 && *bar_m == 0.0; w *= 0.85) {
-        FW_TRY(try_change(plan, pf, &(change){.bar_m = to_grid(w, STEP_M)}, found));
-        if (found->opens) *bar_m = to_grid(w, STEP_M);
+    FW_TRY(find_size(plan, pf, KNOB_BAR, widest, 0.95 * fmin(2.0 * pf->release->lost_m, widest),
+                     NARROWEST_BAR_M, 0.85, p));
+    p->far = log(widest / p->made.size[KNOB_BAR]);
+    return FW_OK;
+}
+
+/* sizes of what would be lost before all that moves is free: frame, bases, pads; false: none */
+static bool find_weak(const fw_plan *plan, const fw_plan_flow *pf, change *c) {
+    const fw_release *r = pf->release;
+    const fw_device_die *die = &plan->device->die;
+    double reach, foot = pf->flow->release_foot_m;
+    const fw_process_step *s = fw_process_flow_release_step(pf->flow, &reach);
+    double run = s ? (r->needed_m + foot) * (1.0 + s->overrun) : 0.0;
+    for (int i = 0; i < r->npart; i++) {
+        const fw_release_part *p = &r->part[i];
+        if (p->duty != FW_RELEASE_STAYS || p->kept_m + foot > run) continue;
+        if (p->role == FW_ROLE_FRAME)
+            c->frame_m = die->frame_m > 0.0 ? die->frame_m : fw_layout_rule.frame_m;
+        else if (p->body == FW_ISLAND)
+            c->pad_m = die->pad_m > 0.0 ? die->pad_m : PAD_M;
+        else
+            c->anchor_m = fmax(c->anchor_m, die->anchor_m > 0.0 ? die->anchor_m : 2.0 * p->reach_m);
+    }
+    return c->frame_m + c->anchor_m + c->pad_m > 0.0;
+}
+
+static fw_status find_wider(fw_plan *plan, fw_plan_flow *pf, proposal *p) {
+    if (!find_weak(plan, pf, &p->made)) return FW_OK;
+    FW_TRY(find_size(plan, pf, KNOB_WIDER, 1.0, 1.25, WIDEST, 1.25, p));
+    p->far = log(p->made.size[KNOB_WIDER]);
+    return FW_OK;
+}
+
+/* wider anchors, as little as may be in three steps, and with them the coarsest grid of holes */
+static fw_status find_both(fw_plan *plan, fw_plan_flow *pf, proposal *p) {
+    if (!find_weak(plan, pf, &p->made)) return FW_OK;
+    for (double wider = 1.5; wider <= WIDEST && !p->found.opens; wider *= 1.6) {
+        p->made.size[KNOB_WIDER] = 0.01 * round(100.0 * wider);
+        FW_TRY(find_pitch(plan, pf, wider * pf->release->lost_m, p));
     }
     return FW_OK;
 }
 
-static bool is_bar(const fw_plan *plan, const fw_release_part *p) {
-    return p->body >= 0 && plan->device->body[p->body].width_m > 0.0 &&
-           !(plan->device->body[p->body].plate_width_m > 0.0);
+static void say_um(fw_text *text, const char *what, double m) {
+    char um[32];
+    fw_text_printf(text, " %s=\"%s um\"", what, fw_number_text(um, sizeof um, 1e6 * m, 4));
 }
 
-/* what: the change up to its number, and behind its unit */
-static fw_status words(fw_plan *plan, const char *const what[2], double m, const answer *a,
-                       const char **out) {
-    char size[32], needed[32], lost[32];
-    FW_NEED(*out = fw_arena_printf(plan->arena,
-                                   "%s%s um%s: drawn and judged again, all that moves is free "
-                                   "after %s um, and what must stay holds for %s um",
-                                   what[0], fw_number_text(size, sizeof size, 1e6 * m, 4), what[1],
-                                   fw_number_text(needed, sizeof needed, 1e6 * a->needed_m, 4),
-                                   fw_number_text(lost, sizeof lost, 1e6 * a->lost_m, 4)));
-    return FW_OK;
+static void say(const proposal *p, fw_text *text) {
+    const change *c = &p->made;
+    double wider = c->size[KNOB_WIDER];
+    char needed[32], lost[32];
+    fw_text_add(text, text->length ? "; or " : "");
+    if (c->size[KNOB_BAR] > 0.0) {
+        char um[32];
+        fw_text_printf(text, "bars no wider than %s um",
+                       fw_number_text(um, sizeof um, 1e6 * c->size[KNOB_BAR], 4));
+    } else {
+        fw_text_add(text, "<die");
+        if (c->size[KNOB_PITCH] > 0.0) say_um(text, "release-pitch", c->size[KNOB_PITCH]);
+        if (c->size[KNOB_HOLE] > 0.0) say_um(text, "release-hole", c->size[KNOB_HOLE]);
+        if (wider > 0.0 && c->frame_m > 0.0) say_um(text, "frame", to_grid(wider * c->frame_m));
+        if (wider > 0.0 && c->anchor_m > 0.0) say_um(text, "anchor", to_grid(wider * c->anchor_m));
+        if (wider > 0.0 && c->pad_m > 0.0) say_um(text, "pad", to_grid(wider * c->pad_m));
+        fw_text_add(text, "/>");
+    }
+    fw_text_printf(text,
+                   ": drawn and judged again, all that moves is free after %s um, and what must "
+                   "stay holds for %s um",
+                   fw_number_text(needed, sizeof needed, 1e6 * p->found.needed_m, 4),
+                   fw_number_text(lost, sizeof lost, 1e6 * p->found.lost_m, 4));
+}
+
+static int by_far(const void *a, const void *b) {
+    const proposal *p = a, *q = b;
+    return fw_order_doubles(p->far, q->far);
 }
 
 /* of a flow without a window for its release: what opens one, in words. The flow is computed again by the caller */
 static fw_status find_change(fw_plan *plan, fw_plan_flow *pf, const char **out) {
-    const fw_release *r = pf->release;
-    double size = 0.0;
-    answer a;
-    static const char *const frame[] = {"<die frame=\"", "\"/>"},
-                             *const bars[] = {"bars no wider than ", ""},
-                             *const pitch[] = {"<die release-pitch=\"", "\"/>"};
-    const char *const *what = frame;
+    enum { ALONE = 4 };
+    proposal p[ALONE + 1] = {0};
+    int n = 0;
     fw_mark mark = fw_arena_mark(plan->arena);
-    if (r->weakest >= 0 && r->part[r->weakest].role == FW_ROLE_FRAME)
-        FW_TRY(find_frame(plan, pf, &size, &a));
-    if (size == 0.0 && is_bar(plan, &r->part[r->slowest])) {
-        what = bars;
-        FW_TRY(find_bars(plan, pf, &size, &a));
-    }
-    if (size == 0.0) {
-        what = pitch;
-        FW_TRY(find_pitch(plan, pf, &size, &a));
+    FW_TRY(find_pitch(plan, pf, pf->release->lost_m, &p[0]));
+    FW_TRY(find_hole(plan, pf, &p[1]));
+    FW_TRY(find_bars(plan, pf, &p[2]));
+    FW_TRY(find_wider(plan, pf, &p[3]));
+    for (int i = 0; i < ALONE; i++)
+        if (p[i].found.opens) p[n++] = p[i];
+    if (n == 0) {
+        p[0] = (proposal){0};
+        FW_TRY(find_both(plan, pf, &p[0]));
+        n = p[0].found.opens ? 1 : 0;
     }
     fw_arena_rewind(plan->arena, mark);
-    if (size > 0.0) return words(plan, what, size, &a, out);
-    FW_NEED(*out = fw_arena_printf(plan->arena,
-                                   "none was found: no grid of release holes down to %.0f um, no "
-                                   "wider frame and no narrower bars open one; anchors must be "
-                                   "wider",
-                                   1e6 * FINEST_M));
+    qsort(p, (size_t)n, sizeof p[0], by_far);
+    fw_text text = fw_text_new(plan->arena);
+    for (int i = 0; i < n; i++)
+        say(&p[i], &text);
+    if (n == 0)
+        fw_text_printf(
+            &text,
+            "none was found: no grid of release holes down to %.0f um, no larger holes, no "
+            "narrower bars, and no frame, bases or pads up to %.0f times as wide open "
+            "one, nor holes and wider anchors together",
+            1e6 * FINEST_M, WIDEST);
+    FW_TRY(fw_text_end(&text));
+    *out = text.data;
     return FW_OK;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plates of a flow: do its pack and its layer table speak of the same plates and patterns, and is what moves
    over its hollow wherever it goes? Page: docs/theory/plates.md; test: test_hollows.c. */
+#include "geometry/segment.h"
 #include "plan/stages.h"
 #include <math.h>
 #include <string.h>
@@ -146,7 +147,14 @@ void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_
 
    with the budget o between the two plates. The displacement of a rigid body is affine in p, so that its largest length is at
    a corner of the box around it. In: poses of the centres of mass at the motion's samples, m and rad. Out: m. Error: between
-   samples, and leaves that bend further than what they hold. Cost: samples times pieces. */
+   samples, and leaves that bend further than what they hold. Cost: samples times pieces.
+
+   In a required workspace the platform takes C and D along, and A and F stand. Between two hinges of a body nothing
+   goes farther than they; beside the line between them, at most r away, its rotation adds
+
+       d <= max(d_1, d_2) + (d_1 + d_2)/l r,   d_B = 2 sin(A/2) |AB|, d_E likewise
+
+   with the angles that are proved, or estimated, over all required boxes. Test: test_hollows.c */
 
 typedef struct farthest {
     double m;
@@ -187,9 +195,60 @@ static bool box_of(const fw_layout *layout, int body, fw_geometry_box *box) {
     return any;
 }
 
+/* the farthest that anything of a body lies from the straight line between two of its points */
+static double beside(const fw_layout *layout, int body, fw_geometry_vec2 a, fw_geometry_vec2 b) {
+    double most = 0.0, t;
+    const fw_geometry_segment axis = {.kind = FW_LINE, .a = a, .b = b};
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        for (int k = 0; layout->piece[i].body == body && k < c->count; k++) {
+            const fw_geometry_segment *s = &c->segment[k];
+            fw_geometry_vec2 at;
+            double round = s->kind == FW_ARC ? 2.0 * s->radius : 0.0;
+            most = fmax(most, fw_geometry_segment_nearest(&axis, s->a, &t, &at) + round);
+        }
+    }
+    return most;
+}
+
+/* of the six-bar's bodies over all required poses, an upper bound; far->scene FW_NONE: of the workspace */
+static void of_workspace(const fw_layout *layout, const fw_mechanism *m,
+                         const fw_workspace_result *w, farthest *far) {
+    const fw_device *device = m->device;
+    double shift = 0.0, turn = 0.0, way[FW_SIX] = {0};
+    fw_geometry_vec2 at[FW_SIX];
+    if (!w->required || !w->reachable || !device->six_bar) return;
+    for (int i = 0; i < device->nworkspace; i++) {
+        const fw_device_workspace_box *box = &device->workspace[i];
+        if (!w->asked[i]) continue;
+        shift = fmax(shift, hypot(fmax(fabs(box->x_min_m), fabs(box->x_max_m)),
+                                  fmax(fabs(box->y_min_m), fabs(box->y_max_m))));
+        turn = fmax(turn, fmax(fabs(box->phi_min_rad), fabs(box->phi_max_rad)));
+    }
+    for (int j = 0; j < FW_SIX; j++)
+        at[j] = layout->hinge[j].centre;
+    const fw_device_body *platform = &device->body[2];
+    double off = hypot(m->drawn[2].x_m - platform->x_m, m->drawn[2].y_m - platform->y_m);
+    for (int j = 2; j < 4; j++) /* C and D go with the platform, about wherever it is stated */
+        way[j] = shift + 2.0 * sin(0.5 * turn) *
+                             (hypot(at[j].x - m->drawn[2].x_m, at[j].y - m->drawn[2].y_m) +
+                              (isfinite(off) ? off : 0.0));
+    way[1] =
+        2.0 * sin(0.5 * fabs(w->peak[0].angle_rad)) * hypot(at[1].x - at[0].x, at[1].y - at[0].y);
+    way[4] =
+        2.0 * sin(0.5 * fabs(w->peak[5].angle_rad)) * hypot(at[4].x - at[5].x, at[4].y - at[5].y);
+    for (int b = 0; b < FW_SIX - 1; b++) {
+        double length = hypot(at[b + 1].x - at[b].x, at[b + 1].y - at[b].y);
+        double d = fmax(way[b], way[b + 1]) +
+                   (way[b] + way[b + 1]) / length * beside(layout, b, at[b], at[b + 1]);
+        if (d > far->m) *far = (farthest){d, b, FW_NONE};
+    }
+}
+
 static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_variant_verdict *v,
                         double margin_m) {
     farthest far = {.m = 0.0};
+    of_workspace(plan->layout, v->mechanism, &v->workspace, &far);
     for (int b = 0; b < plan->device->nbody; b++) {
         fw_geometry_box box;
         if (!box_of(plan->layout, b, &box)) continue;
@@ -202,13 +261,15 @@ static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_
     if (far.m + overlay <= margin_m) return FW_OK;
     const char *why = fw_arena_printf(
         plan->arena,
-        "link %s goes %s um in scene %s, and may lie %s um aside of its hollow, which reaches only "
+        "link %s goes %s um in %s%s, and may lie %s um aside of its hollow, which reaches only "
         "%s um beyond it: it would "
         "run over bonded glass. Nearest change: margin=\"%s um\" of <content kind=\"cavity\"> in "
         "masks/%s.xml, or less "
         "travel",
         plan->device->body[far.body].id, fw_number_text(goes, sizeof goes, far.m * 1e6, 4),
-        plan->device->scene[far.scene].name, fw_number_text(off, sizeof off, overlay * 1e6, 4),
+        far.scene == FW_NONE ? "a required workspace, at most" : "scene ",
+        far.scene == FW_NONE ? "" : plan->device->scene[far.scene].name,
+        fw_number_text(off, sizeof off, overlay * 1e6, 4),
         fw_number_text(margin, sizeof margin, margin_m * 1e6, 4),
         fw_number_text(needs, sizeof needs, ceil((far.m + overlay) * 1e6), 4), pf->flow->id);
     FW_NEED(why);

@@ -448,10 +448,11 @@ static fw_status write_plates(writer *w, const fw_plan_flow *pf) {
     return FW_OK;
 }
 
-static fw_status write_release(writer *w, fw_plan_flow *pf) {
+/* beside the run sheet or, where only masks are asked for, beside them */
+static fw_status write_release(writer *w, fw_plan_flow *pf, const char *folder) {
     fw_text svg = fw_text_new(w->scratch);
     FW_TRY(draw_release(w->plan, pf, &svg));
-    return svg.length ? put(w, "recipes/", pf->use->ref, ".release.svg", &svg) : FW_OK;
+    return svg.length ? put(w, folder, pf->use->ref, ".release.svg", &svg) : FW_OK;
 }
 
 static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
@@ -471,7 +472,7 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
                   {".sections.svg", fw_recipe_write_sections_svg, .of_cut = true},
                   {".sections.json", fw_recipe_write_sections_json, .of_cut = true},
                   {".stack.svg", fw_recipe_write_stack_svg, .of_cut = true}};
-    FW_TRY(write_release(w, pf));
+    FW_TRY(write_release(w, pf, "recipes/"));
     fw_recipe_header header = fw_plan_recipe_header(w->plan, pf);
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
         fw_text text = fw_text_new(w->scratch);
@@ -549,12 +550,13 @@ static fw_status write_all(writer *w, unsigned what) {
     }
     bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
     for (int i = 0; given && i < plan->nflow; i++) {
-        if ((what & FW_WRITE_MASKS) && plan->flow[i].mask) FW_TRY(write_mask(w, &plan->flow[i]));
-        if ((what & FW_WRITE_MASKS) && plan->flow[i].violated)
-            FW_TRY(write_violations(w, &plan->flow[i]));
-        if (what & FW_WRITE_MASKS) FW_TRY(write_plates(w, &plan->flow[i]));
-        if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
-            FW_TRY(write_recipe(w, &plan->flow[i]));
+        fw_plan_flow *pf = &plan->flow[i];
+        const bool masks = what & FW_WRITE_MASKS, recipes = what & FW_WRITE_RECIPES;
+        if (masks && pf->mask) FW_TRY(write_mask(w, pf));
+        if (masks && pf->mask && !recipes) FW_TRY(write_release(w, pf, "masks/"));
+        if (masks && pf->violated) FW_TRY(write_violations(w, pf));
+        if (masks) FW_TRY(write_plates(w, pf));
+        if (recipes && pf->flow) FW_TRY(write_recipe(w, pf));
     }
     if (what & FW_WRITE_MOTION) FW_TRY(write_motions(w));
     if (what & FW_WRITE_REPORT) {

@@ -7,7 +7,10 @@
    farther as the foot of the walls stands out; the step's time follows from it by the step's own law. With
    E the over-etch as a part, what must stay has to outlast r (1 + E). A rate known to u leaves at the time
    by which the slowest has freed everything, r R / (R - k u), up to r (R + k u) / (R - k u) of the fastest.
+   A law with a lag gives the time of a narrow opening, t(r, S) against t(r, 0) of a wide one, from which the etch
+   then has run k = t(r, S)/t(r, 0) times as far; a lag that is only assumed leaves the time that of wide openings.
    Theory: docs/theory/release.md. Test: test_judge_release.c. */
+#include "process/fixed_point.h"
 #include "process/judge.h"
 #include "process/pack.h"
 #include "process/process_law.h"
@@ -59,6 +62,11 @@ static bool is_solved(const fw_process_change *c) {
     return c->reach && c->reach->status == FW_DERIVED;
 }
 
+double fw_process_release_run(const fw_process_flow *flow, const fw_process_step *step,
+                              double reach_m) {
+    return reach_m * (1.0 + step->overrun) * flow->release_wide;
+}
+
 /* does every law by which a release is timed know how narrow openings fall behind? */
 static bool knows_lag(const fw_process_flow *flow) {
     for (int i = 0; i < flow->nstep; i++)
@@ -79,6 +87,7 @@ void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts 
     flow->hold = known ? facts->hold : NULL;
     flow->release_foot_m = foot_of(flow);
     flow->release_lag_known = knows_lag(flow);
+    flow->release_wide = flow->release_wide_most = 1.0;
     for (int i = 0; i < flow->nstep; i++)
         for (int k = 0; k < flow->step[i].nchange; k++) {
             const fw_process_change *c = &flow->step[i].change[k];
@@ -103,11 +112,11 @@ static fw_status window(fw_process_judge *j, const fw_process_step *s, double re
     const fw_release *r = j->facts->release;
     fw_process_numbers t = {0};
     double needed = r->needed_m + j->flow->release_foot_m,
-           lost = r->lost_m + j->flow->release_foot_m;
-    const char *slow, *weak, *needs = fw_process_judge_um(&t, needed),
-                             *loses = fw_process_judge_um(&t, lost),
-                             *runs = fw_process_judge_um(&t, reach_m * (1.0 + s->overrun)),
-                             *most = fw_process_judge_um(&t, reach_m);
+           lost = r->lost_m + j->flow->release_foot_m,
+           run = fw_process_release_run(j->flow, s, reach_m);
+    const char *slow, *weak,
+        *needs = fw_process_judge_um(&t, needed), *loses = fw_process_judge_um(&t, lost),
+        *runs = fw_process_judge_um(&t, run), *most = fw_process_judge_um(&t, reach_m);
     const char *share = fw_process_judge_number(&t, 100.0 * r->share, 3);
     FW_NEED(slow = place_of(j, &r->part[r->slowest]));
     if (needed > reach_m * (1.0 + 1e-9))
@@ -119,21 +128,24 @@ static fw_status window(fw_process_judge *j, const fw_process_step *s, double re
             s->id, most, slow, needs, needs));
     if (r->weakest < 0) return FW_OK;
     FW_NEED(weak = place_of(j, &r->part[r->weakest]));
-    if (reach_m * (1.0 + s->overrun) < lost) return FW_OK;
+    if (run < lost) return FW_OK;
     j->flow->no_window = true;
     return fw_process_judge_reason(
         j, FW_ANSWER_NO,
         "step %s has no window: the last that comes free is %s, %s um from the nearest opening, so "
-        "that with its over-etch the step runs %s um sideways; but %s keeps less than %s %% of its "
+        "that with its over-etch the step runs %s um sideways%s; but %s keeps less than %s %% of "
+        "its "
         "bond after %s um. Nearest change: %s",
-        s->id, slow, needs, runs, weak, share, loses,
+        s->id, slow, needs, runs,
+        j->flow->release_wide > 1.0 ? " from wide openings, while narrow ones fall behind" : "",
+        weak, share, loses,
         j->facts->release_change ? j->facts->release_change : "release holes, or wider anchors");
 }
 
 /* what the step leaves of the bonds, where that is less than half of one */
 static fw_status bonds(fw_process_judge *j, const fw_process_step *s, double reach_m) {
     const fw_release *r = j->facts->release;
-    double run = reach_m * (1.0 + s->overrun) - j->flow->release_foot_m, least = 0.5;
+    double run = fw_process_release_run(j->flow, s, reach_m) - j->flow->release_foot_m, least = 0.5;
     int part = -1;
     fw_process_numbers t = {0};
     for (int i = 0; i < r->npart && !j->flow->no_window; i++) {
@@ -153,7 +165,7 @@ static fw_status bonds(fw_process_judge *j, const fw_process_step *s, double rea
 /* a flow that frees everything takes the frame off, too, where it runs so far */
 static fw_status frame(fw_process_judge *j, const fw_process_step *s, double reach_m) {
     const fw_release *r = j->facts->release;
-    double run = reach_m * (1.0 + s->overrun);
+    double run = fw_process_release_run(j->flow, s, reach_m);
     fw_process_numbers t = {0};
     for (int i = 0; i < r->npart; i++) {
         const fw_release_part *p = &r->part[i];
@@ -178,7 +190,7 @@ static fw_status by_time(fw_process_judge *j, const fw_process_step *s, double r
     if (!rate || rate->unknown || r->weakest < 0 || j->flow->no_window) return FW_OK;
     double low, high, lost = r->lost_m + j->flow->release_foot_m;
     fw_process_quantity_range(rate, &low, &high);
-    double most = low > 0.0 ? reach_m * high / low : HUGE_VAL;
+    double most = low > 0.0 ? reach_m * j->flow->release_wide * high / low : HUGE_VAL;
     if (most < lost) return FW_OK;
     fw_quantity slowest = *rate, fastest = *rate;
     slowest.value = low, fastest.value = high;
@@ -195,15 +207,81 @@ static fw_status by_time(fw_process_judge *j, const fw_process_step *s, double r
         fw_process_judge_um(&t, lost));
 }
 
-/* no law of time of the flow knows how narrow openings hold a sideways etch back */
-static fw_status lag(fw_process_judge *j, const fw_process_step *s) {
+/* the argument of a law with a lag that says how large it is; -1: none */
+static int lag_of(const fw_process_step *s) {
     const fw_process_law *law = s->law ? fw_process_law_find(s->law) : NULL;
-    if (law && law->lags) return FW_OK;
+    for (int i = 0; law && law->lags && i < s->nargument && s->nargument <= FW_LAW_ARGUMENTS; i++) {
+        const fw_process_argument *a = &s->argument[i];
+        bool lag = strcmp(a->name, "probability") == 0 || strcmp(a->name, "lag") == 0;
+        if (lag && a->q && !a->q->unknown) return i;
+    }
+    return -1;
+}
+
+/* the step's time with another lag; NaN: not computable */
+static fw_status time_with(fw_process_judge *j, const fw_process_step *s, int lag, double value,
+                           double *time_s) {
+    fw_process_argument list[FW_LAW_ARGUMENTS];
+    fw_process_law_answer answer;
+    fw_quantity other = *s->argument[lag].q;
+    for (int i = 0; i < s->nargument; i++)
+        list[i] = s->argument[i];
+    other.value = value;
+    list[lag].q = &other;
+    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
+                                    .shape = s->shape,
+                                    .expression = s->expression,
+                                    .wanted = FW_DIM_TIME,
+                                    .argument = list,
+                                    .nargument = s->nargument};
+    FW_TRY(fw_process_law_evaluate(j->arena, &use, &answer));
+    *time_s = answer.computable ? answer.value : (double)NAN;
+    return FW_OK;
+}
+
+/* how much farther the etch runs from wide openings than from the one that the time is of */
+static fw_status find_wide(fw_process_judge *j, const fw_process_step *s) {
+    int lag = lag_of(s);
+    double low, high, none, as_known, worst;
+    j->flow->release_wide = j->flow->release_wide_most = 1.0;
+    if (lag < 0) return FW_OK;
+    const fw_quantity *q = s->argument[lag].q;
+    fw_process_quantity_range(q, &low, &high);
+    FW_TRY(time_with(j, s, lag, 0.0, &none));
+    FW_TRY(time_with(j, s, lag, q->value, &as_known));
+    FW_TRY(time_with(j, s, lag, fmax(high, q->value), &worst));
+    if (!(none > 0.0) || isnan(as_known + worst)) return FW_OK;
+    if (!fw_process_lag_is_guess(q)) j->flow->release_wide = fmax(as_known / none, 1.0);
+    j->flow->release_wide_most = fmax(worst / none, j->flow->release_wide);
+    return FW_OK;
+}
+
+/* what is known of how narrow openings hold a sideways etch back leaves of the window */
+static fw_status lag(fw_process_judge *j, const fw_process_step *s, double reach_m) {
+    const fw_release *r = j->facts->release;
+    fw_process_numbers t = {0};
+    double most = j->flow->release_wide_most;
+    if (lag_of(s) < 0)
+        return fw_process_judge_reason(
+            j, FW_ANSWER_OPEN,
+            "whether narrow openings and long ways below a plate hold the etch of step %s back is "
+            "not known: the flow has no law for it, and every opening is taken to be as fast",
+            s->id);
+    bool guess = j->flow->release_wide < most && fw_process_lag_is_guess(s->argument[lag_of(s)].q);
+    double lost = r->lost_m + j->flow->release_foot_m, run = reach_m * (1.0 + s->overrun) * most;
+    if (j->flow->no_window || r->weakest < 0 || (run < lost && !guess)) return FW_OK;
     return fw_process_judge_reason(
         j, FW_ANSWER_OPEN,
-        "whether narrow openings and long ways below a plate hold the etch of step %s back is not "
-        "known: the flow has no law for it, and every opening is taken to be as fast",
-        s->id);
+        "%s: at the worst of what is known of the lag, wide openings have run %s um by the time "
+        "that "
+        "narrow ones have run the %s um of step %s, over-etch included, and %s keeps %s %% of its "
+        "bond for %s um. Read the release ladder of the test die",
+        guess ? "how far narrow openings fall behind is only assumed, and the time is that of wide "
+                "ones"
+              : "narrow openings may fall so far behind that there is no window",
+        fw_process_judge_um(&t, run), fw_process_judge_um(&t, reach_m), s->id,
+        r->part[r->weakest].label, fw_process_judge_number(&t, 100.0 * r->share, 3),
+        fw_process_judge_um(&t, lost));
 }
 
 fw_status fw_process_judge_release(fw_process_judge *j) {
@@ -216,11 +294,12 @@ fw_status fw_process_judge_release(fw_process_judge *j) {
         for (int k = 0; k < s->nchange; k++) {
             double reach = fw_process_judge_known(s->change[k].reach);
             if (!s->change[k].reach || isnan(reach)) continue;
+            FW_TRY(find_wide(j, s));
             FW_TRY(window(j, s, reach));
             FW_TRY(bonds(j, s, reach));
             FW_TRY(frame(j, s, reach));
             FW_TRY(by_time(j, s, reach));
-            FW_TRY(lag(j, s));
+            FW_TRY(lag(j, s, reach));
         }
     }
     if (j->verdict == FW_ANSWER_NO && so_far != FW_ANSWER_NO) /* what refuses comes first */

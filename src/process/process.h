@@ -364,6 +364,9 @@ typedef struct fw_process_flow {
     const fw_release *release;
     const fw_release_hold *hold; /* what holds each body meanwhile; NULL likewise */
     double release_foot_m;       /* how far the foot of the walls stands outside of what is drawn */
+    /* how much farther the etch runs from a wide opening than from the one that its time is computed for: with
+       the lag as it is known, and at the worst of its range; 1: no law has a lag */
+    double release_wide, release_wide_most;
     bool release_lag_known;      /* the law of its time knows how narrow openings fall behind */
     bool no_window;              /* what must stay is lost before all that moves is free */
     bool tight;                  /* something on the mask prints in perfect contact only */
@@ -411,6 +414,9 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
 bool fw_process_flow_releases(const fw_process_flow *flow);
 /* the step that does, and how far; NULL and NaN: none does, or nobody knows */
 const fw_process_step *fw_process_flow_release_step(const fw_process_flow *flow, double *reach_m);
+/* how far it has run, over-etch included, from the widest openings */
+double fw_process_release_run(const fw_process_flow *flow, const fw_process_step *step,
+                              double reach_m);
 /* the window in a sentence, for a run sheet; NULL: the flow has no release, or nothing is drawn. FW_NOMEM */
 fw_status fw_process_release_words(fw_arena *arena, const fw_process_flow *flow, const char **out);
 /* member "release" of an open object: window, and every part with its reach */

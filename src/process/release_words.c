@@ -155,7 +155,7 @@ void fw_process_release_json(const fw_process_flow *flow, fw_json *json) {
         fw_json_null(json, "release");
         return;
     }
-    double run = reach * (1.0 + s->overrun), foot = flow->release_foot_m;
+    double run = fw_process_release_run(flow, s, reach), foot = flow->release_foot_m;
     fw_json_object(json, "release");
     fw_json_text(json, "step", s->id);
     fw_json_real(json, "reach_m", reach);
@@ -183,7 +183,7 @@ fw_status fw_process_release_words(fw_arena *arena, const fw_process_flow *flow,
     *out = NULL;
     if (!r || !s || isnan(reach) || r->slowest < 0) return FW_OK;
     const char *most = fw_process_judge_um(&t, reach),
-               *run = fw_process_judge_um(&t, reach * (1.0 + s->overrun)),
+               *run = fw_process_judge_um(&t, fw_process_release_run(flow, s, reach)),
                *needed = fw_process_judge_um(&t, r->needed_m + foot);
     if (r->weakest < 0) {
         FW_NEED(*out = fw_arena_printf(arena,

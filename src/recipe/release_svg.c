@@ -207,7 +207,7 @@ fw_status fw_recipe_write_release_svg(fw_arena *arena, const fw_process_flow *fl
     const fw_release *r = flow->release;
     picture p = {.flow = flow, .map = map, .out = out};
     p.step = fw_process_flow_release_step(flow, &p.reach_m);
-    p.run_m = p.reach_m * (1.0 + p.step->overrun);
+    p.run_m = fw_process_release_run(flow, p.step, p.reach_m);
     p.per_m = CELL * map->columns / (map->box.x1 - map->box.x0);
     double below = fmax(CELL * map->rows + 2.0 * MARGIN, LEAST_KEY);
     fw_svg_begin_picture(out, WIDTH, below + SENTENCES * LINE + 4.0, file);

@@ -85,9 +85,9 @@ static fw_status missing(maker *k, const fw_layout *layout) {
         m->at = of->at;
         if (of->body >= 0) m->body[m->nbody++] = of->body;
         FW_NEED(m->label = fw_arena_printf(k->arena, "%s: not drawn", of->name));
-        FW_NEED(m->text =
-                    fw_arena_printf(k->arena, "%s: %s%s%s", of->name, of->why,
-                                    of->room ? "; nearest room: " : "", of->room ? of->room : ""));
+        FW_NEED(m->text = fw_arena_printf(k->arena, "%s: %s%s%s", of->name, of->why,
+                                          of->room ? fw_layout_missing_way(of) : "",
+                                          of->room ? of->room : ""));
     }
     return FW_OK;
 }

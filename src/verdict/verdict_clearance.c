@@ -63,16 +63,22 @@ static fw_status stator_alone(fw_arena *arena, const fw_clearance_things *things
     return FW_OK;
 }
 
+/* pairs of bodies: they are not looked at where one stator is */
+static fw_status all_bodies(fw_arena *arena, const fw_clearance_things *things, bool **among) {
+    const int n = things->nbody + 1;
+    FW_NEED(*among = fw_arena_array(arena, bool, (size_t)n *(size_t)n));
+    for (int i = 0; i < n * n; i++)
+        (*among)[i] = i % n < n - 1 && i / n < n - 1;
+    return FW_OK;
+}
+
 /* the stators of a layout, for a watch of what is drawn */
 static fw_status watch_stators(fw_arena *arena, const fw_layout *layout,
                                fw_verdict_clearance_watch *w) {
     if (layout->nelectrode == 0) return FW_OK;
     FW_NEED(w->stator = fw_arena_array(arena, fw_verdict_stator_watch, (size_t)layout->nelectrode));
-    const int n = w->things->nbody + 1;
-    bool *among = fw_arena_array(arena, bool, (size_t)n *(size_t)n);
-    FW_NEED(among);
-    for (int i = 0; i < n * n; i++)
-        among[i] = i % n < n - 1 && i / n < n - 1;
+    bool *among;
+    FW_TRY(all_bodies(arena, w->things, &among));
     w->among = among;
     for (int i = 0; i < layout->nelectrode; i++) {
         const char *label = layout->electrode[i].stator;
@@ -109,8 +115,8 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
         if (with_stators) FW_TRY(watch_stators(arena, layout, &watch[i]));
     }
     if (watch[0].nstator > 0)
-        FW_NEED(v->stator = fw_arena_array(arena, fw_wiring_moved,
-                                           (size_t)watch[0].nstator * (size_t)m->device->nscene));
+        FW_NEED(v->stator =
+                    fw_arena_array(arena, fw_wiring_moved, (size_t)watch[0].nstator * most));
     return FW_OK;
 }
 
@@ -404,6 +410,33 @@ static fw_status say_open(fw_arena *arena, const fw_device *device, int body,
     return FW_OK;
 }
 
+/* the least distance of every stator from all that moves, over the poses of a required box */
+static fw_status stators_of_box(fw_arena *arena, const fw_layout *layout,
+                                const fw_device_workspace_box *box, const fw_clearance_wish *wish,
+                                fw_verdict_variant_verdict *v) {
+    fw_clearance_wish own = *wish;
+    bool *among;
+    FW_TRY(all_bodies(arena, v->things, &among));
+    own.may_meet = among;
+    for (int i = 0; v->stator && i < layout->nelectrode; i++) {
+        const char *label = layout->electrode[i].stator;
+        fw_clearance_things alone;
+        fw_clearance_least least = fw_clearance_nothing();
+        bool known;
+        int open;
+        if (!label) continue;
+        FW_TRY(stator_alone(arena, v->things, label, &alone));
+        FW_TRY(fw_clearance_of_box(arena, &alone, v->mechanism, box, &own, &least, &known, &open));
+        if (!known || !least.known) continue;
+        v->stator[v->nstator++] = (fw_wiring_moved){.stator = label,
+                                                    .scene = "workspace",
+                                                    .m = least.m,
+                                                    .t_s = (double)NAN,
+                                                    .at = least.at.at_a};
+    }
+    return FW_OK;
+}
+
 /* Required poses are what the platform is asked to take: where it goes itself the only errors are
    those of the walls. Links go by what their hinges are: as far off as motions with that model. */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
@@ -422,6 +455,7 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
         FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known,
                                    &open));
         if (open != FW_NONE) FW_TRY(say_open(arena, device, open, v));
+        FW_TRY(stators_of_box(arena, layout, asked, &wish, v));
         if (!known || !least.known) continue;
         fw_verdict_clearance *c = &v->clearance[v->nclearance++];
         *c = (fw_verdict_clearance){.scene = "workspace",

@@ -227,7 +227,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    drawing rejects it, in the flows whose scenes have it. Test: tests/unit/plan/test_not_drawn.c */
 
 int fw_verdict_missing_most(const fw_device *device) {
-    int n = device->nbody;
+    int n = device->nbody + device->njoint + device->nspring;
     for (int i = 0; i < device->nscene; i++) {
         n += device->scene[i].ncomb;
         for (int t = 0; t < device->scene[i].ntendon; t++)
@@ -238,17 +238,18 @@ int fw_verdict_missing_most(const fw_device *device) {
 
 static fw_status text_of(fw_arena *arena, const fw_layout_missing *m, const char **text) {
     char x[32], y[32];
-    const bool moves = m->comb || m->eyelet;
+    const bool moves = m->number != 127;
     const char *line = m->place.line > 0
                            ? fw_arena_printf(arena, ", line %d, column %d of the description",
                                              m->place.line, m->place.column)
                            : "";
     FW_NEED(line);
-    FW_NEED(*text = fw_arena_printf(arena, "%s at (%s, %s) um%s: %s, but not in the masks: %s%s%s",
-                                    m->name, fw_number_text(x, sizeof x, m->at.x * 1e6, 5),
-                                    fw_number_text(y, sizeof y, m->at.y * 1e6, 5), line,
-                                    moves ? "in the motion" : "asked for", m->why,
-                                    m->room ? "; nearest room: " : "", m->room ? m->room : ""));
+    FW_NEED(*text =
+                fw_arena_printf(arena, "%s at (%s, %s) um%s: %s, but not in the masks: %s%s%s",
+                                m->name, fw_number_text(x, sizeof x, m->at.x * 1e6, 5),
+                                fw_number_text(y, sizeof y, m->at.y * 1e6, 5), line,
+                                moves ? "in the motion" : "asked for", m->why,
+                                m->room ? fw_layout_missing_way(m) : "", m->room ? m->room : ""));
     return FW_OK;
 }
 

@@ -512,7 +512,7 @@ class Recipe(InTemporary):
         self.expect(run("mask", GALLERY, "-o", out), 0)
         self.assertEqual(sorted(p.name for p in out.iterdir()), ["manifest.json", "masks"])
         self.assertEqual({"".join(p.suffixes) for p in (out / "masks").iterdir()},
-                         {".gds", ".svg", ".outlines.svg", ".json", ".lyp", ".lyt", ".order.json", ".order.txt"})
+                         {".gds", ".svg", ".outlines.svg", ".json", ".lyp", ".lyt", ".order.json", ".order.txt", ".release.svg"})
 
     def test_formats_of_masks_and_what_the_order_sheet_says_of_them(self):
         flow, always = FLOWS[0], {".gds", ".json", ".lyp", ".lyt"}

@@ -81,8 +81,8 @@ def verdict(options, path, elastica):
         return None, "status %d: %s" % (status, why.strip()), took
 
 WORSE = ("accept", "inconclusive", "reject")
-# parts that come together, and parts that find no room in the drawing (decision 46), of which the judge knows nothing
-MEETING = {"FW-D131", "FW-D294", "FW-D295"}
+# parts that come together, and parts that are not in the drawing (decisions 46 and 60), of which the judge knows nothing
+MEETING = {"FW-D130", "FW-D131", "FW-D294", "FW-D295"}
 
 def of_strain(said):
     """the verdict without what the judge does not look at: drawings that cannot be made, and parts that meet"""

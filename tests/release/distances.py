@@ -2,14 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """distances.py PROGRAM [FIRST COUNT] [--device FILE ...]: what the program says of the release, against another program.
 
-The polygons of the mask as it is written are read back and united, lettering and marks taken out, and eroded by GEOS
-with round corners. Of every part with reach r, as the program says: eroded by r less 1 % some of it is left, eroded by
-r and 1 % none; the worst point lies r from the nearest edge; and of what stays the area that is left after the
-planned reach is the share that the program says, to 2 % of the part."""
+COUNT random devices that can be drawn (with FW_TEST_ALL=1: 300), from seed FIRST on, in the flows that release. The
+polygons of the mask as it is written are read back and united, lettering and marks taken out, and eroded by GEOS with
+round corners. Of every part with reach r, as the program says: eroded by r less 1 % some of it is left, eroded by r
+and 1 % none; the worst point lies r from the nearest edge; and of what stays the area that is left after the planned
+reach is the share that the program says, to 2 % of the part. Where the program sees a window, nothing of what moves
+is left after the planned reach, and everything that must stay keeps its share to the end of the step. A device that
+is drawn and has no mask is wrong, too, but where a rule of the mask names a hinge."""
 import json
+import os
 import pathlib
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -24,7 +29,7 @@ FLOWS = {  # flows that release, with the material of the device
     "soi-deep-rie": '<material ref="silicon-100" thickness="50 um"/>',
     "copper-on-porous-silicon": '<material ref="copper-plated" thickness="9 um"/>',
 }
-FAST = ["--corners", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--effects", "none"]
+FAST = ["--corners", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--effects", "none", "--advice", "none"]
 MATERIAL = re.compile(r"<flow\b[^>]*/>")
 
 
@@ -50,12 +55,12 @@ def run(program, device, where):
         recipe, mask = out / "recipes" / (flow + ".json"), out / "masks" / (flow + ".gds")
         if recipe.exists() and mask.exists() and json.loads(recipe.read_text())["release"]:
             return (json.loads(recipe.read_text()), mask), done.stderr
-    return None, done.stderr.strip().splitlines()[-1:]
+    return None, done.stderr
 
 
-def compare(name, recipe, mask):
+def compare(g, name, recipe, mask):
     """yields what is wrong"""
-    g, release = geos.Geos(), recipe["release"]
+    release = recipe["release"]
     layers = {key: [[(1e-3 * x, 1e-3 * y) for x, y in ring] for ring in rings] for key, rings in outlines.read_gds(mask).items()}
     solid = g.polygons(layers["1/0"])
     for other in ("2/0", "3/0"):
@@ -64,14 +69,22 @@ def compare(name, recipe, mask):
     solid = g.buffer(g.buffer(solid, 0.003), -0.003)  # seams of polygons on a grid
     edge = g.boundary(solid)
     bias = recipe["bias_m"] * 1e6
-    pieces = [g.polygons([ring]) for ring in layers["1/0"]]
-    eroded = {}
+    rings = layers["1/0"]
 
-    def left(reach):
-        key = round(reach, 3)
-        if key not in eroded:
-            eroded[key] = g.buffer(solid, -reach)
-        return eroded[key]
+    def holders(x, y):
+        """the pieces that a point lies in"""
+        for ring in rings:
+            xs, ys = [p[0] for p in ring], [p[1] for p in ring]
+            if min(xs) - 0.01 < x < max(xs) + 0.01 and min(ys) - 0.01 < y < max(ys) + 0.01:
+                piece = g.polygons([ring])
+                if g.distance(g.point(x, y), piece) < 0.01:
+                    yield piece, (min(xs), min(ys), max(xs), max(ys))
+
+    def left(own, box, reach):
+        """what is left of a piece: everything farther away than the reach has no part in it"""
+        far = reach + 1.0
+        here = g.within(solid, (box[0] - far, box[1] - far, box[2] + far, box[3] + far))
+        return g.area(g.both(g.buffer(here, -reach), own))
 
     for part in release["parts"]:
         at = [1e6 * x for x in part["at_m"]]
@@ -80,44 +93,71 @@ def compare(name, recipe, mask):
         slack = 0.01 * reach + 0.02
         if abs(there - reach) > slack:
             yield "%s: %s is %.3f um from an edge at its worst point, the program says %.3f" % (name, part["part"], there, reach)
-        own = [p for p in pieces if g.distance(g.point(*at), p) < 0.01]
+        own = list(holders(*at))
         if len(own) != 1:
             continue  # on a seam: the other part may go on
-        if g.area(g.both(left(reach + slack), own[0])) > 1e-3:
+        piece, box = own[0]
+        if left(piece, box, reach + slack) > 1e-3:
             yield "%s: %s is not free after %.3f um" % (name, part["part"], reach + slack)
-        if reach - slack > 0 and not g.area(g.both(left(reach - slack), own[0])) > 0:
+        if reach - slack > 0 and not left(piece, box, reach - slack) > 0:
             yield "%s: nothing of %s is left after %.3f um" % (name, part["part"], reach - slack)
-        if part["duty"] == "stays" and part["part"] != "frame" and part["bonded_share"]:
+        planned = 1e6 * (release["reach_m"] - release["foot_m"]) + bias
+        if part["duty"] == "moves" and release["window"] and planned < reach and left(piece, box, planned + slack) > 1e-3:
+            yield "%s: %s stays bonded after the planned %.3f um" % (name, part["part"], planned)
+        if part["duty"] == "stays" and part["part"] != "frame":
             run_um = 1e6 * (release["run_m"] - release["foot_m"]) + bias
-            share = g.area(g.both(left(run_um), own[0])) / (1e12 * part["area_m2"])
-            if abs(share - part["bonded_share"]) > 0.02:
+            share = left(piece, box, run_um) / (1e12 * part["area_m2"])
+            if part["bonded_share"] and abs(share - part["bonded_share"]) > 0.02:
                 yield "%s: %s keeps %.4f of its bond, the program says %.4f" % (name, part["part"], share, part["bonded_share"])
+            if release["window"] and share < release["share"] - 0.02:
+                yield "%s: %s keeps %.4f of its bond at the end, %.4f are asked for" % (name, part["part"], share, release["share"])
+
+
+def seeds(first, count, where, compared):
+    """random devices until so many were compared"""
+    seed = first
+    while len(compared) < count and seed < first + 20 * count:
+        yield device_of(seed, where)
+        seed += 1
 
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     where = tempfile.mkdtemp()
-    devices, wrong, compared, parts, refused = [], [], 0, 0, 0
+    wrong, compared, parts, refused, windows = [], [], 0, {}, 0
     if "--device" in sys.argv:
         devices = [pathlib.Path(p).resolve() for p in sys.argv[sys.argv.index("--device") + 1:]]
     else:
         first, count = (int(x) for x in (sys.argv[2:4] or ("1", "8")))
-        devices = [device_of(seed, where) for seed in range(first, first + count)]
+        devices = seeds(first, 300 if os.environ.get("FW_TEST_ALL") else count, where, compared)
     try:
-        geos.Geos()
+        g = geos.Geos()
     except OSError:
         print("no GEOS here: skipped")
         return 77
     for device in devices:
         got, said = run(program, device, where)
         if not got:
-            refused += 1
+            why = re.search(r"error: .*?\[(FW-D\d+)\]", said, re.S)
+            refused.setdefault(why.group(1) if why else "no reason", []).append(device.stem)
+            if not why or (why.group(1) == "FW-D147" and "whatever the tolerance" in why.group(0)):
+                wrong.append("%s: drawn, but no mask: %s" % (device.stem, said.strip()[:400]))
+                print(wrong[-1], flush=True)
             continue
-        compared += 1
+        compared.append(device)
+        windows += got[0]["release"]["window"]
         parts += len(got[0]["release"]["parts"])
-        wrong += list(compare(device.stem, *got))
-    print("\n".join(wrong))
-    print("%d devices compared, %d parts, %d refused; %d wrong" % (compared, parts, refused, len(wrong)))
+        for what in compare(g, device.stem, *got):
+            wrong.append(what)
+            print(what, flush=True)
+        g.free()
+        if len(compared) % 20 == 0:
+            print("%d compared, last %s; %d wrong" % (len(compared), device.stem, len(wrong)), flush=True)
+        shutil.rmtree(pathlib.Path(where) / ("out-" + device.stem), ignore_errors=True)
+    shutil.rmtree(where, ignore_errors=True)
+    print("not drawn: " + "; ".join("%s %d" % (code, len(which)) for code, which in sorted(refused.items())))
+    print("%d devices compared, %d parts, %d with a window, %d refused; %d wrong"
+          % (len(compared), parts, windows, sum(map(len, refused.values())), len(wrong)))
     return 1 if wrong or not compared else 0
 
 

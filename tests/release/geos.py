@@ -11,10 +11,12 @@ class Geos:
         self.c = ctypes.CDLL(NAME)
         self.c.GEOS_init_r.restype = ctypes.c_void_p
         self.h = ctypes.c_void_p(self.c.GEOS_init_r())
-        geometry = ctypes.c_void_p
+        self.made, geometry = [], ctypes.c_void_p
+        self.c.GEOSGeom_destroy_r.argtypes = [ctypes.c_void_p, geometry]
         for name, arguments in {"GEOSGeomFromWKT_r": [ctypes.c_char_p], "GEOSUnaryUnion_r": [geometry],
                                 "GEOSDifference_r": [geometry] * 2, "GEOSIntersection_r": [geometry] * 2,
                                 "GEOSBuffer_r": [geometry, ctypes.c_double, ctypes.c_int],
+                                "GEOSClipByRect_r": [geometry] + [ctypes.c_double] * 4,
                                 "GEOSBoundary_r": [geometry]}.items():
             function = getattr(self.c, name)
             function.restype = geometry
@@ -27,7 +29,14 @@ class Geos:
     def of(self, g):
         if not g:
             raise RuntimeError("GEOS gives nothing")
-        return ctypes.c_void_p(g)
+        self.made.append(ctypes.c_void_p(g))
+        return self.made[-1]
+
+    def free(self):
+        """everything that was made"""
+        for g in self.made:
+            self.c.GEOSGeom_destroy_r(self.h, g)
+        self.made = []
 
     def polygons(self, rings):
         text = ",".join("((%s))" % ",".join("%.6f %.6f" % tuple(p) for p in list(ring) + [ring[0]]) for ring in rings)
@@ -45,6 +54,10 @@ class Geos:
 
     def both(self, g, other):
         return self.of(self.c.GEOSIntersection_r(self.h, g, other))
+
+    def within(self, g, box):
+        """what lies in a rectangle x0, y0, x1, y1"""
+        return self.of(self.c.GEOSClipByRect_r(self.h, g, *box))
 
     def boundary(self, g):
         return self.of(self.c.GEOSBoundary_r(self.h, g))

@@ -179,6 +179,27 @@ static void cuts_fit(void **state) {
     fw_arena_free(d->arena);
 }
 
+/* every hole is whole: no cut of another comes nearer to its middle than its rim, whatever the pitch */
+static void holes_are_off_the_cuts_of_others(void **state) {
+    (void)state;
+    for (double pitch = 28; pitch < 46; pitch += 2) {
+        drawn *d = draw(pitch, 0.3 * pitch);
+        for (int b = 0; b < 5; b++) {
+            fw_geometry_region r = pieces_of(d, b);
+            const fw_geometry_contour *body = &r.contour[0];
+            for (int i = 1; i < r.count; i++) { /* of a cap the third is the rim of its hole */
+                fw_geometry_vec2 middle = r.contour[i].segment[2].centre, at;
+                double t;
+                for (int k = 0; k < body->count; k++)
+                    if (body->segment[k].flags & FW_SEGMENT_THROUGH)
+                        assert_true(fw_geometry_segment_nearest(&body->segment[k], middle, &t,
+                                                                &at) > 0.15 * pitch * UM - 1e-9);
+            }
+        }
+        fw_arena_free(d->arena);
+    }
+}
+
 /* a body narrower than the reach has none; a pitch that large leaves the drawing as it was */
 static void narrow_bodies_have_none(void **state) {
     (void)state;
@@ -217,7 +238,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moments_follow), cmocka_unit_test(holes_keep_away),
         cmocka_unit_test(cuts_fit),       cmocka_unit_test(narrow_bodies_have_none),
-        cmocka_unit_test(wrong_sizes),
+        cmocka_unit_test(wrong_sizes),    cmocka_unit_test(holes_are_off_the_cuts_of_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -179,6 +179,72 @@ static void travel(void **state) {
     fw_plan_free(plan);
 }
 
+/* ---- a required workspace ---- */
+
+static const char six_form[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"six\">"
+    "<material ref=\"silicon-100\" strength=\"2.5 GPa\" thickness=\"50 um\"/>"
+    "<flow ref=\"silicon-on-glass\" carrier=\"insulating\"/><die tethers=\"no\"/>"
+    "<flexure id=\"f\" kind=\"csfh\" length=\"300 um\" angle=\"240 deg\" width=\"8 um\" gap=\"10 "
+    "um\"/><six-bar>"
+    "<hinge at=\"A\" x=\"0.70 mm\" y=\"0.15 mm\" flexure=\"f\"/><hinge at=\"B\" x=\"0.20 mm\" "
+    "y=\"1.40 mm\" flexure=\"f\"/><hinge at=\"C\" x=\"0.80 mm\" y=\"2.70 mm\" "
+    "flexure=\"f\"/><hinge "
+    "at=\"D\" x=\"2.20 mm\" y=\"2.75 mm\" flexure=\"f\"/><hinge at=\"E\" x=\"2.85 mm\" y=\"1.45 "
+    "mm\" "
+    "flexure=\"f\"/><hinge at=\"F\" x=\"2.30 mm\" y=\"0.15 mm\" flexure=\"f\"/>"
+    "<link id=\"AB\" width=\"120 um\"/><link id=\"BC\" width=\"120 um\"/>"
+    "<platform id=\"CD\" width=\"1.40 mm\" height=\"0.40 mm\" x=\"1.50 mm\" y=\"2.875 mm\"/>"
+    "<link id=\"DE\" width=\"120 um\"/><link id=\"EF\" width=\"120 um\"/></six-bar>"
+    "<scene name=\"pull\" duration=\"0.1 ms\"><comb-drive id=\"up\" kind=\"plate\" on=\"CD\" x=\"0 "
+    "mm\" "
+    "y=\"0.21 mm\" direction=\"90 deg\" gap=\"40 um\" length=\"400 um\" voltage=\"1 V\"/></scene>"
+    "<workspace x-min=\"-5 um\" x-max=\"5 um\" y-min=\"-5 um\" y-max=\"%g um\" phi-min=\"0 deg\" "
+    "phi-max=\"0 deg\"/></device>";
+
+static fw_plan *up_by(double um) {
+    static char xml[4000];
+    fw_plan_options options = fw_plan_options_default();
+    options.data_directory = folder;
+    options.verdict.corners = FW_CORNERS_NONE;
+    fw_plan *plan = fw_plan_new(&options);
+    snprintf(xml, sizeof xml, six_form, um);
+    if (fw_plan_load_memory(plan, "six.xml", xml, strlen(xml)) != FW_OK ||
+        fw_plan_judge(plan) != FW_OK)
+        fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "no message");
+    return plan;
+}
+
+/* The scene moves nothing to speak of. The platform goes up by what is required, and no body much farther:
+   over the margin it is refused. What is left between platform and stator is the gap less that way. */
+static void required_poses_count(void **state) {
+    (void)state;
+    static const double up[] = {6, 20, 37};
+    for (int i = 0; i < 3; i++) {
+        fw_plan *plan = up_by(up[i]);
+        const fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
+        const char *why = reason_of(plan, "it would run over bonded glass");
+        double goes = 0.0, least = HUGE_VAL;
+        assert_true(v->workspace.required && v->workspace.reachable);
+        if (why) {
+            assert_non_null(strstr(why, "in a required workspace"));
+            assert_int_equal(sscanf(strstr(why, " goes "), " goes %lf um", &goes), 1);
+            assert_true(goes >= up[i] && goes < 2.0 * (up[i] + 5.0));
+        }
+        if (i == 0) assert_null(why);
+        if (i == 2) assert_non_null(why);
+        for (int k = 0; k < v->nstator; k++)
+            if (strcmp(v->stator[k].scene, "workspace") == 0) least = fmin(least, v->stator[k].m);
+        if (!(fabs(least - (40.0 - up[i]) * 1e-6) < 1e-6)) fail_msg("%g um left", 1e6 * least);
+        const fw_wiring_gap *gap = NULL; /* and the wiring has it */
+        for (int k = 0; k < plan->flow[0].wiring->ngap; k++)
+            if (plan->flow[0].wiring->gap[k].moved_m == least) gap = &plan->flow[0].wiring->gap[k];
+        assert_non_null(gap);
+        assert_string_equal(gap->scene, "workspace");
+        fw_plan_free(plan);
+    }
+}
+
 static void disagreements(void **state) {
     (void)state;
     static const struct {
@@ -223,6 +289,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(as_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_air, set_up, tear_down),
         cmocka_unit_test_setup_teardown(travel, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(required_poses_count, set_up, tear_down),
         cmocka_unit_test_setup_teardown(disagreements, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,11 +74,92 @@ static void advice_finds_room(void **unused) {
     fw_plan_free(plan);
 }
 
+/* ---- joints and springs that no drawing has ---- */
+
+static const char jointed[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"silicon-100\" "
+    "thickness=\"50 um\"/><flow ref=\"al-masked-rie\"/><flexure id=\"f\" kind=\"leaf\" "
+    "length=\"400 um\" width=\"8 um\" gap=\"10 um\"/><mechanism>"
+    "<body id=\"p\" x=\"0.8 mm\" y=\"0 mm\" plate-width=\"0.8 mm\" plate-height=\"0.5 mm\"%s/>"
+    "<body id=\"q\" x=\"0.8 mm\" y=\"1.5 mm\" plate-width=\"0.8 mm\" plate-height=\"0.5 mm\"%s/>"
+    "<revolute id=\"P\" a=\"ground\" a-x=\"0 mm\" a-y=\"0 mm\" b=\"p\" b-x=\"-0.8 mm\" b-y=\"0 "
+    "mm\" "
+    "hinge=\"f\"/><revolute id=\"Q\" a=\"ground\" a-x=\"0 mm\" a-y=\"1.5 mm\" b=\"q\" "
+    "b-x=\"-0.8 mm\" b-y=\"0 mm\" hinge=\"f\"/>%s</mechanism>"
+    "<scene name=\"s\" duration=\"1 ms\"><force on=\"p\" fx=\"1 nN\"/></scene></device>";
+
+static fw_plan *with_joint(const char *mass, const char *joint) {
+    static char xml[3000];
+    fw_plan_options o = fw_plan_options_default();
+    o.data_directory = FW_TEST_SOURCE_DIR;
+    o.verdict.with_advice = true;
+    o.verdict.corners = FW_CORNERS_NONE;
+    o.force = true;
+    fw_plan *plan = fw_plan_new(&o);
+    assert_non_null(plan);
+    snprintf(xml, sizeof xml, jointed, mass, mass, joint);
+    if (fw_plan_load_memory(plan, "d.xml", xml, strlen(xml)) != FW_OK)
+        fail_msg("%s", plan->diags.item[0].message);
+    if (fw_plan_judge(plan) != FW_OK) fail_msg("%s", plan->diags.item[0].message);
+    return plan;
+}
+
+/* each by its name and its place, with what does its work; nothing is searched for */
+static void what_is_never_drawn_is_rejected(void **unused) {
+    (void)unused;
+    static const struct {
+        const char *joint, *says, *instead;
+    } row[] = {
+        {"<distance id=\"rod\" a=\"p\" a-y=\"0.2 mm\" b=\"q\" b-y=\"-0.2 mm\"/>",
+         "distance joint rod at (800, 200) um", "a body with a width"},
+        {"<spring id=\"soft\" a=\"p\" a-x=\"0.1 mm\" b=\"q\" stiffness=\"1 mN/m\"/>",
+         "spring soft at (900, 0) um", "a leaf or a path"},
+        {"<spring id=\"rope\" a=\"p\" b=\"q\" stiffness=\"1 mN/m\" cable=\"yes\"/>",
+         "cable rope at (800, 0) um", "a leaf or a path"},
+        {"<prismatic id=\"slide\" a=\"p\" b=\"q\" axis=\"90 deg\"/>",
+         "prismatic joint slide at (800, 0) um", "two pairs of leaves"},
+        {"<weld id=\"glue\" a=\"p\" a-y=\"0.75 mm\" b=\"q\" b-y=\"-0.75 mm\"/>",
+         "weld joint glue at (800, 750) um", "draw both as one body"},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_plan *plan = with_joint("", row[i].joint);
+        const fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
+        assert_int_equal(plan->verdict.decision, FW_REJECT);
+        assert_int_equal(plan->layout->nmissing, 1);
+        assert_int_equal(v->reason[0].number, 130);
+        assert_non_null(strstr(v->reason[0].text, row[i].says));
+        assert_non_null(strstr(v->reason[0].text, "body p and body q apart"));
+        assert_non_null(strstr(v->reason[0].text, row[i].instead));
+        assert_int_equal(plan->verdict.nproposal, 0);
+        assert_non_null(strstr(plan->verdict.advice_note, "never drawn"));
+        assert_int_equal(fw_plan_masks(plan), FW_OK); /* forced, with the reason */
+        assert_true(plan->flow[0].mask->rejected);
+        assert_string_equal(plan->flow[0].mask->because[0], plan->because[0]);
+        fw_plan_free(plan);
+    }
+}
+
+/* a spring to the ground is a load from outside; nor is a device without joints rejected */
+static void loads_from_outside_stay(void **unused) {
+    (void)unused;
+    static const char *const fine[] = {
+        "", "<spring id=\"probe\" a=\"p\" b=\"ground\" b-x=\"2 mm\" stiffness=\"1 mN/m\" "
+            "length=\"1.2 mm\"/>"};
+    for (int i = 0; i < 2; i++) {
+        fw_plan *plan = with_joint("", fine[i]);
+        assert_int_equal(plan->layout->nmissing, 0);
+        assert_int_equal(plan->verdict.decision, FW_ACCEPT);
+        fw_plan_free(plan);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_drawn_drive_is_accepted),
         cmocka_unit_test(a_drive_without_room_is_rejected),
         cmocka_unit_test(advice_finds_room),
+        cmocka_unit_test(what_is_never_drawn_is_rejected),
+        cmocka_unit_test(loads_from_outside_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

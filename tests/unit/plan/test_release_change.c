@@ -61,7 +61,84 @@ static void the_change_is_the_least(void **state) {
     fw_plan_free(plan);
 }
 
+/* ---- what is lost first may be made wider ---- */
+
+/* two narrow bars on small bases: what holds them goes before the bars are free */
+static const char narrow_form[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"bars\">"
+    "<material ref=\"silicon-100\" thickness=\"50 um\"/><flow ref=\"soi-deep-rie\"/>"
+    "<flexure id=\"leaf\" kind=\"leaf\" length=\"400 um\" width=\"6 um\" gap=\"10 um\"/><mechanism>"
+    "<body id=\"arm\" x=\"0 mm\" y=\"0.75 mm\" width=\"%s\"/>"
+    "<revolute id=\"A\" a=\"ground\" a-x=\"0 mm\" a-y=\"0 mm\" b=\"arm\" b-x=\"0 mm\" "
+    "b-y=\"-0.75 mm\" hinge=\"leaf\"/></mechanism>%s"
+    "<scene name=\"push\" duration=\"1 ms\"><force on=\"arm\" fx=\"1 nN\"/></scene></device>";
+
+static fw_plan *of_arm(const char *width, const char *die) {
+    static char text[4][3000];
+    static int n;
+    char *xml = text[n++ % 4];
+    snprintf(xml, sizeof text[0], narrow_form, width, die);
+    fw_plan_options options = fw_plan_options_default();
+    fw_plan *plan = fw_plan_new(&options);
+    if (fw_plan_load_memory(plan, "arm.xml", xml, strlen(xml)) != FW_OK ||
+        fw_plan_judge(plan) != FW_OK)
+        fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "no message");
+    return plan;
+}
+
+/* every <die .../> of a reason opens a window when it is drawn; how many there are */
+static int proposals_open(const fw_plan *plan, const char *width, const char *stated) {
+    int n = 0;
+    for (const char *at = strstr(plan->flow[0].flow->reason[0], "<die"); at; n++) {
+        char die[200];
+        const char *end = strstr(at, "/>");
+        assert_non_null(end);
+        snprintf(die, sizeof die, "<die %s%.*s", stated, (int)(end + 2 - at - 4), at + 4);
+        fw_plan *again = of_arm(width, die);
+        if (again->flow[0].flow->no_window) fail_msg("%s opens nothing", die);
+        fw_plan_free(again);
+        at = strstr(end, "<die");
+    }
+    return n;
+}
+
+static void wider_bases_open_a_window(void **state) {
+    (void)state;
+    static const char narrow[] = "anchor=\"60 um\" frame=\"60 um\" tethers=\"no\"";
+    char die[100];
+    snprintf(die, sizeof die, "<die %s/>", narrow);
+    fw_plan *plan = of_arm("120 um", die);
+    const fw_process_flow *f = plan->flow[0].flow;
+    assert_true(f->no_window);
+    const char *wider = strstr(f->reason[0], "anchor=\"");
+    if (!wider) fail_msg("%s", f->reason[0]);
+    assert_non_null(strstr(f->reason[0], "release-pitch=\""));
+    assert_true(proposals_open(plan, "120 um", "tethers=\"no\"") >= 1);
+    fw_plan_free(plan);
+}
+
+/* larger holes in a grid that is stated */
+static void larger_holes_open_a_window(void **state) {
+    (void)state;
+    fw_plan *plan = judged("<die release-pitch=\"170 um\" release-hole=\"10 um\"/>");
+    const fw_process_flow *f = plan->flow[0].flow;
+    double hole = 0.0;
+    if (!f->no_window) fail_msg("there is a window");
+    const char *at = strstr(f->reason[0], "<die release-hole=\"");
+    if (!at) fail_msg("%s", f->reason[0]);
+    assert_int_equal(sscanf(at, "<die release-hole=\"%lf", &hole), 1);
+    assert_true(hole > 10.0 && hole <= 20.0);
+    fw_plan_free(plan);
+    char die[100];
+    snprintf(die, sizeof die, "<die release-pitch=\"170 um\" release-hole=\"%.17g um\"/>", hole);
+    plan = judged(die);
+    assert_false(plan->flow[0].flow->no_window);
+    fw_plan_free(plan);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_change_is_the_least)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_change_is_the_least),
+                                       cmocka_unit_test(wider_bases_open_a_window),
+                                       cmocka_unit_test(larger_holes_open_a_window)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

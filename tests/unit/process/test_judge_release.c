@@ -105,6 +105,72 @@ static void stated_reaches_are_judged(void **state) {
     }
 }
 
+/* the release with a law of lag, t = (D + c D^2/(2 w))/R */
+static fw_process_flow *lagging(double needed_um, double lost_um, double c, double u,
+                                fw_quantity_value_status status) {
+    static const fw_quantity none;
+    static fw_quantity width, lag;
+    static fw_process_argument list[4];
+    fw_process_mask_facts facts = plain_facts;
+    fw_process_flow *f = read_pack(arena, SOI, NULL, NULL, &diags);
+    double reach;
+    fw_process_step *s = NULL;
+    for (int i = 0; i < f->nstep; i++)
+        if (f->step[i].nchange > 0 && f->step[i].change[0].reach) s = &f->step[i];
+    assert_non_null(s);
+    width = lag = none;
+    width.id = "slit", width.dimension = (fw_quantity_dimension)FW_DIM_LENGTH,
+    width.value = 10 * UM;
+    lag.id = "lag", lag.value = c, lag.uncertainty = u, lag.status = status;
+    width.status = FW_MEASURED;
+    for (int i = 0; i < 2; i++)
+        list[i] = s->argument[i];
+    list[0].name = "depth";
+    list[2] = list[3] = list[1];
+    list[2].name = "width", list[2].q = &width;
+    list[3].name = "lag", list[3].q = &lag;
+    s->law = "arde", s->shape = "linear", s->argument = list, s->nargument = 4;
+    facts.release = distances(needed_um, lost_um);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_ptr_equal(fw_process_flow_release_step(f, &reach), s);
+    return f;
+}
+
+/* A narrow opening of 10 um needs (D + c D^2/20 um)/R for D: in that time a wide one runs 1 + c D/20 um times
+   as far, and that loses what must stay. */
+static void wide_openings_run_ahead(void **state) {
+    (void)state;
+    fw_process_flow *f = lagging(20, 60, 0.5, 0, FW_MEASURED);
+    double reach;
+    const fw_process_step *s = fw_process_flow_release_step(f, &reach);
+    double k = 1.0 + 0.5 * reach / (20 * UM);
+    assert_relative(s->time.nominal_s, k * reach / (0.2 * UM / 60), 1e-9);
+    assert_relative(f->release_wide, k, 1e-9);
+    assert_relative(fw_process_release_run(f, s, reach), 1.2 * k * reach, 1e-9);
+    assert_true(f->release_lag_known && !f->no_window);
+    assert_null(reason_with(f, "narrow openings"));
+    /* 1.2 x 20 x 1.5 = 36 um: with 35 um there is no window, without the lag there was */
+    assert_true(lagging(20, 35, 0.5, 0, FW_MEASURED)->no_window);
+    assert_false(lagging(20, 35, 0.0, 0, FW_MEASURED)->no_window);
+    /* 0.5 +- 0.2 (k = 2): up to 1.2 x 20 x 1.9 = 45.6 um */
+    f = lagging(20, 42, 0.5, 0.2, FW_MEASURED);
+    assert_false(f->no_window);
+    assert_non_null(reason_with(f, "narrow openings may fall so far behind"));
+    assert_null(reason_with(lagging(20, 47, 0.5, 0.2, FW_MEASURED), "narrow openings"));
+}
+
+/* a lag that is assumed leaves the time that of wide openings, and is said with what it may be */
+static void assumed_lags_are_said(void **state) {
+    (void)state;
+    fw_process_flow *f = lagging(20, 60, 0.5, 0.2, FW_ASSUMED);
+    double reach;
+    const fw_process_step *s = fw_process_flow_release_step(f, &reach);
+    assert_relative(s->time.nominal_s, reach / (0.2 * UM / 60), 1e-9);
+    assert_true(f->release_wide == 1.0);
+    assert_true(f->release_wide_most > 1.5);
+    assert_non_null(reason_with(f, "only assumed, and the time is that of wide ones"));
+}
+
 /* the copper flow takes everything off; the others say what they do not know */
 static void what_may_come_off(void **state) {
     (void)state;
@@ -121,6 +187,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(no_drawing_no_time, setup, teardown),
         cmocka_unit_test_setup_teardown(windows_close, setup, teardown),
         cmocka_unit_test_setup_teardown(stated_reaches_are_judged, setup, teardown),
+        cmocka_unit_test_setup_teardown(wide_openings_run_ahead, setup, teardown),
+        cmocka_unit_test_setup_teardown(assumed_lags_are_said, setup, teardown),
         cmocka_unit_test_setup_teardown(what_may_come_off, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
