@@ -181,8 +181,9 @@ static void expressions(void **state) {
 static void jolts(void **state) {
     (void)state;
     const double w = 1e4, end = 1;
-    const fw_quantity_law step = {.kind = &fw_quantity_law_step, .end_s = INFINITY};
-    const fw_quantity_law late = {.kind = &fw_quantity_law_step, .start_s = 0.3, .end_s = INFINITY};
+    const fw_quantity_law step = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
+    const fw_quantity_law late = {
+        .kind = &fw_quantity_law_step, .start_s = 0.3, .end_s = (double)INFINITY};
     const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.5};
     const fw_quantity_law pulse = {.kind = &fw_quantity_law_half_sine, .rise_s = 0.25};
     assert_near(fw_quantity_law_jolt(NULL, false, end, w), 1, 0);
