@@ -69,13 +69,13 @@ static fw_status refuse_width(fw_layout_drawing *d, int body, int joint, double 
     const char *label = fw_layout_body_label(d, body), *id = d->device->revolute[joint].id;
     FW_NEED(label);
     fw_layout_um(wide, b->width_m), fw_layout_um(length, length_m);
-    if (length_m <= neck_m) /* no width does */
+    if (length_m <= neck_m) /* with the neck of that width */
         fw_diag_error(
             d->diags, 137, b->width_place,
             "%s: a bar %s um wide cannot be drawn: it ends %s um from hinge %s, whose "
-            "neck is %s um long; leave width out where all of the body is drawn by shapes "
-            "inside it, or move the hinges apart (the bar of a body with one hinge ends at "
-            "the body's x, y)",
+            "neck is %s um long; write a narrower width, or none where all of the body is drawn "
+            "by shapes inside it, or move the hinges apart (the bar of a body with one hinge ends "
+            "at the body's x, y)",
             label, wide, length, id, fw_layout_um(most, neck_m));
     else
         fw_diag_error(
@@ -84,7 +84,10 @@ static fw_status refuse_width(fw_layout_drawing *d, int body, int joint, double 
             "layout widens it from the hinge's neck by 45 degrees at most and leaves half of "
             "the bar its full width; write a width below %s um, or move the hinges apart",
             label, wide, id, length, fw_layout_um(most, ceil(most_m * 1e7) / 1e7));
-    if (d->diags == d->own && length_m > neck_m) d->too_wide = body, d->fits_m = most_m;
+    if (d->diags == d->own) {
+        d->too_wide = body;
+        d->fits_m = fmin(most_m, length_m > neck_m ? b->width_m : 0.9 * b->width_m);
+    }
     fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint));
     fault.body[fault.nbody++] = body;
     FW_TRY(fw_layout_fault_keep(d, fault));
