@@ -96,7 +96,7 @@ static void overrides_table(const fw_process_flow *flow, fw_text *out) {
 static const char style[] =
     "@page{size:A4;margin:10mm 12mm 12mm}\n"
     "*{box-sizing:border-box}\n"
-    "body{font:8.5pt/1.24 Helvetica,Arial,'Liberation Sans',sans-serif;color:#000;background:#fff;"
+    "body{font:8.5pt/1.17 Helvetica,Arial,'Liberation Sans',sans-serif;color:#000;background:#fff;"
     "max-width:186mm;margin:0 auto;padding:4mm 0}\n"
     "h1{font-size:17pt;line-height:1.15;margin:0 0 1mm}\n"
     "h2{font-size:11pt;line-height:1.2;margin:0}\n"
@@ -119,7 +119,7 @@ static const char style[] =
     ".tag.assumed,.tag.unknown{border-style:dashed}\n.tag.unknown{font-weight:bold}\n"
     ".note{border-left:2.2pt solid #000;padding:0.3mm 0 0.3mm 2.5mm;margin:1mm 0}\n"
     ".nc{border:1.4pt solid #000;padding:1.2mm 2mm;margin:1.5mm 0}\n"
-    ".step{border:0.9pt solid #000;padding:1.2mm 2mm;margin:0 0 2mm;box-decoration-break:clone;"
+    ".step{border:0.9pt solid #000;padding:0.9mm 2mm;margin:0 0 1.2mm;box-decoration-break:clone;"
     "-webkit-box-decoration-break:clone}\n"
     ".step>header{display:flex;justify-content:space-between;align-items:flex-start;gap:4mm;"
     "border-bottom:0.5pt solid #888;padding-bottom:0.8mm;margin-bottom:0.8mm;break-after:avoid}\n"

@@ -135,6 +135,23 @@ static void zones(void **state) {
     }
 }
 
+/* six wafers: a line for each in every step that is done wafer by wafer, and what a load shares once for the load */
+static void lines_of_wafers(void **state) {
+    (void)state;
+    const fw_process_flow *f = computed(SILICON, NULL, NULL);
+    const fw_schedule *s = scheduled(f, 6, 1, NULL);
+    const char *html = written(fw_recipe_write_html, f, s);
+    int steps = 0;
+    for (int i = 0; i < f->nstep; i++)
+        steps += !fw_process_step_is_of_lot(&f->step[i]);
+    assert_int_equal(occurrences(html, "<tr><td>6</td>"), steps + 1); /* deviations have six lines */
+    assert_null(strstr(html, "<tr><td>7</td>"));
+    const char *two = strstr(html, "rowspan=\"4\"");
+    assert_non_null(two); /* the coater takes four, and then two */
+    assert_non_null(strstr(two, "rowspan=\"2\""));
+    assert_true(occurrences(html, "rowspan=\"6\"") >= 3);
+}
+
 /* planning times fill what is not computable; the run sheet says so and names where to stop */
 static void planning_times(void **state) {
     (void)state;
@@ -181,8 +198,9 @@ static void contradiction(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(json_and_csv),   cmocka_unit_test(picture),
-        cmocka_unit_test(calendar),       cmocka_unit_test(zones),
-        cmocka_unit_test(planning_times), cmocka_unit_test(contradiction)};
+        cmocka_unit_test(json_and_csv),    cmocka_unit_test(picture),
+        cmocka_unit_test(calendar),        cmocka_unit_test(zones),
+        cmocka_unit_test(lines_of_wafers), cmocka_unit_test(planning_times),
+        cmocka_unit_test(contradiction)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
