@@ -277,7 +277,7 @@ fw_status fw_process_lint_through(fw_process_pack *pack) {
 /* ---- wafers that are in pieces ----
    What a device's plate leaves of the field lies between all dies. Where nothing of any layer is left there, and the
    structure still is, what was a wafer is as many pieces as there are dies, whatever the plate is of. Test:
-   test_parted.c. */
+   test_lint.c. */
 
 static bool in_pieces(const fw_process_flow *f, const fw_process_stack *stack) {
     fw_process_side field;
