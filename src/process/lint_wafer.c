@@ -277,7 +277,7 @@ fw_status fw_process_lint_through(fw_process_pack *pack) {
 /* ---- wafers that are in pieces ----
    What a device's plate leaves of the field lies between all dies. Where nothing of any layer is left there, and the
    structure still is, what was a wafer is as many pieces as there are dies, whatever the plate is of. Test:
-   test_parted.c. */
+   test_lint.c. */
 
 static bool in_pieces(const fw_process_flow *f, const fw_process_stack *stack) {
     fw_process_side field;
@@ -291,12 +291,22 @@ static bool in_pieces(const fw_process_flow *f, const fw_process_stack *stack) {
     return stands;
 }
 
+/* a step after which the field may be empty, which it was not before */
+static bool takes_away(const fw_process_step *s) {
+    for (int i = 0; i < s->nchange; i++)
+        if (strcmp(s->change[i].kind, "remove") == 0 &&
+            strcmp(s->change[i].where, "structure") != 0)
+            return true;
+    return false;
+}
+
 fw_status fw_process_lint_parted(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
     bool before = false;
     for (int i = 0; i < f->nstep; i++) {
         const fw_process_step *s = &f->step[i];
         fw_process_stack stack;
+        if (!s->parts && (before || !takes_away(s))) continue;
         FW_TRY(fw_process_flow_stack(pack->arena, f, i, &stack, NULL));
         bool pieces = in_pieces(f, &stack), dies = before || s->parts;
         if (pieces && !dies && i + 1 < f->nstep) {
