@@ -86,6 +86,20 @@ class Tree(unittest.TestCase):
             found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:device:1").strip()
             self.assertTrue(found.endswith("/device.rng"), found)
 
+    def test_klayout_package(self):
+        """whole, with the gallery's devices; it finds the program of its own prefix and makes the technologies"""
+        package = self.prefix / "share/flexwright/klayout"
+        for name in ("grain.xml", "pymacros/flexwright.lym", "drc/engine.rb", "devices/reference-six-bar.xml"):
+            self.assertTrue((package / name).is_file(), name)
+        found = run(sys.executable, "-B", "-c", "import sys; sys.path.insert(0, %r); from flexwright_klayout import program; print(program.program()); "
+                    "print(sorted(program.device_files())[:2])" % str(package / "python"))
+        self.assertEqual(found.splitlines()[0], str(self.prefix / "bin/flexwright"))
+        self.assertIn("comb-stage", found)
+        made = self.prefix.parent / "tech"
+        run(package / "make_tech.py", self.prefix / "bin/flexwright", made)
+        for path in (package / "tech").rglob("*.ly*"):
+            self.assertEqual(path.read_bytes(), (made / path.relative_to(package / "tech")).read_bytes())
+
     def test_manual_pages(self):
         pages = self.prefix / "share/man/man1"
         main = (pages / "flexwright.1").read_text()

@@ -39,7 +39,7 @@ def configured(name):
 
 def program():
     """path of the program: as set, the one that this package was installed with, or one of PATH"""
-    own = HERE.parents[2] / "bin/flexwright"
+    own = os.path.normpath(HERE / "../../../bin/flexwright")
     for path in (configured("program"), own, shutil.which("flexwright"), "/usr/local/bin/flexwright", "/usr/bin/flexwright"):
         if path and os.access(path, os.X_OK) and os.path.isfile(path):
             return str(path)
