@@ -86,7 +86,7 @@ static fw_status changed_device(fw_arena *arena, const fw_device *from, const ch
 }
 
 /* drawn, measured and judged; *out.opens false where it cannot be drawn as whole as it is now, too */
-static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, answer *out) {
+static fw_status make_change(fw_plan *plan, fw_plan_flow *pf, const change *c, answer *out) {
     fw_device device;
     const fw_layout *layout = NULL;
     const fw_release *release;
@@ -108,6 +108,14 @@ static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, an
     FW_TRY(status);
     *out = (answer){!pf->flow->no_window, release->needed_m, release->lost_m};
     return FW_OK;
+}
+
+/* the same, and nothing of it is kept: a search makes some hundred drawings */
+static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, answer *out) {
+    fw_mark mark = fw_arena_mark(plan->arena);
+    fw_status status = make_change(plan, pf, c, out);
+    fw_arena_rewind(plan->arena, mark);
+    return status;
 }
 
 /* One number alone, beside what *p has already: from `first` on by `ratio` up to `last`, then between the last
