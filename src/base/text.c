@@ -412,6 +412,12 @@ bool fw_word_is(fw_word word, const char *name) {
     return strlen(name) == word.length && memcmp(name, word.at, word.length) == 0;
 }
 
+bool fw_words_hold(const char *words, const char *separators, const char *name) {
+    for (fw_word word; fw_word_next(&words, separators, &word);)
+        if (fw_word_is(word, name)) return true;
+    return false;
+}
+
 bool fw_text_same(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
 }

@@ -65,6 +65,8 @@ typedef struct fw_word {
 /* the first word of *rest, behind which *rest moves; false: there is none left */
 bool fw_word_next(const char **rest, const char *separators, fw_word *word);
 bool fw_word_is(fw_word word, const char *name);
+/* is this one of them? An empty name is none */
+bool fw_words_hold(const char *words, const char *separators, const char *name);
 /* alike; NULL is like NULL alone */
 bool fw_text_same(const char *a, const char *b);
 /* what nobody named (NULL) is "(unnamed)" */

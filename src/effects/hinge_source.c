@@ -45,8 +45,11 @@ static double mass_of(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? (double)INFINITY : m->body[body].mass_kg;
 }
 
-/* the largest of all that acts on bodies; weight is there from the start and no jolt */
-static double largest_jolt(const fw_device_scene *s, double omega) {
+/* The largest of all that has a law, drivers among it, and of what begins with a velocity; weight and
+   friction are there from the start and jolt nothing. */
+static double largest_jolt(const fw_effect_case *c, double omega) {
+    const fw_device_scene *s = c->scene;
+    const fw_mechanism *m = c->mechanism;
     double most = 0, end = s->duration_s;
     for (int i = 0; i < s->nforce; i++)
         most = fmax(most, fw_quantity_law_jolt(s->force[i].law, false, end, omega));
@@ -58,6 +61,12 @@ static double largest_jolt(const fw_device_scene *s, double omega) {
         most = fmax(most, fw_quantity_law_jolt(s->comb[i].law, false, end, omega));
     for (int i = 0; i < s->nbase; i++)
         most = fmax(most, fw_quantity_law_jolt(s->base[i].law, false, end, omega));
+    for (int i = 0; i < s->ntemperature; i++)
+        most = fmax(most, fw_quantity_law_jolt(s->temperature[i].law, false, end, omega));
+    for (int i = 0; i < s->npart; i++)
+        most = fmax(most, fw_quantity_law_jolt(s->part[i].law, false, end, omega));
+    for (int i = 0; i < m->ndriver; i++)
+        most = fmax(most, fw_quantity_law_jolt(&m->driver[i].law, true, end, omega));
     return s->ninitial > 0 ? 1 : most;
 }
 
@@ -81,7 +90,7 @@ static void lose(const fw_effect_case *c, const fw_mechanism_pin *pin,
     double mass = fmin(mass_of(c->mechanism, pin->body_a), mass_of(c->mechanism, pin->body_b));
     for (int i = 0; i < 2; i++) {
         double omega = sqrt(k[i] / mass);
-        bool rings = isfinite(own) && largest_jolt(c->scene, omega) > fw_jolted;
+        bool rings = isfinite(own) && largest_jolt(c, omega) > fw_jolted;
         out[i] = fmin(tau_s, (rings ? own : slow) / omega);
     }
 }

@@ -33,13 +33,6 @@ fw_status fw_effects_envelope_find(fw_arena *arena, const fw_mechanism *mechanis
 
 static const char fw_between[] = ", \t"; /* names of a list */
 
-/* is `id` one of the comma separated names? */
-static bool listed(const char *list, const char *id) {
-    for (fw_word word; list && fw_word_next(&list, fw_between, &word);)
-        if (fw_word_is(word, id)) return true;
-    return false;
-}
-
 static bool known(fw_word id) {
     for (size_t i = 0; i < ROWS; i++)
         if (fw_word_is(id, rows[i]->id)) return true;
@@ -232,7 +225,8 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
             e->reason = fw_effects_hinge_forced_reason(choice);
             continue;
         }
-        bool in = all || (list && listed(choice->list, e->id)), stays = belongs(c, rows[i], e);
+        bool in = all || (list && fw_words_hold(choice->list, fw_between, e->id)),
+             stays = belongs(c, rows[i], e);
         e->active = in || stays;
         if (all)
             e->reason = whole ? "called for: equilibria and modes leave nothing out"

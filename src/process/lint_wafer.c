@@ -2,6 +2,7 @@
 /* The wafer's layers, step by step: what a step needs there, and what else it does to them. */
 #include "process/pack.h"
 #include "base/constants.h"
+#include "base/text.h"
 #include "process/films.h"
 #include <math.h>
 #include <string.h>
@@ -18,16 +19,10 @@ fw_status fw_process_lint_absent(fw_process_pack *pack) {
     return FW_OK;
 }
 
-static bool in_list(const char *list, const char *word) {
-    size_t n = strlen(word);
-    for (const char *at = strstr(list, word); at; at = strstr(at + 1, word))
-        if ((at == list || at[-1] == ' ') && (at[n] == ' ' || at[n] == '\0')) return true;
-    return false;
-}
-
 /* steps in which a chemical or a plasma works on the wafer; in others it is only in the room */
 static bool works_on_wafer(const fw_process_step *s) {
-    return in_list("clean anodise displace develop plate wet-etch dry-etch strip release", s->op);
+    return fw_words_hold("clean anodise displace develop plate wet-etch dry-etch strip release",
+                         " ", s->op);
 }
 
 static bool is_target(const fw_process_step *s, const char *material) {
@@ -137,7 +132,8 @@ fw_status fw_process_lint_contamination(fw_process_pack *pack) {
             if (!m || !m->contaminates[0] || !brings) continue;
             for (int i = from; i < f->nstep; i++) {
                 const fw_process_step *s = &f->step[i];
-                if (!s->equipment || in_list(s->equipment->takes, m->contaminates)) continue;
+                if (!s->equipment || fw_words_hold(s->equipment->takes, " ", m->contaminates))
+                    continue;
                 fw_diag_error(pack->diags, 272, s->place,
                               "step %s takes a wafer with %s ('%s', since step %s) into '%s', "
                               "which does not say takes=\"%s\"; use a tool that does",
@@ -188,7 +184,7 @@ fw_status fw_process_lint_masking(fw_process_pack *pack) {
             const fw_process_step *s = &f->step[i];
             const fw_process_change *c = &s->change[k];
             if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back ||
-                !in_list("wet-etch dry-etch strip release clean", s->op))
+                !fw_words_hold("wet-etch dry-etch strip release clean", " ", s->op))
                 continue;
             fw_process_stack stack;
             FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
@@ -269,7 +265,7 @@ fw_status fw_process_lint_through(fw_process_pack *pack) {
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; k < f->step[i].nchange; k++)
             if (strcmp(f->step[i].change[k].kind, "remove") == 0 &&
-                in_list("wet-etch dry-etch strip", f->step[i].op))
+                fw_words_hold("wet-etch dry-etch strip", " ", f->step[i].op))
                 FW_TRY(lint_through(pack, i, &f->step[i].change[k]));
     return FW_OK;
 }

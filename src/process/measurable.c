@@ -295,8 +295,21 @@ static fw_quantity *replace(fw_process_flow *flow, const fw_process_with *with, 
     q->value = with->value;
     q->uncertainty = with->uncertainty;
     q->unknown = q->interval = false;
+    q->replaced = true;
     q->status = q->u_status = FW_MEASURED;
     return q;
+}
+
+/* how uncertain the edges of corners are, which may follow from what is replaced */
+static void keep_edges(const fw_process_flow *flow, double u[FW_FABRICATION_INPUTS]) {
+    for (int i = 0; i < flow->ncorner; i++)
+        u[i] = flow->corner[i].q ? flow->corner[i].q->uncertainty : 0.0;
+}
+
+static void return_edges(fw_process_flow *flow, const double u[FW_FABRICATION_INPUTS]) {
+    for (int i = 0; i < flow->ncorner; i++)
+        if (flow->corner[i].etched && flow->corner[i].q)
+            fw_process_flow_own_quantity(flow, flow->corner[i].q->id)->uncertainty = u[i];
 }
 
 fw_status fw_process_flow_fabricated_with(fw_arena *arena, fw_process_flow *flow,
@@ -304,8 +317,13 @@ fw_status fw_process_flow_fabricated_with(fw_arena *arena, fw_process_flow *flow
                                           const fw_process_mask_facts *facts,
                                           const fw_mechanism_variant *variant,
                                           const fw_verdict_fabrication_input **input, int *ninput) {
+    double edge[FW_FABRICATION_INPUTS];
+    keep_edges(flow, edge);
     fw_quantity was, *q = replace(flow, with, &was);
-    fw_status status = fw_process_flow_fabricated(arena, flow, facts, variant, input, ninput);
+    fw_status status = q ? fw_process_corners_follow(arena, flow) : FW_OK;
+    if (status == FW_OK)
+        status = fw_process_flow_fabricated(arena, flow, facts, variant, input, ninput);
+    return_edges(flow, edge);
     if (q) *q = was;
     return status;
 }

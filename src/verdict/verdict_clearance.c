@@ -16,8 +16,7 @@
    part by at most e times as far as the pair has moved against each other. Theory:
    docs/theory/clearance.md, section 5. Test: tests/clearance/cases.py, compare.py */
 
-/* of the least clearance, beside 1 nm; distances that are computed for it, and
-   while nothing is decided */
+/* of the least clearance, beside 1 nm; distances that are computed for it, and while nothing is decided */
 static const double fw_clearance_relative = 2e-3;
 /* What a long motion, which is looked at in parts before its error is known, is taken to be off by.
    One that is off by more is not decided. */
@@ -123,11 +122,12 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
 /* a stated place and a drawn wall, whose corners are rounded, need not agree better */
 static const double touches_m = 10e-6;
 
-/* Is the round thing about this point, whose radius is at most the distance of the contact, part of what
-   is drawn of the body? A bead that is held stands in the open: the ground may carry it, and its frame
-   is none of it. */
-static bool is_drawn_there(const fw_clearance_solid *solid, fw_geometry_vec2 at,
-                           double distance_m) {
+/* Is the round thing about this point, no larger than the distance, part of what is drawn of the body? A bead
+   that is held stands in the open: the ground may carry it, and its frame is none of it. */
+static bool is_drawn_there(const fw_mechanism *m, const fw_clearance_things *things, int body,
+                           double x_m, double y_m, double distance_m) {
+    const fw_clearance_solid *solid = &things->solid[body == FW_GROUND ? things->nbody : body];
+    const fw_geometry_vec2 at = fw_mechanism_local_place(m, body, x_m, y_m);
     for (int i = 0; i < solid->count; i++)
         if (!solid->edge[i].bends && fw_geometry_segment_nearest(&solid->edge[i].segment, at, NULL,
                                                                  NULL) <= distance_m + touches_m)
@@ -137,15 +137,10 @@ static bool is_drawn_there(const fw_clearance_solid *solid, fw_geometry_vec2 at,
 
 static bool lets_meet(const fw_mechanism *m, const fw_clearance_things *things,
                       const fw_device_contact_use *c) {
-    const int ground = things->nbody;
-    if (c->joint != FW_NONE) return false;
-    if (c->side == FW_CONTACT_INSIDE) return true; /* its hole is open */
-    const fw_clearance_solid *a = &things->solid[c->body_a == FW_GROUND ? ground : c->body_a],
-                             *b = &things->solid[c->body_b == FW_GROUND ? ground : c->body_b];
-    return is_drawn_there(a, fw_mechanism_local_place(m, c->body_a, c->ax_m, c->ay_m),
-                          c->distance_m) &&
-           is_drawn_there(b, fw_mechanism_local_place(m, c->body_b, c->bx_m, c->by_m),
-                          c->distance_m);
+    if (c->joint != FW_NONE || c->side == FW_CONTACT_INSIDE) /* a hole is open */
+        return c->joint == FW_NONE;
+    return is_drawn_there(m, things, c->body_a, c->ax_m, c->ay_m, c->distance_m) &&
+           is_drawn_there(m, things, c->body_b, c->bx_m, c->by_m, c->distance_m);
 }
 
 /* pairs of which the scene says itself what happens when they touch; the conjugate surfaces of a

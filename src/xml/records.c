@@ -30,10 +30,7 @@ const fw_xml_element_row *fw_xml_row_find(const fw_xml_table *table, const char 
 
 bool fw_xml_row_inside(const fw_xml_element_row *row, const char *parent) {
     if (!parent[0]) return !row->parent[0];
-    const char *parents = row->parent;
-    for (fw_word word; fw_word_next(&parents, " ", &word);)
-        if (fw_word_is(word, parent)) return true;
-    return false;
+    return fw_words_hold(row->parent, " ", parent);
 }
 
 int fw_xml_row_index_in(const fw_xml_table *table, const char *name, const char *parent) {

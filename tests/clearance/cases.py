@@ -142,7 +142,7 @@ def lane(program):
                'b-y="3 mm" distance="10 mm" stiffness="1e3 N/m"/>\n  </scene>\n  <die frame="120 um"/>')
     with tempfile.TemporaryDirectory() as directory:
         path = changed(directory, "jaws.xml", ("  </scene>", contact), ('fx="push"', 'fx="-1*push"'),
-                       ('fx="-push"', 'fx="push"'))
+                       ('<force on="right" fx="-push" fy="0 mN" law="ramp" rise="16 ms"/>', ""))
         d = check(program, path, "push=150 uN", "gap=400 um")
         met = [c for c in d["clearances"] if c["meet"]]
         expect("a body that leaves the die is rejected",

@@ -78,22 +78,19 @@ def reaches(points, box, near):
 
 class Verdict:
     def __init__(self):
-        self.wrong, self.count, self.straight, self.edge_error_nm = [], collections.Counter(), 0, 0
+        self.wrong, self.missed, self.count, self.edge_error_nm = [], [], collections.Counter(), 0
 
     def say(self, text):
         self.wrong.append(text)
         print("FAIL  " + text, flush=True)
 
-    @staticmethod
-    def dropped(f, findings):
-        """KLayout drops a vertex that is less than a tenth of the grid off the line between its neighbours: is one end of f such?"""
-        for g in findings:
-            for at in f["at_um"]:
-                if g is not f and at in g["at_um"]:
-                    far = [[p for p in h["at_um"] if p != at] for h in (f, g)]
-                    if all(far) and off_edge(*(1e3 * v for v in at), [[1e3 * v for v in p[0]] for p in far]) < 0.1:
-                        return True
-        return False
+    def edges(self):
+        """KLayout drops vertices that hardly leave the line between their neighbours when it reads a file, so that an edge which
+        ends there is longer than as written: of a thousand short edges one may be missed for that"""
+        self.count["edges at straight vertices"] = len(self.missed)
+        if len(self.missed) > 1e-3 * self.count["edge places"]:
+            for text in self.missed:
+                self.say(text)
 
     def compare(self, name, rule, findings, found):
         kind, near = rule["kind"], 1.5
@@ -119,9 +116,8 @@ class Verdict:
             else:  # a corner, an edge, an island or hole: the very same
                 there = any(reaches(s, box, near) and abs(min(p[0] for p in s) - box[0]) < near and abs(max(p[1] for p in s) - box[3]) < near
                             for s in found)
-            if not there and kind == "edge" and (self.dropped(f, findings) or self.straight > 0):
-                self.straight -= 0 if self.dropped(f, findings) else 0.5  # two edges each
-                self.count["edges at straight vertices"] += 1
+            if not there and kind == "edge":
+                self.missed.append("%s: %s: KLayout has not %s" % (name, drc.category(rule), f["at_um"]))
             elif not there:
                 self.say("%s: %s: KLayout has not %s" % (name, drc.category(rule), {k: f[k] for k in ("value", "at_um", "pieces")}))
 
@@ -152,7 +148,7 @@ def main():
     if not shutil.which("klayout"):
         print("SKIPPED: klayout is not installed (Debian: apt-get install klayout)")
         return 77
-    first, count = (int(os.environ.get("FW_DRC_" + k, v)) for k, v in (("FIRST", 40), ("COUNT", 24 if os.environ.get("FW_TEST_ALL") else 4)))
+    first, count = (int(os.environ.get("FW_DRC_" + k, v)) for k, v in (("FIRST", 40), ("COUNT", 24 if os.environ.get("FW_TEST_ALL") else 2)))
     verdict, masks, seed = Verdict(), [], first
     devices = 0
     with tempfile.TemporaryDirectory() as temporary:
@@ -183,9 +179,9 @@ def main():
                           if path == drc.category(rule) or path.startswith(drc.category(rule) + ", ")]
                 own = [f for f in certificate["findings"] if f["rule"] == rule["kind"] and f["layer"] == rule["layer"] and f["other"] == rule["other"]
                        and f["limit"] in (rule["min"], rule["max"])]
-                verdict.straight = sum(y["straight_vertices"] for y in certificate["layers"] if y["gds"] == rule["layer"])
                 verdict.edge_error_nm = certificate["edge_error_nm"]
                 verdict.compare(name, rule, own, shapes)
+    verdict.edges()
     print("%d devices, seeds %d to %d, %d masks: %s; %d wrong; %.1f s a mask in KLayout, at most %.1f" %
           (devices, first, seed - 1, len(masks), ", ".join("%s %d" % c for c in sorted(verdict.count.items())), len(verdict.wrong),
            sum(seconds) / len(seconds), max(seconds)))

@@ -229,7 +229,9 @@ static void required_poses_count(void **state) {
         if (why) {
             assert_non_null(strstr(why, "in a required workspace"));
             assert_int_equal(sscanf(strstr(why, " goes "), " goes %lf um", &goes), 1);
-            assert_true(goes >= up[i] && goes < 2.0 * (up[i] + 5.0));
+            /* hinge B goes 1.4 times as far as C at the last, what lies beside the line between them farther */
+            if (!(goes >= up[i] && goes < 2.5 * (up[i] + 5.0)))
+                fail_msg("up %g um: %s", up[i], why);
         }
         if (i == 0) assert_null(why);
         if (i == 2) assert_non_null(why);
