@@ -3,16 +3,11 @@
    twice, a second carrier, a second coat that the bake is not timed for. Each question is a function here and a row in
    lint.c. Generated test: tests/process/orders.py, every step once more right behind itself and at the end of its phase;
    test_lint.c does_not_again_what_harms. */
+#include "base/text.h"
 #include "process/films.h"
 #include "process/pack.h"
 #include <math.h>
 #include <string.h>
-
-static bool is_one_of(const char *const list[], size_t n, const char *op) {
-    for (size_t i = 0; i < n; i++)
-        if (strcmp(list[i], op) == 0) return true;
-    return false;
-}
 
 static fw_status is_there(fw_process_pack *pack, int step, int change, const char *material,
                           bool *there) {
@@ -26,12 +21,11 @@ static fw_status is_there(fw_process_pack *pack, int step, int change, const cha
 
 /* Films grow on films of their own kind; wafers, carriers, wax and paste come once. */
 static fw_status lint_second(fw_process_pack *pack, int i, int k) {
-    static const char *const grow[] = {"deposit", "coat", "displace", "plate"};
+    static const char grow[] = "deposit coat displace plate";
     const fw_process_step *s = &pack->flow->step[i];
     const fw_process_change *c = &s->change[k];
     bool there;
-    if (strcmp(c->kind, "add") != 0 || is_one_of(grow, sizeof grow / sizeof *grow, s->op))
-        return FW_OK;
+    if (strcmp(c->kind, "add") != 0 || fw_words_hold(grow, " ", s->op)) return FW_OK;
     FW_TRY(is_there(pack, i, k, c->material, &there));
     if (there)
         fw_diag_error(pack->diags, 520, c->place,
@@ -234,8 +228,8 @@ static void lint_mounted(fw_process_pack *pack, int i) {
 
 /* these are always done in a liquid: which one decides on gloves, rinse, bench and waste */
 static void lint_liquid(fw_process_pack *pack, const fw_process_step *s) {
-    static const char *const wet[] = {"anodise", "displace", "develop", "plate", "wet-etch"};
-    if (!is_one_of(wet, sizeof wet / sizeof *wet, s->op) || fw_process_step_liquid(s)) return;
+    static const char wet[] = "anodise displace develop plate wet-etch";
+    if (!fw_words_hold(wet, " ", s->op) || fw_process_step_liquid(s)) return;
     fw_diag_error(pack->diags, 527, s->place,
                   "step %s (%s) is done in a liquid, and none of its hazards is one; add the "
                   "<hazard-ref> of its bath",
