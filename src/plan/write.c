@@ -295,11 +295,12 @@ static const char *of_plate(writer *w, const fw_mask_table *table, int plate) {
     return fw_mask_plates(table) < 2 ? "" : fw_arena_printf(w->plan->arena, ".%s", id);
 }
 
-static fw_status order_ending(writer *w, const fw_mask_table *table, int plate, const char *form,
-                              const char **ending) {
+static fw_status put_order(writer *w, const fw_mask_table *table, int plate, const char *name,
+                           const char *form, const fw_text *text) {
     const char *of = of_plate(w, table, plate);
-    *ending = of ? fw_arena_printf(w->plan->arena, "%s.order.%s", of, form) : NULL;
-    return *ending ? FW_OK : FW_NOMEM;
+    const char *ending = of ? fw_arena_printf(w->plan->arena, "%s.order.%s", of, form) : NULL;
+    FW_NEED(ending);
+    return put(w, "masks/", name, ending, text);
 }
 
 /* an order sheet for each plate; they name what was written before them */
@@ -307,13 +308,13 @@ static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
     fw_output_file *own;
     int n;
     FW_TRY(files_of(w, name, ".", &own, &n));
-    for (int i = 0; i < 2 * fw_mask_plates(mask->table); i++) {
-        const char *ending;
+    for (int plate = 0; plate < fw_mask_plates(mask->table); plate++) {
         fw_text text = fw_text_new(w->scratch);
-        FW_TRY(order_ending(w, mask->table, i / 2, i % 2 ? "txt" : "json", &ending));
-        FW_TRY(
-            (i % 2 ? fw_mask_write_order_text : fw_mask_write_order)(mask, i / 2, own, n, &text));
-        FW_TRY(put(w, "masks/", name, ending, &text));
+        FW_TRY(fw_mask_write_order(mask, plate, own, n, &text));
+        FW_TRY(put_order(w, mask->table, plate, name, "json", &text));
+        text = fw_text_new(w->scratch);
+        FW_TRY(fw_mask_write_order_text(mask, plate, own, n, &text));
+        FW_TRY(put_order(w, mask->table, plate, name, "txt", &text));
     }
     return FW_OK;
 }
@@ -403,11 +404,9 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf, unsigned set) {
     int n;
     FW_TRY(files_of(w, pf->use->ref, "-wafer", &own, &n));
     for (int plate = 0; plate < fw_mask_plates(pf->table); plate++) {
-        const char *ending;
         text = fw_text_new(w->scratch);
-        FW_TRY(order_ending(w, pf->table, plate, "txt", &ending));
         FW_TRY(fw_wafer_write_order(pf->wafer, plate, own, n, &text));
-        FW_TRY(put(w, "masks/", name, ending, &text));
+        FW_TRY(put_order(w, pf->table, plate, name, "txt", &text));
     }
     return FW_OK;
 }
