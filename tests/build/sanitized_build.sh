@@ -3,7 +3,7 @@
 # that read files carry the fuzzer's counters, the others one for each function. sanitized_build TARGET [cmake option]
 sanitized_build() {
     configure_and_build build-asan -DCMAKE_C_COMPILER=clang -DFW_SANITIZE=ON -DFW_FUZZ=ON -DFW_TESTS=ON -DFW_PAGE=OFF \
-        -DFW_EDGES=func -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-g1 -O1" \
+        -DFW_EDGES=func -DFW_TOGETHER=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-g1 -O1" \
         ${2:+"$2"} --target "$1"
 }
 

@@ -5,6 +5,6 @@
 set -eu
 cd "$(dirname "$0")/../.."
 . tools/setup.sh
-configure_and_build build-threads -DCMAKE_C_COMPILER=clang -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug \
+configure_and_build build-threads -DCMAKE_C_COMPILER=clang -DFW_TESTS=ON -DFW_PAGE=OFF -DFW_TOGETHER=ON -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_C_FLAGS_DEBUG="-g1 -O0" -DCMAKE_C_FLAGS=-fsanitize=thread --target cancel_threads
 FW_CANCEL_MOMENTS=1 TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build-threads/tests/cancel_threads
