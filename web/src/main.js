@@ -9,6 +9,7 @@ import { inputKey, settled } from "./belong.js";
 import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
 import { $, button, h, s } from "./dom.js";
+import { Draw } from "./draw.js";
 import { Editor } from "./editor.js";
 import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
@@ -89,7 +90,7 @@ function editArea() {
 }
 
 function views() {
-    const names = [["motion", "Motion", Motion], ["workspace", "Workspace", Workspace], ["modes", "Modes", Modes], ["assembly", "Assembly", Assembly],
+    const names = [["motion", "Motion", Motion], ["draw", "Draw", Draw], ["workspace", "Workspace", Workspace], ["modes", "Modes", Modes], ["assembly", "Assembly", Assembly],
         ["masks", "Masks", Masks], ["recipe", "Recipe", Recipe], ["accuracy", "Accuracy", Accuracy]];
     const panels = names.map(([id, label]) => ({ id, label, panel: h("div", { class: `view view-${id}` }) }));
     const tabs = makeTabs("Views", panels, {
@@ -134,6 +135,11 @@ on("show-xml", ([from, to]) => {
     parts.editor.select(from, to);
 });
 
+on("show-form", (path) => {
+    parts.editTabs.select("form");
+    parts.form.reveal(path);
+});
+
 // ---- start ----
 
 const MOST_WAIT_MS = 30000;
@@ -169,6 +175,7 @@ async function start() {
     state.table = await get("/api/table");
     parts.form.start(state.table);
     parts.motion.start(state.table);
+    parts.draw.start(state.table);
     parts.open.hidden = state.session.file !== null;
     await startFile(parts.editor);
     headerState();
