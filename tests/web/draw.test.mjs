@@ -2,9 +2,10 @@
 // A device made with the mouse: from an empty page to an accepted gripper without touching the text, and things that
 // are there dragged, with what is written respected.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, axeSource, close, finish, open, serve, text, verdict, view } from "./helper.mjs";
+import { answered, axeSource, close, finish, open, serve, source, text, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -70,6 +71,111 @@ describe("a gripper from an empty page", () => {
         await verdict(page, "accept");
         await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: 60000 });
         await shot(page, "draw-gripper.png");
-        console.log(await text(page));
+    });
+});
+
+describe("what is there is dragged", () => {
+    let server, page;
+    const handle = (id) => page.locator(`.draw-handle[data-id="${id}"]`);
+    const place = (id) => page.evaluate((x) => globalThis.flexwright.parts.draw.list.find((h) => h.id === x)?.at, id);
+    const load = async (name) => {
+        const xml = readFileSync(join(source, "docs/gallery", name, "device.xml"), "utf8");
+        await page.evaluate((t) => globalThis.flexwright.parts.editor.open(t), xml);
+        await page.waitForFunction(() => globalThis.flexwright.settled(false) && globalThis.flexwright.state.preview);
+        return xml;
+    };
+    before(async () => {
+        server = await serve(null);
+        page = await open(server);
+        await view(page, "draw");
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("every hinge of the gallery has its handle where the program has its pin", async () => {
+        const seen = [];
+        for (const name of ["reference-six-bar", "leaf-four-bar", "straight-stage", "free-form-gripper", "free-form-four-bar", "comb-stage", "four-tendons"]) {
+            await load(name);
+            const off = await page.evaluate(() => {
+                const { list } = globalThis.flexwright.parts.draw;
+                return globalThis.flexwright.state.preview.pins.map((p) => {
+                    const own = list.find((h) => h.look === "hinge" && h.element.id === p.id);
+                    const at = globalThis.flexwright.state.preview.flexures.find((f) => f.id === p.id)?.centre_um ?? p.at_um;
+                    return own ? Math.hypot(own.at[0] - at[0], own.at[1] - at[1]) : Infinity;
+                });
+            });
+            assert.ok(off.length > 0 && off.every((d) => d < 0.01), `${name}: off by ${off} um`);
+            seen.push(...off);
+        }
+        assert.ok(seen.length > 25);
+    });
+
+    test("a parameter is changed, and all that uses it follows; one drag is one undo", async () => {
+        const xml = await load("free-form-gripper");
+        const id = "device/mechanism/revolute[A]";
+        assert.deepEqual(await place(id), [-600, 0]);
+        await drag(page, [-600, 0], [-700, 0], { release: false });
+        await page.waitForFunction(() => /^700 um|^0.7 mm/.test(globalThis.flexwright.state.set.span ?? ""));
+        assert.equal(await text(page), xml, "the text waits until it is let go");
+        await changed(page, () => page.mouse.up());
+        assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.7 mm"'));
+        assert.deepEqual(await place("device/mechanism/revolute[B]"), [700, 0]);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
+    test("at the end of a parameter's range it stops; Escape gives up", async () => {
+        const xml = await load("free-form-gripper");
+        await drag(page, [-600, 0], [-1200, 0], { release: false });
+        await page.waitForFunction(() => /^0.8 mm/.test(globalThis.flexwright.state.set.span ?? ""));
+        await page.keyboard.press("Escape");
+        await page.mouse.up();
+        assert.equal(await text(page), xml);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
+    });
+
+    test("a formula is never overwritten without a word", async () => {
+        const xml = await load("straight-stage");
+        const id = "device/mechanism/revolute[A]";
+        await drag(page, [0, 0], [0, 200]);
+        const notice = page.locator('.notice:has-text("hinge A is held")');
+        await notice.waitFor();
+        assert.match(await notice.innerText(), /b-y of revolute A is -leg\/2/);
+        assert.equal(await text(page), xml);
+        await shot(page, "draw-held.png");
+        await changed(page, () => notice.locator('button:has-text("Replace")').click());
+        assert.equal(await text(page), xml.replace('<revolute id="A" a="ground" b="left" b-y="-leg/2" hinge="leaf"/>', '<revolute id="A" a="ground" b="left" b-y="-900 um" hinge="leaf" a-y="200 um"/>'));
+        assert.deepEqual((await place(id)).map((v) => Number(v.toFixed(6))), [0, 200]);
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
+    test("corners of outlines, with the pointer; arrow keys, removal and undo with the keyboard", async () => {
+        const xml = await load("free-form-gripper");
+        await click(page, [-680, 600]);
+        const corner = "device/mechanism/body[left]/outline/line[1]"; // from (-100, 250) to (140, 250) in the jaw
+        await handle(corner).waitFor();
+        assert.deepEqual(await place(corner), [-460, 250]);
+        await changed(page, () => drag(page, [-460, 250], [-420, 250]));
+        assert.equal(await text(page), xml.replace('<line to-x="140 um" to-y="250 um"/>', '<line to-x="180 um" to-y="250 um"/>'));
+        await page.click("#undo");
+        await handle("device/mechanism/revolute[A]").focus();
+        await changed(page, () => page.keyboard.press("Shift+ArrowUp"));
+        assert.match(await handle("device/mechanism/revolute[A]").getAttribute("aria-label"), /^hinge A, x \u2212600 µm, y 50 µm/);
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+        await handle("device/mechanism/revolute[A]").focus();
+        await changed(page, () => page.keyboard.press("Delete"));
+        assert.ok(!(await text(page)).includes('<revolute id="A"'));
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+        await page.selectOption('select[aria-label="Part"]', "device/mechanism/body[left]");
+        await changed(page, () => page.click(".draw-remove"));
+        assert.ok(!/ (on|a|b|id)="left"|bead-left|id="A"/.test(await text(page)), "what needed the body goes with it");
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
     });
 });

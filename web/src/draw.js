@@ -236,7 +236,7 @@ export class Draw {
             b.setAttribute("aria-pressed", String(on_));
             b.tabIndex = on_ ? 0 : -1;
         }
-        this.stage.classList.toggle("drawing", this.tool !== null);
+        this.stage.classList.toggle("tool-on", this.tool !== null);
         this.panelOf = null;
         this.#refresh();
     }
