@@ -59,7 +59,8 @@ describe("a gripper from an empty page", () => {
         await changed(page, () => drag(page, [400, 0], [400, 1000]));
         await page.selectOption('label:has-text("belongs to") select', "link-2");
         await changed(page, () => drag(page, [400, 1000], [100, 1000]));
-        assert.match(await page.locator("#right .problems").innerText(), /mistake/i);
+        await page.waitForFunction(() => document.querySelectorAll("#panel-draw .sketch-shape.faulty").length === 4); // a mistake is red where it is
+        assert.match(await page.locator("#right .problems").innerText(), /no hinge holds it yet/i);
         await shot(page, "draw-links.png");
         await tool(page, "hinge");
         await changed(page, () => click(page, [-400, 0]));
@@ -71,6 +72,87 @@ describe("a gripper from an empty page", () => {
         await verdict(page, "accept");
         await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: 60000 });
         await shot(page, "draw-gripper.png");
+    });
+});
+
+describe("without a pointer, and what cannot be made", () => {
+    let server, page;
+    const type = async (label, value) => {
+        await page.fill(`.view-draw input[aria-label="${label}"]`, String(value));
+    };
+    const add = async (act = () => page.press(".draw-add", "Enter")) => changed(page, act);
+    before(async () => {
+        server = await serve(null);
+        page = await open(server);
+        await page.click("#new");
+        await page.click('.template:has-text("Empty page")');
+        await view(page, "draw");
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("tools take numbers; an arm, its hinge, a hole, a cable and electrodes are made with keys", async () => {
+        await page.selectOption('select[aria-label="Grid"]', "5");
+        const key = async (id) => page.press(`.draw-tools [data-tool="${id}"]`, "Enter");
+        const points = async (...list) => {
+            for (const [name, x, y] of list) {
+                await type(`${name}, x, µm`, x);
+                await type(`${name}, y, µm`, y);
+            }
+        };
+        await key("bar");
+        await points(["from", 0, 0], ["to", 0, 900]);
+        await add();
+        await key("plate");
+        await points(["from", -200, 800], ["to", 200, 1100]);
+        await add();
+        await key("disc");
+        await page.selectOption('label:has-text("cut out") select', "yes");
+        await points(["from", 100, 950], ["to", 140, 950]);
+        await add();
+        await key("hinge");
+        await page.selectOption('label:has-text("kind") select', "leaf");
+        await points(["at", 0, 0]);
+        await add();
+        await key("cable");
+        for (const [x, y] of [[-100, 950], [-700, 950]]) {
+            await points(["next eyelet", x, y]);
+            await page.press(".draw-add", "Enter");
+        }
+        await add(() => page.press('.view-draw button:has-text("Finish")', "Enter"));
+        await verdict(page, "reject");
+        const eyelet = page.locator('.draw-handle.doubtful[data-id*="eyelet[2]"]'); // it stands outside of the frame
+        await eyelet.focus();
+        assert.match(await eyelet.getAttribute("aria-label"), /outside of the frame/);
+        for (let i = 0; i < 2; i++) await changed(page, () => page.keyboard.press("Shift+ArrowRight"));
+        await verdict(page, "accept");
+        const xml = await text(page);
+        for (const part of ['<bar x="0 um" y="0 um" to-x="0 um" to-y="900 um" width="120 um"/>', '<plate x="0 um" y="950 um" width="400 um" height="300 um"/>', '<disc x="100 um" y="950 um" radius="40 um" hole="yes"/>',
+            '<flexure id="leaf-1" kind="leaf" length="300 um" width="10 um"/>', 'a="ground" a-x="0 um" a-y="0 um" b="link-1"', '<eyelet on="link-1" x="-100 um" y="950 um"/>', '<eyelet on="ground" x="-600 um" y="950 um"/>'])
+            assert.ok(xml.includes(part), `${part} in ${xml}`);
+        await key("comb");
+        await points(["from", 0, 1100], ["to", 0, 1300]);
+        await add();
+        assert.match(await text(page), /<comb-drive id="comb-1" kind="comb" on="link-1" x="0 um" y="1100 um" direction="90 deg" fingers="10"/);
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
+    test("parts that overlap are red where they do, until they are dragged apart", async () => {
+        await tool(page, "bar");
+        await changed(page, () => drag(page, [-300, 500], [300, 500]));
+        await page.waitForSelector('#banner[data-verdict="failed"]');
+        assert.ok(await page.locator("#panel-draw .overlap").count() > 0);
+        assert.ok(await page.locator("#panel-draw .mark-tag").count() > 0);
+        await page.click("#undo");
+        await verdict(page, "accept");
+        assert.equal(await page.locator("#panel-draw .overlap").count(), 0);
+        await page.evaluate(axeSource);
+        await tool(page, "hinge");
+        const axe = await page.evaluate(() => globalThis.axe.run("#panel-draw", { resultTypes: ["violations"] }));
+        assert.deepEqual(axe.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes[0].html]), []);
     });
 });
 

@@ -23,6 +23,7 @@ const TIP_PIXELS = 62; // from a load to the handle of its direction
 const EMPTY = [-1000, -800, 1000, 1200]; // um, of a page without anything
 const GRIDS = [["", "grid: auto"], ["0", "no grid"], ["1", "1 µm"], ["5", "5 µm"], ["10", "10 µm"], ["50", "50 µm"], ["100", "100 µm"]];
 
+const marked = (fault) => (!fault ? "" : fault.bad ? " faulty" : " doubtful");
 const um = (v) => `${number(Number(v.toFixed(3)), 7)} µm`;
 const path = (ring) => `M${ring.map(([x, y]) => `${x.toFixed(3)} ${y.toFixed(3)}`).join("L")}Z`;
 const LOOKS = {
@@ -43,7 +44,7 @@ export class Draw {
         this.stage = h("div", { class: "stage draw-stage" });
         this.side = h("div", { class: "side-panel" });
         holder.append(this.bar, h("div", { class: "split" }, this.stage, this.side));
-        this.mechanism = new Mechanism(this.stage, { label: "The device as drawn. Arrow keys pan; Tab goes to its handles, which arrow keys move.", around: 0.08 });
+        this.mechanism = new Mechanism(this.stage, { label: "The device as drawn. Arrow keys pan; Tab goes to its handles, which arrow keys move.", around: 0.08, scene: true });
         this.view = this.mechanism.view;
         this.stage.append(zoomButtons(() => this.view));
         this.lines = s("path", { class: "draw-grid", "aria-hidden": "true" });
@@ -122,20 +123,21 @@ export class Draw {
     }
 
     #handlesOf(places) {
-        return handlesOf(places, { scene: state.options.scene ?? state.preview?.motion?.scene ?? "", reach: TIP_PIXELS / this.view.k });
+        return handlesOf(places, { scene: this.#scene(), reach: TIP_PIXELS / this.view.k });
     }
 
     /** Another device is shown whole; what is drawn on does not jump. */
     #fit() {
         const name = this.root.attributes.get("name")?.value;
-        const all = [...this.places.shapes().flatMap((x) => x.rings.flat()), ...this.list.filter((x) => x.always && x.look !== "tip").map((x) => x.at)];
-        const bounds = all.length ? [0, 1].flatMap((k) => [Math.min(...all.map((p) => p[k])), Math.max(...all.map((p) => p[k]))]) : null;
-        const box = bounds ? [bounds[0], bounds[2], bounds[1], bounds[3]] : EMPTY;
-        const small = Math.max(box[2] - box[0], box[3] - box[1]) < 200;
-        this.view.box = small ? EMPTY : [box[0], box[1], box[2], box[3]];
         if (name === this.fitted || !this.stage.clientWidth) return;
         this.fitted = name;
-        this.view.fitTo(this.view.box, 0.12);
+        if (this.alone) {
+            const all = [...this.places.shapes().flatMap((x) => x.rings.flat()), ...this.list.filter((x) => x.always && x.look !== "tip").map((x) => x.at)];
+            const ends = (k) => [Math.min(...all.map((p) => p[k]), EMPTY[k]), Math.max(...all.map((p) => p[k]), EMPTY[k + 2])];
+            const [[x0, x1], [y0, y1]] = [ends(0), ends(1)];
+            this.view.box = [x0, y0, x1, y1];
+        }
+        this.view.fit();
     }
 
     #paint(places, list) {
@@ -143,15 +145,17 @@ export class Draw {
         const body = list.find((x) => x.id === this.chosen)?.body;
         this.sketch.replaceChildren(...places.shapes().map((x) => s("path", {
             d: x.rings.map(path).join(""), "data-body": x.body,
-            class: `sketch-shape${x.hole ? " hole" : ""}${x.body === body ? " chosen" : ""}${faulty.has(x.element) || faulty.has(places.bodies.get(x.body)) ? " faulty" : ""}`,
+            class: `sketch-shape${x.hole ? " hole" : ""}${x.body === body ? " chosen" : ""}${marked(faulty.get(x.element) ?? faulty.get(places.bodies.get(x.body)))}`,
         })));
+        this.sketch.append(...this.#lines(places).map((x) => s("path", { d: `M${x.points.map((p) => p.map((v) => v.toFixed(3)).join(" ")).join("L")}`, class: `sketch-line ${x.kind}` })));
         const focus = document.activeElement?.closest?.(".draw-handle")?.dataset.id;
         const shown = list.filter((x) => x.always || x.id === this.chosen || (body && x.body === body));
         const stop = shown.find((x) => x.id === this.chosen) ?? shown[0];
         this.handles.replaceChildren(...shown.map((x) => {
-            const words = faulty.get(x.element);
+            const fault = faulty.get(x.element);
+            const words = fault?.words;
             const g = s("g", {
-                class: `draw-handle ${x.look}${x.id === this.chosen ? " chosen" : ""}${words ? " faulty" : ""}`, "data-id": x.id, role: "button", tabindex: x === stop ? 0 : -1,
+                class: `draw-handle ${x.look}${x.id === this.chosen ? " chosen" : ""}${marked(fault)}`, "data-id": x.id, role: "button", tabindex: x === stop ? 0 : -1,
                 "aria-label": `${x.label}, x ${um(x.at[0])}, y ${um(x.at[1])}${words ? `; ${words}` : ""}`, "aria-pressed": String(x.id === this.chosen),
             }, s("circle", { r: 12, class: "reach" }), LOOKS[x.look](), s("title", {}, words ? `${x.label}: ${words}` : x.label), words ? s("text", { class: "fault", x: 8, y: -6 }, "!") : null);
             g.at = x.at;
@@ -162,20 +166,33 @@ export class Draw {
         if (focus) this.#handle(focus)?.focus({ preventScroll: true });
     }
 
+    /** Cables, springs and rods as lines. */
+    #lines(places) {
+        const pairs = places.joints.filter((e) => e.name === "spring" || e.name === "distance").map((e) => ({ kind: e.name, points: places.ends(e).map((x) => places.at(x)) }));
+        const cables = (places.scene(this.#scene())?.children ?? []).filter((e) => e.name === "tendon")
+            .map((e) => ({ kind: "cable", points: e.children.map((c) => places.at(places.point(c, ["x", "y"], (p) => p.frame(p.text(c, "on"))))) }));
+        return [...pairs, ...cables].filter((x) => x.points.length > 1 && x.points.flat().every(Number.isFinite));
+    }
+
+    #scene() {
+        return state.options.scene ?? state.preview?.motion?.scene ?? "";
+    }
+
     #handle(id) {
         return [...this.handles.children].find((g) => g.dataset.id === id);
     }
 
-    /** Elements that a mistake of the present text is about, with its words. */
+    /** Elements that a mistake or a warning of the present text is about: element -> {words, bad}. */
     #faulty() {
         const out = new Map();
         if (state.answered !== inputKey() || !this.root) return out;
         const lines = state.text.split("\n");
         for (const d of state.diagnostics) {
-            if (d.severity !== "error" || d.in_text === false || !d.line || d.line > lines.length) continue;
+            if (d.severity === "note" || d.in_text === false || !d.line || d.line > lines.length) continue;
             const before = lines.slice(0, d.line - 1).reduce((n, x) => n + x.length + 1, 0);
             const e = elementAt(this.root, before + Math.max(d.column - 1, 0));
-            if (e && e !== this.root && !out.has(e)) out.set(e, d.message);
+            const bad = d.severity === "error";
+            if (e && e !== this.root && (!out.has(e) || (bad && !out.get(e).bad))) out.set(e, { words: d.message, bad });
         }
         return out;
     }
@@ -244,7 +261,7 @@ export class Draw {
     #context() {
         const raw = this.values[this.tool.id];
         const values = Object.fromEntries(this.tool.fields.map((f) => [f.key, f.unit !== undefined && !f.optional ? Number(raw[f.key]) : raw[f.key]]));
-        return { places: this.places, values, within: TOUCH_PIXELS / this.view.k, scene: state.options.scene ?? state.preview?.motion?.scene ?? "", on: this.on };
+        return { places: this.places, values, within: TOUCH_PIXELS / this.view.k, scene: this.#scene(), on: this.on };
     }
 
     async #make(points) {
@@ -284,7 +301,8 @@ export class Draw {
 
     #snapped(event, without = []) {
         const p = this.view.at(event);
-        const others = [...this.list.filter((x) => !without.includes(x.element) && !["tip", "side"].includes(x.look)).map((x) => x.at), ...this.points];
+        const last = this.points.at(-1); // a point is not drawn onto the one before it
+        const others = [...this.list.filter((x) => !without.includes(x.element) && !["tip", "side"].includes(x.look)).map((x) => x.at), ...this.points].filter((q) => !last || far(q, last) > 0);
         return snap(p, others, { k: this.view.k, grid: this.grid === "" ? undefined : Number(this.grid), free: event.altKey });
     }
 
@@ -301,6 +319,7 @@ export class Draw {
         if (event.button !== 0 || !this.places) return;
         if (this.tool) {
             event.preventDefault();
+            this.view.fitted = false; // the place under the pointer stays there
             document.activeElement?.blur(); // what is typed is taken
             this.view.svg.setPointerCapture(event.pointerId);
             this.#read();
@@ -349,6 +368,7 @@ export class Draw {
         if (!d.handle) {
             if (Math.hypot(event.clientX - d.at[0], event.clientY - d.at[1]) < CLICK_PIXELS) return;
             d.handle = d.candidate;
+            this.view.fitted = false;
             d.places = this.places;
         }
         const p = this.view.at(event);
@@ -659,7 +679,7 @@ export class Draw {
         });
         const fault = h("p", { class: "pose-status bad", role: "status", hidden: true });
         this.fields.push(() => {
-            const words = this.#faulty().get(now().element) ?? "";
+            const words = this.#faulty().get(now().element)?.words ?? "";
             fault.textContent = words;
             fault.hidden = words === "";
         });

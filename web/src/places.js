@@ -203,6 +203,15 @@ export class Places {
         return [...best].sort((a, b) => a[1] - b[1]).map(([id]) => id);
     }
 
+    /** Bodies that a rectangle with these corners lies on. */
+    bodiesUnder(p, q) {
+        const [x0, x1, y0, y1] = [Math.min(p[0], q[0]), Math.max(p[0], q[0]), Math.min(p[1], q[1]), Math.max(p[1], q[1])];
+        const n = 16; // points on each side
+        const sides = Array.from({ length: n + 1 }, (_, i) => i / n).flatMap((t) => [[x0 + t * (x1 - x0), y0], [x0 + t * (x1 - x0), y1], [x0, y0 + t * (y1 - y0)], [x1, y0 + t * (y1 - y0)]]);
+        const on = (ring) => ring.some(([x, y]) => x >= x0 && x <= x1 && y >= y0 && y <= y1) || sides.some((s) => holds(ring, s));
+        return [...new Set(this.shapes().filter((x) => !x.hole && x.rings.some(on)).map((x) => x.body))];
+    }
+
     /** The scene that is looked at: of this name, else the first. */
     scene(name) {
         const all = this.root.children.filter((e) => e.name === "scene");

@@ -49,7 +49,7 @@ export const TOOLS = [
         id: "plate", label: "Plate", icon: "plate", points: two, words: "Draw from corner to corner.",
         fields: [bodyField("the body below, or a new one"), { key: "hole", label: "cut out", value: "no", choices: ["no", "yes"] }],
         make: (c, [p, q]) => (Math.min(Math.abs(p[0] - q[0]), Math.abs(p[1] - q[1])) < LEAST_UM ? { refuse: "A plate needs a width and a height." }
-            : makePlate(c.places, { p, q, body: c.values.body === "new" ? null : c.values.body || c.places.bodiesAt(p, c.within)[0] || c.places.bodiesAt(q, c.within)[0], hole: c.values.hole === "yes" })),
+            : makePlate(c.places, { p, q, body: c.values.body === "new" ? null : c.values.body || c.places.bodiesUnder(p, q)[0], hole: c.values.hole === "yes" })),
     },
     {
         id: "disc", label: "Disc", icon: "disc", points: two, words: "Draw from the middle to the edge.",
@@ -89,7 +89,7 @@ export const TOOLS = [
         fields: [size("fingers", "fingers", 10, ""), size("gap", "gap", 5), size("overlap", "overlap", 20), size("length", "length", 50), size("voltage", "voltage", 10, "V"), bodyField("the body below")],
         make: (c, [p, q]) => {
             const body = under(c, p);
-            return tooSmall(p, q) ?? (body ? makeComb(c.places, { p, q, body, ...c.values, scene: c.scene }) : noBody);
+            return tooSmall(p, q) ?? (body ? makeComb(c.places, { ...c.values, p, q, body, scene: c.scene }) : noBody);
         },
     },
     {

@@ -311,12 +311,12 @@ function bar(hinge, most, governing, made) {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
         "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${made ? " as made" : ""}${drawn}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
     },
-    h("span", { class: "bar-id" }, hinge.id),
+    h("span", { class: "bar-id", "aria-hidden": "true" }, hinge.id), // the button's name says both
     h("span", { class: "bar-track" },
         h("span", { class: "bar-fill", style: { width: x(use) } }),
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
         made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
-    h("span", { class: "bar-value" }, percent(use, use < 0.1 ? 2 : 3)));
+    h("span", { class: "bar-value", "aria-hidden": "true" }, percent(use, use < 0.1 ? 2 : 3)));
 }
 
 export function diagnosticItem(d, jump = true) {
