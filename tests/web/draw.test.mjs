@@ -149,6 +149,11 @@ describe("without a pointer, and what cannot be made", () => {
         await page.click("#undo");
         await verdict(page, "accept");
         assert.equal(await page.locator("#panel-draw .overlap").count(), 0);
+        await tool(page, "outline");
+        for (const at of [[-200, 1100], [-200, 1300], [-100, 1300]]) await click(page, at);
+        await changed(page, () => click(page, [-200, 1100]));
+        assert.match(await text(page), /<outline id="outline-1" start-x="-200 um" start-y="1100 um">\s*<line to-x="-200 um" to-y="1300 um"\/>\s*<line to-x="-100 um" to-y="1300 um"\/>\s*<line to-x="-200 um" to-y="1100 um"\/>\s*<\/outline>/);
+        await page.click("#undo");
         await page.evaluate(axeSource);
         await tool(page, "hinge");
         const axe = await page.evaluate(() => globalThis.axe.run("#panel-draw", { resultTypes: ["violations"] }));
@@ -241,7 +246,11 @@ describe("what is there is dragged", () => {
         const corner = "device/mechanism/body[left]/outline/line[1]"; // from (-100, 250) to (140, 250) in the jaw
         await handle(corner).waitFor();
         assert.deepEqual(await place(corner), [-460, 250]);
-        await changed(page, () => drag(page, [-460, 250], [-420, 250]));
+        await drag(page, [-460, 250], [-420, 250], { release: false });
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.diagnostics.filter((d) => d.severity === "error")), []); // the held corner was judged
+        assert.match(await page.evaluate(() => JSON.stringify(globalThis.flexwright.state.set)), /outline\/line\[1\]\/@to-x":"180 um"/);
+        await changed(page, () => page.mouse.up());
         assert.equal(await text(page), xml.replace('<line to-x="140 um" to-y="250 um"/>', '<line to-x="180 um" to-y="250 um"/>'));
         await page.click("#undo");
         await handle("device/mechanism/revolute[A]").focus();

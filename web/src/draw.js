@@ -312,7 +312,7 @@ export class Draw {
         svg.addEventListener("pointermove", (e) => this.#move(e));
         svg.addEventListener("pointerup", (e) => this.#up(e));
         svg.addEventListener("pointercancel", () => this.#cancel());
-        svg.addEventListener("dblclick", () => this.tool?.points === null && this.points.length > 1 && this.#finish());
+        svg.addEventListener("dblclick", () => this.tool?.points === null && this.#enough() && this.#finish());
     }
 
     #down(event) {
@@ -344,7 +344,8 @@ export class Draw {
     #begin(event) {
         const { at } = this.#snapped(event);
         if (this.tool.points === null) {
-            if (this.points.length && far(this.points.at(-1), at) * this.view.k < CLICK_PIXELS) return;
+            if (this.points.length && far(this.points.at(-1), at) * this.view.k < CLICK_PIXELS) return; // the second of a double click
+            if (this.tool.closes && this.#enough() && far(this.points[0], at) * this.view.k < CLICK_PIXELS) return this.#finish();
             this.points.push(at);
             this.on.push(this.values[this.tool.id].body);
         } else {
@@ -497,7 +498,7 @@ export class Draw {
         }, { capture: true });
         document.addEventListener("keydown", (e) => {
             if (!this.visible) return;
-            if (e.key === "Enter" && this.tool?.points === null && this.points.length > 1 && !e.target.closest?.("input, select, button, .editor")) this.#finish();
+            if (e.key === "Enter" && this.tool?.points === null && this.#enough() && !e.target.closest?.("input, select, button, .editor")) this.#finish();
             if (e.key === "Escape" && (this.drag || this.points.length)) {
                 this.#cancel();
                 announce("given up");
@@ -544,6 +545,10 @@ export class Draw {
         await this.#commit(handle, now, target, this.places);
         const at = this.list.find((x) => x.id === handle.id)?.at;
         if (at) announce(`${handle.label}: x ${um(at[0])}, y ${um(at[1])}`);
+    }
+
+    #enough() {
+        return this.points.length >= (this.tool.least ?? 2);
     }
 
     #finish() {
@@ -628,9 +633,9 @@ export class Draw {
     /** The same without a pointer: its points as numbers. */
     #byNumbers(tool) {
         this.typed = [[0, 0], [0, 0]];
-        const names = tool.points ?? ["next eyelet"];
+        const names = tool.points ?? [tool.closes ? "next corner" : "next eyelet"];
         this.inputs = names.map((name) => ["x", "y"].map((axis) => h("input", { type: "number", step: "any", value: 0, "aria-label": `${name}, ${axis}, µm` })));
-        const add = button(tool.points ? "Add" : "Add eyelet", { class: "small draw-add" }, () => {
+        const add = button(tool.points ? "Add" : `Add ${tool.closes ? "corner" : "eyelet"}`, { class: "small draw-add" }, () => {
             const points = this.inputs.map((pair) => pair.map((input) => input.valueAsNumber || 0));
             if (tool.points) return this.#make(points);
             this.points.push(points[0]);
@@ -640,7 +645,7 @@ export class Draw {
         });
         return h("section", { class: "card" }, h("h2", {}, "By numbers"),
             h("div", { class: "draw-points" }, names.map((name, i) => [h("span", {}, `${name} (µm)`), ...this.inputs[i]])),
-            h("div", { class: "row" }, add, tool.points ? null : button("Finish", { class: "small" }, () => this.points.length > 1 && this.#finish())),
+            h("div", { class: "row" }, add, tool.points ? null : button("Finish", { class: "small" }, () => this.#enough() && this.#finish())),
             h("p", { class: "doc" }, "Escape gives up. With Alt nothing is snapped."));
     }
 

@@ -66,6 +66,16 @@ export const makeDisc = (places, { p, q, body, hole }) => inBody(places, body, p
     ...point(["x", "y"], at(p)), radius: um(far(p, q)), ...(hole ? { hole: "yes" } : {}),
 }));
 
+/** A closed line through points, of lines. */
+export function makeOutline(places, { points: list, body, hole }) {
+    const name = free(places, "outline-");
+    const made = inBody(places, body, list[0], "part", "outline", (at) => ({ id: name, ...point(["start-x", "start-y"], at(list[0])), ...(hole ? { hole: "yes" } : {}) }));
+    const there = places.bodies.get(body)?.name === "body";
+    const at = there ? (p) => local(places, body, p) : (p) => [p[0] - list[0][0], p[1] - list[0][1]];
+    const path = `${made.changes.at(-1).add}/outline[${name}]`;
+    return { id: made.id, changes: [...made.changes, ...[...list.slice(1), list[0]].map((p) => ({ add: path, element: "line", attributes: point(["to-x", "to-y"], at(p)) }))] };
+}
+
 /** A hinge at `at` of two bodies; the flexure is one that is there with the same sizes, or a new one. */
 export function makeHinge(places, { at, a, b, flexure, kind, sizes, axis }) {
     const changes = [];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tools of drawing: what each asks for, by the pointer or by numbers, and what it makes of that.
-import { makeBar, makeCable, makeComb, makeDisc, makeForce, makeHinge, makePlate, makeWorkspace } from "./making.js";
+import { makeBar, makeCable, makeComb, makeDisc, makeForce, makeHinge, makeOutline, makePlate, makeWorkspace } from "./making.js";
 import { far } from "./places.js";
 
 const LEAST_UM = 1; // of a bar, a side, a radius
@@ -55,6 +55,12 @@ export const TOOLS = [
         id: "disc", label: "Disc", icon: "disc", points: two, words: "Draw from the middle to the edge.",
         fields: [bodyField("the body below, or a new one"), { key: "hole", label: "cut out", value: "no", choices: ["no", "yes"] }],
         make: (c, [p, q]) => tooSmall(p, q) ?? makeDisc(c.places, { p, q, body: c.values.body === "new" ? null : under(c, p), hole: c.values.hole === "yes" }),
+    },
+    {
+        id: "outline", label: "Outline", icon: "outline", points: null, least: 3, closes: true, words: "Click corner after corner; end with a double click, Enter, or a click on the first corner. Arcs and rounded corners are in the form.",
+        fields: [bodyField("the body below, or a new one"), { key: "hole", label: "cut out", value: "no", choices: ["no", "yes"] }],
+        make: (c, list) => (list.length < 3 ? { refuse: "An outline has three corners at least." }
+            : makeOutline(c.places, { points: list, body: c.values.body === "new" ? null : c.values.body || list.flatMap((p) => c.places.bodiesAt(p, 0.01))[0], hole: c.values.hole === "yes" })),
     },
     {
         id: "hinge", label: "Hinge", icon: "hinge", points: ["at"], words: "Click where two links meet, or on one link to hold it on the ground.",
