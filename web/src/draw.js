@@ -65,6 +65,7 @@ export class Draw {
         this.#pointer();
         this.#keys();
         on("text", () => this.#refresh());
+        on("pinned", () => this.visible && this.#pinned());
         on("preview", () => this.visible && this.#base());
         on("answer", () => this.#refresh());
     }
@@ -88,7 +89,13 @@ export class Draw {
         this.mechanism.show(state.preview);
         this.mechanism.pose(restOf(state.preview));
         this.mechanism.colour(new Map(), state.hinge);
+        this.#pinned();
         if (!this.drag) this.#refresh();
+    }
+
+    #pinned() {
+        const p = state.pinned?.preview ?? null;
+        this.mechanism.compareWith(p, p && restOf(p));
     }
 
     /** The tree of the text and its places; null while it is no XML. */

@@ -24,6 +24,7 @@ import { makeTabs } from "./tabs.js";
 import { newDevice } from "./templates.js";
 import { startTheme, themeButton } from "./theme.js";
 import { Verdict } from "./verdict.js";
+import { versionsDialog } from "./versions.js";
 import { Workspace } from "./workspace.js";
 
 startTheme();
@@ -44,7 +45,8 @@ function header() {
     parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
     $("top").append(
         h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }), busySign(),
-        parts.fresh, parts.undo, parts.redo, parts.open, parts.save,
+        parts.fresh, parts.undo, parts.redo,
+        button("Versions: keep, compare", { icon: "versions", hidden: true, id: "versions" }, () => versionsDialog(parts.editor, () => parts.verdict.judged)), parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
         button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));

@@ -20,7 +20,7 @@ export class Plot {
         this.box.addEventListener("pointermove", (e) => e.buttons & 1 && this.#seek(e));
     }
 
-    /** t: times in ms; series: [{name, values, key (colour), limit}], marks: [{y, text, curve}] */
+    /** t: times in ms; series: [{name, values, key (colour), limit, then: the series of whose pinned version it is}], marks: [{y, text, curve}] */
     show(t, series, { marks = [], chosen = null, range } = {}) {
         const shape = JSON.stringify([series.map((x) => x.name), chosen, marks.length, Boolean(range)]);
         this.data = { t, series, marks, chosen, range };
@@ -54,8 +54,8 @@ export class Plot {
                 { ...axis, size: 50, values: (u, v) => v.map((x) => (x === null ? "" : number(x, this.log ? 1 : 3))) },
             ],
             series: [{}, ...series.map((x, i) => ({
-                label: x.name, stroke: curve(x.key ?? i), dash: x.solid ? [] : dash(x.key ?? i), points: { show: false },
-                width: chosen === null || chosen === x.name ? 1.8 : 0.9, alpha: chosen === null || chosen === x.name ? 1 : 0.4, spanGaps: true,
+                label: x.name, stroke: curve(x.key ?? i), dash: x.then ? [1.5, 2.5] : x.solid ? [] : dash(x.key ?? i), points: { show: false },
+                width: x.then ? 1.1 : chosen === null || chosen === x.name ? 1.8 : 0.9, alpha: chosen === null || chosen === (x.then ?? x.name) ? 1 : 0.4, spanGaps: true,
             }))],
             hooks: { draw: [(u) => this.#over(u)] },
         }, [t, ...series.map((x) => x.values)], this.box);
