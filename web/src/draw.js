@@ -72,6 +72,7 @@ export class Draw {
 
     start(table) {
         this.table = table;
+        this.units = Object.fromEntries(table.units.map((name, i) => [name, table.unit_factors[i]]));
         this.keys = new Map(table.elements.toReversed().map((e) => [e.name, e.key]));
         this.#refresh();
     }
@@ -105,7 +106,7 @@ export class Draw {
             this.root = parse(state.text, (name) => this.keys.get(name) ?? null) ?? this.root;
         }
         const rests = new Map((state.preview?.bodies ?? []).filter((b) => b.rest).map((b) => [b.id, b.rest]));
-        this.places = this.root ? new Places(this.root, this.table.unit_factors, state.set, rests) : null;
+        this.places = this.root ? new Places(this.root, this.units, state.set, rests) : null;
     }
 
     #refresh() {
