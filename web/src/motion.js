@@ -7,6 +7,7 @@ import { setOption } from "./design.js";
 import { button, h, s, select, setOptions } from "./dom.js";
 import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
+import { moved } from "./outline.js";
 import { Plot } from "./plots.js";
 import { lookAt, on, state } from "./store.js";
 
@@ -27,21 +28,28 @@ export class Motion {
         this.time = 0;
         this.speed = 1;
         this.playing = false;
+        this.showPaths = button("Paths", { class: "small", "aria-pressed": "false", title: "of the centres of mass, and of the points that loads act on" }, () => {
+            this.showPaths.setAttribute("aria-pressed", String(this.showPaths.getAttribute("aria-pressed") !== "true"));
+            this.#paths();
+        });
         this.tools = h("div", { class: "toolbar", role: "group", "aria-label": "How the motion is computed" });
         this.stage = h("div", { class: "stage" });
         this.player = h("div", { class: "player", role: "group", "aria-label": "Time" });
         this.plots = h("div", { class: "plots" });
         holder.append(this.tools, this.stage, this.player, this.plots);
         this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt, scene: true });
-        this.stage.append(colourLegend(), this.#zoomButtons());
+        this.stage.append(colourLegend(), this.#zoomButtons(), h("div", { class: "stage-tools" }, this.showPaths));
+        this.paths = s("g", { class: "paths", "aria-hidden": "true" });
+        this.mechanism.above.append(this.paths);
         this.stats = h("div", { class: "run-stats" });
         this.showing = [this.stage, this.player, this.plots, this.stats].map((element) => new Shown(element));
         this.#player();
         const seek = (t) => this.seek(t / 1e3, true);
-        this.angles = new Plot(this.plots, { title: "Share of the limit", unit: "%, over ms", onseek: seek });
-        this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek });
-        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek });
-        this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek });
+        const onwindow = (window) => [this.angles, this.energy, this.norm, this.probes].forEach((plot) => plot.setWindow(window)); // one time for all
+        this.angles = new Plot(this.plots, { title: "Share of the limit", unit: "%, over ms", onseek: seek, onwindow });
+        this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek, onwindow });
+        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek, onwindow });
+        this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek, onwindow });
         this.whichProbe = select("Probe", [], "", () => {
             this.#plotProbe(state.preview);
             this.paint();
@@ -51,7 +59,7 @@ export class Motion {
             this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
             this.#plotAll();
         });
-        this.angles.heading.append(this.inDegrees);
+        this.angles.heading.lastChild.before(this.inDegrees);
         on("options", () => this.picks?.forEach((refresh) => refresh()));
         for (const event of ["preview", "hinge", "theme", "pinned"]) on(event, () => this.visible && this.show());
     }
@@ -123,6 +131,7 @@ export class Motion {
         this.rule = rules.length === 1 ? `${rules[0]} limit` : "limit";
         this.mechanism.show(p);
         this.mechanism.setLoads(loadsOf(p));
+        this.#paths();
         this.#plotAll();
         this.#stats();
         this.paint();
@@ -134,10 +143,23 @@ export class Motion {
         this.toggle(false);
         this.mechanism.show(p);
         this.mechanism.setLoads([]);
+        this.paths.replaceChildren();
         this.mechanism.pose(restOf(p));
         this.#pinned();
         this.mechanism.colour(new Map(), state.hinge);
         this.stats.textContent = p.scenes.length ? "this scene was not moved; the notes say why" : "the description has no scene";
+    }
+
+    /** Where the motion takes what moves. */
+    #paths() {
+        const p = state.preview;
+        const shown = this.showPaths.getAttribute("aria-pressed") === "true" && p?.motion;
+        if (!shown) return this.paths.replaceChildren();
+        const points = [...p.bodies.flatMap((b, i) => (b.fixed ? [] : [[i, [0, 0]]])),
+            ...(p.loads ?? []).flatMap((x) => (x.eyelets ?? [x]).filter((e) => e.body >= 0 && e.at_um).map((e) => [e.body, e.at_um]))].filter(([i]) => p.bodies[i] && !p.bodies[i].fixed);
+        this.paths.replaceChildren(...points.map(([i, at]) => s("path", {
+            d: `M${p.motion.q.map((row) => moved([row[3 * i] * 1e6, row[3 * i + 1] * 1e6, row[3 * i + 2]], at).map((v) => v.toFixed(3)).join(" ")).join("L")}`,
+        })));
     }
 
     #stats() {
