@@ -49,7 +49,8 @@ describe("a gripper from an empty page", () => {
     test("with the mouse alone, to an accepted device", async () => {
         await page.click("#new");
         await page.click('.template:has-text("Empty page")');
-        await view(page, "draw");
+        await page.waitForSelector("#panel-draw:not([hidden])"); // an empty page opens where it is drawn on
+        await page.waitForSelector("#right .problems:has-text('Nothing is drawn yet')");
         await shot(page, "draw-empty.png");
         await tool(page, "bar");
         await changed(page, () => drag(page, [-400, 0], [-400, 1000]));
@@ -193,10 +194,27 @@ describe("what is there is dragged", () => {
                     return own ? Math.hypot(own.at[0] - at[0], own.at[1] - at[1]) : Infinity;
                 });
             });
+            const values = await page.evaluate(() => globalThis.flexwright.state.preview.parameters.map((p) => [p.name, p.value_SI, globalThis.flexwright.parts.draw.places.evaluate(p.name)]));
+            for (const [parameter, si, own] of values) assert.ok(Math.abs(own - si) <= 1e-12 * Math.abs(si), `${name}: ${parameter} is ${si}, and ${own} in the page`);
             assert.ok(off.length > 0 && off.every((d) => d < 0.01), `${name}: off by ${off} um`);
             seen.push(...off);
         }
         assert.ok(seen.length > 25);
+    });
+
+    test("expressions are read as the program reads them", async () => {
+        const list = ["1 um", "-2^2", "2^-1 * 4", "3 um*2 + 4 um/2", "2*span", "-span", "span/3 - 5 um", "sqrt(9) * 1 mm", "min(1 um, 2 um, span)", "atan2(1, -1)", "30 deg", "1e-3 m", "2 N m/rad", "0.3 kg/A/s^2", "5 N/m^2", "pi*1 um", ".5 mm", "((1 um))", "1 um * cos(60 deg)", "2 m s^-1"];
+        await load("free-form-gripper");
+        const text_ = await text(page);
+        const own = await page.evaluate((x) => x.map((e) => globalThis.flexwright.parts.draw.places.evaluate(e)), list);
+        const xml = text_.replace("<material", `${list.map((e, i) => `<parameter name="q${i}" value="${e}"/>`).join("")}<material`);
+        await answered(page, () => page.evaluate((t) => globalThis.flexwright.parts.editor.open(t), xml));
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        const told = await page.evaluate(() => globalThis.flexwright.state.preview.parameters.filter((p) => /^q\d/.test(p.name)).map((p) => p.value_SI));
+        assert.equal(told.length, list.length);
+        list.forEach((e, i) => assert.ok(Math.abs(own[i] - told[i]) <= 1e-14 * Math.abs(told[i]) + 1e-30, `${e}: ${own[i]}, and ${told[i]} in the program`));
+        const wrong = ["1 um +", "1 um span", "foo", "2 (3)", "1,5 um", "nan(1)", ""];
+        assert.ok((await page.evaluate((x) => x.map((e) => globalThis.flexwright.parts.draw.places.evaluate(e)), wrong)).every((v) => v === null || Number.isNaN(v)));
     });
 
     test("a parameter is changed, and all that uses it follows; one drag is one undo", async () => {
@@ -212,6 +230,23 @@ describe("what is there is dragged", () => {
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
         await page.click("#undo");
         assert.equal(await text(page), xml);
+    });
+
+    test("a notice that comes meanwhile does not move what is dragged", async () => {
+        const xml = await load("free-form-gripper");
+        await drag(page, [-600, 0], [-700, 0], { release: false });
+        await page.evaluate(() => {
+            globalThis.strip = document.createElement("div");
+            globalThis.strip.style.height = "50px";
+            document.getElementById("notices").append(globalThis.strip);
+        });
+        const b = await page.evaluate(() => globalThis.flexwright.parts.draw.drag.at);
+        const scale = await page.evaluate(() => globalThis.flexwright.parts.draw.view.k);
+        await page.mouse.move(b[0] - 60 * scale, b[1]);
+        await changed(page, () => page.mouse.up());
+        await page.evaluate(() => globalThis.strip.remove());
+        assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.66 mm"'));
+        await page.click("#undo");
     });
 
     test("at the end of a parameter's range it stops; Escape gives up", async () => {

@@ -323,8 +323,17 @@ export class Draw {
         svg.addEventListener("dblclick", () => this.tool?.points === null && this.#enough() && this.#finish());
     }
 
+    /** A notice that comes or goes moves the picture on the screen: while something is dragged it stays under the pointer. */
+    #still() {
+        const { left, top } = this.view.svg.getBoundingClientRect();
+        if (this.origin && (left !== this.origin[0] || top !== this.origin[1])) this.view.move(this.origin[0] - left, this.origin[1] - top);
+        this.origin = [left, top];
+    }
+
     #down(event) {
         if (event.button !== 0 || !this.places) return;
+        if (!this.points.length) this.origin = null;
+        this.#still();
         if (this.tool) {
             event.preventDefault();
             this.view.fitted = false; // the place under the pointer stays there
@@ -368,6 +377,7 @@ export class Draw {
     #move(event) {
         if (this.tool) {
             if (!this.list || event.pointerType === "touch" && !this.drag) return;
+            if (this.points.length) this.#still();
             const snapped = this.#snapped(event);
             this.drawing = { at: snapped.at };
             return this.#rubber(snapped);
@@ -380,6 +390,7 @@ export class Draw {
             this.view.fitted = false;
             d.places = this.places;
         }
+        this.#still();
         const p = this.view.at(event);
         const grip = { altKey: event.altKey, clientX: event.clientX, clientY: event.clientY };
         const moving = this.#together(d.handle);

@@ -137,6 +137,7 @@ on("show-xml", ([from, to]) => {
     parts.editor.select(from, to);
 });
 
+on("show-view", (id) => parts.tabs.select(id));
 on("show-form", (path) => {
     parts.editTabs.select("form");
     parts.form.reveal(path);

@@ -136,7 +136,7 @@ export class Places {
 
     /** [{element, body, rings: [[x, y] ...], hole}] of every body, also of one that is drawn by its width alone. */
     shapes() {
-        return [...this.bodies].flatMap(([id, e]) => [...this.#ownShapes(id, e), ...(e.name === "body" ? e.children : []).flatMap((c) => this.#shape(c, id))]).filter((x) => x.rings.every((r) => r.every((p) => p.every(Number.isFinite))));
+        return [...this.bodies].flatMap(([id, e]) => [...this.#ownShapes(id, e), ...(e.name === "body" ? e.children : []).flatMap((c) => this.#shape(c, id))]).filter((x) => x.rings.every((r) => r.length > 2 && r.every((p) => p.every(Number.isFinite)))); // an outline of a file has none here
     }
 
     #ownShapes(id, e) {

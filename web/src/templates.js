@@ -19,7 +19,7 @@ import tendonsPicture from "../../docs/gallery/four-tendons/device.svg";
 import { announce, h, icon } from "./dom.js";
 import { openDialog } from "./dialog.js";
 import { replaceAll } from "./file.js";
-import { state } from "./store.js";
+import { emit, state } from "./store.js";
 import blank from "./templates/blank.xml";
 import empty from "./templates/empty.xml";
 
@@ -60,5 +60,6 @@ export function newDevice(editor) {
 function take(editor, name, text) {
     if (state.file) editor.replace(text);
     else replaceAll(editor, text, `Begin with ${name}`);
+    if (text === blank) emit("show-view", "draw");
     announce(`${name}: begun`);
 }

@@ -90,12 +90,15 @@ export class Verdict {
         this.#staleness();
         const errors = state.diagnostics.filter((d) => d.severity === "error");
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
-        const words = `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
+        const empty = errors.length === 1 && errors[0].code === "FW-D052" && /^<mechanism> has no <body>/.test(errors[0].message);
+        const words = empty ? "Nothing is drawn yet" : `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
         this.problems.hidden = errors.length === 0;
-        this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
+        this.problems.classList.toggle("none-yet", empty); // an empty page is no mistake
+        if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
+        else this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
         this.notes.hidden = rest.length === 0;
         this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
-        const said = errors.length ? `${words}: ${errors[0].message}` : "";
+        const said = empty ? words : errors.length ? `${words}: ${errors[0].message}` : "";
         if (said && said !== this.said) announce(said);
         this.said = said;
     }
