@@ -224,6 +224,7 @@ describe("what is there is dragged", () => {
         await drag(page, [-600, 0], [-700, 0], { release: false });
         await page.waitForFunction(() => /^700 um|^0.7 mm/.test(globalThis.flexwright.state.set.span ?? ""));
         assert.equal(await text(page), xml, "the text waits until it is let go");
+        await page.waitForFunction(() => document.querySelector(".draw-stage").dataset.of === "present" && !document.querySelector(".draw-stage.old")); // the picture follows
         await changed(page, () => page.mouse.up());
         assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.7 mm"'));
         assert.deepEqual(await place("device/mechanism/revolute[B]"), [700, 0]);

@@ -91,6 +91,7 @@ export class Draw {
         this.mechanism.pose(restOf(state.preview));
         this.mechanism.colour(new Map(), state.hinge);
         this.#pinned();
+        this.#stands();
         if (!this.drag) this.#refresh();
     }
 
@@ -157,7 +158,8 @@ export class Draw {
         })));
         this.sketch.append(...this.#lines(places).map((x) => s("path", { d: `M${x.points.map((p) => p.map((v) => v.toFixed(3)).join(" ")).join("L")}`, class: `sketch-line ${x.kind}` })));
         const focus = document.activeElement?.closest?.(".draw-handle")?.dataset.id;
-        const shown = list.filter((x) => x.always || x.id === this.chosen || (body && x.body === body));
+        const above = (x) => Number(x.look === "hinge"); // where a body's origin is in its hinge, the hinge is what is taken
+        const shown = list.filter((x) => x.always || x.id === this.chosen || (body && x.body === body)).sort((a, b) => above(a) - above(b));
         const stop = shown.find((x) => x.id === this.chosen) ?? shown[0];
         this.handles.replaceChildren(...shown.map((x) => {
             const fault = faulty.get(x.element);
@@ -239,10 +241,11 @@ export class Draw {
     #toolbar() {
         const tools = [{ id: null, label: "Select", icon: "cursor" }, ...TOOLS];
         this.buttons = tools.map((t) => button(t.label, { icon: t.icon, class: "small draw-tool", "data-tool": t.id ?? "select", "aria-pressed": String(t.id === null), tabIndex: t.id === null ? 0 : -1 }, () => this.#use(t.id)));
-        this.bar.append(...this.buttons, h("span", { class: "space" }), select("Grid", GRIDS, "", (v) => {
+        this.bar.append(...this.buttons);
+        this.stage.append(h("div", { class: "stage-tools" }, select("Grid", GRIDS, "", (v) => {
             this.grid = v;
             this.#place();
-        }));
+        })));
         this.bar.addEventListener("keydown", (e) => {
             const shown = this.buttons.filter((b) => !b.hidden);
             const at = shown.indexOf(document.activeElement);

@@ -59,7 +59,7 @@ export class Motion {
             this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
             this.#plotAll();
         });
-        this.angles.heading.lastChild.before(this.inDegrees);
+        this.angles.heading.append(this.inDegrees);
         on("options", () => this.picks?.forEach((refresh) => refresh()));
         for (const event of ["preview", "hinge", "theme", "pinned"]) on(event, () => this.visible && this.show());
     }

@@ -16,8 +16,7 @@ export class Plot {
         this.heading = h("div", { class: "plot-title" }, h("span", {}, title), h("span", { class: "plot-unit" }, unit), h("span", { class: "plot-value" }));
         this.box = h("div", { class: "plot-box", role: "img", "aria-label": title });
         this.look = h("div", { class: "plot-look", hidden: true, "aria-hidden": "true" });
-        this.heading.append(this.#menu());
-        this.root = h("figure", { class: "plot" }, this.heading, this.box, this.look);
+        this.root = h("figure", { class: "plot" }, this.heading, this.#menu(), this.box, this.look);
         holder.append(this.root);
         new ResizeObserver(() => this.#resize()).observe(this.box);
         on("theme", () => (this.shape = null)); // whoever shows it shows it again
