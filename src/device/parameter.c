@@ -340,7 +340,8 @@ static fw_status set_long(fw_device_reader *r, const edit *set) {
     fw_device_path p;
     fw_xml_element *e;
     bool there = fw_device_path_find(r->xml.root, set->path, &e, &p);
-    const fw_xml_element_row *row = there ? fw_xml_row_find(&fw_device_table, e->name) : NULL;
+    const fw_xml_element_row *row =
+        there ? fw_xml_row_in(&fw_device_table, e->name, e->parent ? e->parent->name : "") : NULL;
     if (row && p.attribute) return replace(r, set, e, row, p.attribute);
     unknown_path(r, set, there ? "this is no path" : p.wrong, NULL, NULL, 0);
     return FW_OK;

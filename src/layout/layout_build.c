@@ -11,7 +11,8 @@ enum { BODIES_MOST = 2000, JOINTS_MOST = 4000 };
 static const char *missing(fw_arena *arena, const fw_device *device, bool *failed) {
     const char *why = NULL;
     *failed = false;
-    if (device->nbody == 0 || device->nrevolute == 0) return "there is no mechanism";
+    if (device->nbody == 0) return "there is no mechanism";
+    if (device->nrevolute == 0) return "no hinge holds it yet";
     if (device->nbody > BODIES_MOST || device->nrevolute > JOINTS_MOST)
         return "more than 2000 bodies or 4000 hinges are computed, but not drawn";
     for (int i = 0; i < device->nbody && !why; i++) {

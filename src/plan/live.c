@@ -92,6 +92,14 @@ static void units(fw_json *out) {
     for (size_t i = 0; i < count; i++)
         fw_json_text(out, NULL, name[i]);
     fw_json_end(out);
+    fw_json_line(out, 0);
+    fw_json_list(out, "unit_factors");
+    for (size_t i = 0; i < count; i++) {
+        fw_quantity_unit unit = {.factor = 1.0};
+        fw_quantity_unit_parse(name[i], strlen(name[i]), &unit, NULL, NULL);
+        fw_json_number(out, NULL, unit.factor, 17);
+    }
+    fw_json_end(out);
 }
 
 static void limit(fw_json *out, const char *name, double least, double most, double usual) {

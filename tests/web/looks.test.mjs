@@ -43,8 +43,10 @@ describe("rules and looks", () => {
         await page.focus("#tab-masks");
         await page.keyboard.press("Home");
         assert.equal(await page.getAttribute("#tab-motion", "aria-selected"), "true");
-        await page.keyboard.press("ArrowRight");
-        assert.equal(await page.evaluate(() => document.activeElement.id), "tab-workspace");
+        for (const next of ["tab-draw", "tab-workspace"]) {
+            await page.keyboard.press("ArrowRight");
+            assert.equal(await page.evaluate(() => document.activeElement.id), next);
+        }
         const seen = new Set();
         for (let i = 0; i < 60; i++) {
             await page.keyboard.press("Tab");
@@ -70,7 +72,7 @@ describe("rules and looks", () => {
             await page.waitForFunction((t) => document.documentElement.dataset.theme === t, theme);
             await page.evaluate(axeSource);
             const found = [];
-            for (const id of ["motion", "workspace", "modes", "assembly", "masks", "recipe", "accuracy", "xml", "about"]) {
+            for (const id of ["motion", "draw", "workspace", "modes", "assembly", "masks", "recipe", "accuracy", "xml", "about"]) {
                 if (id === "xml") await page.click("#tab-xml");
                 else if (id === "about") await page.click("#about");
                 else await view(page, id);

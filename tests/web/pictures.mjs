@@ -41,6 +41,17 @@ await save(moving, "page-cables.png");
 await close(moving);
 await tendons.stop();
 
+const gripper = await serve("free-form-gripper");
+const drawing = await open(gripper, size);
+await verdict(drawing, "accept");
+await drawing.waitForSelector("#banner:has-text('as it will be made')", { timeout: 60000 });
+await view(drawing, "draw");
+await drawing.selectOption('select[aria-label="Part"]', "device/mechanism/body[left]/outline start");
+await drawing.waitForTimeout(300);
+await save(drawing, "page-draw.png");
+await close(drawing);
+await gripper.stop();
+
 const costs = await serve("reference-six-bar");
 const accuracy = await open(costs, size);
 await view(accuracy, "accuracy");

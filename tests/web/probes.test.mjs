@@ -2,6 +2,7 @@
 // What a device is for, on the page: requirements with their values beside the verdict, one probe over time with its
 // bounds beside the angles. A device without probes has neither.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { answered, close, finish, open, serve, setText, verdict } from "./helper.mjs";
@@ -39,6 +40,60 @@ describe("probes", () => {
         assert.equal((await shown()).name, "tension");
         assert.ok(Math.abs((await shown()).most - 115) < 0.01);
         if (process.env.FW_PICTURE) await page.screenshot({ path: join(process.env.FW_PICTURE, "probes.png") });
+    });
+
+    test("a plot names its values under the pointer, is zoomed with the others, and saved as numbers and as a picture", async () => {
+        const box = page.locator(".plots .plot-box").first();
+        const b = await box.boundingBox();
+        const window = () => page.evaluate(() => [globalThis.flexwright.parts.motion.angles, globalThis.flexwright.parts.motion.probes].map((p) => [p.plot.scales.x.min, p.plot.scales.x.max]));
+        await page.mouse.move(b.x + b.width / 2, b.y + 60);
+        const look = page.locator(".plot-look:visible");
+        const said = await look.innerText();
+        const t = Number(/^([\d.]+) ms/.exec(said)[1]);
+        const told = await page.evaluate((at) => {
+            const { data } = globalThis.flexwright.parts.motion.angles;
+            const i = data.t.reduce((best, x, k) => (Math.abs(x - at) < Math.abs(data.t[best] - at) ? k : best), 0);
+            return data.series.map((x) => [x.name, x.values[i]]);
+        }, t);
+        for (const [name, v] of told) assert.ok(said.includes(`${name} ${String(Number(v.toPrecision(4))).replace("-", "\u2212")}`), `${name} ${v} in ${said}`);
+        const whole = (await window())[0];
+        await page.mouse.wheel(0, -400);
+        const [one, other] = await window();
+        assert.ok(one[1] - one[0] < 0.7 * (whole[1] - whole[0]) && one[0] <= t && t <= one[1]);
+        assert.deepEqual(other, one, "one time for all");
+        if (process.env.FW_PICTURE) await page.screenshot({ path: join(process.env.FW_PICTURE, "plots.png") });
+        await page.mouse.dblclick(b.x + b.width / 2, b.y + 60);
+        assert.deepEqual((await window())[0], whole);
+        const saved = async (what) => {
+            await page.locator(".plots .plot:first-child .plot-menu > summary").click();
+            const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`.plots .plot:first-child button:has-text("${what}")`).click()]);
+            return [file.suggestedFilename(), readFileSync(await file.path(), "utf8")];
+        };
+        const [name, csv] = await saved("Save as CSV");
+        assert.equal(name, "straight-stage-share-of-the-limit.csv");
+        const lines = csv.trim().split("\n");
+        const data = await page.evaluate(() => globalThis.flexwright.parts.motion.angles.data);
+        assert.equal(lines.length, 1 + data.t.length);
+        assert.match(lines[0], /^t_ms,A \(%\),B \(%\)/);
+        assert.deepEqual(lines.at(-1).split(",").map(Number), [data.t.at(-1), ...data.series.map((x) => x.values.at(-1))]);
+        const [picture, svg] = await saved("Save as SVG");
+        assert.equal(picture, "straight-stage-share-of-the-limit.svg");
+        const drawn = await page.evaluate((x) => {
+            const root = new DOMParser().parseFromString(x, "image/svg+xml").documentElement;
+            return [root.tagName, root.querySelectorAll("g path").length, root.querySelectorAll("parsererror").length];
+        }, svg);
+        assert.deepEqual(drawn, ["svg", data.series.length + data.marks.length, 0]);
+        await page.keyboard.press("Escape");
+    });
+
+    test("paths of what moves are drawn where the motion takes it", async () => {
+        await page.click('button:has-text("Paths")');
+        const path = await page.locator("#panel-motion .paths path").nth(1).getAttribute("d"); // of the stage
+        const ends = await page.evaluate(() => globalThis.flexwright.state.preview.motion.q.filter((r, i, all) => i === 0 || i === all.length - 1).map((r) => [r[3] * 1e6, r[4] * 1e6]));
+        const points = path.slice(1).split("L").map((x) => x.split(" ").map(Number));
+        [points[0], points.at(-1)].forEach((p, i) => p.forEach((v, k) => assert.ok(Math.abs(v - ends[i][k]) < 0.01)));
+        await page.click('button:has-text("Paths")');
+        assert.equal(await page.locator("#panel-motion .paths path").count(), 0);
     });
 
     test("what is not met is said, with its reason", async () => {

@@ -103,13 +103,19 @@ test("New…: every device to begin from is judged, has its picture, and is one 
     const before = await page.evaluate(() => globalThis.flexwright.state.text);
     await page.click("#new");
     const names = await page.locator(".template strong").allTextContents();
-    assert.ok(names.length >= 9 && ["From nothing", "Six-bar", "Four-bar", "Stage", "Gripper"].every((n) => names.includes(n)), names.join());
+    assert.ok(names.length >= 9 && ["Empty page", "One leaf", "Six-bar", "Four-bar", "Stage", "Gripper"].every((n) => names.includes(n)), names.join());
     await page.waitForFunction(() => [...document.querySelectorAll(".template img")].every((i) => i.naturalWidth > 100));
     await page.keyboard.press("Escape");
     for (const name of names) {
         await page.click("#new");
         await answered(page, () => page.locator(".template", { has: page.locator(`strong:text-is("${name}")`) }).click());
         await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        if (name === "Empty page") { // it is no mistake, and says what to do
+            assert.match(await page.innerText("#right .problems"), /^nothing is drawn yet/i);
+            assert.ok(await page.isVisible("#panel-draw"));
+            await answered(page, () => page.evaluate(() => globalThis.flexwright.parts.editor.undo()));
+            continue;
+        }
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.diagnostics.filter((d) => d.severity === "error").map((d) => d.message)), [], name);
         assert.equal(await page.evaluate(() => globalThis.flexwright.state.preview.verdict.verdict), name === "Copper nodder" ? "reject" : "accept", name);
         await page.evaluate(() => globalThis.flexwright.parts.editor.undo());

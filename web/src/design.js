@@ -58,6 +58,20 @@ export async function letGo(name, value) {
     emit("change");
 }
 
+/** Values that are held by hand in the picture, Map of path -> text, in place of those that were (keys). */
+export function holdTogether(changes, before = []) {
+    for (const path of before) delete state.set[path];
+    for (const [path, value] of changes) state.set[path] = value;
+    emit("change");
+}
+
+/** They become text, as one step of the history; with no changes they are as they were. */
+export async function letGoTogether(changes, words) {
+    if (changes.size) await edit([...changes].map(([path, value]) => ({ path, value })), words);
+    for (const [path, value] of changes) if (state.set[path] === value) delete state.set[path]; // else it is held again
+    emit("change");
+}
+
 /** How it is computed: {method, integrator, rtol, scene ...}; "" leaves the choice to the program. */
 export function setOptionsTogether(values) {
     for (const [name, value] of Object.entries(values)) {

@@ -46,6 +46,17 @@ const ICONS = {
     warn: "M12 4 2.5 20h19zM12 10v5M12 17.5v.3",
     open: "M14 4h6v6M20 4l-9 9M18 14v6H4V6h6",
     print: "M7 8V3h10v5M7 17H4V8h16v9h-3M7 14h10v7H7z",
+    bar: "M5 19 19 5M3 17l4 4M17 3l4 4",
+    plate: "M4 6h16v12H4z",
+    disc: "M12 4a8 8 0 1 0 0 16 8 8 0 0 0 0-16",
+    outline: "M4 19 7 5l8 3 5-3v9l-7 6z",
+    hinge: "M4 20c9 0 12-4 12-8s-3-6-6-4-2 7 2 6 2-8 4-10",
+    force: "M4 20 19 5M10 4h10v10",
+    cable: "M4 12a2 2 0 1 0 4 0 2 2 0 0 0-4 0M8 12c4 0 4-6 8-6h5M18 3l3 3-3 3",
+    comb: "M4 4v16M4 6h8M4 12h8M4 18h8M20 4v16M20 9h-8M20 15h-8",
+    workspace: "M4 8V4h4M16 4h4v4M20 16v4h-4M8 20H4v-4M12 9v6M9 12h6",
+    cursor: "M6 3v15l4-4 3 7 3-1-3-7h6z",
+    versions: "M8 4h12v12M4 8h12v12H4z",
     target: "M12 5a7 7 0 1 0 0 14 7 7 0 0 0 0-14M12 2v4M12 18v4M2 12h4M18 12h4",
 };
 

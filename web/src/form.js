@@ -216,6 +216,16 @@ export class Form {
             top ? null : button("Remove", { icon: "close", class: "quiet" }, () => edit([{ remove: element.path }], `${element.name} removed`)));
     }
 
+    /** Opens an element, those around it, and goes to its first field. */
+    reveal(path) {
+        const steps = path.split("/");
+        steps.forEach((x, i) => this.opened.add(steps.slice(0, i + 1).join("/")));
+        this.#build();
+        const field = [...this.tree.querySelectorAll("[data-path]")].find((f) => f.dataset.path.startsWith(`${path}/@`));
+        field?.scrollIntoView({ block: "center" });
+        field?.focus({ preventScroll: true });
+    }
+
     /** Changes of the text that add it; for the tests, too. */
     adding(element, kind) {
         return adding(this.root, element, kind, (name, parent) => this.row(name, parent));

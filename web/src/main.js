@@ -9,6 +9,7 @@ import { inputKey, settled } from "./belong.js";
 import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
 import { $, button, h, s } from "./dom.js";
+import { Draw } from "./draw.js";
 import { Editor } from "./editor.js";
 import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
@@ -23,6 +24,7 @@ import { makeTabs } from "./tabs.js";
 import { newDevice } from "./templates.js";
 import { startTheme, themeButton } from "./theme.js";
 import { Verdict } from "./verdict.js";
+import { versionsDialog } from "./versions.js";
 import { Workspace } from "./workspace.js";
 
 startTheme();
@@ -43,7 +45,8 @@ function header() {
     parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
     $("top").append(
         h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }), busySign(),
-        parts.fresh, parts.undo, parts.redo, parts.open, parts.save,
+        parts.fresh, parts.undo, parts.redo,
+        button("Versions: keep, compare", { icon: "versions", hidden: true, id: "versions" }, () => versionsDialog(parts.editor, () => parts.verdict.judged)), parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
         button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
@@ -89,7 +92,7 @@ function editArea() {
 }
 
 function views() {
-    const names = [["motion", "Motion", Motion], ["workspace", "Workspace", Workspace], ["modes", "Modes", Modes], ["assembly", "Assembly", Assembly],
+    const names = [["motion", "Motion", Motion], ["draw", "Draw", Draw], ["workspace", "Workspace", Workspace], ["modes", "Modes", Modes], ["assembly", "Assembly", Assembly],
         ["masks", "Masks", Masks], ["recipe", "Recipe", Recipe], ["accuracy", "Accuracy", Accuracy]];
     const panels = names.map(([id, label]) => ({ id, label, panel: h("div", { class: `view view-${id}` }) }));
     const tabs = makeTabs("Views", panels, {
@@ -134,6 +137,12 @@ on("show-xml", ([from, to]) => {
     parts.editor.select(from, to);
 });
 
+on("show-view", (id) => parts.tabs.select(id));
+on("show-form", (path) => {
+    parts.editTabs.select("form");
+    parts.form.reveal(path);
+});
+
 // ---- start ----
 
 const MOST_WAIT_MS = 30000;
@@ -169,6 +178,7 @@ async function start() {
     state.table = await get("/api/table");
     parts.form.start(state.table);
     parts.motion.start(state.table);
+    parts.draw.start(state.table);
     parts.open.hidden = state.session.file !== null;
     await startFile(parts.editor);
     headerState();

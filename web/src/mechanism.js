@@ -49,9 +49,10 @@ export class Mechanism {
         this.ghost = s("g", { class: "ghost" });
         this.under = s("g", { class: "under" });
         this.parts = s("g", { class: "parts" });
+        this.pinned = s("g", { class: "pinned", "aria-hidden": "true" });
         this.above = s("g", { class: "above" });
         this.attached = new Attached();
-        this.view.world.append(this.under, this.ghost, this.parts, this.attached.group, this.above);
+        this.view.world.append(this.under, this.ghost, this.parts, this.attached.group, this.pinned, this.above);
         this.labels = s("g", { class: "labels" });
         this.arrows = s("g", { class: "arrows" });
         this.tags = s("g", { class: "mark-tags" });
@@ -174,6 +175,24 @@ export class Mechanism {
             if (body.fixed) return;
             this.ghost.append(s("g", { transform: place(q[i]) }, body.outline.map((d) => s("path", { d }))));
         });
+    }
+
+    /** Another device over this one as dashed outlines, at poses of its own; null takes it away. */
+    compareWith(preview, q) {
+        if (preview !== this.comparedWith) {
+            this.comparedWith = preview;
+            this.pinned.replaceChildren();
+            if (!preview) return;
+            const index = new Map(preview.bodies.map((b, i) => [b.id, i]));
+            this.pinnedBodies = preview.bodies.map((b) => (b.fixed ? null : s("g", {}, b.outline.map((d) => s("path", { d })))));
+            this.pinnedFlexures = preview.flexures.map((f) => ({ at: f.between.map((id) => index.get(id)), path: s("path", {}), d: f.path, bend: f.centre_line ? new Bend(f.path, lineOf(f.centre_line)) : null }));
+            this.pinned.append(...this.pinnedBodies.filter(Boolean), ...this.pinnedFlexures.map((f) => f.path));
+        }
+        if (!preview) return;
+        const rest = restOf(preview);
+        const motion = q.map((pose, i) => displacement(rest[i], pose));
+        q.forEach((pose, i) => this.pinnedBodies[i]?.setAttribute("transform", place(pose)));
+        for (const f of this.pinnedFlexures) f.path.setAttribute("d", f.bend ? f.bend.path(motion[f.at[0]] ?? REST, motion[f.at[1]] ?? REST) : f.d);
     }
 
     /** shares: Map of hinge id -> used share of the limit (null: no limit known). */

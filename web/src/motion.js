@@ -7,6 +7,7 @@ import { setOption } from "./design.js";
 import { button, h, s, select, setOptions } from "./dom.js";
 import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
+import { moved } from "./outline.js";
 import { Plot } from "./plots.js";
 import { lookAt, on, state } from "./store.js";
 
@@ -27,21 +28,28 @@ export class Motion {
         this.time = 0;
         this.speed = 1;
         this.playing = false;
+        this.showPaths = button("Paths", { class: "small", "aria-pressed": "false", title: "of the centres of mass, and of the points that loads act on" }, () => {
+            this.showPaths.setAttribute("aria-pressed", String(this.showPaths.getAttribute("aria-pressed") !== "true"));
+            this.#paths();
+        });
         this.tools = h("div", { class: "toolbar", role: "group", "aria-label": "How the motion is computed" });
         this.stage = h("div", { class: "stage" });
         this.player = h("div", { class: "player", role: "group", "aria-label": "Time" });
         this.plots = h("div", { class: "plots" });
         holder.append(this.tools, this.stage, this.player, this.plots);
         this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt, scene: true });
-        this.stage.append(colourLegend(), this.#zoomButtons());
+        this.stage.append(colourLegend(), this.#zoomButtons(), h("div", { class: "stage-tools" }, this.showPaths));
+        this.paths = s("g", { class: "paths", "aria-hidden": "true" });
+        this.mechanism.above.append(this.paths);
         this.stats = h("div", { class: "run-stats" });
         this.showing = [this.stage, this.player, this.plots, this.stats].map((element) => new Shown(element));
         this.#player();
         const seek = (t) => this.seek(t / 1e3, true);
-        this.angles = new Plot(this.plots, { title: "Share of the limit", unit: "%, over ms", onseek: seek });
-        this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek });
-        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek });
-        this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek });
+        const onwindow = (window) => [this.angles, this.energy, this.norm, this.probes].forEach((plot) => plot.setWindow(window)); // one time for all
+        this.angles = new Plot(this.plots, { title: "Share of the limit", unit: "%, over ms", onseek: seek, onwindow });
+        this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek, onwindow });
+        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek, onwindow });
+        this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek, onwindow });
         this.whichProbe = select("Probe", [], "", () => {
             this.#plotProbe(state.preview);
             this.paint();
@@ -53,7 +61,7 @@ export class Motion {
         });
         this.angles.heading.append(this.inDegrees);
         on("options", () => this.picks?.forEach((refresh) => refresh()));
-        for (const event of ["preview", "hinge", "theme"]) on(event, () => this.visible && this.show());
+        for (const event of ["preview", "hinge", "theme", "pinned"]) on(event, () => this.visible && this.show());
     }
 
     shown(yes) {
@@ -123,6 +131,7 @@ export class Motion {
         this.rule = rules.length === 1 ? `${rules[0]} limit` : "limit";
         this.mechanism.show(p);
         this.mechanism.setLoads(loadsOf(p));
+        this.#paths();
         this.#plotAll();
         this.#stats();
         this.paint();
@@ -134,9 +143,23 @@ export class Motion {
         this.toggle(false);
         this.mechanism.show(p);
         this.mechanism.setLoads([]);
+        this.paths.replaceChildren();
         this.mechanism.pose(restOf(p));
+        this.#pinned();
         this.mechanism.colour(new Map(), state.hinge);
         this.stats.textContent = p.scenes.length ? "this scene was not moved; the notes say why" : "the description has no scene";
+    }
+
+    /** Where the motion takes what moves. */
+    #paths() {
+        const p = state.preview;
+        const shown = this.showPaths.getAttribute("aria-pressed") === "true" && p?.motion;
+        if (!shown) return this.paths.replaceChildren();
+        const points = [...p.bodies.flatMap((b, i) => (b.fixed ? [] : [[i, [0, 0]]])),
+            ...(p.loads ?? []).flatMap((x) => (x.eyelets ?? [x]).filter((e) => e.body >= 0 && e.at_um).map((e) => [e.body, e.at_um]))].filter(([i]) => p.bodies[i] && !p.bodies[i].fixed);
+        this.paths.replaceChildren(...points.map(([i, at]) => s("path", {
+            d: `M${p.motion.q.map((row) => moved([row[3 * i] * 1e6, row[3 * i + 1] * 1e6, row[3 * i + 2]], at).map((v) => v.toFixed(3)).join(" ")).join("L")}`,
+        })));
     }
 
     #stats() {
@@ -161,6 +184,7 @@ export class Motion {
             const factor = inDegrees ? 180 / Math.PI : this.limits[i] ? 100 / this.limits[i] : NaN;
             return { name: pin.id, key: i, values: m.angle_rad.map((row) => (Number.isFinite(factor) && row[i] !== null ? row[i] * factor : null)) };
         });
+        series.push(...this.#anglesThen(ms, inDegrees));
         let marks = [{ y: 100, text: this.rule }, { y: -100 }];
         if (inDegrees) marks = p.pins.flatMap((pin, i) => (this.limits[i] && (chosen === null || chosen === pin.id) ? [1, -1].map((f) => ({ y: (f * this.limits[i] * 180) / Math.PI, curve: i })) : []));
         const most = Math.max(...m.angle_rad.map((row) => Math.max(...row.map((a, i) => (this.limits[i] ? Math.abs(a) / this.limits[i] : 0)))));
@@ -177,6 +201,18 @@ export class Motion {
         this.energy.root.hidden = energies.length === 0; // a row of equilibria has none
         this.#plotProbe(p);
         this.#legend(p, energies);
+    }
+
+    /** The same curves of the pinned version, at the times of this one. */
+    #anglesThen(ms, inDegrees) {
+        const p = state.pinned?.preview;
+        if (!p?.motion) return [];
+        return state.preview.pins.flatMap((pin, key) => {
+            const k = p.pins.findIndex((x) => x.id === pin.id);
+            const factor = inDegrees ? 180 / Math.PI : 100 / limitOf(p.pins[k] ?? {});
+            if (k < 0 || !Number.isFinite(factor)) return [];
+            return [{ name: `${pin.id}, then`, then: pin.id, key, values: alike(ms, p.motion.t_s.map((t) => t * 1e3), (i) => p.motion.angle_rad[i][k] * factor) }];
+        });
     }
 
     /** One of the probes, with the bounds of what is required of it; the first that something is required of. */
@@ -197,7 +233,10 @@ export class Motion {
         const ends = [...values.filter((x) => x !== null), ...marks.map((x) => x.y)];
         const [low, high] = [Math.min(...ends), Math.max(...ends)];
         const pad = 0.08 * (high - low || 1);
-        this.probes.show(p.motion.t_s.map((t) => t * 1e3), [{ name: wanted, key: 2, solid: true, values }], { marks, range: [low - pad, high + pad] });
+        const old = state.pinned?.preview?.motion;
+        const other = old?.probes?.find((x) => x.id === wanted && x.unit === probe.unit);
+        const then = other ? [{ name: `${wanted}, then`, then: wanted, key: 2, values: alike(p.motion.t_s, old.t_s, (i) => other.value[i] / size) }] : [];
+        this.probes.show(p.motion.t_s.map((t) => t * 1e3), [{ name: wanted, key: 2, solid: true, values }, ...then], { marks, range: [low - pad, high + pad] });
         this.probe = probe;
     }
 
@@ -240,6 +279,7 @@ export class Motion {
         const a = m.q[i];
         const b = m.q[Math.min(i + 1, m.q.length - 1)];
         this.mechanism.pose(posesOf(p, a.map((x, k) => x + f * (b[k] - x))), { factors: between(p.motion.load_factor, p.loads.length, i, f, 1), tensions: between(p.motion.tension_N, p.motion.tension_N?.length ?? 0, i, f, 0) });
+        this.#pinned();
         const angles = m.angle_rad[i].map((x, k) => x + f * ((m.angle_rad[Math.min(i + 1, m.angle_rad.length - 1)][k] ?? x) - x));
         const shares = new Map(p.pins.map((pin, k) => [pin.id, this.limits[k] ? Math.abs(angles[k]) / this.limits[k] : null]));
         this.mechanism.colour(shares, state.hinge);
@@ -257,8 +297,16 @@ export class Motion {
         this.norm.at(ms, m.constraint_norm ? number(m.constraint_norm[i], 2) : "");
     }
 
-    #sample(time) {
-        const t = this.t;
+    /** The pinned version at the same time of its scene; without a motion at rest. */
+    #pinned() {
+        const p = state.pinned?.preview ?? null;
+        if (!p?.motion || !this.t) return this.mechanism.compareWith(p, p && restOf(p));
+        const [i, f] = this.#sample(this.time, p.motion.t_s);
+        const [a, b] = [p.motion.q[i], p.motion.q[Math.min(i + 1, p.motion.q.length - 1)]];
+        this.mechanism.compareWith(p, posesOf(p, a.map((x, k) => x + f * (b[k] - x))));
+    }
+
+    #sample(time, t = this.t) {
         let low = 0;
         let high = t.length - 1;
         while (high - low > 1) {
@@ -300,6 +348,18 @@ const between = (lists, n, i, f, usual) => Array.from({ length: n }, (_, k) => {
     const list = lists?.[k];
     return list ? list[i] + f * ((list[i + 1] ?? list[i]) - list[i]) : usual;
 });
+
+/** value(i) at the samples of one list of times, linear between them, at the times of another; null outside. */
+function alike(times, samples, value) {
+    let i = 0;
+    return times.map((t) => {
+        if (t < samples[0] || t > samples.at(-1)) return null;
+        while (i < samples.length - 2 && samples[i + 1] < t) i++;
+        const [t0, t1] = [samples[i], samples[Math.min(i + 1, samples.length - 1)]];
+        const f = t1 > t0 ? (t - t0) / (t1 - t0) : 0;
+        return value(i) + f * (value(Math.min(i + 1, samples.length - 1)) - value(i));
+    });
+}
 
 /** Arrows for the loads of the scene, each as long as it is beside the largest of its kind. */
 function loadsOf(p) {

@@ -2,25 +2,122 @@
 // Curves over time with one cursor for all of them.
 import uPlot from "uplot";
 import { curve, dash, themed } from "./colours.js";
-import { h } from "./dom.js";
+import { button, h } from "./dom.js";
 import { number } from "./format.js";
-import { on } from "./store.js";
+import { csvOf, saveAs, svgOf } from "./plotfile.js";
+import { on, state } from "./store.js";
+
+const NEAREST = 6; // curves that a look at a point names
 
 export class Plot {
-    /** onseek(t): the user has clicked or dragged to a time */
-    constructor(holder, { title, unit, log = false, onseek }) {
-        Object.assign(this, { title, unit, log, onseek });
+    /** onseek(t): the user has clicked or dragged to a time; onwindow(window): has zoomed, [from, to] or null */
+    constructor(holder, { title, unit, log = false, onseek, onwindow }) {
+        Object.assign(this, { title, unit, log, onseek, onwindow, window: null });
         this.heading = h("div", { class: "plot-title" }, h("span", {}, title), h("span", { class: "plot-unit" }, unit), h("span", { class: "plot-value" }));
         this.box = h("div", { class: "plot-box", role: "img", "aria-label": title });
-        this.root = h("figure", { class: "plot" }, this.heading, this.box);
+        this.look = h("div", { class: "plot-look", hidden: true, "aria-hidden": "true" });
+        this.root = h("figure", { class: "plot" }, this.heading, this.#menu(), this.box, this.look);
         holder.append(this.root);
         new ResizeObserver(() => this.#resize()).observe(this.box);
         on("theme", () => (this.shape = null)); // whoever shows it shows it again
         this.box.addEventListener("pointerdown", (e) => this.#seek(e));
-        this.box.addEventListener("pointermove", (e) => e.buttons & 1 && this.#seek(e));
+        this.box.addEventListener("pointermove", (e) => {
+            if (e.buttons & 1) this.#seek(e);
+            this.#under(e);
+        });
+        this.box.addEventListener("pointerleave", () => (this.look.hidden = true));
+        this.box.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
+        this.box.addEventListener("dblclick", () => this.onwindow?.(null));
     }
 
-    /** t: times in ms; series: [{name, values, key (colour), limit}], marks: [{y, text, curve}] */
+    // ---- zoom, and values under the pointer ----
+
+    #menu() {
+        const act = (label, f) => button(label, { class: "small" }, () => {
+            menu.open = false;
+            f();
+        });
+        const name = () => `${state.preview?.name ?? "device"}-${this.words.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "")}`;
+        const menu = h("details", { class: "plot-menu" }, h("summary", { "aria-label": `${this.title}: zoom, save` }, "⋯"), h("div", { class: "plot-menu-list" },
+            act("Zoom in", () => this.zoom(0.5)), act("Zoom out", () => this.zoom(2)), act("Whole scene", () => this.onwindow?.(null)),
+            act("Save as CSV", () => saveAs(`${name()}.csv`, this.csv(), "text/csv")), act("Save as SVG", () => saveAs(`${name()}.svg`, this.svg(), "image/svg+xml"))));
+        menu.addEventListener("keydown", (e) => {
+            if (e.key !== "Escape" || !menu.open) return;
+            menu.open = false;
+            menu.firstChild.focus();
+            e.stopPropagation();
+        });
+        menu.addEventListener("focusout", (e) => menu.contains(e.relatedTarget) || (menu.open = false));
+        return menu;
+    }
+
+    /** What the heading says: the title may have changed, or be a choice. */
+    get words() {
+        const first = this.heading.firstChild;
+        return first.tagName === "SELECT" ? first.value : first.textContent;
+    }
+    get unitWords() {
+        return this.heading.querySelector(".plot-unit").textContent;
+    }
+
+    csv() {
+        return csvOf(this.data, this.unitWords.replace(", over ms", ""));
+    }
+    svg() {
+        const { x, y } = this.plot.scales;
+        return svgOf(this.data, { title: `${state.preview?.name ?? ""}: ${this.words}`, unit: this.unitWords, x: [x.min, x.max], y: [y.min, y.max], log: this.log });
+    }
+
+    /** Shows so much of the present window, about a time (of itself that of the cursor). */
+    zoom(factor, about = this.now) {
+        const t = this.data?.t;
+        if (!t?.length) return;
+        const [whole0, whole1] = [t[0], t.at(-1)];
+        const [a, b] = this.window ?? [whole0, whole1];
+        const middle = about >= a && about <= b ? about : (a + b) / 2;
+        const least = (whole1 - whole0) / Math.max(t.length - 1, 1);
+        const size = Math.max((b - a) * factor, 3 * least);
+        if (size >= whole1 - whole0) return this.onwindow?.(null);
+        const from = Math.min(Math.max(middle - ((middle - a) / (b - a)) * size, whole0), whole1 - size);
+        this.onwindow?.([from, from + size]);
+    }
+
+    /** [from, to] in the unit of the axis; null: all. */
+    setWindow(window) {
+        this.window = window;
+        this.plot?.setData(this.plot.data);
+    }
+
+    #time(event) {
+        const left = event.clientX - this.box.getBoundingClientRect().left - this.plot.bbox.left / uPlot.pxRatio;
+        return this.plot.posToVal(left, "x");
+    }
+
+    #wheel(event) {
+        if (!this.plot || !this.onwindow || (matchMedia("(max-width: 900px)").matches && !event.ctrlKey)) return; // there it scrolls the page
+        event.preventDefault();
+        this.zoom(Math.exp(event.deltaY * (event.deltaMode === 1 ? 16 : 1) * 0.0016), this.#time(event));
+    }
+
+    /** The sample nearest to the pointer, of the nearest curves. */
+    #under(event) {
+        const { t, series } = this.data ?? {};
+        if (!this.plot || !t?.length) return;
+        const at = this.#time(event);
+        let i = 0;
+        while (i < t.length - 1 && Math.abs(t[i + 1] - at) <= Math.abs(t[i] - at)) i++;
+        const r = this.box.getBoundingClientRect();
+        const y = this.plot.posToVal(event.clientY - r.top - this.plot.bbox.top / uPlot.pxRatio, "y");
+        const near = series.map((x, k) => ({ name: x.name, key: x.key ?? k, value: x.values[i] })).filter((x) => Number.isFinite(x.value)).sort((a, b) => Math.abs(a.value - y) - Math.abs(b.value - y)).slice(0, NEAREST);
+        this.look.replaceChildren(h("b", {}, `${number(t[i], 4)} ms`), ...near.map((x) => h("span", {}, h("i", { style: { background: curve(x.key) } }), `${x.name} ${number(x.value, 4)}`)));
+        this.look.hidden = near.length === 0;
+        const right = event.clientX - r.left > r.width / 2;
+        this.look.style.setProperty("top", `${this.box.offsetTop + 4}px`);
+        this.look.style.setProperty("left", right ? "auto" : `${event.clientX - r.left + 14 + this.box.offsetLeft}px`);
+        this.look.style.setProperty("right", right ? `${r.right - event.clientX + 14}px` : "auto");
+    }
+
+    /** t: times in ms; series: [{name, values, key (colour), limit, then: the series of whose pinned version it is}], marks: [{y, text, curve}] */
     show(t, series, { marks = [], chosen = null, range } = {}) {
         const shape = JSON.stringify([series.map((x) => x.name), chosen, marks.length, Boolean(range)]);
         this.data = { t, series, marks, chosen, range };
@@ -46,7 +143,7 @@ export class Plot {
             width: this.box.clientWidth, height: this.box.clientHeight,
             legend: { show: false }, cursor: { show: false },
             scales: {
-                x: { time: false },
+                x: { time: false, range: (u, low, high) => this.window ?? [low, high] },
                 y: this.log ? { distr: 3 } : { range: (u, low, high) => this.#range(low, high) },
             },
             axes: [
@@ -54,8 +151,8 @@ export class Plot {
                 { ...axis, size: 50, values: (u, v) => v.map((x) => (x === null ? "" : number(x, this.log ? 1 : 3))) },
             ],
             series: [{}, ...series.map((x, i) => ({
-                label: x.name, stroke: curve(x.key ?? i), dash: x.solid ? [] : dash(x.key ?? i), points: { show: false },
-                width: chosen === null || chosen === x.name ? 1.8 : 0.9, alpha: chosen === null || chosen === x.name ? 1 : 0.4, spanGaps: true,
+                label: x.name, stroke: curve(x.key ?? i), dash: x.then ? [1.5, 2.5] : x.solid ? [] : dash(x.key ?? i), points: { show: false },
+                width: x.then ? 1.1 : chosen === null || chosen === x.name ? 1.8 : 0.9, alpha: chosen === null || chosen === (x.then ?? x.name) ? 1 : 0.4, spanGaps: true,
             }))],
             hooks: { draw: [(u) => this.#over(u)] },
         }, [t, ...series.map((x) => x.values)], this.box);
@@ -114,8 +211,7 @@ export class Plot {
 
     #seek(event) {
         if (!this.plot || event.button > 0) return;
-        const left = event.clientX - this.box.getBoundingClientRect().left - this.plot.bbox.left / uPlot.pxRatio;
-        this.onseek?.(this.plot.posToVal(left, "x"));
+        this.onseek?.(this.#time(event));
     }
 
     #resize() {

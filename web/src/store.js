@@ -15,6 +15,7 @@ export const state = {
     answered: null, // input of the last answer, good or not: that of the diagnostics
     cancelled: null, // input whose answer nobody waits for any more
     diagnostics: [],
+    pinned: null, // version that is compared with: {name, text, preview, made, why: it has no answer}
     summary: null, // first lines of the verdict that is shown
     hinge: null, // id of the hinge that is looked at
     flow: "", // whose utilisation is shown; "": the worst of all
@@ -27,7 +28,7 @@ export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { 
 
 /** Names of events: "text" (editor's text changed), "change" (ask for a preview), "options" (how it is
  *  computed), "preview" (a good answer), "answer" (any answer), "belong" (what is shown was marked anew), "working"
- *  (what is on its way), "hinge" (looked at), "jobs" (any job), "theme". */
+ *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "theme". */
 export function lookAt(hinge) {
     state.hinge = state.hinge === hinge ? null : hinge;
     emit("hinge", state.hinge);

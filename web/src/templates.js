@@ -19,11 +19,13 @@ import tendonsPicture from "../../docs/gallery/four-tendons/device.svg";
 import { announce, h, icon } from "./dom.js";
 import { openDialog } from "./dialog.js";
 import { replaceAll } from "./file.js";
-import { state } from "./store.js";
+import { emit, state } from "./store.js";
+import blank from "./templates/blank.xml";
 import empty from "./templates/empty.xml";
 
 export const TEMPLATES = [
-    ["From nothing", "one body on one leaf: the smallest device that is judged and made", empty, null],
+    ["Empty page", "nothing but a material and a flow: draw the device with the mouse, in Draw", blank, null],
+    ["One leaf", "one body on one leaf: the smallest device that is judged and made", empty, null],
     ["Six-bar", "two legs and a platform on six arcs, 3 mm wide, for both flows", sixBar, sixBarPicture],
     ["Four-bar", "any planar mechanism, here a crank, a coupler and a rocker on leaves", fourBar, fourBarPicture],
     ["Stage", "a parallelogram drawn by a cable; stroke, straightness and frequency are required", stage, stagePicture],
@@ -58,5 +60,6 @@ export function newDevice(editor) {
 function take(editor, name, text) {
     if (state.file) editor.replace(text);
     else replaceAll(editor, text, `Begin with ${name}`);
+    if (text === blank) emit("show-view", "draw");
     announce(`${name}: begun`);
 }

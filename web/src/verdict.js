@@ -2,11 +2,12 @@
 // The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
 // which effects were computed and why, what it cost.
 import { inputKey, Shown } from "./belong.js";
+import { Compare } from "./compare.js";
 import { askAgain, edit, isPresent } from "./design.js";
 import { announce, button, h, icon, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
-import { lookAt, on, state } from "./store.js";
+import { emit, lookAt, on, state } from "./store.js";
 
 const SLOW_S = 3;
 const MOST = 100; // diagnostics in a list
@@ -35,7 +36,8 @@ export class Verdict {
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
         const cards = [use, this.required, card("flows", "Flows", this.flows)];
         const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost)];
-        holder.append(this.old, this.banner, this.problems, ...cards, card("full", "As fabricated", full), ...last, this.notes);
+        this.compare = new Compare(() => this.judged);
+        holder.append(this.old, this.banner, this.problems, this.compare.card, ...cards, card("full", "As fabricated", full), ...last, this.notes);
         this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
         this.ofAnswer = [this.problems, this.notes].map((element) => new Shown(element));
         this.full = new JobView(full, {
@@ -50,6 +52,7 @@ export class Verdict {
         on("answer", () => this.#answer());
         on("belong", () => this.#staleness());
         on("hinge", () => this.#chosen());
+        on("pinned", () => state.preview?.verdict && this.#bars(state.preview.verdict));
         this.#wait();
     }
 
@@ -87,12 +90,15 @@ export class Verdict {
         this.#staleness();
         const errors = state.diagnostics.filter((d) => d.severity === "error");
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
-        const words = `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
+        const empty = errors.length === 1 && errors[0].code === "FW-D052" && /^<mechanism> has no <body>/.test(errors[0].message);
+        const words = empty ? "Nothing is drawn yet" : `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
         this.problems.hidden = errors.length === 0;
-        this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
+        this.problems.classList.toggle("none-yet", empty); // an empty page is no mistake
+        if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
+        else this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
         this.notes.hidden = rest.length === 0;
         this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
-        const said = errors.length ? `${words}: ${errors[0].message}` : "";
+        const said = empty ? words : errors.length ? `${words}: ${errors[0].message}` : "";
         if (said && said !== this.said) announce(said);
         this.said = said;
     }
@@ -154,6 +160,11 @@ export class Verdict {
             probes.flatMap((x) => [h("dt", {}, `${x.id} (peak, ${where(x)})`), h("dd", {}, si(x.peak, x.unit))])));
     }
 
+    /** The same for those who compare. */
+    get judged() {
+        return this.#full();
+    }
+
     /** The full judgement, while it is of the present text. */
     #full() {
         return this.full.job && !this.full.stale ? this.full.job.result ?? null : null;
@@ -187,7 +198,8 @@ export class Verdict {
         const worst = made?.size ? [...made].reduce((a, b) => (b[1].utilisation > a[1].utilisation ? b : a)) : null;
         const governing = !own ? (this.#full() ?? v).governing : worst ? { id: worst[0] } : own.governing; // all flows: that of the banner
         const most = Math.max(1.25, ...list.map((x) => Math.min(Math.max(x.utilisation ?? 0, made?.get(x.id)?.utilisation ?? 0), 4)));
-        const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id)));
+        const then = pinnedShares(state.flow, made);
+        const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id), then(hinge.id)));
         this.bars.replaceChildren(
             h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
             h("div", { class: "bar-list", style: { "--at": `${100 / most}%` } }, rows));
@@ -274,6 +286,7 @@ export class Verdict {
             advice.length ? h("div", { class: "advice" }, h("h3", {}, "What would be accepted, the least change first"), h("ol", {}, advice)) : "",
             v.advice_note ? h("p", { class: "doc" }, v.advice_note) : "");
         this.show();
+        emit("judged");
     }
 }
 
@@ -301,7 +314,19 @@ function asDrawn(g) {
     return `As drawn hinge ${g.id} uses ${percent(g.utilisation)}${band} of its ${g.criterion ?? "elastic"} limit, ${where}.`;
 }
 
-function bar(hinge, most, governing, made) {
+/** Shares of the pinned version, as made where that is shown of this one: (hinge) -> share, or undefined. */
+function pinnedShares(flow, made) {
+    const { pinned } = state;
+    if (!pinned?.preview?.verdict) return () => undefined;
+    const source = made?.size && pinned.made ? pinned.made : made?.size ? null : pinned.preview.verdict;
+    const own = source?.flows?.find((f) => f.id === flow) ?? source;
+    return (id) => {
+        const x = own?.hinges?.find((y) => y.id === id);
+        return made?.size ? x?.as_fabricated?.utilisation : x?.utilisation;
+    };
+}
+
+function bar(hinge, most, governing, made, then) {
     const rules = made ?? hinge; // as it will be made, where that is known: what the banner says
     const use = rules.utilisation ?? 0;
     const [low, high] = rules.utilisation_band ?? [use, use];
@@ -309,14 +334,15 @@ function bar(hinge, most, governing, made) {
     const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
     return h("button", {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
-        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${made ? " as made" : ""}${drawn}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${made ? " as made" : ""}${drawn}${then === undefined ? "" : `, ${percent(then)} in ${state.pinned.name}`}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
     },
-    h("span", { class: "bar-id" }, hinge.id),
+    h("span", { class: "bar-id", "aria-hidden": "true" }, hinge.id), // the button's name says both
     h("span", { class: "bar-track" },
         h("span", { class: "bar-fill", style: { width: x(use) } }),
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
+        then === undefined ? null : h("span", { class: "bar-then", title: `${state.pinned.name}: ${percent(then)}`, style: { left: x(then) } }),
         made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
-    h("span", { class: "bar-value" }, percent(use, use < 0.1 ? 2 : 3)));
+    h("span", { class: "bar-value", "aria-hidden": "true" }, percent(use, use < 0.1 ? 2 : 3)));
 }
 
 export function diagnosticItem(d, jump = true) {

@@ -94,6 +94,20 @@ static void set_replaces_attributes(void **state) {
     fw_arena_free(arena);
 }
 
+/* <line> of an outline has other attributes than <line> of a flexure */
+static void set_knows_where_an_element_stands(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    size_t n;
+    char *xml = load(arena, "docs/gallery/free-form-gripper/device.xml", &n);
+    const fw_device_set set[] = {{"mechanism/body[left]/outline/line[2]/@to-x", "141 um"},
+                                 {"device/mechanism/body[left]/outline/arc[2]/@radius", "65 um"}};
+    sound(arena, xml, set, 2);
+    const fw_device_set wrong = {"mechanism/body[left]/outline/line[2]/@length", "141 um"};
+    only_error(arena, xml, &wrong, 1, 55, "no such attribute");
+    fw_arena_free(arena);
+}
+
 /* of many --set the message names the one that is wrong, as its file */
 static void a_set_names_its_path(void **state) {
     (void)state;
@@ -164,6 +178,7 @@ int main(void) {
         cmocka_unit_test(order_does_not_matter),
         cmocka_unit_test(set_replaces_parameters),
         cmocka_unit_test(set_replaces_attributes),
+        cmocka_unit_test(set_knows_where_an_element_stands),
         cmocka_unit_test(a_set_names_its_path),
         cmocka_unit_test(both_ends_of_a_reference),
         cmocka_unit_test(one_mistake_is_said_once),

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A device made with the mouse: from an empty page to an accepted gripper without touching the text, and things that
+// are there dragged, with what is written respected.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { answered, axeSource, close, finish, open, serve, source, text, verdict, view } from "./helper.mjs";
+
+after(finish);
+
+const shot = async (page, name) => {
+    if (process.env.FW_PICTURE) await page.screenshot({ path: join(process.env.FW_PICTURE, name) });
+};
+
+/** Pixels of a place in um. */
+const pixels = (page, at) => page.evaluate((p) => {
+    const { view: v } = globalThis.flexwright.parts.draw;
+    const r = v.svg.getBoundingClientRect();
+    const [x, y] = v.toScreen(...p);
+    return [x + r.left, y + r.top];
+}, at);
+const drag = async (page, from, to, { release = true, steps = 4 } = {}) => {
+    const [a, b] = [await pixels(page, from), await pixels(page, to)];
+    await page.mouse.move(...a);
+    await page.mouse.down();
+    for (let i = 1; i <= steps; i++) await page.mouse.move(a[0] + ((b[0] - a[0]) * i) / steps, a[1] + ((b[1] - a[1]) * i) / steps);
+    if (release) await page.mouse.up();
+};
+const click = async (page, at) => page.mouse.click(...await pixels(page, at));
+const tool = (page, id) => page.click(`.draw-tools [data-tool="${id}"]`);
+const changed = async (page, act) => {
+    const was = await text(page);
+    await act();
+    await page.waitForFunction((t) => globalThis.flexwright.state.text !== t, was);
+};
+
+describe("a gripper from an empty page", () => {
+    let server, page;
+    before(async () => {
+        server = await serve(null);
+        page = await open(server);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("with the mouse alone, to an accepted device", async () => {
+        await page.click("#new");
+        await page.click('.template:has-text("Empty page")');
+        await page.waitForSelector("#panel-draw:not([hidden])"); // an empty page opens where it is drawn on
+        await page.waitForSelector("#right .problems:has-text('Nothing is drawn yet')");
+        await shot(page, "draw-empty.png");
+        await tool(page, "bar");
+        await changed(page, () => drag(page, [-400, 0], [-400, 1000]));
+        await page.selectOption('label:has-text("belongs to") select', "link-1");
+        await changed(page, () => drag(page, [-400, 1000], [-100, 1000]));
+        await page.selectOption('label:has-text("belongs to") select', "");
+        await changed(page, () => drag(page, [400, 0], [400, 1000]));
+        await page.selectOption('label:has-text("belongs to") select', "link-2");
+        await changed(page, () => drag(page, [400, 1000], [100, 1000]));
+        await page.waitForFunction(() => document.querySelectorAll("#panel-draw .sketch-shape.faulty").length === 4); // a mistake is red where it is
+        assert.match(await page.locator("#right .problems").innerText(), /no hinge holds it yet/i);
+        await shot(page, "draw-links.png");
+        await tool(page, "hinge");
+        await changed(page, () => click(page, [-400, 0]));
+        await changed(page, () => click(page, [400, 0]));
+        assert.equal((await text(page)).match(/<flexure /g).length, 1, "hinges of the same sizes share their flexure");
+        await tool(page, "force");
+        await changed(page, () => drag(page, [-400, 600], [-200, 600]));
+        await changed(page, () => drag(page, [400, 600], [200, 600]));
+        await verdict(page, "accept");
+        await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: 60000 });
+        await shot(page, "draw-gripper.png");
+    });
+});
+
+describe("without a pointer, and what cannot be made", () => {
+    let server, page;
+    const type = async (label, value) => {
+        await page.fill(`.view-draw input[aria-label="${label}"]`, String(value));
+    };
+    const add = async (act = () => page.press(".draw-add", "Enter")) => changed(page, act);
+    before(async () => {
+        server = await serve(null);
+        page = await open(server);
+        await page.click("#new");
+        await page.click('.template:has-text("Empty page")');
+        await view(page, "draw");
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("tools take numbers; an arm, its hinge, a hole, a cable and electrodes are made with keys", async () => {
+        await page.selectOption('select[aria-label="Grid"]', "5");
+        const key = async (id) => page.press(`.draw-tools [data-tool="${id}"]`, "Enter");
+        const points = async (...list) => {
+            for (const [name, x, y] of list) {
+                await type(`${name}, x, µm`, x);
+                await type(`${name}, y, µm`, y);
+            }
+        };
+        await key("bar");
+        await points(["from", 0, 0], ["to", 0, 900]);
+        await add();
+        await key("plate");
+        await points(["from", -200, 800], ["to", 200, 1100]);
+        await add();
+        await key("disc");
+        await page.selectOption('label:has-text("cut out") select', "yes");
+        await points(["from", 100, 950], ["to", 140, 950]);
+        await add();
+        await key("hinge");
+        await page.selectOption('label:has-text("kind") select', "leaf");
+        await points(["at", 0, 0]);
+        await add();
+        await key("cable");
+        for (const [x, y] of [[-100, 950], [-700, 950]]) {
+            await points(["next eyelet", x, y]);
+            await page.press(".draw-add", "Enter");
+        }
+        await add(() => page.press('.view-draw button:has-text("Finish")', "Enter"));
+        await verdict(page, "reject");
+        const eyelet = page.locator('.draw-handle.doubtful[data-id*="eyelet[2]"]'); // it stands outside of the frame
+        await eyelet.focus();
+        assert.match(await eyelet.getAttribute("aria-label"), /outside of the frame/);
+        for (let i = 0; i < 2; i++) await changed(page, () => page.keyboard.press("Shift+ArrowRight"));
+        await verdict(page, "accept");
+        const xml = await text(page);
+        for (const part of ['<bar x="0 um" y="0 um" to-x="0 um" to-y="900 um" width="120 um"/>', '<plate x="0 um" y="950 um" width="400 um" height="300 um"/>', '<disc x="100 um" y="950 um" radius="40 um" hole="yes"/>',
+            '<flexure id="leaf-1" kind="leaf" length="300 um" width="10 um"/>', 'a="ground" a-x="0 um" a-y="0 um" b="link-1"', '<eyelet on="link-1" x="-100 um" y="950 um"/>', '<eyelet on="ground" x="-600 um" y="950 um"/>'])
+            assert.ok(xml.includes(part), `${part} in ${xml}`);
+        await key("comb");
+        await points(["from", 0, 1100], ["to", 0, 1300]);
+        await add();
+        assert.match(await text(page), /<comb-drive id="comb-1" kind="comb" on="link-1" x="0 um" y="1100 um" direction="90 deg" fingers="10"/);
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
+    test("parts that overlap are red where they do, until they are dragged apart", async () => {
+        await tool(page, "bar");
+        await changed(page, () => drag(page, [-300, 500], [300, 500]));
+        await page.waitForSelector('#banner[data-verdict="failed"]');
+        assert.ok(await page.locator("#panel-draw .overlap").count() > 0);
+        assert.ok(await page.locator("#panel-draw .mark-tag").count() > 0);
+        await page.click("#undo");
+        await verdict(page, "accept");
+        assert.equal(await page.locator("#panel-draw .overlap").count(), 0);
+        await tool(page, "outline");
+        for (const at of [[-200, 1100], [-200, 1300], [-100, 1300]]) await click(page, at);
+        await changed(page, () => click(page, [-200, 1100]));
+        assert.match(await text(page), /<outline id="outline-1" start-x="-200 um" start-y="1100 um">\s*<line to-x="-200 um" to-y="1300 um"\/>\s*<line to-x="-100 um" to-y="1300 um"\/>\s*<line to-x="-200 um" to-y="1100 um"\/>\s*<\/outline>/);
+        await page.click("#undo");
+        await page.evaluate(axeSource);
+        await tool(page, "hinge");
+        const axe = await page.evaluate(() => globalThis.axe.run("#panel-draw", { resultTypes: ["violations"] }));
+        assert.deepEqual(axe.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes[0].html]), []);
+    });
+});
+
+describe("what is there is dragged", () => {
+    let server, page;
+    const handle = (id) => page.locator(`.draw-handle[data-id="${id}"]`);
+    const place = (id) => page.evaluate((x) => globalThis.flexwright.parts.draw.list.find((h) => h.id === x)?.at, id);
+    const load = async (name) => {
+        const xml = readFileSync(join(source, "docs/gallery", name, "device.xml"), "utf8");
+        await page.evaluate((t) => globalThis.flexwright.parts.editor.open(t), xml);
+        await page.waitForFunction(() => globalThis.flexwright.settled(false) && globalThis.flexwright.state.preview);
+        return xml;
+    };
+    before(async () => {
+        server = await serve(null);
+        page = await open(server);
+        await view(page, "draw");
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("every hinge of the gallery has its handle where the program has its pin", async () => {
+        const seen = [];
+        for (const name of ["reference-six-bar", "leaf-four-bar", "straight-stage", "free-form-gripper", "free-form-four-bar", "comb-stage", "four-tendons"]) {
+            await load(name);
+            const off = await page.evaluate(() => {
+                const { list } = globalThis.flexwright.parts.draw;
+                return globalThis.flexwright.state.preview.pins.map((p) => {
+                    const own = list.find((h) => h.look === "hinge" && h.element.id === p.id);
+                    const at = globalThis.flexwright.state.preview.flexures.find((f) => f.id === p.id)?.centre_um ?? p.at_um;
+                    return own ? Math.hypot(own.at[0] - at[0], own.at[1] - at[1]) : Infinity;
+                });
+            });
+            const values = await page.evaluate(() => globalThis.flexwright.state.preview.parameters.map((p) => [p.name, p.value_SI, globalThis.flexwright.parts.draw.places.evaluate(p.name)]));
+            for (const [parameter, si, own] of values) assert.ok(Math.abs(own - si) <= 1e-12 * Math.abs(si), `${name}: ${parameter} is ${si}, and ${own} in the page`);
+            assert.ok(off.length > 0 && off.every((d) => d < 0.01), `${name}: off by ${off} um`);
+            seen.push(...off);
+        }
+        assert.ok(seen.length > 25);
+    });
+
+    test("expressions are read as the program reads them", async () => {
+        const list = ["1 um", "-2^2", "2^-1 * 4", "3 um*2 + 4 um/2", "2*span", "-span", "span/3 - 5 um", "sqrt(9) * 1 mm", "min(1 um, 2 um, span)", "atan2(1, -1)", "30 deg", "1e-3 m", "2 N m/rad", "0.3 kg/A/s^2", "5 N/m^2", "pi*1 um", ".5 mm", "((1 um))", "1 um * cos(60 deg)", "2 m s^-1"];
+        await load("free-form-gripper");
+        const text_ = await text(page);
+        const own = await page.evaluate((x) => x.map((e) => globalThis.flexwright.parts.draw.places.evaluate(e)), list);
+        const xml = text_.replace("<material", `${list.map((e, i) => `<parameter name="q${i}" value="${e}"/>`).join("")}<material`);
+        await answered(page, () => page.evaluate((t) => globalThis.flexwright.parts.editor.open(t), xml));
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        const told = await page.evaluate(() => globalThis.flexwright.state.preview.parameters.filter((p) => /^q\d/.test(p.name)).map((p) => p.value_SI));
+        assert.equal(told.length, list.length);
+        list.forEach((e, i) => assert.ok(Math.abs(own[i] - told[i]) <= 1e-14 * Math.abs(told[i]) + 1e-30, `${e}: ${own[i]}, and ${told[i]} in the program`));
+        const wrong = ["1 um +", "1 um span", "foo", "2 (3)", "1,5 um", "nan(1)", ""];
+        assert.ok((await page.evaluate((x) => x.map((e) => globalThis.flexwright.parts.draw.places.evaluate(e)), wrong)).every((v) => v === null || Number.isNaN(v)));
+    });
+
+    test("a parameter is changed, and all that uses it follows; one drag is one undo", async () => {
+        const xml = await load("free-form-gripper");
+        const id = "device/mechanism/revolute[A]";
+        assert.deepEqual(await place(id), [-600, 0]);
+        await drag(page, [-600, 0], [-700, 0], { release: false });
+        await page.waitForFunction(() => /^700 um|^0.7 mm/.test(globalThis.flexwright.state.set.span ?? ""));
+        assert.equal(await text(page), xml, "the text waits until it is let go");
+        await page.waitForFunction(() => document.querySelector(".draw-stage").dataset.of === "present" && !document.querySelector(".draw-stage.old")); // the picture follows
+        await changed(page, () => page.mouse.up());
+        assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.7 mm"'));
+        assert.deepEqual(await place("device/mechanism/revolute[B]"), [700, 0]);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
+    test("a notice that comes meanwhile does not move what is dragged", async () => {
+        const xml = await load("free-form-gripper");
+        await drag(page, [-600, 0], [-700, 0], { release: false });
+        await page.evaluate(() => {
+            globalThis.strip = document.createElement("div");
+            globalThis.strip.style.height = "50px";
+            document.getElementById("notices").append(globalThis.strip);
+        });
+        const b = await page.evaluate(() => globalThis.flexwright.parts.draw.drag.at);
+        const scale = await page.evaluate(() => globalThis.flexwright.parts.draw.view.k);
+        await page.mouse.move(b[0] - 60 * scale, b[1]);
+        await changed(page, () => page.mouse.up());
+        await page.evaluate(() => globalThis.strip.remove());
+        assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.66 mm"'));
+        await page.click("#undo");
+    });
+
+    test("at the end of a parameter's range it stops; Escape gives up", async () => {
+        const xml = await load("free-form-gripper");
+        await drag(page, [-600, 0], [-1200, 0], { release: false });
+        await page.waitForFunction(() => /^0.8 mm/.test(globalThis.flexwright.state.set.span ?? ""));
+        await page.keyboard.press("Escape");
+        await page.mouse.up();
+        assert.equal(await text(page), xml);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
+    });
+
+    test("a formula is never overwritten without a word", async () => {
+        const xml = await load("straight-stage");
+        const id = "device/mechanism/revolute[A]";
+        await drag(page, [0, 0], [0, 200]);
+        const notice = page.locator('.notice:has-text("hinge A is held")');
+        await notice.waitFor();
+        assert.match(await notice.innerText(), /b-y of revolute A is -leg\/2/);
+        assert.equal(await text(page), xml);
+        await shot(page, "draw-held.png");
+        await changed(page, () => notice.locator('button:has-text("Replace")').click());
+        assert.equal(await text(page), xml.replace('<revolute id="A" a="ground" b="left" b-y="-leg/2" hinge="leaf"/>', '<revolute id="A" a="ground" b="left" b-y="-900 um" hinge="leaf" a-y="200 um"/>'));
+        assert.deepEqual((await place(id)).map((v) => Number(v.toFixed(6))), [0, 200]);
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
+    test("corners of outlines, with the pointer; arrow keys, removal and undo with the keyboard", async () => {
+        const xml = await load("free-form-gripper");
+        await click(page, [-680, 600]);
+        const corner = "device/mechanism/body[left]/outline/line[1]"; // from (-100, 250) to (140, 250) in the jaw
+        await handle(corner).waitFor();
+        assert.deepEqual(await place(corner), [-460, 250]);
+        await drag(page, [-460, 250], [-420, 250], { release: false });
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.diagnostics.filter((d) => d.severity === "error")), []); // the held corner was judged
+        assert.match(await page.evaluate(() => JSON.stringify(globalThis.flexwright.state.set)), /outline\/line\[1\]\/@to-x":"180 um"/);
+        await changed(page, () => page.mouse.up());
+        assert.equal(await text(page), xml.replace('<line to-x="140 um" to-y="250 um"/>', '<line to-x="180 um" to-y="250 um"/>'));
+        await page.click("#undo");
+        await handle("device/mechanism/revolute[A]").focus();
+        await changed(page, () => page.keyboard.press("Shift+ArrowUp"));
+        assert.match(await handle("device/mechanism/revolute[A]").getAttribute("aria-label"), /^hinge A, x \u2212600 µm, y 50 µm/);
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+        await handle("device/mechanism/revolute[A]").focus();
+        await changed(page, () => page.keyboard.press("Delete"));
+        assert.ok(!(await text(page)).includes('<revolute id="A"'));
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+        await page.selectOption('select[aria-label="Part"]', "device/mechanism/body[left]");
+        await changed(page, () => page.click(".draw-remove"));
+        assert.ok(!/ (on|a|b|id)="left"|bead-left|id="A"/.test(await text(page)), "what needed the body goes with it");
+        await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+});
