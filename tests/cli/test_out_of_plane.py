@@ -4,6 +4,7 @@
 frequencies that count both kinds."""
 import json
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -88,6 +89,17 @@ class OutOfPlane(unittest.TestCase):
         down = self.across('<residual-stress gradient="-1 MPa/um"/>')[2]
         self.assertGreater(up["highest_m"], 1e-6)
         self.assertAlmostEqual(up["highest_m"] / -down["lowest_m"], 1, 1)
+
+    def test_whole_solid(self):
+        """the gallery's four-bar of an even material, pushed across the plane at its coupler: CalculiX 2.20, every leaf a
+        solid with its roots, bodies rigid (the deck of `hinge --deck` with its middle plane antisymmetric)"""
+        text = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
+        for gone in (r"<spring[^>]*/>", r"<gravity[^>]*/>", r"<flow[^>]*/>"):
+            text = re.sub(gone, "", text)
+        self.file.write_text(text.replace('thickness="50 um"', 'thickness="50 um" youngs-modulus="150 GPa" poisson="0.25"'))
+        all_ = json.loads(run("check", self.file, "--json", *QUICK).stdout)["out_of_plane"][0]
+        self.assertEqual(all_["body"], "coupler")
+        self.assertAlmostEqual(all_["stiffness_N_per_m"] * 0.2983686, 1, 2)
 
     def test_required_frequency_counts_both(self):
         thin = "6 um"
