@@ -3,7 +3,7 @@
    its tilt, is judged beside the motion (verdict/verdict_out_of_plane.c), and here only what that changes of the motion.
    Theory: docs/theory/effects/out-of-plane.md. */
 #include "effects/effect.h"
-#include "mechanism/plates.h"
+#include "mechanism/mechanism_plates.h"
 #include <string.h>
 
 static double gradient_of(const fw_device_scene *s) {
@@ -57,7 +57,7 @@ static double stiffest(const fw_mechanism_plates *p) {
      change <= b^2 (1 + max K_tilt/K)
 
    b: the largest tilt of a body under all of it. In: SI; out: dimensionless. An estimate, not a proof: small tilts.
-   Cost 10 (3 nbody)^3. Test: test_out_of_plane_effect.c */
+   Cost 10 (3 nbody)^3. Test: test_out_of_plane.py */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     fw_mechanism_plates p;
     fw_geometry_vec2 middle = {0, 0};

@@ -333,28 +333,6 @@ static void stand_on_substrate(fw_plan *plan, const fw_device_flow_use *use,
     v->substrate_expansion = of->expansion;
 }
 
-/* what the flow leaves below the device */
-static fw_status find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_below *below) {
-    bool hollow;
-    const char *material;
-    *below = (fw_mechanism_below){
-        .m = (double)NAN, .low_m = (double)NAN, .high_m = (double)NAN, .words = "not known"};
-    if (!pf->flow) return FW_OK;
-    const fw_quantity *gap = fw_process_flow_gap(pf->flow, &below->open, &hollow, &material);
-    below->known = below->open || (gap && !gap->unknown);
-    if (below->open) below->words = "nothing: the wafer is etched through";
-    if (!below->known || below->open) return FW_OK;
-    char um[32];
-    fw_number_text(um, sizeof um, 1e6 * gap->value, 4);
-    below->m = gap->value;
-    fw_process_quantity_range(gap, &below->low_m, &below->high_m);
-    FW_NEED(below->words =
-                hollow ? fw_arena_printf(plan->arena, "a hollow of %s um in its carrier", um)
-                       : fw_arena_printf(plan->arena, "%s um, where %s was", um,
-                                         fw_process_flow_material_name(pf->flow, material)));
-    return FW_OK;
-}
-
 static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_material *own) {
     const fw_device *d = plan->device;
     const fw_device_flow_use *use = pf->use;
@@ -368,7 +346,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
     if (use && use->material && !fw_text_same(use->material, d->material_ref))
         v->material = *fw_device_material_find(&plan->materials, use->material);
     stand_on_substrate(plan, use, v);
-    FW_TRY(find_below(plan, pf, &v->below));
+    FW_TRY(fw_plan_find_below(plan, pf, &v->below));
     if (isnan(v->thickness_m))
         return fw_diag_error(&plan->diags, 226, place,
                              "the thickness of the device layer is not known: give thickness on "

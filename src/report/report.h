@@ -15,7 +15,7 @@
 #include "mask/mask.h"
 #include "measuring/measuring.h"
 #include "mechanism/mechanism.h"
-#include "mechanism/plates.h"
+#include "mechanism/mechanism_plates.h"
 #include "probe/probe.h"
 #include "process/process.h"
 #include "recipe/recipe.h"

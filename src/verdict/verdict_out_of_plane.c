@@ -2,8 +2,8 @@
 /* The device out of the plane that it moves in: does it come down on its carrier, at which frequencies does it swing
    across the plane, do the forces in the plane tip it out of it? Bodies are plates that are rigid; with what they may
    give at most (body_arms.c) frequencies have their lower end and sags their upper one.
-   Theory: docs/theory/effects/out-of-plane.md. Test: test_verdict_out_of_plane.c */
-#include "mechanism/plates.h"
+   Theory: docs/theory/effects/out-of-plane.md. Test: test_out_of_plane.py */
+#include "mechanism/mechanism_plates.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <string.h>
@@ -187,6 +187,20 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
 
 /* ---- loads in the plane that tip it ---- */
 
+/* forces of the scene at their points, with their laws' largest values; of anything else that may act on a body its force
+   is not looked up */
+static void acting(const fw_mechanism *m, const fw_device_scene *s, double *else_Nm) {
+    const bool more = s->ntendon || s->ncomb || s->ncontact || s->npart || m->nspring || m->ndriver;
+    for (int b = 0; b < m->nbody; b++)
+        else_Nm[b] = more ? (double)NAN : 0;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_device_force *f = &s->force[i];
+        if (f->body == FW_GROUND) continue;
+        double most = fw_quantity_law_measure(f->law, s->duration_s).most;
+        else_Nm[f->body] += most * hypot(f->fx_N, f->fy_N) * hypot(f->x_m, f->y_m);
+    }
+}
+
 static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_scene *s,
                                const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v,
                                fw_verdict_across *to) {
@@ -197,7 +211,11 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
     const double *hardest = saw->bending.hardest_N;
     int hinge;
-    FW_TRY(fw_mechanism_plates_buckling(arena, p, hardest, hardest + 2 * n, &to->tips, &hinge));
+    double *other;
+    FW_NEED(other = fw_arena_array(arena, double, (size_t)m->nbody));
+    acting(m, s, other);
+    const fw_mechanism_plates_pressed pressed = {hardest, hardest + 2 * n, other};
+    FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &to->tips, &hinge));
     to->tips *= 1 - is->rigid.error;
     if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
     if (!(to->tips < 1) || v->corner) return FW_OK;

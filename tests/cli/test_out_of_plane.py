@@ -84,6 +84,20 @@ class OutOfPlane(unittest.TestCase):
         self.assertLess(at_once["lowest_m"] / still["lowest_m"], 3)
         self.assertEqual(at_once["lowest_at_rest_m"], 0)
 
+    def test_ledger(self):
+        """nothing in the plane moves otherwise, whatever acts across it"""
+        def simulated(scene):
+            found = self.stage("simulate", scene=scene, options=("--scene", "push", "--effects", "all"))
+            return found, next(e for e in found["effects"] if e["id"] == "out-of-plane")
+        plain, gone = simulated("")
+        self.assertFalse(gone["called_for"])
+        sagging, there = simulated('<gravity gz="-9.8 m/s^2"/>')
+        self.assertTrue(there["called_for"])
+        self.assertTrue(0 < there["bound"] < 1e-4, there["bound"])
+        self.assertEqual(plain["final"], sagging["final"])
+        four = simulated('<gravity gz="-39.2 m/s^2"/>')[1]["bound"]
+        self.assertAlmostEqual(four / there["bound"], 16, 1)
+
     def test_gradient(self):
         up = self.across('<residual-stress gradient="1 MPa/um"/>')[2]
         down = self.across('<residual-stress gradient="-1 MPa/um"/>')[2]

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plates on flexures: masses and stiffnesses out of the plane, what they answer to loads, their modes, and the loads
    in the plane that tip them out of it. */
-#include "mechanism/plates.h"
+#include "mechanism/mechanism_plates.h"
 #include "base/constants.h"
 #include "flexure/path.h"
 #include "geometry/segment.h"
@@ -438,9 +438,10 @@ static double farthest(const fw_mechanism *m, int body) {
 
 /* What a plate loses of its stiffness against tilt g = grad z under forces F at r in the plane, -g' (sum F r') g/2 of
    second-order work: stiffness (sum F r' + r F')/2 is added to the tilts, here less it in `lost` (n x n) */
-static void add_tipping(const fw_mechanism_plates *p, const double *force_N, double *lost,
-                        double *rest) {
+static void add_tipping(const fw_mechanism_plates *p, const fw_mechanism_plates_pressed *by,
+                        double *lost, double *rest) {
     const fw_mechanism *m = p->mechanism;
+    const double *force_N = by->force_N;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
         for (int side = 0; side < 2; side++) {
@@ -456,9 +457,9 @@ static void add_tipping(const fw_mechanism_plates *p, const double *force_N, dou
             rest[2 * body] -= fx, rest[2 * body + 1] -= fy;
         }
     }
-    for (int b = 0; b < m->nbody; b++) { /* what the joints leave over acts somewhere on the body */
-        double *at = lost + (size_t)(3 * b + 1) * (size_t)p->n + 3 * b + 1;
-        double most = hypot(rest[2 * b], rest[2 * b + 1]) * farthest(m, b);
+    for (int b = 0; b < m->nbody; b++) {
+        double *at = lost + (size_t)(3 * b + 1) * (size_t)p->n + 3 * b + 1, most = by->else_Nm[b];
+        if (isnan(most)) most = hypot(rest[2 * b], rest[2 * b + 1]) * farthest(m, b);
         at[0] += most, at[p->n + 1] += most;
     }
 }
@@ -474,9 +475,9 @@ static double hinge_alone(const fw_mechanism_plate_hinge *h, double force_N, dou
 /* Lower bound of Foppl and Papkovich: with each part of what gives taken alone, 1/factor <= sum of theirs. Plates on
    flexures without second-order work inside them: largest eigenvalue of lost x = (1/factor) K x, in the modes'
    coordinates; of the flexures the worst one, since each has the forces of its own. In: N, N m. Source: Tarnai,
-   Int. J. Mech. Sci. 37 (1995). Cost 10 n^3. Test: test_plates.c */
+   Int. J. Mech. Sci. 37 (1995). Cost 10 n^3. Test: test_mechanism_plates.c */
 fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plates *p,
-                                       const double *force_N, const double *most, double *factor,
+                                       const fw_mechanism_plates_pressed *by, double *factor,
                                        int *hinge) {
     size_t n = (size_t)p->n;
     double *lost, *a, *part, *rest, worst = 0;
@@ -486,7 +487,7 @@ fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plate
     FW_NEED(a = fw_arena_array(arena, double, n *n));
     FW_NEED(part = fw_arena_array(arena, double, n));
     FW_NEED(rest = fw_arena_array(arena, double, n));
-    add_tipping(p, force_N, lost, rest);
+    add_tipping(p, by, lost, rest);
     for (size_t k = 0; k < n; k++) {
         for (size_t i = 0; i < n; i++) {
             part[i] = 0;
@@ -504,7 +505,7 @@ fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plate
     if (!fw_maths_eigen(p->n, a, part, &space)) return FW_SOLVER;
     *hinge = FW_NONE;
     for (int k = 0; k < p->mechanism->nhinge; k++) {
-        double alone = hinge_alone(&p->hinge[k], sqrt(most[2 * k]), most[2 * k + 1]);
+        double alone = hinge_alone(&p->hinge[k], sqrt(by->most[2 * k]), by->most[2 * k + 1]);
         if (alone > worst) worst = alone, *hinge = k;
     }
     double all = fmax(part[n - 1], 0) + worst;

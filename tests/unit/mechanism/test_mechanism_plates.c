@@ -3,7 +3,7 @@
    pressed; each against what follows by hand. */
 #include "base/constants.h"
 #include "flexure/path.h"
-#include "mechanism/plates.h"
+#include "mechanism/mechanism_plates.h"
 #include "test.h"
 
 enum { BODIES = 2, HINGES = 3 };
@@ -188,12 +188,17 @@ static void pressed(void **state) {
     const double force[4] = {P, 0, P, 0}, most[4] = {P * P, 0, P * P, 0};
     double factor, alone = P * l * l / EI() + 0.5 * P * L * l / sqrt(EI() * GJ);
     int hinge;
-    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, force, most, &factor, &hinge),
-                     FW_OK);
+    const double none = 0, off = 1e-7;
+    const fw_mechanism_plates_pressed by = {force, most, &none};
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &by, &factor, &hinge), FW_OK);
     assert_relative(1 / factor, 2 * P * lever / tilt + alone, 1e-8);
     const double pulled[4] = {-P, 0, -P, 0};
-    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, pulled, most, &factor, &hinge),
-                     FW_OK);
+    const fw_mechanism_plates_pressed pull = {pulled, most, &none}, besides = {force, most, &off};
+    double more;
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &besides, &more, &hinge), FW_OK);
+    assert_relative(1 / more,
+                    fmax((2 * P * lever + off) / tilt, off * p.hinge[0].c[1][1] / 2) + alone, 1e-8);
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &pull, &factor, &hinge), FW_OK);
     assert_relative(1 / factor, alone,
                     1e-8); /* tension holds the plate; of the leaves only sizes are known */
     assert_true(1 / alone < FW_PI * FW_PI * EI() / (4 * L * L * P)); /* below Euler's load */

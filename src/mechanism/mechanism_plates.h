@@ -3,8 +3,8 @@
    flexure_out_of_plane.c makes of them, small motions about the drawn pose. Three coordinates a body: z of its
    centre of mass, up from the carrier, and its turns about x and y, axes of the world.
    Theory: docs/theory/effects/out-of-plane.md. */
-#ifndef FW_MECHANISM_PLATES_H
-#define FW_MECHANISM_PLATES_H
+#ifndef FW_MECHANISM_MECHANISM_PLATES_H
+#define FW_MECHANISM_MECHANISM_PLATES_H
 #include "mechanism/mechanism.h"
 
 enum { FW_PLATES_MOST = 100 }; /* bodies: dense matrices */
@@ -54,7 +54,7 @@ double fw_mechanism_plates_z(const fw_mechanism_plates *plates, const double *x,
 /* f (n) of an acceleration of all masses along z */
 void fw_mechanism_plates_weight(const fw_mechanism_plates *plates, double m_per_s2, double *f);
 /* f (n) of a layer that is free to curl to a sphere of this curvature, > 0 with its edges up, and is held flat by
-   the ground. x of it is counted from the sphere about *middle: fw_mechanism_plates_bow */
+   the ground. x of it is counted from the sphere about *middle */
 void fw_mechanism_plates_curl(const fw_mechanism_plates *plates, double curvature_per_m,
                               fw_geometry_vec2 *middle, double *f);
 
@@ -81,10 +81,16 @@ typedef struct
 fw_status fw_mechanism_plates_stiffness(fw_arena *arena, const fw_mechanism_plates *plates,
                                         fw_mechanism_plates_stiff *out);
 
-/* Factor on forces in the plane at which the device tips out of it, a lower bound: force (2 nhinge) on body b,
-   world axes; most (2 nhinge): of each flexure the largest force, squared, and moment. HUGE_VAL: none does. *hinge: the
+/* Factor on forces in the plane at which the device tips out of it, a lower bound. HUGE_VAL: none does. *hinge: the
    flexure that tips most easily by itself, or FW_NONE */
+typedef struct fw_mechanism_plates_pressed {
+    const double *force_N; /* (2 nhinge) of each flexure on body b, world axes */
+    const double *most;    /* (2 nhinge) of each flexure the largest force, squared, and moment */
+    /* (nbody) sum of |F| times the distance from the centre of mass of all else that acts on a body but its inertia;
+       NaN: not known, and what the joints leave over is taken to act at its farthest corner */
+    const double *else_Nm;
+} fw_mechanism_plates_pressed;
 fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plates *plates,
-                                       const double *force_N, const double *most, double *factor,
+                                       const fw_mechanism_plates_pressed *by, double *factor,
                                        int *hinge);
 #endif
