@@ -131,7 +131,7 @@ static const char *const of_point[] = {"on", "x", "y"};
 static const char *const of_pair[] = {"a", "a-x", "a-y", "b", "b-x", "b-y"};
 static const char *const of_points[] = {"a-x", "a-y", "b-x", "b-y"};
 static const char *const of_carrier[] = {"of"};
-static const char *const of_mode[] = {"mode"};
+static const char *const of_mode[] = {"mode", "plane"};
 static const char *const of_direction[] = {"direction"};
 
 static void refuse(fw_device_reader *r, const fw_xml_record *record, const char *const *names,
@@ -158,7 +158,7 @@ static void check_attributes(fw_device_reader *r, const fw_xml_record *record,
     if (outlines) refuse(r, record, of_points, 4, kind);
     if (carrier) fw_device_needed(r, record, 320, of_carrier, 1, "the id of what carries it");
     if (!carrier && !body) refuse(r, record, of_carrier, 1, kind);
-    if (takes != FW_PROBE_MODE) refuse(r, record, of_mode, 1, kind);
+    if (takes != FW_PROBE_MODE) refuse(r, record, of_mode, 2, kind);
     if (takes == FW_PROBE_TANGENT)
         fw_device_needed(r, record, 320, of_direction, 1, "along which the point is pushed");
     bool directed = point || p->row == FW_PROBE_IS_opening || p->row == FW_PROBE_IS_force;
@@ -220,6 +220,17 @@ static void read_pair(fw_device_reader *r, const fw_xml_record *record, fw_devic
                       p->id ? p->id : "", outlines ? "outlines are of" : "points are on");
 }
 
+const char *fw_device_plane_text(fw_device_plane plane) {
+    static const char *const text[] = {"either", "in", "across"};
+    return text[plane];
+}
+
+static fw_device_plane plane_of(const char *word) {
+    for (int k = FW_PLANE_EITHER; word && k <= FW_PLANE_ACROSS; k++)
+        if (strcmp(word, fw_device_plane_text((fw_device_plane)k)) == 0) return (fw_device_plane)k;
+    return FW_PLANE_EITHER;
+}
+
 static void build_probe(fw_device_reader *r, const fw_xml_record *record) {
     const fw_device_probe_row row = row_of(fw_xml_text_of(record, "kind"));
     fw_device *d = r->device;
@@ -239,6 +250,7 @@ static void build_probe(fw_device_reader *r, const fw_xml_record *record) {
         p.x_m = fw_xml_number_or(record, "x", 0.0), p.y_m = fw_xml_number_or(record, "y", 0.0);
         p.body_b = FW_GROUND;
     }
+    p.plane = plane_of(fw_xml_text_of(record, "plane"));
     if (fw_xml_given(record, "mode") && isfinite(fw_xml_number_of(record, "mode")))
         p.mode = (int)fw_xml_number_of(record, "mode");
     read_carrier(r, record, &p);
@@ -341,6 +353,10 @@ static fw_status build_requirement(fw_device_reader *r, const fw_xml_record *rec
     fw_device *d = r->device;
     int mode, probe = judged(r, record, &mode), scene = fw_device_reference(r, record, "scene");
     if (probe == FW_NOWHERE) return FW_OK;
+    static const char *const plane[] = {"plane"};
+    if (probe != FW_NONE)
+        fw_device_refused(r, record, 322, plane, 1,
+                          "goes with frequency=\"MODE\"; of a probe it is said there; remove it");
     if (probe == FW_NONE) {
         probe = d->nprobe++;
         d->probe[probe] = (fw_device_probe){.row = FW_PROBE_IS_frequency,
@@ -348,6 +364,7 @@ static fw_status build_requirement(fw_device_reader *r, const fw_xml_record *rec
                                             .body_b = FW_GROUND,
                                             .direction_rad = (double)NAN,
                                             .mode = mode,
+                                            .plane = plane_of(fw_xml_text_of(record, "plane")),
                                             .implied = true,
                                             .place = record->element->place};
         FW_NEED(d->probe[probe].id = fw_arena_printf(r->arena, "frequency-%d", mode));

@@ -42,8 +42,10 @@ static fw_status build_torque(fw_device_scene_reader *s, int at) {
 
 static fw_status build_gravity(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
-    needs_size(s, record, "gravity", "gx", "gy", "gy=\"-9.81 m/s^2\"");
+    if (!fw_xml_given(record, "gz"))
+        needs_size(s, record, "gravity", "gx", "gy", "gy=\"-9.81 m/s^2\"");
     s->scene->gravity = true;
+    s->scene->gz_m_per_s2 = fw_xml_number_or(record, "gz", 0.0);
     s->scene->gx_m_per_s2 = fw_xml_number_or(record, "gx", 0.0);
     s->scene->gy_m_per_s2 = fw_xml_number_or(record, "gy", 0.0);
     return FW_OK;
@@ -275,11 +277,12 @@ static fw_status build_base_motion(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     fw_device_base_motion b = {.ax_m_per_s2 = fw_xml_number_or(record, "ax", 0.0),
                                .ay_m_per_s2 = fw_xml_number_or(record, "ay", 0.0),
+                               .az_m_per_s2 = fw_xml_number_or(record, "az", 0.0),
                                .place = record->element->place};
-    if (b.ax_m_per_s2 == 0 && b.ay_m_per_s2 == 0)
+    if (b.ax_m_per_s2 == 0 && b.ay_m_per_s2 == 0 && b.az_m_per_s2 == 0)
         fw_diag_error(
             s->r->diags, 93, b.place,
-            "<base-motion> needs an acceleration; give ax or ay, for example ax=\"100 m/s^2\", "
+            "<base-motion> needs an acceleration; give ax, ay or az, for example ax=\"100 m/s^2\", "
             "or remove it");
     FW_TRY(fw_device_time_law(s->r, record, &b.law));
     s->scene->base[s->scene->nbase++] = b;

@@ -224,8 +224,8 @@ typedef struct fw_device_comb {
 #define FW_FINGER_WIDTH_M 8e-6
 
 typedef struct
-    fw_device_base_motion { /* <base-motion ax ay>: acceleration of the base times the law */
-    double ax_m_per_s2, ay_m_per_s2;
+    fw_device_base_motion { /* <base-motion ax ay az>: acceleration of the base times the law */
+    double ax_m_per_s2, ay_m_per_s2, az_m_per_s2;
     const fw_quantity_law *law;
     fw_place place;
 } fw_device_base_motion;
@@ -319,11 +319,11 @@ typedef struct fw_device_scene {
     const char *flow; /* only in this flow; NULL: in all */
     double duration_s;
     bool gravity;
-    double gx_m_per_s2, gy_m_per_s2;
-    fw_device_force *force;     /* (nforce) */
-    fw_device_torque *torque;   /* (ntorque) */
-    fw_device_initial *initial; /* (ninitial) */
-    fw_device_tendon *tendon;   /* (ntendon) and so on */
+    double gx_m_per_s2, gy_m_per_s2, gz_m_per_s2; /* z: across the plane, away from the carrier */
+    fw_device_force *force;                       /* (nforce) */
+    fw_device_torque *torque;                     /* (ntorque) */
+    fw_device_initial *initial;                   /* (ninitial) */
+    fw_device_tendon *tendon;                     /* (ntendon) and so on */
     fw_device_comb *comb;
     fw_device_base_motion *base;
     fw_device_friction_use *friction;

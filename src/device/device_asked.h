@@ -46,6 +46,13 @@ typedef enum fw_device_carrier { /* what `of` names: each may be in the device o
                                  FW_CARRIER_CONTACT
 } fw_device_carrier;
 
+typedef enum fw_device_plane { /* modes that are counted: all, those in the plane, those across it */
+                               FW_PLANE_EITHER,
+                               FW_PLANE_IN,
+                               FW_PLANE_ACROSS
+} fw_device_plane;
+const char *fw_device_plane_text(fw_device_plane plane); /* as the file says it */
+
 typedef struct fw_device_probe {
     const char *id;
     fw_device_probe_row row;
@@ -55,9 +62,10 @@ typedef struct fw_device_probe {
     double direction_rad;      /* in the world, of an opening in the frame of a; NaN: none */
     const char *of;            /* id of what carries it; NULL */
     fw_device_carrier carrier; /* which kind of thing that is */
-    int index;    /* of revolutes, joints, drivers and springs; those of scenes go by id */
-    int mode;     /* from 1 */
-    bool implied; /* made for a <require frequency>: no <probe> of the file */
+    int index;             /* of revolutes, joints, drivers and springs; those of scenes go by id */
+    int mode;              /* from 1 */
+    fw_device_plane plane; /* of a frequency: among which modes they are counted */
+    bool implied;          /* made for a <require frequency>: no <probe> of the file */
     fw_place place;
 } fw_device_probe;
 

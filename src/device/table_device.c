@@ -45,6 +45,12 @@ bool fw_device_probe_moves(const fw_device_probe_kind *kind) {
 }
 
 #define POINT "In the frame of the body; on ground in the world."
+static const char *const planes[] = {"either", "in", "across", NULL};
+#define PLANE                                                                                      \
+    "Among which modes a frequency is counted: in: the motions in the plane; across: those of "    \
+    "the "                                                                                         \
+    "device as plates on its flexures, out of it; either: both, by frequency, where both are "     \
+    "known."
 static const fw_xml_attribute_row probe_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for requirements; it names columns and plots."},
     {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = probe_kinds, .sentence = probe_kinds_are + 2},
@@ -68,12 +74,15 @@ static const fw_xml_attribute_row probe_rows[] = {
                  "Of an angle: a revolute joint."},
     {"mode", D_PURE, WHOLE, RANGE(1, 1000, "modes are counted from 1, by stiffness"),
      .fallback = "1", .sentence = "Which mode, of a frequency."},
+    {"plane", .kind = FW_KIND_WORD, .words = planes, .fallback = "either", .sentence = PLANE},
 };
 static const fw_xml_attribute_row require_rows[] = {
     {"probe", REF(FW_SPACE_PROBE),
      .sentence = "What is judged. Exactly one of probe and frequency."},
     {"frequency", D_PURE, WHOLE, RANGE(1, 1000, "modes are counted from 1, by stiffness"),
      .sentence = "Which mode's frequency is judged."},
+    {"plane", .kind = FW_KIND_WORD, .words = planes, .fallback = "either",
+     .sentence = "With frequency. " PLANE},
     {"measure", .kind = FW_KIND_WORD, .words = measures, .fallback = "peak",
      .sentence =
          "What of its course over the scene: peak: the largest size; maximum, minimum; "

@@ -26,6 +26,10 @@ static const fw_xml_attribute_row gravity_rows[] = {
     {"gx", D_GRAVITY, .fallback = "0 m/s^2", .sentence = "Along the world's x axis."},
     {"gy", D_GRAVITY, .fallback = "0 m/s^2",
      .sentence = "Along the world's y axis; -9.81 m/s^2 where y points up."},
+    {"gz", D_GRAVITY, .fallback = "0 m/s^2",
+     .sentence = "Across the plane, away from the carrier; -9.81 m/s^2 where the device lies on a "
+                 "table. It moves "
+                 "nothing in the plane: the device's sag is judged."},
 };
 static const fw_xml_attribute_row initial_rows[] = {
     {"body", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that moves at the start."},
@@ -147,6 +151,10 @@ static const fw_xml_attribute_row base_rows[] = {
      .sentence = "Acceleration of the base along the world's x axis, times the law."},
     {"ay", D_GRAVITY, .fallback = "0 m/s^2",
      .sentence = "Acceleration of the base along the world's y axis, times the law."},
+    {"az", D_GRAVITY, .fallback = "0 m/s^2",
+     .sentence = "Acceleration of the base across the plane, times the law: a shock to which the "
+                 "device is judged as "
+                 "plates on its flexures."},
 };
 
 /* ---- surfaces ---- */

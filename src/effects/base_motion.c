@@ -106,8 +106,12 @@ static void describe(const fw_device *device, const fw_device_scene *s,
                      const fw_effects_words *to) {
     (void)device;
     for (int i = 0; i < s->nbase; i++) {
-        fw_effects_say(to, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
-                       s->base[i].ay_m_per_s2);
+        if (s->base[i].az_m_per_s2 != 0)
+            fw_effects_say(to, "; base shaken with ({n}, {n}, {n} across the plane) m/s\u00b2",
+                           s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2, s->base[i].az_m_per_s2);
+        else
+            fw_effects_say(to, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
+                           s->base[i].ay_m_per_s2);
         fw_effects_say_law(to, s->base[i].law);
     }
 }
@@ -120,6 +124,7 @@ static void scale(fw_device_scene *s, double by) {
     for (int i = 0; i < s->nbase; i++) {
         s->base[i].ax_m_per_s2 *= by;
         s->base[i].ay_m_per_s2 *= by;
+        s->base[i].az_m_per_s2 *= by;
     }
 }
 
@@ -129,6 +134,8 @@ static void values(const fw_device_scene *s, fw_effects_load_values *list) {
         v.attribute = "ax", v.value = s->base[i].ax_m_per_s2;
         fw_effects_add_load_value(list, v);
         v.attribute = "ay", v.value = s->base[i].ay_m_per_s2;
+        fw_effects_add_load_value(list, v);
+        v.attribute = "az", v.value = s->base[i].az_m_per_s2;
         fw_effects_add_load_value(list, v);
     }
 }

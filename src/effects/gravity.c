@@ -54,7 +54,10 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 static void describe(const fw_device *device, const fw_device_scene *s,
                      const fw_effects_words *to) {
     (void)device;
-    if (s->gravity)
+    if (s->gravity && s->gz_m_per_s2 != 0)
+        fw_effects_say(to, "; gravity ({n}, {n}, {n} across the plane) m/s\u00b2", s->gx_m_per_s2,
+                       s->gy_m_per_s2, s->gz_m_per_s2);
+    else if (s->gravity)
         fw_effects_say(to, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);
 }
 

@@ -66,6 +66,23 @@ fw_status fw_flexure_path_beam(fw_arena *arena, const fw_flexure_input *in,
 fw_status fw_flexure_beam_of_input(fw_arena *arena, const fw_flexure_input *in,
                                    const fw_flexure_result *closed_form, fw_flexure_beam *out);
 
+/* ---- out of the plane: flexure_out_of_plane.c ---- */
+
+typedef struct fw_flexure_out_of_plane {
+    /* (z, turn about x, turn about y) of the second body at `at`, of (Fz, Mx, My) there, in the flexure's frame:
+       m/N, 1/N, rad/(N m) */
+    double c[3][3];
+    double at_m[2];             /* where its pin is: the true centre of compliance */
+    double length_m;            /* of the centre line */
+    double bend_Nm2, twist_Nm2; /* the least along it of EI across the plane, of G J */
+    double error;               /* relative, of its stiffness against solids */
+} fw_flexure_out_of_plane;
+fw_status fw_flexure_out_of_plane_of(fw_arena *arena, const fw_flexure_input *in,
+                                     const fw_flexure_result *closed_form,
+                                     fw_flexure_out_of_plane *out);
+double fw_flexure_torsion_m4(double a_m, double b_m);
+double fw_flexure_tall_arc(double curvature_per_m, double width_m, double depth_m, double poisson);
+
 /* ---- strain of a flexure under rotation and force ----
 
    Bending and tension with their own concentrations, on both faces, largest along the strip.

@@ -291,10 +291,16 @@ fw_geometry_box fw_geometry_contour_box(const fw_geometry_contour *contour) {
 
 /* integrals over the area about one reference point */
 typedef struct integrals {
-    double area;            /* m2 */
-    fw_geometry_vec2 first; /* m3 */
-    double polar;           /* m4 */
+    double area;             /* m2 */
+    fw_geometry_vec2 first;  /* m3 */
+    double polar;            /* m4 */
+    fw_geometry_vec2 spread; /* of (x^2 - y^2, 2 x y), m4 */
 } integrals;
+
+/* as complex numbers: (x^2 - y^2, 2 x y) is the square of (x, y) */
+static fw_geometry_vec2 product(fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    return (fw_geometry_vec2){p.x * q.x - p.y * q.y, p.x * q.y + p.y * q.x};
+}
 
 /* x - sin x without cancellation near 0 */
 static double less_sine(double x) {
@@ -309,7 +315,8 @@ static double less_sine(double x) {
 
 /* Green's theorem for one segment: the triangle (reference, a, b) and, for an arc of signed sweep w
    and mid direction m, the circular segment: area r^2 (w - sin w) / 2, first moment about the
-   centre (2/3) r^3 sin^3(w/2) m, polar moment about the centre r^4 (w - sin w (2 + cos w) / 3) / 4.
+   centre (2/3) r^3 sin^3(w/2) m, polar moment about the centre r^4 (w - sin w (2 + cos w) / 3) / 4,
+   spread about the centre r^4 sin w (1 - cos w)/6 m^2 with m a complex number.
    In: segment, reference (m). Added to *sum. Error: a few ulp of the largest term, so the reference
    is chosen near the outline. Source: own derivation, docs/theory/contours.md. Test: test_moments
  */
@@ -319,6 +326,8 @@ static void add_segment(integrals *sum, const fw_geometry_segment *s, fw_geometr
     sum->area += 0.5 * twice;
     sum->first = vec_along(sum->first, twice / 6, vec_add(a, b));
     sum->polar += twice / 12 * (vec_dot(a, a) + vec_dot(a, b) + vec_dot(b, b));
+    fw_geometry_vec2 squares = vec_add(vec_add(product(a, a), product(a, b)), product(b, b));
+    sum->spread = vec_along(sum->spread, twice / 12, squares);
     if (s->kind == FW_LINE) return;
     double w = s->sweep_rad, r = s->radius, r2 = r * r, half = sin(0.5 * w);
     fw_geometry_vec2 c = vec_sub(s->centre, reference);
@@ -330,6 +339,10 @@ static void add_segment(integrals *sum, const fw_geometry_segment *s, fw_geometr
     sum->area += area;
     sum->first = vec_add(sum->first, vec_along(first, area, c));
     sum->polar += polar + 2 * vec_dot(c, first) + area * vec_dot(c, c);
+    double spread = r2 * r2 * sin(w) * 2 * half * half / 6;
+    sum->spread = vec_along(sum->spread, spread, product(middle, middle));
+    sum->spread = vec_along(sum->spread, 2, product(c, first));
+    sum->spread = vec_along(sum->spread, area, product(c, c));
 }
 
 static fw_geometry_vec2 middle_of(fw_geometry_box box) {
@@ -362,8 +375,9 @@ fw_geometry_moments fw_geometry_region_moments(const fw_geometry_region *region)
     for (int i = 0; i < region->count; i++)
         for (int k = 0; k < region->contour[i].count; k++)
             add_segment(&sum, &region->contour[i].segment[k], reference);
-    if (sum.area == 0) return (fw_geometry_moments){0, reference, 0};
+    if (sum.area == 0) return (fw_geometry_moments){.centroid = reference};
     fw_geometry_vec2 shift = vec_scale(1 / sum.area, sum.first);
     double polar = sum.polar - sum.area * vec_dot(shift, shift);
-    return (fw_geometry_moments){sum.area, vec_add(reference, shift), polar};
+    fw_geometry_vec2 spread = vec_along(sum.spread, -sum.area, product(shift, shift));
+    return (fw_geometry_moments){sum.area, vec_add(reference, shift), polar, spread};
 }

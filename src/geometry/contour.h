@@ -90,11 +90,13 @@ double fw_geometry_contour_perimeter(const fw_geometry_contour *contour); /* m *
 fw_geometry_box fw_geometry_contour_box(const fw_geometry_contour *contour);
 double fw_geometry_contour_area_in(const fw_geometry_contour *contour,
                                    fw_geometry_box box); /* m2, where the box is known */
-/* area, centroid and polar second moment about the centroid (m4), by Green's theorem */
+/* area, centroid and second moments about the centroid (m4), by Green's theorem: polar and, which way it is spread,
+   the integral of (x^2 - y^2, 2 x y) */
 typedef struct fw_geometry_moments {
     double area_m2;
     fw_geometry_vec2 centroid;
     double polar_m4;
+    fw_geometry_vec2 spread_m4;
 } fw_geometry_moments;
 fw_geometry_moments fw_geometry_region_moments(const fw_geometry_region *region);
 bool fw_geometry_contour_contains(const fw_geometry_contour *contour,

@@ -269,8 +269,10 @@ fw_status fw_layout_body_measure(fw_layout_drawing *d, int body, const fw_geomet
     fw_geometry_region region = {part, n};
     fw_geometry_moments m = fw_geometry_region_moments(&region);
     fw_layout_body_layout *to = &d->layout->body[body];
-    *to = (fw_layout_body_layout){
-        .area_m2 = m.area_m2, .centroid = m.centroid, .polar_m4 = m.polar_m4};
+    *to = (fw_layout_body_layout){.area_m2 = m.area_m2,
+                                  .centroid = m.centroid,
+                                  .polar_m4 = m.polar_m4,
+                                  .spread_m4 = m.spread_m4};
     for (int i = 0; i < n; i++)
         for (int k = 0; k < part[i].count; k++)
             if (!(part[i].segment[k].flags & FW_SEGMENT_JOINT))

@@ -59,10 +59,11 @@ typedef struct fw_layout_hinge_layout { /* per joint */
 
 typedef struct fw_layout_body_layout { /* per body; area 0 when it is not drawn */
     double area_m2, perimeter_m;
-    fw_geometry_vec2 centroid; /* world, drawn position */
-    double polar_m4;           /* second moment about the centroid */
-    fw_geometry_vec2 edge_m2;  /* of the edges about the centroid: integral of x dl, */
-    double edge_m3;            /* of |x|^2 dl */
+    fw_geometry_vec2 centroid;  /* world, drawn position */
+    double polar_m4;            /* second moment about the centroid */
+    fw_geometry_vec2 spread_m4; /* likewise the integral of (x^2 - y^2, 2 x y) */
+    fw_geometry_vec2 edge_m2;   /* of the edges about the centroid: integral of x dl, */
+    double edge_m3;             /* of |x|^2 dl */
 } fw_layout_body_layout;
 
 /* why the layout cannot be made, and where: what an error of the drawing says, for its picture */

@@ -240,6 +240,11 @@ static bool is_wide(const grid *g, double reach) {
     return false;
 }
 
+/* (x^2 - y^2, 2 x y) */
+static fw_geometry_vec2 squared(fw_geometry_vec2 p) {
+    return fw_v(p.x * p.x - p.y * p.y, 2 * p.x * p.y);
+}
+
 static void take_out(grid *g) {
     fw_layout_body_layout *b = &g->d->layout->body[g->body];
     double r = 0.5 * g->hole_m, each = FW_PI * r * r, area = b->area_m2 - g->nhole * each;
@@ -248,9 +253,11 @@ static void take_out(grid *g) {
         sum = fw_add(sum, -each, g->hole[i]);
     fw_geometry_vec2 centre = fw_v(sum.x / area, sum.y / area), shift = fw_sub(b->centroid, centre);
     double polar = b->polar_m4 + b->area_m2 * fw_dot(shift, shift);
+    fw_geometry_vec2 spread = fw_add(b->spread_m4, b->area_m2, squared(shift));
     for (int i = 0; i < g->nhole; i++) {
         fw_geometry_vec2 to = fw_sub(g->hole[i], centre);
         polar -= each * (0.5 * r * r + fw_dot(to, to));
+        spread = fw_add(spread, -each, squared(to));
     }
     fw_geometry_vec2 edge = fw_add(b->edge_m2, b->perimeter_m, shift);
     double square =
@@ -264,6 +271,7 @@ static void take_out(grid *g) {
                                  .perimeter_m = b->perimeter_m + 2.0 * FW_PI * r * g->nhole,
                                  .centroid = centre,
                                  .polar_m4 = polar,
+                                 .spread_m4 = spread,
                                  .edge_m2 = edge,
                                  .edge_m3 = square};
 }

@@ -14,6 +14,12 @@
 #include "flexure/path.h"
 #include "layout/layout.h"
 
+typedef struct fw_mechanism_below { /* what is below a device that the flow has set free */
+    bool known, open;               /* open: nothing, it is etched through */
+    double m, low_m, high_m;        /* of the gap to it, else NaN */
+    const char *words; /* "2 um of buried silicon dioxide taken away"; never NULL where known */
+} fw_mechanism_below;
+
 typedef struct fw_mechanism_variant { /* what the device is made of, in one flow */
     const char *flow;                 /* flow id or NULL */
     fw_device_material material;
@@ -22,6 +28,7 @@ typedef struct fw_mechanism_variant { /* what the device is made of, in one flow
     double thickness_m;
     double orientation_rad; /* of [100] of a crystal from +x */
     double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;
+    fw_mechanism_below below; /* {.known = false}: no flow says so */
 } fw_mechanism_variant;
 
 typedef struct fw_mechanism_mass { /* per body */
@@ -36,7 +43,8 @@ typedef struct
     fw_mechanism_shape { /* per body, as drawn: area, its polar second moment about its centroid,
                              perimeter; NaN where it is not drawn */
     double area_m2, polar_m4, perimeter_m;
-    fw_geometry_vec2 centroid; /* from the centre of mass, in the body's axes; 0 where not drawn */
+    fw_geometry_vec2 centroid;  /* from the centre of mass, in the body's axes; 0 where not drawn */
+    fw_geometry_vec2 spread_m4; /* about its centroid, of (x^2 - y^2, 2 x y), axes of the world */
 } fw_mechanism_shape;
 
 typedef struct

@@ -104,10 +104,12 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
                               .mass_kg = from->mass_kg * v->explicit_mass_scale,
                               .inertia_kg_m2 = from->inertia_kg_m2 * v->explicit_mass_scale,
                               .phi_rad = from->phi_rad};
-    b->mechanism->shape[i] = (fw_mechanism_shape){shape ? shape->area_m2 : (double)NAN,
-                                                  shape ? shape->polar_m4 : (double)NAN,
-                                                  shape ? shape->perimeter_m : (double)NAN,
-                                                  {0, 0}};
+    b->mechanism->shape[i] =
+        (fw_mechanism_shape){shape ? shape->area_m2 : (double)NAN,
+                             shape ? shape->polar_m4 : (double)NAN,
+                             shape ? shape->perimeter_m : (double)NAN,
+                             {0, 0},
+                             shape ? shape->spread_m4 : (fw_geometry_vec2){0, 0}};
     bool needs =
         isnan(to->mass_kg) || isnan(to->inertia_kg_m2) || isnan(from->x_m) || isnan(from->y_m);
     const bool sized = from->width_m > 0 || from->plate_width_m > 0 || from->nshape > 0;

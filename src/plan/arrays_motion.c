@@ -267,15 +267,16 @@ static void shapes(fw_plan_arrays *to, const mechanism_axes *b, const fw_statics
 
 static fw_status mode_probes(fw_design *d, fw_plan_arrays *to) {
     seen_probes seen;
+    fw_mechanism_plates plates;
     FW_TRY(see(to, d->mechanism, d->scene, NULL, of_modes, &seen));
+    FW_TRY(fw_mechanism_plates_new(d->plan->arena, d->mechanism, NULL, &plates));
     double *value = fw_plan_array_real(
         to, (fw_plan_array_name){"probe", "*", "of small motions; NaN: nothing holds it"}, 1,
         &seen.axis);
     double *error = fw_plan_array_real(
         to, (fw_plan_array_name){"probe_error", "*", "of it; infinite: not known"}, 1, &seen.axis);
     for (size_t k = 0; value && error && k < seen.axis.n; k++) {
-        value[k] = fw_probe_small(seen.used[k], d->modes);
-        error[k] = fw_probe_small_error(seen.used[k], d->modes) * fabs(value[k]);
+        fw_report_probe_small(seen.used[k], d->modes, &plates, &value[k], &error[k]);
     }
     return FW_OK;
 }

@@ -53,7 +53,7 @@ static fw_status modes_json(fw_design *d, fw_text *out) {
 }
 
 static fw_status modes_text(fw_design *d, fw_text *out) {
-    return fw_report_modes_text(d->scene, d->modes, out);
+    return fw_report_modes_text(d->mechanism, d->scene, d->modes, out);
 }
 
 static fw_status modes_svg(fw_design *d, fw_text *out) {

@@ -312,3 +312,26 @@ fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags 
     const fw_verdict_variant_verdict *v = &plan->verdict.variant[at];
     return v->motion && v->mechanism && v->mechanism->drawn ? travel(plan, pf, v, margin_m) : FW_OK;
 }
+
+/* ---- what the flow leaves below the device ---- */
+
+fw_status fw_plan_find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_below *below) {
+    bool hollow;
+    const char *material;
+    *below = (fw_mechanism_below){
+        .m = (double)NAN, .low_m = (double)NAN, .high_m = (double)NAN, .words = "not known"};
+    if (!pf->flow) return FW_OK;
+    const fw_quantity *gap = fw_process_flow_gap(pf->flow, &below->open, &hollow, &material);
+    below->known = below->open || (gap && !gap->unknown);
+    if (below->open) below->words = "nothing: the wafer is etched through";
+    if (!below->known || below->open) return FW_OK;
+    char um[32];
+    fw_number_text(um, sizeof um, 1e6 * gap->value, 4);
+    below->m = gap->value;
+    fw_process_quantity_range(gap, &below->low_m, &below->high_m);
+    FW_NEED(below->words =
+                hollow ? fw_arena_printf(plan->arena, "a hollow of %s um in its carrier", um)
+                       : fw_arena_printf(plan->arena, "%s um, where %s was", um,
+                                         fw_process_flow_material_name(pf->flow, material)));
+    return FW_OK;
+}

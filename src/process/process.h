@@ -367,9 +367,9 @@ typedef struct fw_process_flow {
     /* how much farther the etch runs from a wide opening than from the one that its time is computed for: with
        the lag as it is known, and at the worst of its range; 1: no law has a lag */
     double release_wide, release_wide_most;
-    bool release_lag_known;      /* the law of its time knows how narrow openings fall behind */
-    bool no_window;              /* what must stay is lost before all that moves is free */
-    bool tight;                  /* something on the mask prints in perfect contact only */
+    bool release_lag_known; /* the law of its time knows how narrow openings fall behind */
+    bool no_window;         /* what must stay is lost before all that moves is free */
+    bool tight;             /* something on the mask prints in perfect contact only */
     fw_process_plate plate[FW_PROCESS_PLATES]; /* (nplate) in the order of printing */
     /* (ncolumn) what the columns of its stacks are: stack.c */
     unsigned column_code[FW_STACK_MOST];
@@ -466,6 +466,11 @@ fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int
 /* what the step etches isotropically inside of a plate (*at, which may be NULL): the depth of its hollows; NULL: none does */
 const fw_quantity *fw_process_flow_hollow(const fw_process_flow *flow, const char *plate,
                                           const struct fw_process_step **at);
+/* what is below the device once it is free: the depth of its hollow, or the thickness of what an etch takes away below it
+   (NULL and *open: the layer is the wafer itself, etched through, and nothing is). NULL and not open: not known.
+   *hollow, *material: which of both. Test: test_below.c */
+const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, bool *hollow,
+                                       const char **material);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);

@@ -156,6 +156,47 @@ const fw_quantity *fw_process_flow_hollow(const fw_process_flow *flow, const cha
     return NULL;
 }
 
+/* thickness of a layer that comes from a step before the last one */
+static const fw_quantity *thickness_of(const fw_process_flow *flow, const char *material) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            bool comes = strcmp(c->kind, "add") == 0 || strcmp(c->kind, "convert") == 0;
+            if (comes && strcmp(c->material, material) == 0) return c->thickness;
+        }
+    return NULL;
+}
+
+/* the first layer of the front: the device's own, of a wafer that is etched through */
+static bool stands_on_nothing(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && !c->back)
+                return flow->material && strcmp(c->material, flow->material) == 0;
+        }
+    return false;
+}
+
+const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, bool *hollow,
+                                       const char **material) {
+    *open = false, *hollow = false, *material = NULL;
+    for (int p = 0; p < flow->nplate; p++) {
+        const fw_quantity *depth = fw_process_flow_hollow(flow, flow->plate[p].id, NULL);
+        *hollow = depth != NULL;
+        if (depth) return depth;
+    }
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (strcmp(c->kind, "remove") != 0 || !c->reach) continue;
+            *material = c->material;
+            return c->thickness ? c->thickness : thickness_of(flow, c->material);
+        }
+    *open = stands_on_nothing(flow);
+    return NULL;
+}
+
 /* u = d (1 + overrun): what an isotropic etch of the depth d takes from every edge. In: the pack as it stands, a
    laboratory's values in it. Test: test_regions.c. */
 fw_status fw_process_lint_shrink(fw_process_pack *pack) {

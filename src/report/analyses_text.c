@@ -78,8 +78,31 @@ static void frequencies_off(const fw_statics_modes *modes, fw_text *out) {
                    modes->stiffness_error > 0 ? "" : " (stated ones are taken as they are)");
 }
 
-fw_status fw_report_modes_text(const fw_device_scene *scene, const fw_statics_modes *modes,
-                               fw_text *out) {
+/* of rigid plates about the drawn pose, the first ones */
+static void modes_across(const fw_mechanism_plates *p, fw_text *out) {
+    enum { FEW = 6 };
+    char error[32];
+    if (p->why) {
+        fw_text_printf(out, "\nout of the plane: not known: %s\n", p->why);
+        return;
+    }
+    fw_text_printf(
+        out,
+        "\nout of the plane, of rigid bodies on their flexures (off by up to %s %%, and lower "
+        "with bodies that bend):\n  mode          f Hz  body\n",
+        (fw_percent_text(error, sizeof error, 0.5 * p->error), error));
+    for (int k = 0; k < p->n && k < FEW; k++) {
+        bool tilts = false;
+        int body = fw_mechanism_plates_mover(p, k, &tilts);
+        fw_text_printf(out, "  %4d ", k + 1);
+        fw_text_real(out, "%13.6g  ", p->f_Hz[k]);
+        fw_text_printf(out, "%s %s\n", fw_text_name(p->mechanism->body[body].id),
+                       tilts ? "tilts" : "goes up and down");
+    }
+}
+
+fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                               const fw_statics_modes *modes, fw_text *out) {
     fw_text_printf(out, "scene %s, %s\n", scene->name ? scene->name : "(none)",
                    modes->at_equilibrium ? "about the equilibrium under its loads"
                                          : "about the assembled pose, without its loads");
@@ -95,6 +118,9 @@ fw_status fw_report_modes_text(const fw_device_scene *scene, const fw_statics_mo
                        modes->ledger.hinge.why);
         fw_text_add(out, "\n");
         frequencies_off(modes, out);
+        fw_mechanism_plates plates;
+        FW_TRY(fw_mechanism_plates_new(out->arena, mechanism, NULL, &plates));
+        modes_across(&plates, out);
     }
     return fw_text_end(out);
 }

@@ -2,6 +2,7 @@
 /* A motion, an equilibrium with its load path, and modes as JSON. */
 #include "report/report.h"
 #include "report/json_parts.h"
+#include <math.h>
 
 /* ---- parts ---- */
 
@@ -215,14 +216,31 @@ static fw_status probes_of_statics(fw_json *json, const fw_mechanism *mechanism,
     return FW_OK;
 }
 
-static void probes_of_modes(fw_json *json, fw_probe *probe, int n, const fw_statics_modes *modes) {
+void fw_report_probe_small(const fw_probe *probe, const fw_statics_modes *modes,
+                           const fw_mechanism_plates *plates, double *value, double *error) {
+    const fw_mechanism_frequencies in = {modes->count > 0 ? &modes->mode[0].f_Hz : NULL,
+                                         modes->count, sizeof *modes->mode},
+                                   out = {plates->f_Hz, plates->n, sizeof *plates->f_Hz};
+    bool across = false;
+    *value = fw_probe_small(probe, modes), *error = fw_probe_small_error(probe, modes);
+    if (probe->asked->row == FW_PROBE_IS_frequency) {
+        int at = fw_mechanism_plates_nth(probe->asked->mode, probe->asked->plane, in, out, &across);
+        *value = at < 0 ? (double)NAN : across ? plates->f_Hz[at] : modes->mode[at].f_Hz;
+        if (across) *error = 0.5 * plates->error;
+    }
+    *error *= fabs(*value);
+}
+
+static void probes_of_modes(fw_json *json, fw_probe *probe, int n, const fw_statics_modes *modes,
+                            const fw_mechanism_plates *plates) {
     fw_json_list(json, "probes");
     for (int i = 0; i < n; i++) {
+        double value, error;
         if (!probe[i].row->small) continue;
-        double value = fw_probe_small(&probe[i], modes);
+        fw_report_probe_small(&probe[i], modes, plates, &value, &error);
         probe_head(json, probe[i].asked);
         fw_json_real(json, "value", value);
-        fw_json_real(json, "error", fw_probe_small_error(&probe[i], modes) * fabs(value));
+        fw_json_real(json, "error", error);
         fw_json_end(json);
     }
     fw_json_end(json);
@@ -293,6 +311,32 @@ static void one_mode(fw_json *json, const fw_mechanism *mechanism, const double 
     fw_json_end(json);
 }
 
+/* of rigid plates about the drawn pose */
+static void modes_across(fw_json *json, const fw_mechanism_plates *p) {
+    fw_json_object(json, "out_of_plane");
+    fw_json_truth(json, "known", !p->why);
+    fw_json_text(json, "why", p->why);
+    fw_json_real(json, "frequency_error", p->why ? (double)NAN : 0.5 * p->error);
+    fw_json_list(json, "modes");
+    for (int k = 0; k < p->n; k++) {
+        bool tilts = false;
+        int body = fw_mechanism_plates_mover(p, k, &tilts);
+        fw_json_object(json, NULL);
+        fw_json_real(json, "f_Hz", p->f_Hz[k]);
+        fw_json_real(json, "omega_rad_per_s", sqrt(p->per_s2[k]));
+        fw_json_text(json, "body", p->mechanism->body[body].id);
+        fw_json_text(json, "kind", tilts ? "tilt" : "up and down");
+        fw_json_object(json, "shape");
+        for (int b = 0; b < p->n / 3; b++)
+            fw_report_json_reals(json, p->mechanism->body[b].id,
+                                 p->shape + (size_t)k * (size_t)p->n + 3 * b, 3);
+        fw_json_end(json);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    fw_json_end(json);
+}
+
 fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                const fw_statics_modes *modes, fw_text *out) {
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
@@ -312,8 +356,11 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_sc
         one_mode(&json, mechanism, modes->q, &modes->mode[i]);
     fw_json_end(&json);
     fw_probe *probe;
+    fw_mechanism_plates plates;
     FW_TRY(fw_probe_bind(out->arena, mechanism, scene, NULL, &probe));
-    probes_of_modes(&json, probe, fw_probe_count(mechanism), modes);
+    FW_TRY(fw_mechanism_plates_new(out->arena, mechanism, NULL, &plates));
+    modes_across(&json, &plates);
+    probes_of_modes(&json, probe, fw_probe_count(mechanism), modes, &plates);
     hinge_model(&json, mechanism, &modes->ledger.hinge, NULL);
     effects(&json, &modes->ledger);
     fw_json_end(&json);

@@ -45,6 +45,9 @@ void fw_report_json_requirements(fw_json *json, const fw_report_input *in);
 /* the list "clearances" of every scene and required box */
 void fw_report_json_clearances(fw_json *json, const fw_verdict *verdict);
 
+/* "out_of_plane" of every flow */
+void fw_report_json_out_of_plane(fw_json *json, const fw_verdict *verdict);
+
 /* ---- the preview: lengths are in um with y up, to 1 nm; keys as in base/json.h ---- */
 
 void fw_report_preview_put_um(fw_text *out, double metres);

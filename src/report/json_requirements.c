@@ -121,3 +121,68 @@ void fw_report_json_clearances(fw_json *json, const fw_verdict *v) {
             one(json, &v->variant[i].clearance[k]);
     fw_json_end(json);
 }
+
+/* ---- out of the plane ---- */
+
+static void plate_modes(fw_json *json, const fw_verdict_out_of_plane *o) {
+    enum { FEW = 6 };
+    fw_json_list(json, "modes");
+    for (int k = 0; k < o->nmode && k < FEW; k++) {
+        const fw_verdict_plate_mode *m = &o->mode[k];
+        fw_json_object(json, NULL);
+        fw_json_real(json, "f_Hz", m->f_Hz);
+        fw_report_json_pair(json, "band_Hz", m->low_Hz, m->high_Hz);
+        fw_json_text(json, "body", m->body);
+        fw_json_text(json, "kind", m->tilts ? "tilt" : "up and down");
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}
+
+static void across(fw_json *json, const fw_verdict_across *s) {
+    fw_json_object(json, NULL);
+    fw_json_text(json, "scene", s->scene);
+    if (s->asked) {
+        fw_json_real(json, "lowest_m", s->lowest_m);
+        fw_json_real(json, "lowest_at_rest_m", s->sure_m);
+        fw_json_real(json, "highest_m", s->highest_m);
+        fw_json_real(json, "tilt_rad", s->tilt_rad);
+        fw_json_real(json, "dynamic", s->dynamic);
+        fw_json_text(json, "body", s->body);
+    }
+    fw_json_real(json, "tips_at", isfinite(s->tips) ? s->tips : (double)NAN);
+    fw_json_text(json, "verdict", fw_verdict_decision_text(s->decision));
+    fw_json_end(json);
+}
+
+static void below(fw_json *json, const fw_mechanism_below *b) {
+    fw_json_object(json, "below");
+    fw_json_text(json, "words", b->known ? b->words : "not known");
+    fw_json_real(json, "gap_m", b->known ? b->m : (double)NAN);
+    fw_json_end(json);
+}
+
+void fw_report_json_out_of_plane(fw_json *json, const fw_verdict *v) {
+    fw_json_list(json, "out_of_plane");
+    for (int i = 0; i < v->nvariant; i++) {
+        const fw_verdict_out_of_plane *o = v->variant[i].out_of_plane;
+        if (!o) continue;
+        fw_json_object(json, NULL);
+        fw_json_text(json, "flow", v->variant[i].variant->flow);
+        fw_json_truth(json, "known", !o->why);
+        fw_json_text(json, "why", o->why);
+        below(json, &v->variant[i].variant->below);
+        fw_json_real(json, "stiffness_error", o->error);
+        fw_json_text(json, "body", o->body);
+        fw_json_real(json, "stiffness_N_per_m", o->why ? (double)NAN : o->across_N_per_m);
+        fw_json_real(json, "stiffness_over_in_plane", o->why ? (double)NAN : o->ratio);
+        fw_json_real(json, "weight_sag_m", o->why ? (double)NAN : o->weight_m);
+        plate_modes(json, o);
+        fw_json_list(json, "scenes");
+        for (int k = 0; k < o->nscene && !o->why; k++)
+            across(json, &o->scene[k]);
+        fw_json_end(json);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}

@@ -15,6 +15,7 @@
 #include "mask/mask.h"
 #include "measuring/measuring.h"
 #include "mechanism/mechanism.h"
+#include "mechanism/mechanism_plates.h"
 #include "probe/probe.h"
 #include "process/process.h"
 #include "recipe/recipe.h"
@@ -173,8 +174,12 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_
 const char *fw_report_path_mark(fw_statics_path_mark mark);
 
 /* for a terminal */
-fw_status fw_report_modes_text(const fw_device_scene *scene, const fw_statics_modes *modes,
-                               fw_text *out);
+fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                               const fw_statics_modes *modes, fw_text *out);
+/* a probe of small motions and its error; frequencies are counted in the plane and across it as it says. plates: of
+   the same mechanism */
+void fw_report_probe_small(const fw_probe *probe, const fw_statics_modes *modes,
+                           const fw_mechanism_plates *plates, double *value, double *error);
 fw_status fw_report_statics_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                  const fw_statics *statics, fw_text *out);
 /* load_factor,lowest_per_s2,negative,mark,BODY.x_m,...,HINGE.angle_rad,...,TIE.fx_N,...,DRIVER

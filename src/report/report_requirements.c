@@ -384,3 +384,73 @@ fw_status fw_report_section_clearance(fw_report_page *page) {
     fw_markup(page->out, "</div>\n");
     return FW_OK;
 }
+
+/* ---- out of the plane ---- */
+
+bool fw_report_has_out_of_plane(const fw_report_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].out_of_plane) return true;
+    return false;
+}
+
+static void plates_row(fw_text *out, const fw_verdict_variant_verdict *v) {
+    enum { FEW = 3 };
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    fw_markup(out, "<tr><td>{s}</td><td>", v->variant->flow ? v->variant->flow : "");
+    if (o->why) fw_markup(out, "not known: {s}", o->why);
+    for (int k = 0; k < o->nmode && k < FEW; k++)
+        fw_markup(out, "{r}{u} ({u} to {u}): {s} {s}", k ? "<br/>" : "", o->mode[k].f_Hz, "Hz",
+                  o->mode[k].low_Hz, "Hz", o->mode[k].high_Hz, "Hz", o->mode[k].body,
+                  o->mode[k].tilts ? "tilts" : "up and down");
+    fw_markup(out, "</td>");
+    if (o->why)
+        fw_markup(out, "<td></td><td></td><td></td>");
+    else
+        fw_markup(out, "<td>{u}, {s}</td><td>{n}</td><td>{u}</td>", o->across_N_per_m, "N/m",
+                  o->body, o->ratio, o->weight_m, "m");
+    fw_markup(out, "<td>{s}</td></tr>\n",
+              v->variant->below.known ? v->variant->below.words : "not known");
+}
+
+static void across_rows(fw_text *out, const fw_verdict_variant_verdict *v) {
+    for (int k = 0; !v->out_of_plane->why && k < v->out_of_plane->nscene; k++) {
+        const fw_verdict_across *s = &v->out_of_plane->scene[k];
+        fw_markup(out, "<tr><td>{s}</td><td>{s}</td>", s->scene,
+                  v->variant->flow ? v->variant->flow : "");
+        if (s->asked)
+            fw_markup(out, "<td>{u}</td><td>{u}</td><td>{n}</td>", -s->lowest_m, "m", s->highest_m,
+                      "m", s->tilt_rad);
+        else
+            fw_markup(out, "<td>nothing across</td><td></td><td></td>");
+        if (isfinite(s->tips))
+            fw_markup(out, "<td>{n}</td>", s->tips);
+        else
+            fw_markup(out, "<td></td>");
+        fw_markup(out, "<td>{s}</td></tr>\n", fw_verdict_decision_text(s->decision));
+    }
+}
+
+fw_status fw_report_section_out_of_plane(fw_report_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    fw_markup(page->out,
+              "<table><caption>The device as rigid plates on its flexures, out of the plane that "
+              "it moves in. Ranges: "
+              "the flexures' errors, and downwards what bodies may "
+              "give.</caption>\n<thead><tr><th>Flow</th>"
+              "<th>First frequencies</th><th>Stiffness across</th><th>Over that in the plane</th>"
+              "<th>Down by its weight</th><th>Below it</th></tr></thead><tbody>\n");
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].out_of_plane) plates_row(page->out, &v->variant[i]);
+    fw_markup(page->out, "</tbody></table>\n<table><caption>By scene: how far anything comes down "
+                         "and up, at most; the largest tilt, "
+                         "in rad; and how many times the scene's forces are sure not to tip it out "
+                         "of the plane.</caption>\n"
+                         "<thead><tr><th>Scene</th><th>Flow</th><th>Down</th><th>Up</th><th>Tilt</"
+                         "th><th>Sure up to</th>"
+                         "<th>Verdict</th></tr></thead><tbody>\n");
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].out_of_plane) across_rows(page->out, &v->variant[i]);
+    fw_markup(page->out, "</tbody></table>\n");
+    return fw_text_end(page->out);
+}

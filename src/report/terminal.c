@@ -215,6 +215,37 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
         }
 }
 
+/* one line a flow, and one for each scene that acts across the plane */
+static void out_of_plane(fw_text *out, const fw_verdict *v) {
+    for (int i = 0; i < v->nvariant; i++) {
+        const fw_verdict_out_of_plane *o = v->variant[i].out_of_plane;
+        const char *flow = v->variant[i].variant->flow;
+        if (!o || (o->why && o->nscene == 0)) continue;
+        fw_text_printf(out, "\nout of the plane%s%s: ", flow ? ", " : "", flow ? flow : "");
+        if (o->why || o->nmode == 0) {
+            fw_text_printf(out, "not known: %s\n", o->why);
+            continue;
+        }
+        number(out, "swings from ", o->mode[0].f_Hz, " Hz on (");
+        number(out, "", o->mode[0].low_Hz, " to ");
+        number(out, "", o->mode[0].high_Hz, " Hz; ");
+        fw_text_printf(out, "body %s %s)", o->mode[0].body,
+                       o->mode[0].tilts ? "tilts" : "goes up and down");
+        if (isfinite(o->ratio)) number(out, "; its stiffness is ", o->ratio, " of that in it");
+        number(out, "; its weight lowers it by ", 1e9 * o->weight_m, " nm\n");
+        for (int k = 0; k < o->nscene; k++) {
+            const fw_verdict_across *s = &o->scene[k];
+            if (!s->asked) continue;
+            fw_text_printf(out, "  %s: ", s->scene);
+            number(out, "down by up to ", -1e6 * s->lowest_m, " um");
+            number(out, ", tilted by up to ", degrees(s->tilt_rad), " deg; below it: ");
+            fw_text_printf(out, "%s\n",
+                           v->variant[i].variant->below.known ? v->variant[i].variant->below.words
+                                                              : "not known");
+        }
+    }
+}
+
 /* those alone that accept are among the proposals */
 static void parameters(fw_text *out, const fw_verdict *v) {
     int said = 0;
@@ -261,6 +292,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) requirements(out, v);
     if (style.detail >= 0) pull_ins(out, input);
+    if (style.detail >= 0) out_of_plane(out, v);
     if (style.detail >= 0) fw_report_fabricated_text(out, v);
     fw_report_measurements_text(out, input);
     advice(out, v);

@@ -367,6 +367,15 @@ static void add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
         arm->give[k] +=
             length * (12 * m[i] * m[j] / (w * w * w) + (a[i] * a[j] + 3.2 * s[i] * s[j]) / w);
     }
+    const double n[3] = {-(along.y * -r.y - along.x * r.x), -along.y, along.x},
+                 t[3] = {along.x * -r.y + along.y * r.x, along.x, along.y};
+    for (int k = 0; k < 6; k++) {
+        int i = row_of[k], j = column_of[k];
+        arm->bend[k] += length * n[i] * n[j] / w;
+        arm->twist[k] += length * t[i] * t[j] / w;
+        arm->twist3[k] += length * t[i] * t[j] / (w * w * w);
+    }
+    arm->slide += length / w;
     arm->length_m += length;
     if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
 }
@@ -463,6 +472,19 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
         FW_TRY(status);
     }
     return FW_OK;
+}
+
+void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
+                                 double thickness_m, double *c) {
+    static const int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    const double h = thickness_m, h3 = h * h * h, G = youngs_Pa / (2 * (1 + poisson));
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int k = at[i][j];
+            c[3 * i + j] += 12 * arm->bend[k] / (youngs_Pa * h3) +
+                            3 / 0.42 * (arm->twist[k] / h3 + arm->twist3[k] / h) / G;
+        }
+    c[0] += 1.2 * arm->slide / (G * h);
 }
 
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,

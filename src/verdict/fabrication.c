@@ -142,6 +142,7 @@ static void change_body(const fw_layout_body_layout *shape, double edge_m, fw_de
     if (isnan(body->y_m)) body->y_m = shape->centroid.y;
     changed->area_m2 *= area;
     changed->polar_m4 *= polar;
+    changed->spread_m4.x *= polar, changed->spread_m4.y *= polar; /* as long a shape as it was */
     changed->centroid.x += shift * shape->edge_m2.x;
     changed->centroid.y += shift * shape->edge_m2.y;
 }

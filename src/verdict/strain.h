@@ -17,8 +17,11 @@
 /* From where a flexure begins in a body to the body's middle, its centroid or what is nearest to it.
    Energy of a wrench w = (M, Fx, Fy) about the pin, world axes of the drawn pose: w.give.w/(2 E h). */
 typedef struct fw_verdict_arm {
-    bool known;                /* drawn, and its material hangs together */
-    double give[6];            /* MM, Mx, My, xx, xy, yy: m^-2, m^-1, m^-1, 1, 1, 1 */
+    bool known;     /* drawn, and its material hangs together */
+    double give[6]; /* MM, Mx, My, xx, xy, yy: m^-2, m^-1, m^-1, 1, 1, 1 */
+    /* of the way, out of the plane, of (Fz, Mx, My) about the pin: zz, zx, zy, xx, xy, yy. By bending over width,
+       by torsion over width and over its cube, and shear (zz alone): what to multiply with goes by the thickness */
+    double bend[6], twist[6], twist3[6], slide;
     double length_m, narrow_m; /* of the way; where it is narrowest, */
     fw_geometry_vec2 narrow;   /* and the place, world */
 } fw_verdict_arm;
@@ -29,6 +32,10 @@ typedef struct fw_verdict_arm {
    Test: test_body_arms.c */
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_layout *layout, fw_verdict_arm **arm);
+/* c (9) += what it gives out of the plane, of (z, turns about x, y) by (Fz, Mx, My) about the pin, SI. An upper bound as
+   above: of torsion 1/J <= 3/0.42 (1/(w h^3) + 1/(h w^3)) */
+void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
+                                 double thickness_m, double *c);
 /* J of a wrench that a hinge puts on the body, turned back to the drawn pose by turned_rad */
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
                                double fx_N, double fy_N, double turned_rad);
@@ -86,6 +93,10 @@ typedef struct fw_verdict_bending {
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
     double turning_J;          /* and of the hinges' rotations alone */
     double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
+    double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
+    double *
+        hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
+                                  force squared, and moment */
 } fw_verdict_bending;
 /* arm NULL: nobody asks */
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,

@@ -390,6 +390,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_requirements_list(arena, m, v));
     FW_TRY(fw_verdict_bending_begin(arena, layout, m, v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
+    FW_TRY(fw_verdict_out_of_plane_judge(arena, m, is_brief(options, v) || v->corner, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout, is_brief(options, v), v));

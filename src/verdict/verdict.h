@@ -59,6 +59,43 @@ typedef struct fw_verdict_clearance {
     fw_verdict_decision decision;
 } fw_verdict_clearance;
 
+/* how the device is out of the plane in one scene: sag, tilt, and what tips it (verdict_out_of_plane.c) */
+typedef struct fw_verdict_across {
+    const char *scene;
+    int scene_index;
+    bool
+        asked; /* the scene has weight, a shock or a stress gradient across the plane: the next six */
+    double lowest_m, highest_m; /* of all that is drawn, at most; <= 0, >= 0 */
+    double sure_m;              /* lowest without what a shock sets ringing */
+    double tilt_rad;            /* of a body */
+    double dynamic;             /* by how much more than at rest a shock may do */
+    const char *body;           /* that comes lowest; NULL: none is below where it was drawn */
+    double
+        tips; /* factor on the scene's forces below which nothing tips; HUGE_VAL: none does, NaN: not looked at */
+    const char *hinge; /* that tips most easily by itself; NULL */
+    fw_verdict_decision decision;
+} fw_verdict_across;
+
+typedef struct fw_verdict_plate_mode {
+    double f_Hz, low_Hz,
+        high_Hz;      /* of rigid bodies; with what they may give, and the flexures' errors */
+    const char *body; /* moves most */
+    bool tilts;       /* its edge goes further than its middle */
+} fw_verdict_plate_mode;
+
+typedef struct fw_verdict_out_of_plane {
+    const char *why;             /* it is not known, and all else is 0; NULL */
+    fw_verdict_plate_mode *mode; /* (nmode) all of them, by frequency */
+    int nmode;
+    double error; /* relative, of the flexures' stiffness */
+    double
+        weight_m; /* how far any part comes down under its weight on a table, g = 9.80665 m/s^2 */
+    const char *body; /* the one that the next two are of: it gives most at its centre of mass */
+    double across_N_per_m, ratio; /* across the plane; over the least in it, NaN: not known */
+    fw_verdict_across *scene;     /* (nscene) of this flow, those that were run */
+    int nscene;
+} fw_verdict_out_of_plane;
+
 typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the bands of its hinges */
     const char *scene, *flow;
     int number; /* FW-Dnnn */
@@ -173,8 +210,9 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     int nreason;
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */
     const struct fw_verdict_arm *arm;
-    const fw_clearance_things *things; /* NULL: nothing is drawn */
-    fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */
+    const fw_verdict_out_of_plane *out_of_plane; /* NULL: nobody asked, as of a trial */
+    const fw_clearance_things *things;           /* NULL: nothing is drawn */
+    fw_verdict_clearance *clearance;             /* (nclearance) none of what is not drawn */
     int nclearance;
     fw_wiring_moved *stator; /* (nstator) every stator in every scene, as drawn; none at a corner */
     int nstator;

@@ -25,10 +25,32 @@ static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin,
     return energy + 0.5 * (along * along / c->kx_N_per_m + across * across / c->ky_N_per_m);
 }
 
+/* what may tip the device out of its plane (verdict_out_of_plane.c) */
+static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
+                          const fw_dynamics_instant *now) {
+    double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
+    for (int k = 0; k < m->nhinge; k++) {
+        const int j = m->hinge[k].pin;
+        const double *force = now->reaction_N + 2 * j,
+                     squared = force[0] * force[0] + force[1] * force[1];
+        sum += squared;
+        most[2 * k] = fmax(most[2 * k], squared);
+        most[2 * k + 1] =
+            fmax(most[2 * k + 1], fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]));
+    }
+    if (!(sum > b->hardest_N2)) return;
+    b->hardest_N2 = sum;
+    for (int k = 0; k < m->nhinge; k++)
+        for (int i = 0; i < 2; i++)
+            b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
+}
+
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->turning_J = 0;
+        b->hinges_J = b->bodies_J = b->turning_J = b->hardest_N2 = 0;
+        for (int k = 0; k < 4 * m->nhinge; k++)
+            b->hardest_N[k] = 0;
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         return;
@@ -54,6 +76,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             each[body[side]] += one;
         }
     }
+    record_forces(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
     b->turning_J = fmax(b->turning_J, turning);
@@ -68,6 +91,7 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     *bending =
         (fw_verdict_bending){.arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m};
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
+    FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
     return FW_OK;
 }
 

@@ -29,7 +29,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 7 }; /* of one scene at most */
+enum { FW_REASONS = 9 }; /* of one scene at most */
 
 /* scene i of the device: motion[i] (NULL where electrodes touch, or where the formula of another
    effect ends), pull_in[i], and reasons of v */
@@ -44,6 +44,17 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
                                    const fw_mechanism *mechanism, fw_verdict_variant_verdict *v);
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);
+
+/* ---- verdict_out_of_plane.c: plates on flexures ---- */
+
+/* after the scenes were run: v->out_of_plane, and reasons of v. brief: only where something asks for it */
+fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
+                                        fw_verdict_variant_verdict *v);
+/* the mode that a probe counts, if it is one across the plane; NULL: it is that of number *in_plane (from 1) in it, or
+   there is none. modes NULL: those in the plane are not known */
+const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
+                                                  const fw_device_probe *probe,
+                                                  const fw_statics_modes *modes, int *in_plane);
 
 /* ---- verdict_scene.c: what the motion has and the masks lack ---- */
 

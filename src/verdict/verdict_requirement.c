@@ -278,6 +278,22 @@ static double bodies_give(const fw_mechanism *m, const fw_verdict_variant_verdic
     return most;
 }
 
+/* a mode across the plane, or what is asked of those and not known; else *mode: which of those in the plane */
+static bool put_across(const fw_verdict_variant_verdict *v, const fw_device_probe *probe,
+                       const fw_statics_modes *modes, int *mode, fw_verdict_requirement *r) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    const fw_verdict_plate_mode *of = fw_verdict_frequency(v, probe, modes, mode);
+    if (of) {
+        r->value = of->f_Hz, r->low = of->low_Hz, r->high = of->high_Hz;
+        r->numeric = 0, r->lasting = 1 - of->low_Hz / of->f_Hz;
+        decide(r);
+        return true;
+    }
+    if (probe->plane != FW_PLANE_ACROSS) return false;
+    r->why = !o ? "nothing is drawn" : o->why ? o->why : "there is no such mode";
+    return true;
+}
+
 static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
                              const fw_dynamics_motion_options *options,
                              fw_verdict_variant_verdict *v, int scene) {
@@ -299,6 +315,12 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         if (r->measure || r->scene_index != scene) continue;
         const fw_probe *p = &probe[m->device->requirement[r->asked].probe];
         double value = modes ? fw_probe_small(p, modes) : (double)NAN;
+        int mode = 0;
+        if (p->asked->row == FW_PROBE_IS_frequency) {
+            if (put_across(v, p->asked, modes, &mode, r)) continue;
+            bool there = modes && mode >= 1 && mode <= modes->count;
+            value = there ? modes->mode[mode - 1].f_Hz : (double)NAN;
+        }
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
         double rigid = bodies_give(m, v) * (p->asked->row == FW_PROBE_IS_frequency ? 0.5 : 1);

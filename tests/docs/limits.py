@@ -21,7 +21,8 @@ REACH = ('x-min="-150 um" x-max="150 um" y-min="-60 um" y-max="60 um" phi-min="-
 
 # beginning of a row: device, what is changed in it (None: nothing), command and options, what the answer must contain
 CASES = {
-    "Motion out of the plane": (PORTAL, ('gradient="2 MPa/um"', 'gradient="8 MPa/um"'), "simulate --scene bowed", "FW-D251"),
+    "Motion out of the plane": (f"{THEORY}/ring.xml", ("</scene>", '<gravity gz="-9.8 m/s^2"/></scene>'),
+                                "check --corners none --advice none", "acts across the plane, and what the device does out of its plane is not known"),
     "Give of hinges whose axis": (f"{THEORY}/ring.xml", None, "simulate", r"foot stays a pin: the axis is not known"),
     "Solids as hinges": (f"{THEORY}/flexures.xml", None, "hinge --json", '"level": ?"continuum"|"level": "ends".*"strain": 0\\.021'),
     "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=26um "

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The worked examples of docs/theory/effects, written again from their equations. SI in and out. Functions are effect_NAME; the
 program's own bound of an effect, and the true change of the largest peak without it, are asked for in the same way everywhere."""
-from math import asin, cos, exp, hypot, log, pi, sin, sqrt
+from math import asin, cos, exp, hypot, log, pi, sin, sqrt, tanh
 
 import theory_flexures
 
@@ -9,6 +9,7 @@ LEVER = "tests/data/theory/lever.xml"
 CART = "tests/data/theory/cart.xml"
 PORTAL = "tests/data/theory/portal.xml"
 STOPPED = "tests/data/theory/stopped.xml"
+PLATE = "tests/data/theory/plate.xml"
 RING = "tests/data/theory/ring.xml"
 EPS0 = 8.8541878128e-12
 
@@ -271,6 +272,29 @@ def effect_residual_stress(g):
 def effect_residual_stress_program(run, _):
     whole = simulate(run, PORTAL, "stressed", "--effects", "all")
     return {"theta": turned(run, "stressed"), "bound": entry(whole, "residual-stress")["bound"]}
+
+
+def rectangle_m4(a, b):
+    p, q = min(a, b), max(a, b)
+    series = sum(tanh(m * pi * q / (2 * p)) / m**5 for m in range(1, 400, 2))
+    return q * p**3 / 3 * (1 - 192 / pi**5 * p / q * series)
+
+
+def effect_out_of_plane(g):
+    L, w, h, E, G = g["L"], g["w"], g["h"], g["E"], g["E"] / (2 * (1 + g["nu"]))
+    EI, J, x = E * w * h**3 / 12, rectangle_m4(w, h), g["rho"] / w
+    even = (h * h - w * w) / (h * h + w * w)
+    warp = sqrt(E * even**2 * (w * h) ** 3 / 144 / (G * J))
+    root = w * (1.07 + 0.215 * log(h / w) - 0.52 * x)
+    twist = w * (0.5 - 0.012 * h / w - 0.62 * x)
+    Cb, Ct = (L + 2 * root) / EI, (L - 2 * warp * tanh(L / (2 * warp)) + 2 * twist) / (G * J)
+    Cz = L**3 / (12 * EI) + 2 * root * (L / 2) ** 2 / EI + 1.2 * L / (G * w * h)
+    k = 1 / (Cz + Cb * g["dx"] ** 2 + Ct * g["dy"] ** 2)
+    return {"EI": EI, "J": J, "l": warp, "root": root, "Cb": Cb, "Ct": Ct, "k": k, "sag": g["m"] * 9.80665 / k}
+
+
+def effect_out_of_plane_program(run, _):
+    return {"k": run("check", PLATE, "--json")["out_of_plane"][0]["stiffness_N_per_m"]}
 
 
 def effect_air(g):

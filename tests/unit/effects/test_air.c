@@ -164,8 +164,8 @@ static void stand_new(stand *s) {
     s->diags = fw_diags_new(s->arena);
     s->body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-16, 1e-4, 2e-4, 0.4, {0, 0}};
     s->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-16, -3e-4, 5e-5, -1.1, {0, 0}};
-    s->shape[0] = (fw_mechanism_shape){1e-8, 4e-17, 5e-4, {0, 0}};
-    s->shape[1] = (fw_mechanism_shape){3e-8, 2e-16, 9e-4, {0, 0}};
+    s->shape[0] = (fw_mechanism_shape){1e-8, 4e-17, 5e-4, {0, 0}, {0, 0}};
+    s->shape[1] = (fw_mechanism_shape){3e-8, 2e-16, 9e-4, {0, 0}, {0, 0}};
     s->m = (fw_mechanism){.body = s->body, .shape = s->shape, .nbody = 2, .variant = &s->variant};
     s->variant.thickness_m = 15e-6;
     s->scene = (fw_device_scene){.name = "s", .duration_s = 1e-3, .air = s->air};

@@ -32,11 +32,14 @@ static void rectangle(void **state) {
         assert_near(m.centroid.x, x + a / 2, 1e-12 * a);
         assert_near(m.centroid.y, x + b / 2, 1e-12 * a);
         assert_relative(m.polar_m4, a * b * (a * a + b * b) / 12, 1e-12);
+        assert_relative(m.spread_m4.x, a * b * (a * a - b * b) / 12, 1e-12);
+        assert_near(m.spread_m4.y, 0, 1e-12 * m.polar_m4);
     }
 }
 
 /* ring sector of angle w: area w (R^2 - r^2)/2, centroid at (4/3) sin(w/2)/w (R^3 - r^3)/(R^2 -
-   r^2) on the bisector, polar about the centre w (R^4 - r^4)/4 */
+   r^2) on the bisector, polar about the centre w (R^4 - r^4)/4, spread there sin w (R^4 - r^4)/4 along twice its
+   angle */
 static void ring_sector(void **state) {
     for (int i = 0; i < 300; i++) {
         double w = i < 100 ? pow(10, uniform(-3, 0)) : uniform(0.5, 6.2);
@@ -61,6 +64,10 @@ static void ring_sector(void **state) {
         double polar = about_centre - area * q * q;
         /* the reference itself loses digits in the subtraction for narrow sectors */
         assert_relative(m.polar_m4, polar, tolerance + 20 * 0x1p-53 * about_centre / polar);
+        double spread = sin(w) / w * about_centre - area * q * q, twice = 2 * start + w;
+        double off = (tolerance + 1e-12) * about_centre;
+        assert_near(m.spread_m4.x, spread * cos(twice), off);
+        assert_near(m.spread_m4.y, spread * sin(twice), off);
     }
 }
 
@@ -91,6 +98,10 @@ static void invariant_under_motion(void **state) {
         assert_near(n.centroid.x, g.x + pose.x_m, 1e-16);
         assert_near(n.centroid.y, g.y + pose.y_m, 1e-16);
         assert_relative(n.polar_m4, m.polar_m4, 1e-10);
+        fw_geometry_vec2 s = {m.spread_m4.x, i % 2 ? -m.spread_m4.y : m.spread_m4.y};
+        s = fw_geometry_vec_rotate(s, 2 * pose.angle_rad);
+        assert_near(n.spread_m4.x, s.x, 1e-10 * m.polar_m4);
+        assert_near(n.spread_m4.y, s.y, 1e-10 * m.polar_m4);
     }
 }
 

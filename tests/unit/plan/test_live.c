@@ -414,7 +414,7 @@ static void the_table_has_everything(void **state) {
     named(at(t, "hinge_models"), "elastica");
     named(at(t, "effects"), "gravity");
     named(at(t, "mask_formats"), "gds");
-    assert_int_equal(json_array_size(at(t, "effects")), 18);
+    assert_int_equal(json_array_size(at(t, "effects")), 19);
     assert_near(real_at(at(at(t, "limits"), "accuracy"), "default"), 1e-3, 1e-15);
     json_decref(t);
 }

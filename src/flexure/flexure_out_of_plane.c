@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a flexure gives out of the plane that the device moves in: bending of its depth, torsion, shear.
+   Theory: docs/theory/effects/out-of-plane.md. */
+#include "base/constants.h"
+#include "flexure/path.h"
+#include "flexure/section.h"
+#include <math.h>
+
+/* ---- sections ---- */
+
+/* Saint-Venant's torsion of a rectangle, q >= p its sides:
+
+     J = q p^3/3 (1 - (192/pi^5) (p/q) sum over odd n of tanh(n pi q/(2 p))/n^5)
+
+   the sum as (31/32) zeta(5) less what tanh lacks of 1, which falls as exp(-n pi q/p).
+   In: m; out: m^4. Exact to rounding. Source: Timoshenko and Goodier, Theory of Elasticity, art. 109.
+   Test: test_out_of_plane.c torsion_of_rectangles */
+double fw_flexure_torsion_m4(double a_m, double b_m) {
+    const double whole = 1.0045237627951382, pi5 = FW_PI * FW_PI * FW_PI * FW_PI * FW_PI;
+    double p = fmin(a_m, b_m), q = fmax(a_m, b_m), sum = whole;
+    for (int n = 1; n < 30; n += 2) {
+        double lacks = 2 / (1 + exp(n * FW_PI * q / p)), n5 = (double)n * n * n * n * n;
+        sum -= lacks / n5;
+        if (lacks < 1e-18) break;
+    }
+    return q * p * p * p / 3 * (1 - 192 / pi5 * (p / q) * sum);
+}
+
+/* A strip that is bent out of the plane and curved in it is pressed towards its arc's centre where it is
+   pulled, and away from it where it is pressed: it turns about its tangent, which the beam has, and bends
+   across its depth besides, which takes stress from its edges as it does in a bent tube. With u odd in z and
+   0 at both edges, least of E t int (kappa z + u/R)^2 dz + D int u''^2 dz:
+
+     EI/(E t h^3/12) = (3/(2 X)) (sinh X cosh X - sin X cos X)/(sinh^2 X + sin^2 X)
+     X = h [3 (1 - nu^2)]^(1/4)/(2 sqrt(R t))
+
+   In: 1/R, t, h in m; out: dimensionless, 1 of a straight strip. Valid for thin strips, t << R. Error: that of
+   shallow shells, t/R. Source: the same energies as eq. (8) of docs/theory/flexure.md.
+   Test: test_out_of_plane.c a_tall_arc_gives_way, against quadrature of that energy */
+double fw_flexure_tall_arc(double curvature_per_m, double width_m, double depth_m, double poisson) {
+    double x =
+        0.5 * depth_m * sqrt(sqrt(3 * (1 - poisson * poisson)) * fabs(curvature_per_m) / width_m);
+    double x4 = x * x * x * x;
+    if (x < 0.1) return 1 - 16.0 / 630.0 * x4; /* the next is 2e-3 x^8 */
+    if (x > 30) return 1.5 / x;
+    double sh = sinh(x), ch = cosh(x), s = sin(x), c = cos(x);
+    return 1.5 / x * (sh * ch - s * c) / (sh * sh + s * s);
+}
+
+/* what a material gives: 1/E, 1/G of the two planes that a section is sheared in, and what bending of a
+   crystal's strip twists of it, by direction of the tangent in the flexure's frame */
+typedef struct stuff {
+    const fw_flexure_crystal *crystal; /* NULL: isotropic */
+    double youngs_Pa, poisson;
+} stuff;
+
+typedef struct soft {
+    double bend;   /* 1/E along the strip */
+    double wall;   /* 1/G of along and up: the walls of a strip that is taller than wide */
+    double flat;   /* 1/G of along and across in the plane: its faces */
+    double twists; /* a1 sin 4 psi: -s16/2 */
+} soft;
+
+static soft soft_at(const stuff *m, double psi_rad) {
+    if (!m->crystal) {
+        double g = 2 * (1 + m->poisson) / m->youngs_Pa;
+        return (soft){1 / m->youngs_Pa, g, g, 0};
+    }
+    const fw_flexure_crystal *k = m->crystal;
+    double c = 0, s = 0; /* of a direction that is not known: the mean of all */
+    if (k->aligned) {
+        double cp = cos(4 * psi_rad), sp = sin(4 * psi_rad);
+        c = k->cos4 * cp - k->sin4 * sp, s = k->sin4 * cp + k->cos4 * sp;
+    }
+    return (soft){k->a0_per_Pa + k->a1_per_Pa * c, k->g0_per_Pa + k->g1_per_Pa,
+                  k->g0_per_Pa + k->g1_per_Pa * c, k->a1_per_Pa * s};
+}
+
+typedef struct section {      /* of a tangent t and its normal n to the left, both in the plane */
+    double bend, twist, both; /* turns per length about n and t by moments: 1/(N m^2) */
+    double slide;             /* 1/(k G A), k = 5/6 */
+    double warp_m;            /* how far an end that cannot warp is felt */
+} section;
+
+/* G J of a section that is sheared more easily one way: the same function of a rectangle whose height is
+   scaled by the root of the moduli. Warping: (q^2 - p^2)^2/(q^2 + p^2)^2 p^3 q^3/144, that of a thin strip
+   and none of a square. Source: Lekhnitskii, Theory of Elasticity of an Anisotropic Body, 1963, 42 and 46 */
+static section section_at(const stuff *m, double psi_rad, double curvature_per_m, double width_m,
+                          double depth_m) {
+    soft e = soft_at(m, psi_rad);
+    double w = width_m, h = depth_m, ratio = sqrt(e.wall / e.flat);
+    double I = w * h * h * h / 12, GJ = fw_flexure_torsion_m4(w, h * ratio) / (ratio * e.wall);
+    double even = (h * h - w * w) / (h * h + w * w), third = w * h;
+    double warping = even * even * third * third * third / 144;
+    double tall = fw_flexure_tall_arc(curvature_per_m, w, h, m->poisson);
+    return (section){.bend = e.bend / (I * tall),
+                     .twist = 1 / GJ,
+                     .both = e.twists / I,
+                     .slide = 1.2 * e.wall / (w * h),
+                     .warp_m = sqrt(warping / (e.bend * GJ))};
+}
+
+/* ---- the strip ---- */
+
+typedef double out_of_plane_matrix[3][3];
+
+/* c += B' S B of a length of strip: moments about t and n and the force across, of (Fz, Mx, My) at `at` */
+static void add_length(const section *is, const fw_geometry_pose *pose, const double at[2],
+                       double length_m, double twist_share, out_of_plane_matrix c) {
+    double x = at[0] - pose->x_m, y = at[1] - pose->y_m;
+    double tc = cos(pose->angle_rad), ts = sin(pose->angle_rad);
+    const double T[3] = {tc * y - ts * x, tc, ts}, M[3] = {-ts * y - tc * x, -ts, tc};
+    double a = is->twist * twist_share * length_m, b = is->bend * length_m, d = is->both * length_m;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            c[i][j] += a * T[i] * T[j] + b * M[i] * M[j] + d * (T[i] * M[j] + M[i] * T[j]);
+    c[0][0] += is->slide * length_m;
+}
+
+/* ---- where the strip goes over into a body ---- */
+
+typedef struct root { /* lengths of strip that a body adds in bending and in torsion, m */
+    double bend_m, twist_m;
+} root;
+
+/* A plate that is as thick as the strip gives where a narrow strip bends it, the more so the taller the strip;
+   it keeps less of the warping than a rigid end would:
+
+     dL_bend/w = 1.07 + 0.215 ln(h/w) - 0.52 rho/w,     dL_twist/w = 0.5 - 0.012 h/w - 0.62 rho/w
+
+   fitted to eleven solids of CalculiX (h/w from 0.5 to 12.5, rho/w from 0.19 to 1, blocks of five widths to either
+   side): within 0.06 w and 0.06 w. Test: test_out_of_plane.c solids_that_were_not_fitted */
+static root root_of(double width_m, double depth_m, double fillet_m) {
+    if (fillet_m < 0) return (root){0, 0}; /* an ideal end */
+    double tall = fmin(fmax(depth_m / width_m, 0.5), 15), x = fmin(fillet_m / width_m, 1.25);
+    return (root){width_m * (1.07 + 0.215 * log(tall) - 0.52 * x),
+                  width_m * (0.5 - 0.012 * tall - 0.62 * x)};
+}
+
+static void add_roots(const fw_flexure_course *p, const stuff *m, const fw_flexure_input *in,
+                      fw_flexure_out_of_plane *out) {
+    for (int end = 0; end < 2; end++) {
+        int i = end ? p->n - 1 : 0;
+        const fw_geometry_strip_piece *q = &p->shape[i].piece;
+        double s = end ? q->length_m : 0, w = fw_geometry_strip_width(&p->shape[i], s);
+        fw_geometry_pose pose = fw_geometry_strip_along(p->start[i], q->curvature_per_m, s);
+        section is = section_at(m, pose.angle_rad, q->curvature_per_m, w, in->depth_m);
+        const root give = root_of(w, in->depth_m, in->fillet_m);
+        is.both = is.slide = 0;
+        is.bend *= give.bend_m, is.twist *= give.twist_m;
+        add_length(&is, &pose, out->at_m, 1, 1, out->c);
+    }
+}
+
+/* What solids and this may differ by, relative: 3 % where the ends are ideal (a tall arc is softer than they by
+   up to 3.1 %), 0.4 w of strip at either root for blocks of other sizes, and what beams are off by where they are
+   hardly longer than tall */
+static double error_of(const fw_flexure_input *in, double widest_m, double length_m) {
+    double tall = in->depth_m / length_m, error = 0.03 + 0.3 * tall * tall;
+    if (in->fillet_m >= 0) error += 0.8 * widest_m / length_m;
+    if (in->crystal.known) {
+        error += 0.02;
+        if (!in->crystal.aligned) error += fabs(in->crystal.a1_per_Pa / in->crystal.a0_per_Pa);
+    }
+    return error;
+}
+
+/* share of the twist of a strip without restraint that is left s from the middle of one whose ends cannot warp,
+   under a torque that is the same all along: 1 - cosh(s/l)/cosh(L/2l) */
+static double warps(double from_middle_m, double half_m, double warp_m) {
+    if (!(warp_m > 0)) return 1;
+    return 1 - exp((from_middle_m - half_m) / warp_m) * (1 + exp(-2 * from_middle_m / warp_m)) /
+                   (1 + exp(-2 * half_m / warp_m));
+}
+
+/* Castigliano, of a strip that is statically determinate: with P the centre line, t and n its tangent and normal,
+   (T, M) the moment about them and F the force that (Fz, Mx, My) at W put on the section,
+
+     C = int B' S B ds,   B: (Fz, Mx, My) -> (T, M, F),   S = [1/GJ, d, 0; d, 1/EI, 0; 0, 0, 1/(k G A)]
+
+   EI of the depth as fw_flexure_tall_arc has it, GJ of fw_flexure_torsion_m4 and of ends that do not warp, d of a
+   crystal a1 sin(4 psi)/I (bending twists it; Lekhnitskii 1963, 17), and a length of strip for either root.
+   In: geometry, material of the flexure, SI. Out: C about its pin, symmetric. Valid for w, h < L/2. Error:
+   quadrature below 1e-9, the model `error`. Cost 64 sections a piece, 25 us. Source: docs/theory/effects/out-of-plane.md.
+   Test: test_out_of_plane.c */
+fw_status fw_flexure_out_of_plane_of(fw_arena *arena, const fw_flexure_input *in,
+                                     const fw_flexure_result *closed_form,
+                                     fw_flexure_out_of_plane *out) {
+    enum { PANELS = 4 };
+    double node[FW_GAUSS_MOST], weight[FW_GAUSS_MOST], before = 0, widest = 0;
+    fw_mark mark = fw_arena_mark(arena);
+    fw_flexure_course *p;
+    FW_NEED(p = fw_arena_one(arena, fw_flexure_course));
+    fw_flexure_path_of(in, p);
+    fw_flexure_gauss_rule(FW_GAUSS_MOST, node, weight);
+    const stuff m = {in->crystal.known ? &in->crystal : NULL, in->youngs_Pa,
+                     in->crystal.known ? closed_form->poisson : in->poisson};
+    *out = (fw_flexure_out_of_plane){
+        .at_m = {closed_form->centre_m + closed_form->offset_m[0], closed_form->offset_m[1]},
+        .bend_Nm2 = HUGE_VAL,
+        .twist_Nm2 = HUGE_VAL};
+    for (int i = 0; i < p->n; i++)
+        out->length_m += p->shape[i].piece.length_m;
+    for (int i = 0; i < p->n; i++) {
+        const fw_geometry_strip_piece *q = &p->shape[i].piece;
+        for (int j = 0; j < PANELS * FW_GAUSS_MOST; j++) {
+            double panel = q->length_m / PANELS, half = 0.5 * out->length_m;
+            double s = (j / FW_GAUSS_MOST + node[j % FW_GAUSS_MOST]) * panel;
+            double w = fw_geometry_strip_width(&p->shape[i], s);
+            fw_geometry_pose pose = fw_geometry_strip_along(p->start[i], q->curvature_per_m, s);
+            section is = section_at(&m, pose.angle_rad, q->curvature_per_m, w, in->depth_m);
+            double share = warps(fabs(before + s - half), half, is.warp_m);
+            add_length(&is, &pose, out->at_m, panel * weight[j % FW_GAUSS_MOST], share, out->c);
+            out->bend_Nm2 = fmin(out->bend_Nm2, 1 / is.bend);
+            out->twist_Nm2 = fmin(out->twist_Nm2, 1 / is.twist);
+            widest = fmax(widest, w);
+        }
+        before += q->length_m;
+    }
+    add_roots(p, &m, in, out);
+    out->error = error_of(in, widest, out->length_m);
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}

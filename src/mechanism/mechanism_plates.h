@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The device out of the plane that it moves in: bodies as rigid plates, flexures as what
+   flexure_out_of_plane.c makes of them, small motions about the drawn pose. Three coordinates a body: z of its
+   centre of mass, up from the carrier, and its turns about x and y, axes of the world.
+   Theory: docs/theory/effects/out-of-plane.md. */
+#ifndef FW_MECHANISM_MECHANISM_PLATES_H
+#define FW_MECHANISM_MECHANISM_PLATES_H
+#include "mechanism/mechanism.h"
+
+enum { FW_PLATES_MOST = 100 }; /* bodies: dense matrices */
+
+typedef struct fw_mechanism_plate_hinge {
+    fw_geometry_vec2 pin;    /* world */
+    double c[3][3], k[3][3]; /* about it, axes of the world: m/N .. rad/(N m), and its inverse */
+    double length_m, bend_Nm2,
+        twist_Nm2; /* fw_flexure_out_of_plane, scale of a stated stiffness included */
+    double error;  /* relative */
+} fw_mechanism_plate_hinge;
+
+typedef struct fw_mechanism_plates {
+    const fw_mechanism *mechanism;
+    const char *
+        why; /* a clause: what is missing so that nothing is known; then all else is 0. NULL: known */
+    int n;   /* 3 nbody */
+    double *mass;                    /* (9 nbody) of each body, row-major: kg, kg m, kg m2 */
+    double *stiffness;               /* (n x n) */
+    fw_mechanism_plate_hinge *hinge; /* (nhinge) */
+    double *per_s2, *f_Hz;           /* (n) omega^2, ascending; frequencies */
+    double *shape;                   /* (n x n) row k: of mode k, M-orthonormal */
+    double error;                    /* relative, of stiffnesses: the largest of any flexure */
+} fw_mechanism_plates;
+
+/* give (9 nhinge) or NULL: compliance that is added to that of each flexure, about its pin */
+fw_status fw_mechanism_plates_new(fw_arena *arena, const fw_mechanism *mechanism,
+                                  const double *give, fw_mechanism_plates *plates);
+
+/* The n-th (from 1) of two lists of frequencies, in the plane and across it, each ascending and `step` bytes apart,
+   counted as `plane` says: its number in its own list from 0, or -1, there is none; *across: which list */
+typedef struct fw_mechanism_frequencies {
+    const double *f_Hz;
+    int count;
+    size_t step;
+} fw_mechanism_frequencies;
+int fw_mechanism_plates_nth(int n, fw_device_plane plane, fw_mechanism_frequencies in,
+                            fw_mechanism_frequencies out, bool *across);
+/* body that has most of a mode's energy; *tilts: more of it in its turns */
+int fw_mechanism_plates_mover(const fw_mechanism_plates *plates, int mode, bool *tilts);
+
+/* x (n) of generalised forces f (n): N, N m about the centres of mass */
+void fw_mechanism_plates_answer(const fw_mechanism_plates *plates, const double *f, double *x);
+/* z of a point of a body, drawn place in the world */
+double fw_mechanism_plates_z(const fw_mechanism_plates *plates, const double *x, int body,
+                             fw_geometry_vec2 at);
+/* f (n) of an acceleration of all masses along z */
+void fw_mechanism_plates_weight(const fw_mechanism_plates *plates, double m_per_s2, double *f);
+/* f (n) of a layer that is free to curl to a sphere of this curvature, > 0 with its edges up, and is held flat by
+   the ground. x of it is counted from the sphere about *middle */
+void fw_mechanism_plates_curl(const fw_mechanism_plates *plates, double curvature_per_m,
+                              fw_geometry_vec2 *middle, double *f);
+
+typedef struct fw_mechanism_plates_reach { /* of all that is drawn of the bodies */
+    double lowest_m, highest_m, tilt_rad;
+    int low, high, tilted; /* the bodies; FW_NONE: nothing is drawn */
+} fw_mechanism_plates_reach;
+/* of x (n), on a sphere of that curvature about `middle` (0: none), and either way of what rings: amplitude (n) of the
+   modes, or NULL. Bounds by the boxes of what is drawn */
+fw_mechanism_plates_reach fw_mechanism_plates_reached(const fw_mechanism_plates *plates,
+                                                      const double *x, const double *ring,
+                                                      double curvature_per_m,
+                                                      fw_geometry_vec2 middle);
+/* amplitude (n) of every mode under an acceleration along z, at rest: phi_k . f/omega_k^2 */
+void fw_mechanism_plates_modal(const fw_mechanism_plates *plates, const double *f,
+                               double *amplitude);
+
+typedef struct
+    fw_mechanism_plates_stiff { /* at the centre of mass of the body that gives most across the plane */
+    int body;
+    double across_N_per_m,
+        in_N_per_m; /* in: the least of all directions, drivers and stops left aside */
+} fw_mechanism_plates_stiff;
+fw_status fw_mechanism_plates_stiffness(fw_arena *arena, const fw_mechanism_plates *plates,
+                                        fw_mechanism_plates_stiff *out);
+
+/* Factor on forces in the plane at which the device tips out of it, a lower bound. HUGE_VAL: none does. *hinge: the
+   flexure that tips most easily by itself, or FW_NONE */
+typedef struct fw_mechanism_plates_pressed {
+    const double *force_N; /* (2 nhinge) of each flexure on body b, world axes */
+    const double *most;    /* (2 nhinge) of each flexure the largest force, squared, and moment */
+    /* (nbody) sum of |F| times the distance from the centre of mass of all else that acts on a body but its inertia;
+       NaN: not known, and what the joints leave over is taken to act at its farthest corner */
+    const double *else_Nm;
+} fw_mechanism_plates_pressed;
+fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plates *plates,
+                                       const fw_mechanism_plates_pressed *by, double *factor,
+                                       int *hinge);
+#endif

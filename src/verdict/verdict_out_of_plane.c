@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The device out of the plane that it moves in: does it come down on its carrier, at which frequencies does it swing
+   across the plane, do the forces in the plane tip it out of it? Bodies are plates that are rigid; with what they may
+   give at most (body_arms.c) frequencies have their lower end and sags their upper one.
+   Theory: docs/theory/effects/out-of-plane.md. Test: test_out_of_plane.py */
+#include "mechanism/mechanism_plates.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <string.h>
+
+static const double fw_weight_m_per_s2 = 9.80665;
+
+typedef struct both { /* rigid bodies; bodies that give as much as they may */
+    fw_mechanism_plates rigid, soft;
+    double *x, *f, *ring;
+} both;
+
+/* ---- who asks ---- */
+
+static bool shaken(const fw_device_scene *s) {
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].az_m_per_s2 != 0) return true;
+    return false;
+}
+
+static double gradient_of(const fw_device_scene *s) {
+    double sum = 0;
+    for (int i = 0; i < s->nstress; i++)
+        sum += s->stress[i].gradient_Pa_per_m;
+    return sum;
+}
+
+static bool asks(const fw_device_scene *s) {
+    return s->gz_m_per_s2 != 0 || shaken(s) || gradient_of(s) != 0;
+}
+
+static bool somebody_asks(const fw_mechanism *m) {
+    const fw_device *d = m->device;
+    for (int i = 0; i < d->nscene; i++)
+        if (fw_device_in_flow(d->scene[i].flow, m->variant->flow) && asks(&d->scene[i]))
+            return true;
+    for (int i = 0; i < d->nrequirement; i++) {
+        const fw_device_probe *p = &d->probe[d->requirement[i].probe];
+        if (p->row == FW_PROBE_IS_frequency && p->plane != FW_PLANE_IN) return true;
+    }
+    return false;
+}
+
+/* ---- modes ---- */
+
+static fw_status find_soft(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                           both *to) {
+    const fw_device_material *of = &m->variant->material;
+    const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
+    double *give;
+    FW_NEED(give = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
+    for (int k = 0; k < 2 * m->nhinge; k++)
+        if (arm && arm[k].known)
+            fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
+                                        give + 9 * (k / 2));
+    return fw_mechanism_plates_new(arena, m, give, &to->soft);
+}
+
+static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_plane *out) {
+    const fw_mechanism_plates *p = &is->rigid;
+    out->nmode = p->n;
+    FW_NEED(out->mode = fw_arena_array(arena, fw_verdict_plate_mode, (size_t)p->n));
+    for (int k = 0; k < p->n; k++) {
+        fw_verdict_plate_mode *mode = &out->mode[k];
+        double f = p->f_Hz[k], soft = is->soft.why ? f : is->soft.f_Hz[k], error = 0.5 * p->error;
+        mode->f_Hz = f;
+        mode->low_Hz = fmin(f, soft) * (1 - error), mode->high_Hz = f * (1 + error);
+        int b = fw_mechanism_plates_mover(p, k, &mode->tilts);
+        mode->body = fw_text_name(p->mechanism->body[b].id);
+    }
+    return FW_OK;
+}
+
+const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
+                                                  const fw_device_probe *probe,
+                                                  const fw_statics_modes *modes, int *in_plane) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    fw_mechanism_frequencies in = {NULL, 0, sizeof(fw_statics_mode)},
+                             out = {NULL, 0, sizeof(fw_verdict_plate_mode)};
+    bool across;
+    if (modes && modes->count > 0) in.f_Hz = &modes->mode[0].f_Hz, in.count = modes->count;
+    if (o && o->nmode > 0) out.f_Hz = &o->mode[0].f_Hz, out.count = o->nmode;
+    int at = fw_mechanism_plates_nth(probe->mode, probe->plane, in, out, &across);
+    *in_plane = at + 1;
+    return at >= 0 && across ? &o->mode[at] : NULL;
+}
+
+/* ---- one scene ---- */
+
+/* what a scene does at rest to x, and what its shocks set swinging either way to `ring`; *dynamic: by how much more
+   than at rest */
+static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_device_scene *s,
+                       double curvature_per_m, fw_geometry_vec2 *middle, double *dynamic) {
+    size_t n = (size_t)p->n;
+    *middle = (fw_geometry_vec2){0, 0};
+    *dynamic = 1;
+    memset(is->x, 0, n * sizeof(double));
+    memset(is->ring, 0, n * sizeof(double));
+    fw_mechanism_plates_weight(p, s->gz_m_per_s2, is->f);
+    fw_mechanism_plates_answer(p, is->f, is->x);
+    if (curvature_per_m != 0) {
+        double *bow = is->ring; /* for a while */
+        fw_mechanism_plates_curl(p, curvature_per_m, middle, is->f);
+        fw_mechanism_plates_answer(p, is->f, bow);
+        for (size_t i = 0; i < n; i++)
+            is->x[i] += bow[i], bow[i] = 0;
+    }
+    for (int i = 0; i < s->nbase; i++) {
+        const fw_device_base_motion *b = &s->base[i];
+        if (b->az_m_per_s2 == 0) continue;
+        fw_quantity_law_size size = fw_quantity_law_measure(b->law, s->duration_s);
+        double first = sqrt(p->per_s2[0]);
+        double by = size.most + fw_quantity_law_jolt(b->law, false, s->duration_s, first);
+        fw_mechanism_plates_weight(p, b->az_m_per_s2, is->f);
+        double *amplitude = is->f + n;
+        fw_mechanism_plates_modal(p, is->f, amplitude);
+        for (size_t k = 0; k < n; k++)
+            is->ring[k] += by * fabs(amplitude[k]);
+        if (size.most > 0) *dynamic = fmax(*dynamic, by / size.most);
+    }
+}
+
+static double curvature_of(const fw_mechanism *m, const fw_device_scene *s) {
+    const fw_device_material *of = &m->variant->material;
+    double gradient = gradient_of(s);
+    if (gradient == 0) return 0;
+    return gradient * (1 - (of->poisson.unknown ? 0 : of->poisson.value)) / of->youngs.value;
+}
+
+static fw_status add(fw_verdict_variant_verdict *v, const fw_device_scene *s, int number,
+                     fw_verdict_decision decision, double keep, const char *text) {
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = s->name,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = decision,
+                                                  .keep = fmin(fmax(keep, 1e-3), 0.99),
+                                                  .text = text};
+    return FW_OK;
+}
+
+/* Sure is what is there at rest, less what flexures may be stiffer than computed; what a shock sets ringing may be
+   less than its bound */
+static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_scene *s,
+                             fw_verdict_variant_verdict *v, fw_verdict_across *to) {
+    const fw_mechanism_below *below = &v->mechanism->variant->below;
+    char down[32], has[32];
+    if (!below->known || below->open || !(-to->lowest_m > below->low_m)) return FW_OK;
+    bool sure = -to->sure_m / (1 + is->rigid.error) > below->high_m;
+    to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
+    return add(
+        v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
+        fw_arena_printf(
+            arena,
+            "body %s comes down by %s%s um in scene %s, and below it are %s um (%s): it %s its "
+            "carrier; a thicker layer, shorter or wider flexures, or less weight hold it up",
+            to->body ? to->body : "(none)", sure ? "" : "up to ",
+            fw_number_text(down, sizeof down, -1e6 * (sure ? to->sure_m : to->lowest_m), 3),
+            s->name, fw_number_text(has, sizeof has, 1e6 * below->m, 3), below->words,
+            sure ? "touches" : "may touch"));
+}
+
+static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scene *s,
+                           fw_verdict_variant_verdict *v, fw_verdict_across *to) {
+    const fw_mechanism *m = v->mechanism;
+    double curvature = curvature_of(m, s);
+    fw_geometry_vec2 middle;
+    to->asked = true;
+    load_scene(is, &is->rigid, s, curvature, &middle, &to->dynamic);
+    fw_mechanism_plates_reach r =
+        fw_mechanism_plates_reached(&is->rigid, is->x, NULL, curvature, middle);
+    to->sure_m = r.lowest_m;
+    const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
+    load_scene(is, p, s, curvature, &middle, &to->dynamic);
+    r = fw_mechanism_plates_reached(p, is->x, is->ring, curvature, middle);
+    double more = 1 + is->rigid.error;
+    to->lowest_m = fmin(to->sure_m, r.lowest_m) * more, to->highest_m = r.highest_m * more;
+    to->tilt_rad = r.tilt_rad * more;
+    if (r.low != FW_NONE) to->body = fw_text_name(m->body[r.low].id);
+    return judge_touch(arena, is, s, v, to);
+}
+
+/* ---- loads in the plane that tip it ---- */
+
+/* forces of the scene at their points, with their laws' largest values; of anything else that may act on a body its force
+   is not looked up */
+static void acting(const fw_mechanism *m, const fw_device_scene *s, double *else_Nm) {
+    const bool more = s->ntendon || s->ncomb || s->ncontact || s->npart || m->nspring || m->ndriver;
+    for (int b = 0; b < m->nbody; b++)
+        else_Nm[b] = more ? (double)NAN : 0;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_device_force *f = &s->force[i];
+        if (f->body == FW_GROUND) continue;
+        double most = fw_quantity_law_measure(f->law, s->duration_s).most;
+        else_Nm[f->body] += most * hypot(f->fx_N, f->fy_N) * hypot(f->x_m, f->y_m);
+    }
+}
+
+static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_scene *s,
+                               const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v,
+                               fw_verdict_across *to) {
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    const fw_mechanism *m = v->mechanism;
+    const int n = m->nhinge;
+    if (!saw || !saw->bending.arm || !(saw->bending.hardest_N2 > 0)) return FW_OK;
+    const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
+    const double *hardest = saw->bending.hardest_N;
+    int hinge;
+    double *other;
+    FW_NEED(other = fw_arena_array(arena, double, (size_t)m->nbody));
+    acting(m, s, other);
+    const fw_mechanism_plates_pressed pressed = {hardest, hardest + 2 * n, other};
+    FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &to->tips, &hinge));
+    to->tips *= 1 - is->rigid.error;
+    if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
+    if (!(to->tips < 1) || v->corner) return FW_OK;
+    char by[32];
+    to->decision = FW_INCONCLUSIVE;
+    return add(
+        v, s, 582, FW_INCONCLUSIVE, 0.95 * to->tips,
+        fw_arena_printf(
+            arena,
+            "the forces of scene %s may tip the device out of its plane: that they do not is "
+            "sure up to %s times them%s%s; a thicker layer, wider or shorter flexures, or less "
+            "load keep it flat",
+            s->name, fw_number_text(by, sizeof by, to->tips, 2),
+            to->hinge ? ", and the least sure by itself is hinge " : "",
+            to->hinge ? to->hinge : ""));
+}
+
+/* ---- all of it ---- */
+
+static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                         both *to) {
+    FW_TRY(fw_mechanism_plates_new(arena, m, NULL, &to->rigid));
+    if (to->rigid.why) return FW_OK;
+    size_t n = (size_t)to->rigid.n;
+    FW_TRY(find_soft(arena, m, arm, to));
+    FW_NEED(to->x = fw_arena_array(arena, double, n));
+    FW_NEED(to->f = fw_arena_array(arena, double, 2 * n));
+    FW_NEED(to->ring = fw_arena_array(arena, double, n));
+    return FW_OK;
+}
+
+static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_of_plane *out) {
+    fw_mechanism_plates_stiff stiff;
+    FW_TRY(fw_mechanism_plates_stiffness(arena, &is->rigid, &stiff));
+    out->body = fw_text_name(is->rigid.mechanism->body[stiff.body].id);
+    out->across_N_per_m = stiff.across_N_per_m;
+    out->ratio = stiff.across_N_per_m / stiff.in_N_per_m;
+    fw_mechanism_plates_weight(&is->rigid, -fw_weight_m_per_s2, is->f);
+    fw_mechanism_plates_answer(&is->rigid, is->f, is->x);
+    const fw_geometry_vec2 origin = {0, 0};
+    out->weight_m = -fw_mechanism_plates_reached(&is->rigid, is->x, NULL, 0, origin).lowest_m;
+    return FW_OK;
+}
+
+fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, bool brief,
+                                        fw_verdict_variant_verdict *v) {
+    const fw_device *d = m->device;
+    both is = {0};
+    fw_verdict_out_of_plane *out;
+    v->out_of_plane = NULL;
+    if (!d || !m->layout || (brief && !somebody_asks(m))) return FW_OK;
+    FW_NEED(out = fw_arena_one(arena, fw_verdict_out_of_plane));
+    v->out_of_plane = out;
+    FW_TRY(prepare(arena, m, v->arm, &is));
+    out->why = is.rigid.why;
+    FW_NEED(out->scene = fw_arena_array(arena, fw_verdict_across, (size_t)d->nscene));
+    if (!out->why) {
+        out->error = is.rigid.error;
+        FW_TRY(put_modes(arena, &is, out));
+        if (!brief) FW_TRY(put_stiffness(arena, &is, out));
+    }
+    for (int i = 0; i < d->nscene; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
+        fw_verdict_across *to = &out->scene[out->nscene++];
+        *to = (fw_verdict_across){.scene = s->name, .scene_index = i, .tips = (double)NAN};
+        if (out->why && (s->gz_m_per_s2 != 0 || shaken(s)))
+            FW_TRY(add(
+                v, s, 581, FW_INCONCLUSIVE, 0.5,
+                fw_arena_printf(arena,
+                                "scene %s acts across the plane, and what the device does out of "
+                                "its plane is not known: %s",
+                                s->name, out->why)));
+        if (out->why) continue;
+        if (asks(s)) FW_TRY(judge_sag(arena, &is, s, v, to));
+        if (!brief) FW_TRY(judge_tipping(arena, &is, s, v->motion[i], v, to));
+    }
+    return FW_OK;
+}

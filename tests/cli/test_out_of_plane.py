@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The device out of its plane through the program: sag against its carrier, shocks, stress gradients, modes, and required
+frequencies that count both kinds."""
+import json
+import pathlib
+import re
+import tempfile
+import unittest
+
+from common import ROOT, run
+
+STAGE = """<device xmlns="urn:flexwright:device:1" name="stage">
+<material ref="silicon-100" thickness="%s"/>%s
+<flexure id="leaf" kind="leaf" length="400 um" width="6 um" gap="10 um"/><mechanism>
+<body id="left" x="0 mm" y="0.75 mm" width="120 um"/>
+<body id="stage" x="0.9 mm" y="1.5 mm" plate-width="0.7 mm" plate-height="0.5 mm"/>
+<body id="right" x="1.8 mm" y="0.75 mm" width="120 um"/>
+<revolute id="A" a="ground" b="left" b-x="0 mm" b-y="-0.75 mm" hinge="leaf"/>
+<revolute id="B" a="left" a-x="0 mm" a-y="0.75 mm" b="stage" b-x="-0.9 mm" b-y="0 mm" hinge="leaf"/>
+<revolute id="C" a="stage" a-x="0.9 mm" a-y="0 mm" b="right" b-x="0 mm" b-y="0.75 mm" hinge="leaf"/>
+<revolute id="D" a="right" a-x="0 mm" a-y="-0.75 mm" b="ground" b-x="1.8 mm" b-y="0 mm" hinge="leaf"/></mechanism>%s
+<scene name="push" duration="20 ms"><force on="stage" fx="1 uN"/>%s</scene></device>"""
+GLASS = '<flow ref="silicon-on-glass" carrier="insulating"/>'
+QUICK = ("--corners", "none", "--advice", "none")
+
+
+class OutOfPlane(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.file = pathlib.Path(self.folder.name) / "device.xml"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def stage(self, command, thickness="50 um", flow="", asked="", scene="", options=QUICK):
+        self.file.write_text(STAGE % (thickness, flow, asked, scene))
+        done = run(command, self.file, "--json", *options)
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        return json.loads(done.stdout)
+
+    def across(self, scene="", **options):
+        whole = self.stage("check", scene=scene, **options)
+        return whole, whole["out_of_plane"][0], whole["out_of_plane"][0]["scenes"][0]
+
+    def test_nothing_asked(self):
+        whole, all_, scene = self.across()
+        self.assertEqual(whole["verdict"], "accept")
+        self.assertNotIn("lowest_m", scene)
+        self.assertTrue(all_["known"])
+        first = all_["modes"][0]
+        self.assertLess(first["band_Hz"][0], first["f_Hz"])
+        self.assertGreater(first["band_Hz"][1], first["f_Hz"])
+        self.assertGreater(scene["tips_at"], 1)
+        self.assertGreater(all_["stiffness_over_in_plane"], 1)
+        # stiffness across goes with the depth's cube, or of the torsion with the depth
+        thin = self.across(thickness="25 um")[1]
+        self.assertTrue(2 < all_["stiffness_N_per_m"] / thin["stiffness_N_per_m"] < 8)
+
+    def test_comes_down_on_its_carrier(self):
+        whole, all_, one = self.across('<gravity gz="-9.80665 m/s^2"/>', flow=GLASS)
+        self.assertEqual(whole["verdict"], "accept")
+        self.assertAlmostEqual(-one["lowest_at_rest_m"] / all_["weight_sag_m"], 1, 9)
+        gap = all_["below"]["gap_m"]
+        self.assertAlmostEqual(gap, 20e-6)
+        per = one["lowest_at_rest_m"] / 9.80665
+        for share, verdict in ((0.5, "accept"), (1.02, "inconclusive"), (2, "reject")):
+            pull = f'<gravity gz="{gap * share / per} m/s^2"/>'
+            whole, _, now = self.across(pull, flow=GLASS)
+            self.assertEqual(whole["verdict"], verdict)
+            self.assertAlmostEqual(now["lowest_at_rest_m"] / (-share * gap), 1, 6)
+            self.assertEqual(verdict != "accept", "580" in json.dumps(whole["reasons"]))
+        up = self.across(f'<gravity gz="{-2 * gap / per} m/s^2"/>', flow=GLASS)[0]
+        self.assertEqual(up["verdict"], "accept")  # upwards there is nothing
+
+    def test_shock(self):
+        still = self.across('<gravity gz="-100 m/s^2"/>')[2]
+        at_once = self.across('<base-motion az="100 m/s^2"/>')[2]
+        slow = self.across('<base-motion az="100 m/s^2" law="ramp" rise="15 ms"/>')[2]
+        self.assertEqual(at_once["dynamic"], 2)
+        self.assertLess(slow["dynamic"], 1.1)
+        self.assertAlmostEqual(at_once["lowest_m"] / slow["lowest_m"], 2 / slow["dynamic"], 3)
+        self.assertGreater(at_once["lowest_m"] / still["lowest_m"], 2)  # the modes' sizes are added
+        self.assertLess(at_once["lowest_m"] / still["lowest_m"], 3)
+        self.assertEqual(at_once["lowest_at_rest_m"], 0)
+
+    def test_ledger(self):
+        """nothing in the plane moves otherwise, whatever acts across it"""
+        def simulated(scene):
+            found = self.stage("simulate", scene=scene, options=("--scene", "push", "--effects", "all"))
+            return found, next(e for e in found["effects"] if e["id"] == "out-of-plane")
+        plain, gone = simulated("")
+        self.assertFalse(gone["called_for"])
+        sagging, there = simulated('<gravity gz="-9.8 m/s^2"/>')
+        self.assertTrue(there["called_for"])
+        self.assertTrue(0 < there["bound"] < 1e-4, there["bound"])
+        self.assertEqual(plain["final"], sagging["final"])
+        four = simulated('<gravity gz="-39.2 m/s^2"/>')[1]["bound"]
+        self.assertAlmostEqual(four / there["bound"], 16, 1)
+
+    def test_gradient(self):
+        up = self.across('<residual-stress gradient="1 MPa/um"/>')[2]
+        down = self.across('<residual-stress gradient="-1 MPa/um"/>')[2]
+        self.assertGreater(up["highest_m"], 1e-6)
+        self.assertAlmostEqual(up["highest_m"] / -down["lowest_m"], 1, 1)
+
+    def test_whole_solid(self):
+        """the gallery's four-bar of an even material, pushed across the plane at its coupler: CalculiX 2.20, every leaf a
+        solid with its roots, bodies rigid (the deck of `hinge --deck` with its middle plane antisymmetric)"""
+        text = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
+        for gone in (r"<spring[^>]*/>", r"<gravity[^>]*/>", r"<flow[^>]*/>"):
+            text = re.sub(gone, "", text)
+        self.file.write_text(text.replace('thickness="50 um"', 'thickness="50 um" youngs-modulus="150 GPa" poisson="0.25"'))
+        all_ = json.loads(run("check", self.file, "--json", *QUICK).stdout)["out_of_plane"][0]
+        self.assertEqual(all_["body"], "coupler")
+        self.assertAlmostEqual(all_["stiffness_N_per_m"] * 0.2983686, 1, 2)
+
+    def test_required_frequency_counts_both(self):
+        thin = "6 um"
+        whole, all_, _ = self.across(thickness=thin)
+        modes = self.stage("modes", thickness=thin, options=())
+        inner, outer = modes["modes"][0]["f_Hz"], modes["out_of_plane"]["modes"][0]["f_Hz"]
+        self.assertAlmostEqual(all_["modes"][0]["f_Hz"] / outer, 1, 9)
+        self.assertLess(outer, 0.8 * inner)
+        between = f'{(outer * inner) ** 0.5} Hz'
+        for plane, verdict in ((' plane="in"', "accept"), ("", "reject"), (' plane="across"', "reject")):
+            whole = self.stage("check", thickness=thin, asked=f'<require frequency="1" min="{between}"{plane}/>')
+            self.assertEqual(whole["verdict"], verdict, plane)
+            self.assertAlmostEqual(whole["requirements"][0]["value"] / (inner if "in" in plane else outer), 1, 6)
+        probes = self.stage("modes", thickness=thin, options=(), asked="".join(
+            f'<probe id="{plane}" kind="frequency" mode="1" plane="{plane}"/>' for plane in ("in", "across", "either")))["probes"]
+        self.assertEqual([p["value"] for p in probes], [inner, outer, outer])
+
+    def test_mistakes(self):
+        for asked, number in (('<probe id="p" kind="angle" on="stage" plane="in"/>', "FW-D320"),
+                              ('<probe id="p" kind="angle" on="stage"/><require probe="p" max="1 deg" plane="in"/>', "FW-D322")):
+            self.file.write_text(STAGE % ("50 um", "", asked, ""))
+            done = run("check", self.file)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn(number, done.stderr)
+
+    def test_plate_of_the_page(self):
+        done = run("modes", ROOT / "tests/data/theory/plate.xml")
+        self.assertIn("out of the plane, of rigid bodies", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

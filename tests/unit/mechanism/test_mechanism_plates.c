@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plates on flexures: a mass at the end of a leaf, a beam between two leaves, a layer that curls, a link that is
+   pressed; each against what follows by hand. */
+#include "base/constants.h"
+#include "flexure/path.h"
+#include "mechanism/mechanism_plates.h"
+#include "test.h"
+
+enum { BODIES = 2, HINGES = 3 };
+
+typedef struct rig {
+    fw_arena *arena;
+    fw_mechanism m;
+    fw_mechanism_variant variant;
+    fw_mechanism_mass body[BODIES];
+    fw_mechanism_shape shape[BODIES];
+    fw_mechanism_pin pin[HINGES];
+    fw_mechanism_hinge hinge[HINGES];
+} rig;
+
+static const double L = 200e-6, W = 8e-6, H = 20e-6, E = 100e9;
+
+static void rig_new(rig *r) {
+    memset(r, 0, sizeof *r);
+    r->arena = fw_arena_new(0);
+    r->variant.thickness_m = H;
+    r->m = (fw_mechanism){.variant = &r->variant,
+                          .body = r->body,
+                          .drawn = r->body,
+                          .shape = r->shape,
+                          .pin = r->pin,
+                          .hinge = r->hinge};
+}
+
+/* a x b, about its middle */
+static void add_body(rig *r, double x, double y, double a, double b, double mass) {
+    int k = r->m.nbody++;
+    r->body[k] = (fw_mechanism_mass){.id = "B",
+                                     .mass_kg = mass,
+                                     .x_m = x,
+                                     .y_m = y,
+                                     .inertia_kg_m2 = mass * (a * a + b * b) / 12};
+    r->shape[k] = (fw_mechanism_shape){.area_m2 = a * b,
+                                       .polar_m4 = a * b * (a * a + b * b) / 12,
+                                       .spread_m4 = {a * b * (a * a - b * b) / 12, 0}};
+}
+
+/* a leaf with ideal ends along x whose middle is at (x, y), from a (at the left) to b */
+static void add_leaf(rig *r, double x, double y, int a, int b) {
+    int k = r->m.nhinge++;
+    fw_mechanism_hinge *h = &r->hinge[k];
+    *h = (fw_mechanism_hinge){.pin = k, .scale = 1, .axis_rad = 0.5 * FW_PI, .first_is_a = false};
+    h->input = (fw_flexure_input){.kind = FW_FLEXURE_LEAF,
+                                  .length_m = L,
+                                  .width_m = W,
+                                  .fillet_m = -1,
+                                  .depth_m = H,
+                                  .youngs_Pa = E,
+                                  .poisson = 0.3,
+                                  .strength_Pa = 1e9,
+                                  .safety_factor = 1,
+                                  .ends = true};
+    fw_flexure_closed_form(&h->input, &h->closed_form);
+    fw_mechanism_pin *p = &r->pin[r->m.npin++];
+    *p = (fw_mechanism_pin){.id = "A",
+                            .body_a = a,
+                            .body_b = b,
+                            .hinge = k,
+                            .ax_m = x,
+                            .ay_m = y,
+                            .bx_m = x,
+                            .by_m = y,
+                            .root_a_m = {-0.5 * L, 0},
+                            .root_b_m = {0.5 * L, 0}};
+    if (a != FW_GROUND) p->ax_m -= r->body[a].x_m, p->ay_m -= r->body[a].y_m;
+    if (b != FW_GROUND) p->bx_m -= r->body[b].x_m, p->by_m -= r->body[b].y_m;
+}
+
+static fw_mechanism_plates plates_of(rig *r) {
+    fw_mechanism_plates p;
+    assert_int_equal(fw_mechanism_plates_new(r->arena, &r->m, NULL, &p), FW_OK);
+    return p;
+}
+
+static double EI(void) {
+    return E * W * H * H * H / 12;
+}
+
+static double sheared(void) { /* 1/(k G A) */
+    return 1.2 / (E / 2.6 * W * H);
+}
+
+/* a small heavy body at the end: a cantilever with a tip load */
+static void tip_mass(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    add_body(&r, L, 0, 1e-7, 1e-7, 1e-9);
+    add_leaf(&r, 0.5 * L, 0, FW_GROUND, 0);
+    const fw_mechanism_plates p = plates_of(&r);
+    double f[3], x[3], give = L * L * L / (3 * EI()) + L * sheared();
+    assert_null(p.why);
+    fw_mechanism_plates_weight(&p, -9.80665, f);
+    fw_mechanism_plates_answer(&p, f, x);
+    assert_relative(x[0], -9.80665e-9 * give, 1e-8);
+    assert_relative(fw_mechanism_plates_z(&p, x, 0, (fw_geometry_vec2){L, 0}), x[0], 1e-12);
+    assert_relative(x[2], 9.80665e-9 * L * L / (2 * EI()), 1e-8); /* slope of its end, down ahead */
+    assert_relative(p.f_Hz[0], sqrt(1 / (1e-9 * give)) / (2 * FW_PI), 1e-3);
+    bool tilts = true;
+    assert_int_equal(fw_mechanism_plates_mover(&p, 0, &tilts), 0);
+    assert_false(tilts);
+    fw_mechanism_plates_stiff stiff;
+    assert_int_equal(fw_mechanism_plates_stiffness(r.arena, &p, &stiff), FW_OK);
+    assert_relative(stiff.across_N_per_m, 1 / give, 1e-8);
+    double in = L * L * L / (3 * E * H * W * W * W / 12);
+    assert_relative(stiff.in_N_per_m, 1 / in, 0.02); /* the closed form's shear and depth */
+    fw_arena_free(r.arena);
+}
+
+/* a beam with a leaf at either end: up and down 2 x 12 EI/L^3, rolling about its length by torsion, tilting by both */
+static void between_two(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    const double a = 400e-6, b = 100e-6, mass = 2e-9;
+    add_body(&r, 0, 0, a, b, mass);
+    add_leaf(&r, -0.5 * (a + L), 0, FW_GROUND, 0);
+    add_leaf(&r, 0.5 * (a + L), 0, 0, FW_GROUND);
+    const fw_mechanism_plates p = plates_of(&r);
+    const double k = 1 / (L * L * L / (12 * EI()) + L * sheared()), lever = 0.5 * (a + L);
+    const double roll = mass * (b * b + H * H) / 12, tilt = mass * (a * a + H * H) / 12;
+    double want[3] = {sqrt(2 * k / mass), sqrt(2 * (EI() / L + k * lever * lever) / tilt),
+                      sqrt(2 / (p.hinge[0].c[1][1] * roll))};
+    for (int i = 0; i < 3; i++) {
+        bool found = false;
+        for (int j = 0; j < 3; j++)
+            found = found || fabs(2 * FW_PI * p.f_Hz[j] / want[i] - 1) < 1e-8;
+        assert_true(found);
+    }
+    /* a flexure that is given 1e9 times as much more holds nothing */
+    double give[18] = {0}, soft;
+    for (int i = 0; i < 3; i++)
+        give[4 * i] = p.hinge[0].c[i][i];
+    fw_mechanism_plates q;
+    assert_int_equal(fw_mechanism_plates_new(r.arena, &r.m, give, &q), FW_OK);
+    soft = q.f_Hz[0];
+    assert_true(soft < p.f_Hz[0] && soft > sqrt(0.5) * p.f_Hz[0] * (1 - 1e-9));
+    fw_arena_free(r.arena);
+}
+
+/* a layer that curls with its one anchor lies on the sphere that is flat there */
+static void curls(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    const double kappa = 5, far = 700e-6;
+    add_body(&r, far, 0, 400e-6, 100e-6, 1e-9);
+    add_leaf(&r, far - 200e-6 - 0.5 * L, 0, FW_GROUND, 0);
+    const fw_mechanism_plates p = plates_of(&r);
+    double f[3], x[3];
+    fw_geometry_vec2 middle;
+    fw_mechanism_plates_curl(&p, kappa, &middle, f);
+    fw_mechanism_plates_answer(&p, f, x);
+    const double root = far - 200e-6 - L;
+    for (int k = 0; k < 3; k++) { /* on the sphere about the root, at any point of the plate */
+        const fw_geometry_vec2 at = {far + (k - 1) * 150e-6, 30e-6};
+        double dx = at.x - middle.x, dy = at.y - middle.y;
+        double z = fw_mechanism_plates_z(&p, x, 0, at) + 0.5 * kappa * (dx * dx + dy * dy);
+        assert_relative(z, 0.5 * kappa * ((at.x - root) * (at.x - root) + at.y * at.y), 1e-9);
+    }
+    fw_arena_free(r.arena);
+}
+
+/* a link that is pressed between its leaves: P over what the plate's tilt bears, and each leaf as a cantilever */
+static void pressed(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    const double a = 400e-6, P = 1e-3;
+    add_body(&r, 0, 0, a, 100e-6, 2e-9);
+    add_leaf(&r, -0.5 * (a + L), 0, FW_GROUND, 0);
+    add_leaf(&r, 0.5 * (a + L), 0, 0, FW_GROUND);
+    const fw_mechanism_plates p = plates_of(&r);
+    const double lever = 0.5 * (a + L), k = 1 / (L * L * L / (12 * EI()) + L * sheared());
+    const double tilt = 2 * (EI() / L + k * lever * lever), GJ = p.hinge[0].twist_Nm2,
+                 l = 2 * L / FW_PI;
+    /* on body b: of the left leaf the link, pushed to the right; of the right one the ground */
+    const double force[4] = {P, 0, P, 0}, most[4] = {P * P, 0, P * P, 0};
+    double factor, alone = P * l * l / EI() + 0.5 * P * L * l / sqrt(EI() * GJ);
+    int hinge;
+    const double none = 0, off = 1e-7;
+    const fw_mechanism_plates_pressed by = {force, most, &none};
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &by, &factor, &hinge), FW_OK);
+    assert_relative(1 / factor, 2 * P * lever / tilt + alone, 1e-8);
+    const double pulled[4] = {-P, 0, -P, 0};
+    const fw_mechanism_plates_pressed pull = {pulled, most, &none}, besides = {force, most, &off};
+    double more;
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &besides, &more, &hinge), FW_OK);
+    assert_relative(1 / more,
+                    fmax((2 * P * lever + off) / tilt, off * p.hinge[0].c[1][1] / 2) + alone, 1e-8);
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &pull, &factor, &hinge), FW_OK);
+    assert_relative(1 / factor, alone,
+                    1e-8); /* tension holds the plate; of the leaves only sizes are known */
+    assert_true(1 / alone < FW_PI * FW_PI * EI() / (4 * L * L * P)); /* below Euler's load */
+    fw_arena_free(r.arena);
+}
+
+static void not_known(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    add_body(&r, L, 0, 1e-4, 1e-4, 1e-9);
+    add_body(&r, 3 * L, 0, 1e-4, 1e-4, 1e-9);
+    add_leaf(&r, 0.5 * L, 0, FW_GROUND, 0);
+    assert_string_equal(plates_of(&r).why, "not all bodies are held by flexures");
+    r.shape[1].area_m2 = (double)NAN;
+    assert_string_equal(plates_of(&r).why, "nothing is drawn of body B");
+    fw_arena_free(r.arena);
+}
+
+static void counted(void **state) {
+    (void)state;
+    const double a[] = {10, 30}, b[] = {20, 25, 40};
+    const fw_mechanism_frequencies in = {a, 2, sizeof *a}, out = {b, 3, sizeof *b};
+    static const int want[6][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}, {2, 1}, {-1, 0}};
+    bool across;
+    for (int n = 1; n <= 6; n++) {
+        assert_int_equal(fw_mechanism_plates_nth(n, FW_PLANE_EITHER, in, out, &across),
+                         want[n - 1][0]);
+        if (n < 6) assert_int_equal(across, want[n - 1][1]);
+    }
+    assert_int_equal(fw_mechanism_plates_nth(2, FW_PLANE_IN, in, out, &across), 1);
+    assert_false(across);
+    assert_int_equal(fw_mechanism_plates_nth(3, FW_PLANE_ACROSS, in, out, &across), 2);
+    assert_true(across);
+    assert_int_equal(fw_mechanism_plates_nth(3, FW_PLANE_IN, in, out, &across), -1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tip_mass), cmocka_unit_test(between_two), cmocka_unit_test(curls),
+        cmocka_unit_test(pressed),  cmocka_unit_test(not_known),   cmocka_unit_test(counted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
