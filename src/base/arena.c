@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/arena.h"
+#include "base/arena_copy.h"
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
@@ -203,6 +203,29 @@ void fw_arena_rewind(fw_arena *arena, fw_mark mark) {
 
 size_t fw_arena_peak(const fw_arena *arena) {
     return arena->peak;
+}
+
+bool fw_arena_copy_take(const fw_arena *arena, fw_arena_copy *copy) {
+    size_t n = 1, at = 0;
+    for (const chunk *c = arena->last; c; c = c->before)
+        n += c->used;
+    *copy = (fw_arena_copy){fw_arena_mark(arena), injected_fault() ? NULL : malloc(n)};
+    if (!copy->bytes) return false;
+    for (const chunk *c = arena->last; c; at += c->used, c = c->before)
+        memcpy(copy->bytes + at, c->data, c->used);
+    return true;
+}
+
+void fw_arena_copy_put_back(fw_arena *arena, const fw_arena_copy *copy) {
+    size_t at = 0;
+    fw_arena_rewind(arena, copy->mark);
+    for (chunk *c = arena->last; c; at += c->used, c = c->before)
+        memcpy(c->data, copy->bytes + at, c->used);
+}
+
+void fw_arena_copy_free(fw_arena_copy *copy) {
+    free(copy->bytes);
+    copy->bytes = NULL;
 }
 
 /* lock-free, hence fit for signal handlers, and for other threads too. No other memory hangs on the

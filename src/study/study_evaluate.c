@@ -143,25 +143,23 @@ static double used_of(const fw_verdict *verdict, int decision) {
     return decision == 0 ? fmin(most, 1) : fmax(most, beyond);
 }
 
-static bool same_files(const fw_study *study, fw_design *design) {
+bool fw_study_same_files(const fw_study *study, fw_design *design) {
     fw_plan *plan = fw_plan_design_plan(design);
     const char *was, *is;
     return fw_study_files_hash(plan->arena, study->plan, &was) == FW_OK &&
            fw_study_files_hash(plan->arena, plan, &is) == FW_OK && strcmp(was, is) == 0;
 }
 
-fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
-                            bool *changed) {
-    int status;
+static void blank(const fw_study *study, fw_study_sample *sample) {
     sample->run = false, sample->decision = -1, sample->why[0] = '\0';
     sample->used = (double)NAN;
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
-    fw_design *design =
-        fw_study_design(study, cancel, (const char(*)[FW_STUDY_TEXT])sample->text, &status);
-    FW_NEED(design);
-    if (status == FW_STATUS_OK && !same_files(study, design)) *changed = true;
-    if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
+}
+
+/* what the stages of a design that was read say; the library's status */
+static int answers(const fw_study *study, fw_design *design, fw_study_sample *sample) {
+    int status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK)
         status = fw_study_responses_take(study, design, sample->response, NULL);
     sample->run = status == FW_STATUS_OK;
@@ -171,6 +169,53 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
             sample->used = used_of(&fw_plan_design_plan(design)->verdict, sample->decision);
     } else
         first_error(design, status, sample->why);
+    return status;
+}
+
+static fw_status ended(int status) {
+    return fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
+}
+
+/* everything read anew */
+static fw_status alone(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
+                       bool *changed) {
+    int status;
+    blank(study, sample);
+    fw_design *design =
+        fw_study_design(study, cancel, (const char(*)[FW_STUDY_TEXT])sample->text, &status);
+    FW_NEED(design);
+    if (status == FW_STATUS_OK && !fw_study_same_files(study, design)) *changed = true;
+    if (status == FW_STATUS_OK)
+        status = answers(study, design, sample);
+    else
+        first_error(design, status, sample->why);
     fw_design_free(design);
-    return *changed ? FW_INPUT : fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
+    return *changed ? FW_INPUT : ended(status);
+}
+
+/* in a design that is there, whose packs were read before; *done false: it is to be read anew */
+static fw_status again(const fw_study *study, fw_study_engine *engine, fw_study_sample *sample,
+                       bool *done) {
+    int status = FW_STATUS_OK;
+    for (int whole = 0; whole < 2; whole++) {
+        fw_design *design;
+        blank(study, sample);
+        FW_TRY(fw_study_engine_set(engine, (const char(*)[FW_STUDY_TEXT])sample->text, whole != 0,
+                                   &design));
+        if (!design) return FW_OK;
+        status = answers(study, design, sample);
+        *done = true;
+        if (status != FW_STATUS_OK || !fw_study_engine_wants_whole(engine)) break;
+    }
+    return ended(status);
+}
+
+fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
+                            bool *changed) {
+    fw_study_engine *engine = NULL;
+    bool done = false;
+    fw_status status = fw_study_engine_take(study, cancel, &engine, changed);
+    if (status == FW_OK && engine) status = again(study, engine, sample, &done);
+    fw_study_engine_give(study, engine);
+    return status != FW_OK || done ? status : alone(study, cancel, sample, changed);
 }

@@ -2,6 +2,7 @@
 /* Shared by the files of a study. Private to the room and its tests. */
 #ifndef FW_STUDY_STUDY_PARTS_H
 #define FW_STUDY_STUDY_PARTS_H
+#include "plan/design.h"
 #include "study/study.h"
 #include "study/study_store.h"
 #include <jansson.h>
@@ -72,6 +73,26 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
 int fw_study_stages_run(fw_design *design, unsigned stages);
 /* one hash of all files that a plan has read */
 fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char **hash);
+
+/* is what a design was read from what the study was? */
+bool fw_study_same_files(const fw_study *study, fw_design *design);
+
+/* ---- study_engine.c: what samples have in common ---- */
+
+typedef struct fw_study_engine fw_study_engine; /* of one thread at a time */
+typedef struct fw_study_engines fw_study_engines;
+fw_status fw_study_engines_open(fw_study *study);
+void fw_study_engines_close(fw_study *study);
+/* *engine NULL: the description cannot be read as it stands. FW_INPUT, *changed: its files are others by now */
+fw_status fw_study_engine_take(const fw_study *study, const fw_cancel *cancel,
+                               fw_study_engine **engine, bool *changed);
+void fw_study_engine_give(const fw_study *study, fw_study_engine *engine); /* NULL allowed */
+/* A design read with these texts, which must live as long as it is in use; NULL: it is to be read anew, by
+   itself. whole: nothing is left out of it */
+fw_status fw_study_engine_set(fw_study_engine *engine, const char (*text)[FW_STUDY_TEXT],
+                              bool whole, fw_design **design);
+/* of a design that was judged: what was left out is wanted after all */
+bool fw_study_engine_wants_whole(const fw_study_engine *engine);
 
 /* ---- study_pool.c: many devices in threads ---- */
 

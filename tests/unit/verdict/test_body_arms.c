@@ -49,7 +49,7 @@ static scene body(int n, const double corner[][2], unsigned joints, double turn_
     fw_layout_body_layout *of = fw_arena_one(s.arena, fw_layout_body_layout);
     of->centroid = sum;
     s.layout = (fw_layout){.drawn = true, .piece = piece, .npiece = 1, .body = of};
-    assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &s.arm), FW_OK);
+    assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, false, &s.arm), FW_OK);
     return s;
 }
 
@@ -148,7 +148,7 @@ static void a_hole_counts_and_its_cut_does_not(void **state) {
     fw_layout_body_layout *middle = fw_arena_one(s.arena, fw_layout_body_layout);
     middle->centroid = (fw_geometry_vec2){0.5e-3, 0.06e-3};
     s.layout.body = middle;
-    assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &s.arm), FW_OK);
+    assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, false, &s.arm), FW_OK);
     double whole = 0, holed = 0;
     for (int k = 0; k < 2; k++) {
         whole += fw_verdict_arm_energy_J(&bar.arm[2 * k + 1], 1, 1, 0, 0, 0);

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the samples of a study have in common, computed once: packs, layer tables and materials are read by a
+   design of each thread, which is then one sample after the other (fw_plan_kept_again). And what nobody asks for is
+   left out: rows of a motion wait (fw_dynamics_motion_rows), and clearances that are accepted are bounded, where no
+   response is about them. A sample is what it would be by itself, to the last bit of what is asked for.
+
+   Test: tests/cli/test_study_engine.py */
+#include "plan/stages.h"
+#include "study/study_parts.h"
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* files may change while a study runs: looked at this often, which costs a hundredth */
+static const double look_again_s = 1;
+
+struct fw_study_engine {
+    const fw_study *study;
+    fw_design *design;
+    fw_plan_kept kept;
+    fw_device_set *set; /* those of the study's options, then those of the sample */
+    bool bounded;       /* the verdict at hand has clearances only as far as they decide */
+    double looked_s;
+    struct fw_study_engine *next;
+};
+
+struct fw_study_engines {
+    pthread_mutex_t lock; /* of what follows */
+    fw_study_engine *idle;
+};
+
+static double now_s(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+fw_status fw_study_engines_open(fw_study *study) {
+    FW_NEED(study->engines = fw_arena_one(study->arena, fw_study_engines));
+    return pthread_mutex_init(&study->engines->lock, NULL) == 0 ? FW_OK : FW_NOMEM;
+}
+
+static void engine_free(fw_study_engine *e) {
+    if (!e) return;
+    fw_plan_kept_free(&e->kept);
+    fw_design_free(e->design);
+    free(e->set);
+    free(e);
+}
+
+void fw_study_engines_close(fw_study *study) {
+    if (!study->engines) return;
+    while (study->engines->idle) {
+        fw_study_engine *e = study->engines->idle;
+        study->engines->idle = e->next;
+        engine_free(e);
+    }
+    pthread_mutex_destroy(&study->engines->lock);
+}
+
+/* ---- one design after the other ---- */
+
+/* are all responses about hinges? */
+static bool asks_for_hinges_alone(const fw_study *study) {
+    static const char *const key[] = {"governing.", "hinges[", "failure_probability"};
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *r = &study->response[k];
+        bool is = false;
+        if (fw_study_documents[r->document].document != FW_DOCUMENT_VERDICT_JSON) return false;
+        for (size_t i = 0; i < sizeof key / sizeof key[0]; i++)
+            is = is || strncmp(r->path, key[i], strlen(key[i])) == 0;
+        if (!is) return false;
+    }
+    return true;
+}
+
+/* requirements have bands by what bodies give; what devices that are made have to do with each other's clearances
+   decides which of them are run */
+static bool may_be_bounded(const fw_study_engine *e) {
+    const fw_plan *plan = fw_plan_design_plan(e->design);
+    return plan->options.verdict.corners == FW_CORNERS_NONE && plan->device->nrequirement == 0 &&
+           asks_for_hinges_alone(e->study);
+}
+
+/* of the description as it stands; *changed: its files are others by now */
+static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, fw_study_engine *e,
+                            bool *changed) {
+    int status;
+    e->study = study;
+    e->looked_s = now_s();
+    FW_NEED(e->set = calloc((size_t)(study->options.nset + study->ninput) + 1, sizeof *e->set));
+    FW_NEED(e->design = fw_study_design(study, cancel, NULL, &status));
+    if (status != FW_STATUS_OK) return (fw_status)status;
+    if (!fw_study_same_files(study, e->design)) {
+        *changed = true;
+        return FW_INPUT;
+    }
+    fw_plan_design_plan(e->design)->options.verdict.motion.late_rows = true;
+    return fw_plan_keep(e->design, &e->kept);
+}
+
+/* the files once more */
+static fw_status look_again(const fw_cancel *cancel, fw_study_engine *e, bool *changed) {
+    int status;
+    if (now_s() - e->looked_s < look_again_s) return FW_OK;
+    fw_design *design = fw_study_design(e->study, cancel, NULL, &status);
+    FW_NEED(design);
+    *changed = status != FW_STATUS_OK || !fw_study_same_files(e->study, design);
+    fw_design_free(design);
+    e->looked_s = now_s();
+    return *changed ? FW_INPUT : FW_OK;
+}
+
+fw_status fw_study_engine_take(const fw_study *study, const fw_cancel *cancel,
+                               fw_study_engine **engine, bool *changed) {
+    struct fw_study_engines *all = study->engines;
+    *engine = NULL;
+    pthread_mutex_lock(&all->lock);
+    fw_study_engine *e = all->idle;
+    if (e) all->idle = e->next;
+    pthread_mutex_unlock(&all->lock);
+    *engine = e;
+    if (e) return look_again(cancel, e, changed);
+    FW_NEED(e = calloc(1, sizeof *e));
+    fw_status status = engine_new(study, cancel, e, changed);
+    if (status == FW_OK)
+        *engine = e;
+    else
+        engine_free(e);
+    return fw_plan_is_final(status) || *changed ? status : FW_OK;
+}
+
+void fw_study_engine_give(const fw_study *study, fw_study_engine *e) {
+    if (!e) return;
+    pthread_mutex_lock(&study->engines->lock);
+    e->next = study->engines->idle;
+    study->engines->idle = e;
+    pthread_mutex_unlock(&study->engines->lock);
+}
+
+fw_status fw_study_engine_set(fw_study_engine *e, const char (*text)[FW_STUDY_TEXT], bool whole,
+                              fw_design **design) {
+    const fw_study *study = e->study;
+    int n = 0;
+    bool same;
+    for (int i = 0; i < study->options.nset; i++)
+        e->set[n++] = study->options.set[i];
+    for (int i = 0; i < study->ninput; i++)
+        if (text[i][0]) e->set[n++] = (fw_device_set){study->input[i].what, text[i]};
+    *design = NULL;
+    FW_TRY(fw_plan_kept_again(&e->kept, e->set, n, &same));
+    if (!same) return FW_OK;
+    e->bounded = !whole && may_be_bounded(e);
+    fw_plan_design_plan(e->design)->options.verdict.bounded = e->bounded;
+    *design = e->design;
+    return FW_OK;
+}
+
+static bool is_decided(const fw_verdict_variant_verdict *v, int nscene) {
+    for (int k = 0; k < v->nclearance; k++)
+        if (v->clearance[k].decision != FW_ACCEPT) return false;
+    for (int i = 0; v->motion && i < nscene; i++)
+        if (v->motion[i] && fw_verdict_bending_counted(v->motion[i]) > 0) return false;
+    return true;
+}
+
+bool fw_study_engine_wants_whole(const fw_study_engine *e) {
+    const fw_plan *plan = fw_plan_design_plan(e->design);
+    for (int i = 0; e->bounded && i < plan->verdict.nvariant; i++)
+        if (!is_decided(&plan->verdict.variant[i], plan->device->nscene)) return true;
+    return false;
+}
