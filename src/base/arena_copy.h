@@ -11,8 +11,8 @@ typedef struct fw_arena_copy {
     unsigned char *bytes; /* of malloc; NULL: none */
 } fw_arena_copy;
 
-/* false: no memory */
-bool fw_arena_copy_take(const fw_arena *arena, fw_arena_copy *copy);
+/* false: no memory. What is rewound from then on stays with the arena for the next time */
+bool fw_arena_copy_take(fw_arena *arena, fw_arena_copy *copy);
 /* The arena must not have been rewound behind the copy meanwhile. Cost: that of copying the bytes */
 void fw_arena_copy_put_back(fw_arena *arena, const fw_arena_copy *copy);
 void fw_arena_copy_free(fw_arena_copy *copy);
