@@ -22,7 +22,7 @@ struct fw_arena {
     chunk *last;
     size_t cap, total, peak; /* bytes handed out, and the most ever */
     size_t held;             /* bytes asked of malloc */
-    chunk *spare;            /* of one that is put back to a copy: given back, and asked for again soon */
+    chunk *spare; /* of one that is put back to a copy: given back, and asked for again soon */
     bool keeps;
     const fw_cancel *cancel;
     const fw_progress *progress; /* NULL: nobody is told */

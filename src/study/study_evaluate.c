@@ -224,9 +224,8 @@ static fw_status ended(int status) {
     return fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
 }
 
-/* everything read anew */
-static fw_status alone(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
-                       bool *changed) {
+fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel,
+                                  fw_study_sample *sample, bool *changed) {
     int status;
     blank(study, sample);
     fw_design *design =
@@ -265,5 +264,6 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
     fw_status status = fw_study_engine_take(study, cancel, &engine, changed);
     if (status == FW_OK && engine) status = again(study, engine, sample, &done);
     fw_study_engine_give(study, engine);
-    return status != FW_OK || done ? status : alone(study, cancel, sample, changed);
+    return status != FW_OK || done ? status
+                                   : fw_study_evaluate_alone(study, cancel, sample, changed);
 }

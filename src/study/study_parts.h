@@ -62,6 +62,9 @@ void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw
    several threads at once. */
 fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
                             bool *changed);
+/* the same, with everything read anew and nothing left out, as a command does it */
+fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel,
+                                  fw_study_sample *sample, bool *changed);
 /* a design with the study's options, sets and these settings, read; *status tells. NULL: no memory */
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
                            const char (*text)[FW_STUDY_TEXT], int *status);

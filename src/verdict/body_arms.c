@@ -27,6 +27,7 @@ typedef struct line {
 
 typedef struct grid {
     fw_arena *arena;
+    bool rough; /* ways are not moved aside to where circles are larger */
     line *line;
     int nline;
     fw_geometry_box box;
@@ -353,8 +354,7 @@ static void look_around(const grid *g, fw_geometry_vec2 at, edges *around) {
         around->nwide = within(g, at, around->wide, around->nwide, (2 * FARTHER + 4) * g->cell,
                                around->off, around->wide);
     }
-    around->n =
-        within(g, at, around->wide, around->nwide, 3 * g->cell, around->off, around->line);
+    around->n = within(g, at, around->wide, around->nwide, 3 * g->cell, around->off, around->line);
 }
 
 static double distance(const grid *g, const edges *around, fw_geometry_vec2 at) {
@@ -382,7 +382,7 @@ static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geom
     const fw_geometry_vec2 from = *at;
     look_around(g, from, around);
     double best = distance(g, around, from), where = 0;
-    for (double step = 0.5; step * g->cell > 0.02 * best; step /= 2) {
+    for (double step = 0.5; !g->rough && step * g->cell > 0.02 * best; step /= 2) {
         const double middle = where;
         for (int k = step < 0.5 ? 1 : 2; k != 0; k = k > 0 ? -k : -k - 1) {
             double to = middle + k * step;
@@ -462,9 +462,9 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
     return n;
 }
 
-/* with cells of this size; *all: every way was found and is wider than a cell */
-static fw_status arms_in(grid *g, double cell, fw_geometry_vec2 centroid, const end *ends, int n,
-                         fw_verdict_arm *arm, bool *all) {
+/* with cells of this size; *all: every way was found, and none is narrower than so many cells */
+static fw_status arms_in(grid *g, double cell, double cells, fw_geometry_vec2 centroid,
+                         const end *ends, int n, fw_verdict_arm *arm, bool *all) {
     *all = false;
     FW_TRY(lay(g, cell));
     int middle = cell_at(g, centroid, 2);
@@ -476,7 +476,7 @@ static fw_status arms_in(grid *g, double cell, fw_geometry_vec2 centroid, const 
         int begin = cell_at(g, ends[i].root, 0);
         *to = (fw_verdict_arm){.known = false};
         if (g->cost[begin] < HUGE_VAL) FW_TRY(follow(g, begin, ends[i].pin, to));
-        if (!to->known || to->narrow_m < fw_cells_across * cell) *all = false;
+        if (!to->known || to->narrow_m < cells * cell) *all = false;
     }
     return FW_OK;
 }
@@ -498,13 +498,15 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
     fw_mark lines = fw_arena_mark(scratch);
     bool all = false;
     if (rough) {
-        FW_TRY(arms_in(&g, fw_greater(across / ROUGHLY, cell), centroid, ends, n, arm, &all));
+        g.rough = true;
+        FW_TRY(arms_in(&g, fw_greater(across / ROUGHLY, cell), 0, centroid, ends, n, arm, &all));
         if (all) twice(ends, n, arm);
+        g.rough = false;
     }
     for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
         if (across * across / (cell * cell) > CELLS) break;
         fw_arena_rewind(scratch, lines); /* the former cells */
-        FW_TRY(arms_in(&g, cell, centroid, ends, n, arm, &all));
+        FW_TRY(arms_in(&g, cell, fw_cells_across, centroid, ends, n, arm, &all));
     }
     return FW_OK;
 }

@@ -298,7 +298,7 @@ typedef struct fw_verdict_options {
        tethers are not watched. Whoever asks for it looks at the decisions of clearances and at
        fw_verdict_bending_counted, and asks again without where they are not good: for studies, as drawn */
     bool bounded;
-    bool coarse_first;  /* a first look, and what was asked for only where it decides: for trials */
+    bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
     fw_verdict_restated restated; /* with NULL: no advice */
     fw_verdict_fabricated_of fabricated_of;
 } fw_verdict_options;

@@ -67,6 +67,13 @@ static void a_bar_is_a_beam(void **state) {
         double by[3] = {0};
         for (int k = 0; k < 2; k++) {
             const fw_verdict_arm *arm = &s.arm[2 * k + 1];
+            /* roughly: no less, and not much more than twice as much */
+            fw_verdict_arm *rough;
+            assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, true, &rough), FW_OK);
+            double fine_J = fw_verdict_arm_energy_J(arm, 1, 1, 0, 0, 0);
+            double rough_J = fw_verdict_arm_energy_J(&rough[2 * k + 1], 1, 1, 0, 0, 0);
+            if (!(rough_J > fine_J && rough_J < 8 * fine_J))
+                fail_msg("roughly %g, not %g", rough_J, fine_J);
             /* energies of a moment, of a force across the bar at its end and along it, on E h = 1 N, of
                what half a bar has */
             const double of[3] = {
