@@ -66,7 +66,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const char *coupons_sha256;
     const fw_wafer *wafer;  /* NULL: none asked for, or no mask */
     const fw_wafer *single; /* without <wafer>, but with <order>: the plate of one die; else NULL */
-    fw_text wafer_gds;      /* composed once, as above */
+    fw_text wafer_gds;     /* composed once, as above */
     const char *wafer_sha256;
     const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */
     const fw_recipe_cut *cut;    /* the same; NULL: there is nothing to cut */

@@ -20,7 +20,6 @@ struct fw_study_engine {
     fw_design *design;
     fw_plan_kept kept;
     fw_device_set *set; /* those of the study's options, then those of the sample */
-    bool bounded;       /* the verdict at hand has clearances only as far as they decide */
     double looked_s;
     struct fw_study_engine *next;
 };
@@ -139,7 +138,7 @@ void fw_study_engine_give(const fw_study *study, fw_study_engine *e) {
     pthread_mutex_unlock(&study->engines->lock);
 }
 
-fw_status fw_study_engine_set(fw_study_engine *e, const char (*text)[FW_STUDY_TEXT], bool whole,
+fw_status fw_study_engine_set(fw_study_engine *e, const char (*text)[FW_STUDY_TEXT],
                               fw_design **design) {
     const fw_study *study = e->study;
     int n = 0;
@@ -151,23 +150,7 @@ fw_status fw_study_engine_set(fw_study_engine *e, const char (*text)[FW_STUDY_TE
     *design = NULL;
     FW_TRY(fw_plan_kept_again(&e->kept, e->set, n, &same));
     if (!same) return FW_OK;
-    e->bounded = !whole && may_be_bounded(e);
-    fw_plan_design_plan(e->design)->options.verdict.bounded = e->bounded;
+    fw_plan_design_plan(e->design)->options.verdict.bounded = may_be_bounded(e);
     *design = e->design;
     return FW_OK;
-}
-
-static bool is_decided(const fw_verdict_variant_verdict *v, int nscene) {
-    for (int k = 0; k < v->nclearance; k++)
-        if (v->clearance[k].decision != FW_ACCEPT) return false;
-    for (int i = 0; v->motion && i < nscene; i++)
-        if (v->motion[i] && fw_verdict_bending_counted(v->motion[i]) > 0) return false;
-    return true;
-}
-
-bool fw_study_engine_wants_whole(const fw_study_engine *e) {
-    const fw_plan *plan = fw_plan_design_plan(e->design);
-    for (int i = 0; e->bounded && i < plan->verdict.nvariant; i++)
-        if (!is_decided(&plan->verdict.variant[i], plan->device->nscene)) return true;
-    return false;
 }

@@ -243,18 +243,12 @@ fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel
 /* in a design that is there, whose packs were read before; *done false: it is to be read anew */
 static fw_status again(const fw_study *study, fw_study_engine *engine, fw_study_sample *sample,
                        bool *done) {
-    int status = FW_STATUS_OK;
-    for (int whole = 0; whole < 2; whole++) {
-        fw_design *design;
-        blank(study, sample);
-        FW_TRY(fw_study_engine_set(engine, (const char(*)[FW_STUDY_TEXT])sample->text, whole != 0,
-                                   &design));
-        if (!design) return FW_OK;
-        status = answers(study, design, sample);
-        *done = true;
-        if (status != FW_STATUS_OK || !fw_study_engine_wants_whole(engine)) break;
-    }
-    return ended(status);
+    fw_design *design;
+    blank(study, sample);
+    FW_TRY(fw_study_engine_set(engine, (const char(*)[FW_STUDY_TEXT])sample->text, &design));
+    if (!design) return FW_OK;
+    *done = true;
+    return ended(answers(study, design, sample));
 }
 
 fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,

@@ -91,11 +91,9 @@ fw_status fw_study_engine_take(const fw_study *study, const fw_cancel *cancel,
                                fw_study_engine **engine, bool *changed);
 void fw_study_engine_give(const fw_study *study, fw_study_engine *engine); /* NULL allowed */
 /* A design read with these texts, which must live as long as it is in use; NULL: it is to be read anew, by
-   itself. whole: nothing is left out of it */
+   itself */
 fw_status fw_study_engine_set(fw_study_engine *engine, const char (*text)[FW_STUDY_TEXT],
-                              bool whole, fw_design **design);
-/* of a design that was judged: what was left out is wanted after all */
-bool fw_study_engine_wants_whole(const fw_study_engine *engine);
+                              fw_design **design);
 
 /* ---- study_pool.c: many devices in threads ---- */
 

@@ -27,7 +27,6 @@ typedef struct line {
 
 typedef struct grid {
     fw_arena *arena;
-    bool rough; /* ways are not moved aside to where circles are larger */
     line *line;
     int nline;
     fw_geometry_box box;
@@ -382,7 +381,7 @@ static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geom
     const fw_geometry_vec2 from = *at;
     look_around(g, from, around);
     double best = distance(g, around, from), where = 0;
-    for (double step = 0.5; !g->rough && step * g->cell > 0.02 * best; step /= 2) {
+    for (double step = 0.5; step * g->cell > 0.02 * best; step /= 2) {
         const double middle = where;
         for (int k = step < 0.5 ? 1 : 2; k != 0; k = k > 0 ? -k : -k - 1) {
             double to = middle + k * step;
@@ -498,10 +497,8 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
     fw_mark lines = fw_arena_mark(scratch);
     bool all = false;
     if (rough) {
-        g.rough = true;
         FW_TRY(arms_in(&g, fw_greater(across / ROUGHLY, cell), 0, centroid, ends, n, arm, &all));
         if (all) twice(ends, n, arm);
-        g.rough = false;
     }
     for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
         if (across * across / (cell * cell) > CELLS) break;
