@@ -60,9 +60,10 @@ void fw_study_engines_close(fw_study *study) {
 
 /* ---- one design after the other ---- */
 
-/* are all responses about hinges? */
-static bool asks_for_hinges_alone(const fw_study *study) {
-    static const char *const key[] = {"governing.", "hinges[", "failure_probability"};
+/* are all responses about hinges and requirements? */
+static bool asks_for_no_clearance(const fw_study *study) {
+    static const char *const key[] = {"governing.", "hinges[", "requirements[", "hinge_model[",
+                                      "failure_probability"};
     for (int k = 0; k < study->nresponse; k++) {
         const fw_study_response *r = &study->response[k];
         bool is = false;
@@ -74,12 +75,10 @@ static bool asks_for_hinges_alone(const fw_study *study) {
     return true;
 }
 
-/* requirements have bands by what bodies give; what devices that are made have to do with each other's clearances
-   decides which of them are run */
+/* clearances of devices that are made decide which of them are run */
 static bool may_be_bounded(const fw_study_engine *e) {
     const fw_plan *plan = fw_plan_design_plan(e->design);
-    return plan->options.verdict.corners == FW_CORNERS_NONE && plan->device->nrequirement == 0 &&
-           asks_for_hinges_alone(e->study);
+    return plan->options.verdict.corners == FW_CORNERS_NONE && asks_for_no_clearance(e->study);
 }
 
 /* of the description as it stands; *changed: its files are others by now */

@@ -13,7 +13,7 @@
 #include "geometry/segment.h"
 #include <string.h>
 
-enum { ACROSS = 100, ROUGHLY = 40, FINEST = 4, CELLS = 1000000 };
+enum { ACROSS = 100, FINEST = 4, CELLS = 1000000 };
 /* the narrowest place of a way has as many, or cells are halved: a coarse grid misses a slender bar */
 static const double fw_cells_across = 1;
 /* a cell is not below this: what is narrower is no part of a body */
@@ -461,55 +461,37 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
     return n;
 }
 
-/* with cells of this size; *all: every way was found, and none is narrower than so many cells */
-static fw_status arms_in(grid *g, double cell, double cells, fw_geometry_vec2 centroid,
-                         const end *ends, int n, fw_verdict_arm *arm, bool *all) {
-    *all = false;
-    FW_TRY(lay(g, cell));
-    int middle = cell_at(g, centroid, 2);
-    if (middle < 0) return FW_OK;
-    FW_TRY(spread(g, middle));
-    *all = true;
-    for (int i = 0; i < n; i++) {
-        fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
-        int begin = cell_at(g, ends[i].root, 0);
-        *to = (fw_verdict_arm){.known = false};
-        if (g->cost[begin] < HUGE_VAL) FW_TRY(follow(g, begin, ends[i].pin, to));
-        if (!to->known || to->narrow_m < cells * cell) *all = false;
-    }
-    return FW_OK;
-}
-
-static void twice(const end *ends, int n, fw_verdict_arm *arm) {
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < 6; k++)
-            arm[2 * ends[i].hinge + ends[i].side].give[k] *= 2;
-}
-
 static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, const end *ends,
-                         int n, bool rough, fw_verdict_arm *arm) {
+                         int n, fw_verdict_arm *arm) {
     grid g = {.arena = scratch};
     FW_TRY(take_lines(layout, body, &g));
     if (g.nline == 0) return FW_OK;
-    const fw_geometry_vec2 centroid = layout->body[body].centroid;
     double across = vec_length((fw_geometry_vec2){g.box.x1 - g.box.x0, g.box.y1 - g.box.y0});
     double cell = fw_greater(across / ACROSS, fw_least_cell);
     fw_mark lines = fw_arena_mark(scratch);
     bool all = false;
-    if (rough) {
-        FW_TRY(arms_in(&g, fw_greater(across / ROUGHLY, cell), 0, centroid, ends, n, arm, &all));
-        if (all) twice(ends, n, arm);
-    }
     for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
-        if (across * across / (cell * cell) > CELLS) break;
+        double cells = across * across / (cell * cell);
+        if (cells > CELLS) break;
         fw_arena_rewind(scratch, lines); /* the former cells */
-        FW_TRY(arms_in(&g, cell, fw_cells_across, centroid, ends, n, arm, &all));
+        FW_TRY(lay(&g, cell));
+        int middle = cell_at(&g, layout->body[body].centroid, 2);
+        if (middle < 0) continue;
+        FW_TRY(spread(&g, middle));
+        all = true;
+        for (int i = 0; i < n; i++) {
+            fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
+            int begin = cell_at(&g, ends[i].root, 0);
+            *to = (fw_verdict_arm){.known = false};
+            if (g.cost[begin] < HUGE_VAL) FW_TRY(follow(&g, begin, ends[i].pin, to));
+            if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
+        }
     }
     return FW_OK;
 }
 
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                               bool rough, fw_verdict_arm **arm) {
+                               fw_verdict_arm **arm) {
     size_t n = (size_t)m->nhinge;
     FW_NEED(*arm = fw_arena_array(arena, fw_verdict_arm, 2 * n));
     for (int b = 0; layout && layout->drawn && b < m->nbody; b++) {
@@ -518,7 +500,7 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
         end *ends = fw_arena_array(scratch, end, 2 * n);
         int found = ends ? ends_of(m, b, ends) : 0;
         fw_status status = ends ? FW_OK : FW_NOMEM;
-        if (found > 0) status = arms_of(scratch, layout, b, ends, found, rough, *arm);
+        if (found > 0) status = arms_of(scratch, layout, b, ends, found, *arm);
         fw_arena_free(scratch);
         FW_TRY(status);
     }

@@ -25,12 +25,10 @@ typedef struct fw_verdict_arm {
 
 /* arm: (2 nhinge) of hinge k in body a, in body b. In: outlines of the layout in the drawn pose. Range:
    any outline; unknown where nothing is drawn or the way is narrower than a cell of the grid, a 400th of the body.
-   rough: a coarser grid where that is fine enough, and twice what its ways give, because a finer one may take others:
-   a fifth of the cost, for those who only ask whether it is much.
    Error: an upper bound as far as a strip of inscribed circles is a beam. Cost: some 1e5 operations for a body.
    Test: test_body_arms.c */
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
-                               const fw_layout *layout, bool rough, fw_verdict_arm **arm);
+                               const fw_layout *layout, fw_verdict_arm **arm);
 /* J of a wrench that a hinge puts on the body, turned back to the drawn pose by turned_rad */
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
                                double fx_N, double fy_N, double turned_rad);

@@ -389,7 +389,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
     FW_NEED(monitor && other ? monitor : NULL);
     FW_TRY(fw_verdict_requirements_list(arena, m, v));
-    FW_TRY(fw_verdict_bending_begin(arena, layout, m, options->bounded, v));
+    FW_TRY(fw_verdict_bending_begin(arena, layout, m, v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));

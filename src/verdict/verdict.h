@@ -294,8 +294,8 @@ typedef struct fw_verdict_options {
     bool at_a_glance; /* no refinement of what is undecided: for trials and previews */
     bool decision_only; /* clearances are bounded until they decide, not found: for trials */
     bool values;        /* of the drawn device they are found all the same: for trials */
-    /* as drawn, of what is accepted only hinges are read: clearances and what bodies give are bounded where that
-       decides, and tethers are not watched: for studies */
+    /* as drawn, only hinges and requirements are read: clearances are bounded where that is enough to accept them, and
+       tethers are not watched: for studies */
     bool bounded;
     bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
     fw_verdict_restated restated; /* with NULL: no advice */

@@ -72,10 +72,10 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
 }
 
 fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
-                                   bool rough, fw_verdict_variant_verdict *v) {
+                                   fw_verdict_variant_verdict *v) {
     fw_verdict_arm *arm;
     if (v->arm || !layout || !layout->drawn) return FW_OK;
-    FW_TRY(fw_verdict_body_arms(arena, m, layout, rough, &arm));
+    FW_TRY(fw_verdict_body_arms(arena, m, layout, &arm));
     v->arm = arm;
     return FW_OK;
 }

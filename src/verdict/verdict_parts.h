@@ -39,10 +39,9 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
 
 /* ---- verdict_bending.c: bodies are rigid in the motion, and are none ---- */
 
-/* v->arm, where it is not known of a device much like it; rough: as fw_verdict_body_arms has it */
+/* v->arm, where it is not known of a device much like it */
 fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
-                                   const fw_mechanism *mechanism, bool rough,
-                                   fw_verdict_variant_verdict *v);
+                                   const fw_mechanism *mechanism, fw_verdict_variant_verdict *v);
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);
 

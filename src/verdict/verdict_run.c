@@ -122,13 +122,12 @@ static fw_status first_attempt(fw_arena *arena, const fw_device *device, const f
     return attempt(arena, device, layout, options, &again, verdict);
 }
 
-static bool is_bounded_well(const fw_verdict *verdict, const fw_device *device) {
+/* what is not accepted says how near things come */
+static bool is_bounded_well(const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
         for (int k = 0; k < v->nclearance; k++)
             if (v->clearance[k].decision != FW_ACCEPT) return false;
-        for (int k = 0; v->motion && k < device->nscene; k++)
-            if (v->motion[k] && fw_verdict_bending_counted(v->motion[k]) > 0) return false;
     }
     return true;
 }
@@ -141,14 +140,12 @@ static fw_status bounded_attempt(fw_arena *arena, const fw_device *device, const
     if (!options->bounded) return first_attempt(arena, device, layout, options, diags, verdict);
     fw_diags first = fw_diags_new(arena);
     fw_status status = first_attempt(arena, device, layout, options, &first, verdict);
-    if (status != FW_OK || is_bounded_well(verdict, device)) {
+    if (status != FW_OK || is_bounded_well(verdict)) {
         fw_diags_take(diags, &first);
         return diags->failed ? FW_NOMEM : status;
     }
     options->bounded = false;
     *verdict = empty;
-    for (int i = 0; i < verdict->nvariant; i++)
-        verdict->variant[i].arm = NULL;
     return first_attempt(arena, device, layout, options, diags, verdict);
 }
 
