@@ -369,15 +369,17 @@ static void ends_of(const fw_flexure_path_strain *s, const double *M, const doub
 static void strains_of(const fw_flexure_path_strain *s, const double *M, const double *N,
                        fw_flexure_strip_strains *out) {
     const int last = s->n - 1;
-    double between = 0, crests = 0;
-    for (int i = 1; i < last; i++) {
+    double between = 0;
+    for (int i = 1; i < last; i++)
         between = larger(between, strain_between(&s->point[i], M[i], N[i]));
-        crests = larger(crests, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
-    }
     root_faces(&s->point[0], M[0], N[0], out->root[0]);
     root_faces(&s->point[last], M[last], N[last], out->root[1]);
-    double most = larger(larger(between, crests), strain_at(&s->point[0], M[0], N[0]));
-    out->peak = larger(most, strain_at(&s->point[last], M[last], N[last]));
+    double most = larger(between, strain_at(&s->point[0], M[0], N[0]));
+    most = larger(most, strain_at(&s->point[last], M[last], N[last]));
+    for (int i = 1; i < last; i++) /* a crest is above its middle by a quarter of the rise at most */
+        if (s->point[i].strain_per_Nm * (fabs(M[i]) + 0.26 * fabs(M[i + 1] - M[i - 1])) > most)
+            most = larger(most, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
+    out->peak = most;
     ends_of(s, M, N, between, out);
 }
 

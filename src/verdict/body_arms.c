@@ -181,15 +181,31 @@ static void envelope(double *f, int n, int step, double *copy, int *on, double *
     }
 }
 
+static const double fw_far = 1e12; /* of a cell that no edge crosses */
+
+/* the same along a column of cells that are 0 or far: squares of the way to the nearest 0 */
+static void from_edges(double *f, int n, int step) {
+    int before = -1;
+    for (int q = 0; q < n; q++) {
+        if (f[q * step] != 0) continue;
+        for (int i = before + 1; i < q; i++) {
+            int off = before < 0 || q - i < i - before ? q - i : i - before;
+            f[i * step] = (double)off * off;
+        }
+        before = q;
+    }
+    for (int i = before + 1; before >= 0 && i < n; i++)
+        f[i * step] = (double)(i - before) * (i - before);
+}
+
 static fw_status measure(grid *g) {
-    const double far = 1e12;
     int n = g->nx > g->ny ? g->nx : g->ny;
     double *copy = fw_arena_array(g->arena, double, (size_t)n),
            *until = fw_arena_array(g->arena, double, (size_t)n + 1);
     int *on = fw_arena_array(g->arena, int, (size_t)n);
     FW_NEED(copy && until && on ? copy : NULL);
     for (int i = 0; i < g->nx * g->ny; i++)
-        g->away[i] = far;
+        g->away[i] = fw_far;
     for (int i = 0; i < g->nline; i++) {
         const line *l = &g->line[i];
         int steps = 1 + (int)(2 * vec_distance(l->a, l->b) / g->cell);
@@ -199,10 +215,11 @@ static fw_status measure(grid *g) {
         }
     }
     for (int i = 0; i < g->nx; i++)
-        envelope(g->away + i, g->ny, g->nx, copy, on, until);
+        from_edges(g->away + i, g->ny, g->nx);
     for (int j = 0; j < g->ny; j++)
         envelope(g->away + j * g->nx, g->nx, 1, copy, on, until);
     for (int i = 0; i < g->nx * g->ny; i++) {
+        if (!g->inside[i]) continue;
         double cells = sqrt(g->away[i]), w = fw_greater(cells, 0.5);
         g->away[i] = g->cell * cells;
         g->stiff[i] = 1 / (w * w * w);
