@@ -376,7 +376,8 @@ static void strains_of(const fw_flexure_path_strain *s, const double *M, const d
     root_faces(&s->point[last], M[last], N[last], out->root[1]);
     double most = larger(between, strain_at(&s->point[0], M[0], N[0]));
     most = larger(most, strain_at(&s->point[last], M[last], N[last]));
-    for (int i = 1; i < last; i++) /* a crest is above its middle by a quarter of the rise at most */
+    for (int i = 1; i < last;
+         i++) /* a crest is above its middle by a quarter of the rise at most */
         if (s->point[i].strain_per_Nm * (fabs(M[i]) + 0.26 * fabs(M[i + 1] - M[i - 1])) > most)
             most = larger(most, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
     out->peak = most;

@@ -229,9 +229,8 @@ static bool decided_by_drawing(const fw_device *device, const fw_layout *layout,
     return false;
 }
 
-fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
-                         const fw_verdict_options *asked, fw_diags *diags, fw_verdict *verdict,
-                         const fw_layout **layout) {
+fw_status fw_verdict_run(fw_arena *arena, const fw_device *device, const fw_verdict_options *asked,
+                         fw_diags *diags, fw_verdict *verdict, const fw_layout **layout) {
     const fw_layout *judged;
     fw_verdict_options own = *asked;
     const fw_verdict_options *options = &own;
