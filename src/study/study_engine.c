@@ -4,29 +4,29 @@
    left out: rows of a motion wait (fw_dynamics_motion_rows), and clearances that are accepted are bounded, where no
    response is about them. A sample is what it would be by itself, to the last bit of what is asked for.
 
-   Test: tests/cli/test_study_engine.py */
+   Test: tests/unit/study/test_engine.c */
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 /* files may change while a study runs: looked at this often, which costs a hundredth */
 static const double look_again_s = 1;
 
-struct fw_study_engine {
+typedef struct engine { /* of one thread at a time */
+    fw_arena *arena;    /* holds this */
     const fw_study *study;
     fw_design *design;
     fw_plan_kept kept;
     fw_device_set *set; /* those of the study's options, then those of the sample */
     double looked_s;
-    struct fw_study_engine *next;
-};
+    struct engine *next;
+} engine;
 
 struct fw_study_engines {
     pthread_mutex_t lock; /* of what follows */
-    fw_study_engine *idle;
+    engine *idle;
 };
 
 static double now_s(void) {
@@ -40,18 +40,17 @@ fw_status fw_study_engines_open(fw_study *study) {
     return pthread_mutex_init(&study->engines->lock, NULL) == 0 ? FW_OK : FW_NOMEM;
 }
 
-static void engine_free(fw_study_engine *e) {
+static void engine_free(engine *e) {
     if (!e) return;
     fw_plan_kept_free(&e->kept);
     fw_design_free(e->design);
-    free(e->set);
-    free(e);
+    fw_arena_free(e->arena);
 }
 
 void fw_study_engines_close(fw_study *study) {
     if (!study->engines) return;
     while (study->engines->idle) {
-        fw_study_engine *e = study->engines->idle;
+        engine *e = study->engines->idle;
         study->engines->idle = e->next;
         engine_free(e);
     }
@@ -76,18 +75,19 @@ static bool asks_for_no_clearance(const fw_study *study) {
 }
 
 /* clearances of devices that are made decide which of them are run */
-static bool may_be_bounded(const fw_study_engine *e) {
+static bool may_be_bounded(const engine *e) {
     const fw_plan *plan = fw_plan_design_plan(e->design);
     return plan->options.verdict.corners == FW_CORNERS_NONE && asks_for_no_clearance(e->study);
 }
 
 /* of the description as it stands; *changed: its files are others by now */
-static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, fw_study_engine *e,
+static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engine *e,
                             bool *changed) {
     int status;
     e->study = study;
     e->looked_s = now_s();
-    FW_NEED(e->set = calloc((size_t)(study->options.nset + study->ninput) + 1, sizeof *e->set));
+    FW_NEED(e->set = fw_arena_array(e->arena, fw_device_set,
+                                    (size_t)(study->options.nset + study->ninput)));
     FW_NEED(e->design = fw_study_design(study, cancel, NULL, &status));
     if (status != FW_STATUS_OK) return (fw_status)status;
     if (!fw_study_same_files(study, e->design)) {
@@ -99,37 +99,45 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, fw_s
 }
 
 /* the files once more */
-static fw_status look_again(const fw_cancel *cancel, fw_study_engine *e, bool *changed) {
+static fw_status look_again(const fw_cancel *cancel, engine *e, bool *changed) {
     int status;
     if (now_s() - e->looked_s < look_again_s) return FW_OK;
     fw_design *design = fw_study_design(e->study, cancel, NULL, &status);
     FW_NEED(design);
-    *changed = status != FW_STATUS_OK || !fw_study_same_files(e->study, design);
+    const bool final = fw_plan_is_final((fw_status)status);
+    *changed = !final && (status != FW_STATUS_OK || !fw_study_same_files(e->study, design));
     fw_design_free(design);
     e->looked_s = now_s();
-    return *changed ? FW_INPUT : FW_OK;
+    return final ? (fw_status)status : *changed ? FW_INPUT : FW_OK;
 }
 
-fw_status fw_study_engine_take(const fw_study *study, const fw_cancel *cancel,
-                               fw_study_engine **engine, bool *changed) {
+/* *taken NULL: the description cannot be read as it stands */
+static fw_status take(const fw_study *study, const fw_cancel *cancel, engine **taken,
+                      bool *changed) {
     struct fw_study_engines *all = study->engines;
-    *engine = NULL;
+    *taken = NULL;
     pthread_mutex_lock(&all->lock);
-    fw_study_engine *e = all->idle;
+    engine *e = all->idle;
     if (e) all->idle = e->next;
     pthread_mutex_unlock(&all->lock);
-    *engine = e;
+    *taken = e;
     if (e) return look_again(cancel, e, changed);
-    FW_NEED(e = calloc(1, sizeof *e));
+    fw_arena *arena = fw_arena_part(study->arena, 0);
+    FW_NEED(arena);
+    if (!(e = fw_arena_one(arena, engine))) {
+        fw_arena_free(arena);
+        return FW_NOMEM;
+    }
+    e->arena = arena;
     fw_status status = engine_new(study, cancel, e, changed);
     if (status == FW_OK)
-        *engine = e;
+        *taken = e;
     else
         engine_free(e);
     return fw_plan_is_final(status) || *changed ? status : FW_OK;
 }
 
-void fw_study_engine_give(const fw_study *study, fw_study_engine *e) {
+static void give(const fw_study *study, engine *e) {
     if (!e) return;
     pthread_mutex_lock(&study->engines->lock);
     e->next = study->engines->idle;
@@ -137,19 +145,29 @@ void fw_study_engine_give(const fw_study *study, fw_study_engine *e) {
     pthread_mutex_unlock(&study->engines->lock);
 }
 
-fw_status fw_study_engine_set(fw_study_engine *e, const char (*text)[FW_STUDY_TEXT],
-                              fw_design **design) {
+/* in a design that is there; *done false: it is to be read anew, by itself */
+static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     const fw_study *study = e->study;
     int n = 0;
-    bool same;
     for (int i = 0; i < study->options.nset; i++)
         e->set[n++] = study->options.set[i];
     for (int i = 0; i < study->ninput; i++)
-        if (text[i][0]) e->set[n++] = (fw_device_set){study->input[i].what, text[i]};
-    *design = NULL;
-    FW_TRY(fw_plan_kept_again(&e->kept, e->set, n, &same));
-    if (!same) return FW_OK;
+        if (sample->text[i][0])
+            e->set[n++] = (fw_device_set){study->input[i].what, sample->text[i]};
+    FW_TRY(fw_plan_kept_again(&e->kept, e->set, n, done));
+    if (!*done) return FW_OK;
     fw_plan_design_plan(e->design)->options.verdict.bounded = may_be_bounded(e);
-    *design = e->design;
-    return FW_OK;
+    fw_status status = (fw_status)fw_study_answers_take(study, e->design, sample);
+    return fw_plan_is_final(status) ? status : FW_OK;
+}
+
+fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
+                            bool *changed) {
+    engine *e = NULL;
+    bool done = false;
+    fw_status status = take(study, cancel, &e, changed);
+    if (status == FW_OK && e) status = again(e, sample, &done);
+    give(study, e);
+    return status != FW_OK || done ? status
+                                   : fw_study_evaluate_alone(study, cancel, sample, changed);
 }

@@ -93,43 +93,34 @@ static bool begins_with(const fw_study *study, int document, const char *key, si
     return false;
 }
 
-/* false: no memory */
-static bool take_member(const fw_study *study, int document, json_t *root, const char *key,
-                        size_t length, const char *value, size_t n) {
-    char name[80];
-    if (!begins_with(study, document, key, length) || length >= sizeof name) return true;
-    snprintf(name, sizeof name, "%.*s", (int)length, key);
-    json_t *read = json_loadb(value, n, JSON_DECODE_ANY, NULL);
-    return read && json_object_set_new(root, name, read) == 0;
-}
-
-/* Of a document only the members that responses begin with: reading the others costs as much as composing them all.
-   Bytes between quotes are skipped with what stands behind a backslash. */
-static json_t *members_of(const fw_study *study, int document, const char *text, size_t n) {
-    json_t *root = json_object();
+/* Of a document only the members that responses begin with, cut out: reading the others costs as much as composing
+   them all. Bytes between quotes are skipped with what stands behind a backslash. */
+static fw_status members_of(const fw_study *study, int document, fw_arena *arena, const char *text,
+                            size_t n, json_t **root) {
+    fw_text cut = fw_text_new(arena);
     int depth = 0;
-    const char *key = NULL;
-    size_t length = 0, value = 0;
-    for (size_t i = 0; root && i < n; i++) {
+    const char *member = NULL; /* at its key's quote; NULL: none is begun */
+    size_t key = 0;            /* its length */
+    for (size_t i = 0; i < n; i++) {
         const char c = text[i];
         if (c == '"') {
-            size_t from = i + 1;
+            const char *from = text + i;
             for (i++; i < n && text[i] != '"'; i++)
                 i += text[i] == '\\';
-            if (depth == 1 && !key) key = text + from, length = i - from, value = 0;
-        } else if (c == ':' && depth == 1 && value == 0) {
-            value = i + 1;
-        } else if ((c == ',' && depth == 1) || (c == '}' && depth == 1)) {
-            if (key && !take_member(study, document, root, key, length, text + value, i - value)) {
-                json_decref(root);
-                root = NULL;
-            }
-            key = NULL;
+            if (depth == 1 && !member) member = from, key = (size_t)(text + i - from) - 1;
+        } else if (depth == 1 && (c == ',' || c == '}')) {
+            if (member && begins_with(study, document, member + 1, key))
+                fw_text_printf(&cut, "%c%.*s", cut.length > 0 ? ',' : '{', (int)(text + i - member),
+                               member);
+            member = NULL;
             depth -= c == '}';
         } else
             depth += (c == '{' || c == '[') - (c == '}' || c == ']');
     }
-    return root;
+    fw_text_add(&cut, cut.length > 0 ? "}" : "{}");
+    FW_TRY(fw_text_end(&cut));
+    FW_NEED(*root = json_loadb(cut.data, cut.length, 0, NULL));
+    return FW_OK;
 }
 
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
@@ -145,7 +136,11 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
             if (!root) {
                 int status = fw_design_document(design, fw_study_documents[d].document, &text, &n);
                 if (status != FW_STATUS_OK) return status;
-                root = diags ? json_loadb(text, n, 0, NULL) : members_of(study, d, text, n);
+                if (diags)
+                    root = json_loadb(text, n, 0, NULL);
+                else
+                    FW_TRY(
+                        members_of(study, d, fw_plan_design_plan(design)->arena, text, n, &root));
                 if (!root) return FW_STATUS_NOMEM;
             }
             if (!fw_study_response_find(r, root, &value[k], why, sizeof why) && diags)
@@ -205,8 +200,8 @@ static void blank(const fw_study *study, fw_study_sample *sample) {
         sample->response[k] = (double)NAN;
 }
 
-/* what the stages of a design that was read say; the library's status */
-static int answers(const fw_study *study, fw_design *design, fw_study_sample *sample) {
+int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample) {
+    blank(study, sample);
     int status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK)
         status = fw_study_responses_take(study, design, sample->response, NULL);
@@ -220,10 +215,6 @@ static int answers(const fw_study *study, fw_design *design, fw_study_sample *sa
     return status;
 }
 
-static fw_status ended(int status) {
-    return fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
-}
-
 fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel,
                                   fw_study_sample *sample, bool *changed) {
     int status;
@@ -233,31 +224,10 @@ fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel
     FW_NEED(design);
     if (status == FW_STATUS_OK && !fw_study_same_files(study, design)) *changed = true;
     if (status == FW_STATUS_OK)
-        status = answers(study, design, sample);
+        status = fw_study_answers_take(study, design, sample);
     else
         first_error(design, status, sample->why);
     fw_design_free(design);
-    return *changed ? FW_INPUT : ended(status);
-}
-
-/* in a design that is there, whose packs were read before; *done false: it is to be read anew */
-static fw_status again(const fw_study *study, fw_study_engine *engine, fw_study_sample *sample,
-                       bool *done) {
-    fw_design *design;
-    blank(study, sample);
-    FW_TRY(fw_study_engine_set(engine, (const char(*)[FW_STUDY_TEXT])sample->text, &design));
-    if (!design) return FW_OK;
-    *done = true;
-    return ended(answers(study, design, sample));
-}
-
-fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
-                            bool *changed) {
-    fw_study_engine *engine = NULL;
-    bool done = false;
-    fw_status status = fw_study_engine_take(study, cancel, &engine, changed);
-    if (status == FW_OK && engine) status = again(study, engine, sample, &done);
-    fw_study_engine_give(study, engine);
-    return status != FW_OK || done ? status
-                                   : fw_study_evaluate_alone(study, cancel, sample, changed);
+    if (*changed) return FW_INPUT;
+    return fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
 }
