@@ -18,7 +18,7 @@ fw_plan *fw_plan_design_plan(fw_design *design); /* NULL for NULL */
 void fw_plan_design_cancel_with(fw_design *design, const fw_cancel *above);
 /* A design that was read and nothing else, to be another one over and over: with other settings in place of its own,
    and what was read of packs as it was. The design stays its caller's and must outlive this.
-   Cost: reading the description, and copying what the design held. Test: tests/unit/plan/test_again.c */
+   Cost: reading the description, and copying what the design held. Test: tests/unit/study/test_engine.c */
 typedef struct fw_plan_kept {
     fw_design *design;
     fw_arena_copy copy;
