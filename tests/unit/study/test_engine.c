@@ -79,12 +79,16 @@ static void write_to(const char *path, const char *text) {
     assert_int_equal(fclose(file), 0);
 }
 
-static room room_new(void) {
+/* flows: elements of the device */
+static room room_new(const char *flows) {
     room r;
+    char text[6000];
     snprintf(r.directory, sizeof r.directory, "/tmp/fw-engine-XXXXXX");
     assert_non_null(mkdtemp(r.directory));
     snprintf(r.device, sizeof r.device, "%s/device.xml", r.directory);
     snprintf(r.file, sizeof r.file, "%s/study.xml", r.directory);
+    snprintf(text, sizeof text, six_bar, flows);
+    write_to(r.device, text);
     return r;
 }
 
@@ -156,10 +160,7 @@ static void random_six_bars(void **state) {
     (void)state;
     const char *asked = getenv("FW_TEST_DESIGNS");
     const int n = asked ? atoi(asked) : test_fewest(test_cases(300, 60), 6);
-    room r = room_new();
-    char text[6000];
-    snprintf(text, sizeof text, six_bar, "");
-    write_to(r.device, text);
+    room r = room_new("");
     fw_study *study =
         open_study(&r, r.device, "drawn",
                    "<vary what=\"push\" from=\"0.1 mN\" to=\"0.9 mN\"/>"
@@ -179,10 +180,7 @@ static void random_six_bars(void **state) {
 /* with a flow, whose judgement is part of the decision; asked for more than hinges; as the flow makes it */
 static void flows_and_clearances(void **state) {
     (void)state;
-    room r = room_new();
-    char text[6000];
-    snprintf(text, sizeof text, six_bar, "<flow ref=\"al-masked-rie\"/>");
-    write_to(r.device, text);
+    room r = room_new("<flow ref=\"al-masked-rie\"/>");
     const char *rows = "<vary what=\"push\" from=\"0.1 mN\" to=\"0.6 mN\"/>"
                        "<vary what=\"link\" from=\"60 um\" to=\"240 um\"/>";
     for (int i = 0; i < 3; i++) {
@@ -198,10 +196,7 @@ static void flows_and_clearances(void **state) {
    not the worse for it */
 static void strange_ones(void **state) {
     (void)state;
-    room r = room_new();
-    char text[6000];
-    snprintf(text, sizeof text, six_bar, "");
-    write_to(r.device, text);
+    room r = room_new("");
     fw_study *study =
         open_study(&r, r.device, "drawn",
                    "<vary what=\"thin\" values=\"0 um; 1 um; 12 um\"/>"
@@ -225,7 +220,7 @@ static void of_the_gallery(void **state) {
         {"straight-stage", "<vary what=\"pull\" from=\"60 uN\" to=\"160 uN\"/>"},
         {"four-tendons", "<vary what=\"draw\" from=\"4 um\" to=\"30 um\"/>"},
     };
-    room r = room_new();
+    room r = room_new("");
     for (size_t i = 0; i < (size_t)test_fewest(test_cases(5, 2), 1); i++) {
         char device[300];
         snprintf(device, sizeof device, GALLERY "%s/device.xml", of[i].device);
@@ -233,16 +228,13 @@ static void of_the_gallery(void **state) {
         compare(study, 2);
         fw_study_free(study);
     }
-    unlink(r.file), rmdir(r.directory);
+    room_free(&r);
 }
 
 /* files that are changed while the study runs are noticed */
 static void changed_files(void **state) {
     (void)state;
-    room r = room_new();
-    char text[6000];
-    snprintf(text, sizeof text, six_bar, "");
-    write_to(r.device, text);
+    room r = room_new("");
     fw_study *study = open_study(&r, r.device, "drawn",
                                  "<vary what=\"push\" from=\"0.1 mN\" to=\"0.2 mN\"/>", hinges);
     fw_study_sample sample;
@@ -251,8 +243,7 @@ static void changed_files(void **state) {
     strcpy(sample.text[0], "0.15 mN");
     assert_int_equal(fw_study_evaluate(study, NULL, &sample, &changed), FW_OK);
     assert_true(sample.run);
-    strcat(text, "\n");
-    write_to(r.device, text);
+    write_to(r.device, "<device/>\n");
     usleep(1100000);
     assert_int_equal(fw_study_evaluate(study, NULL, &sample, &changed), FW_INPUT);
     assert_true(changed);
