@@ -139,8 +139,9 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
                 if (diags)
                     root = json_loadb(text, n, 0, NULL);
                 else
-                    FW_TRY(
-                        members_of(study, d, fw_plan_design_plan(design)->arena, text, n, &root));
+                    status = (int)members_of(study, d, fw_plan_design_plan(design)->arena, text, n,
+                                             &root);
+                if (status != FW_STATUS_OK) return status;
                 if (!root) return FW_STATUS_NOMEM;
             }
             if (!fw_study_response_find(r, root, &value[k], why, sizeof why) && diags)
