@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/arena.h"
+#include "base/arena_copy.h"
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
@@ -22,6 +22,8 @@ struct fw_arena {
     chunk *last;
     size_t cap, total, peak; /* bytes handed out, and the most ever */
     size_t held;             /* bytes asked of malloc */
+    chunk *spare; /* of one that is put back to a copy: given back, and asked for again soon */
+    bool keeps;
     const fw_cancel *cancel;
     const fw_progress *progress; /* NULL: nobody is told */
 };
@@ -91,13 +93,18 @@ bool fw_arena_cancelled(const fw_arena *arena) {
     return fw_cancel_requested(arena->cancel) != 0;
 }
 
-void fw_arena_free(fw_arena *arena) {
-    if (!arena) return;
-    for (chunk *c = arena->last; c;) {
+static void free_chunks(chunk *c) {
+    while (c) {
         chunk *before = c->before;
         free(c);
         c = before;
     }
+}
+
+void fw_arena_free(fw_arena *arena) {
+    if (!arena) return;
+    free_chunks(arena->last);
+    free_chunks(arena->spare);
     free(arena);
 }
 
@@ -114,7 +121,23 @@ static void in_huge_pages(unsigned char *data, size_t bytes) {
 #endif
 }
 
+/* its pages are there: fresh ones would cost more than most of what is done with them */
+static chunk *take_spare(fw_arena *arena, size_t bytes) {
+    for (chunk **at = &arena->spare; *at; at = &(*at)->before)
+        if ((*at)->size >= bytes) {
+            chunk *c = *at;
+            *at = c->before;
+            c->before = arena->last;
+            c->used = 0;
+            arena->last = c;
+            return c;
+        }
+    return NULL;
+}
+
 static chunk *add_chunk(fw_arena *arena, size_t bytes) {
+    chunk *kept = take_spare(arena, bytes);
+    if (kept) return kept;
     size_t size = arena->last ? 2 * arena->last->size : FIRST_CHUNK;
     if (size > LARGEST_CHUNK) size = LARGEST_CHUNK;
     if (size < bytes) size = bytes;
@@ -194,6 +217,11 @@ void fw_arena_rewind(fw_arena *arena, fw_mark mark) {
     while (arena->last && (void *)arena->last != mark.chunk) {
         chunk *c = arena->last;
         arena->last = c->before;
+        if (arena->keeps) {
+            c->before = arena->spare;
+            arena->spare = c;
+            continue;
+        }
         arena->held -= c->size + sizeof(chunk) + ALIGNMENT;
         free(c);
     }
@@ -203,6 +231,30 @@ void fw_arena_rewind(fw_arena *arena, fw_mark mark) {
 
 size_t fw_arena_peak(const fw_arena *arena) {
     return arena->peak;
+}
+
+bool fw_arena_copy_take(fw_arena *arena, fw_arena_copy *copy) {
+    size_t n = 1, at = 0;
+    for (const chunk *c = arena->last; c; c = c->before)
+        n += c->used;
+    *copy = (fw_arena_copy){fw_arena_mark(arena), injected_fault() ? NULL : malloc(n)};
+    if (!copy->bytes) return false;
+    arena->keeps = true;
+    for (const chunk *c = arena->last; c; at += c->used, c = c->before)
+        memcpy(copy->bytes + at, c->data, c->used);
+    return true;
+}
+
+void fw_arena_copy_put_back(fw_arena *arena, const fw_arena_copy *copy) {
+    size_t at = 0;
+    fw_arena_rewind(arena, copy->mark);
+    for (chunk *c = arena->last; c; at += c->used, c = c->before)
+        memcpy(c->data, copy->bytes + at, c->used);
+}
+
+void fw_arena_copy_free(fw_arena_copy *copy) {
+    free(copy->bytes);
+    copy->bytes = NULL;
 }
 
 /* lock-free, hence fit for signal handlers, and for other threads too. No other memory hangs on the

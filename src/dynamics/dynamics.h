@@ -192,6 +192,9 @@ void fw_dynamics_motion_rows(const fw_dynamics_motion *motion, int first, int co
 bool fw_dynamics_motion_waits(const fw_dynamics_motion *motion, int row); /* q is none yet */
 /* the same of the rows next to a time */
 void fw_dynamics_motion_rows_at(const fw_dynamics_motion *motion, double t_s);
+/* q (3 nbody: m, rad) of a row; of one that waits as it was integrated, which is within the tolerance of
+   what it will be */
+void fw_dynamics_motion_pose(const fw_dynamics_motion *motion, int row, double *q);
 /* rad: the part of each peak's error_rad that effects which auto left out account for */
 double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion);
 /* estimated relative error of the largest deflection, what was left out included; 0: nothing

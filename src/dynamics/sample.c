@@ -146,6 +146,16 @@ bool fw_dynamics_motion_waits(const fw_dynamics_motion *motion, int row) {
     return motion->late && motion->late->waits[row];
 }
 
+void fw_dynamics_motion_pose(const fw_dynamics_motion *motion, int row, double *q) {
+    const size_t n = 3 * (size_t)motion->nbody;
+    const double *kept = motion->q + (size_t)row * n;
+    memcpy(q, kept, n * sizeof *q);
+    if (!fw_dynamics_motion_waits(motion, row)) return;
+    const fw_dynamics_problem *problem = &motion->late->problem;
+    for (size_t i = 0; i < n; i++)
+        q[i] = problem->q0[i] + (i % 3 == 2 ? 1 : problem->model->scale.length_m) * kept[i];
+}
+
 void fw_dynamics_motion_rows_at(const fw_dynamics_motion *motion, double t_s) {
     if (!motion->late || motion->nsample < 1) return;
     double each =

@@ -217,7 +217,11 @@ static void column(const fw_flexure_path_strain *s, const fw_flexure_strip_load 
                    const arms *f, double *M) {
     double mean = 0.5 * (load->root_Nm[0] + load->root_Nm[1]);
     double half = 0.5 * (load->root_Nm[1] - load->root_Nm[0]);
-    for (int i = 0; i < s->n; i++) {
+    for (int i = 0; load->pull == 0 && i < s->n; i++) { /* a pin's: C = 1, S = 2 xi - 1 */
+        const fw_flexure_path_point *p = &s->point[i];
+        M[i] = mean + half * (2 * p->part - 1) + about(f, p->x_m, p->y_m, p->part);
+    }
+    for (int i = 0; load->pull != 0 && i < s->n; i++) {
         const fw_flexure_path_point *p = &s->point[i];
         const course c = course_of(load->pull, p->part);
         M[i] = mean * c.even + half * c.odd + c.bulge * about(f, p->x_m, p->y_m, p->part);
@@ -267,6 +271,11 @@ static void bend_once(const fw_flexure_path_strain *s, const fw_flexure_strip_lo
 
 /* ---- the strain ---- */
 
+/* as fmax, which is a call; a stays where b is none */
+static inline double larger(double a, double b) {
+    return b > a ? b : a;
+}
+
 /* largest |M| between the outer two of three places evenly apart: of the parabola through them */
 static double crest(double a, double b, double c) {
     double bend = a - 2 * b + c, rise = c - a;
@@ -283,7 +292,12 @@ static void root_faces(const fw_flexure_path_point *p, double M, double N, doubl
 static double strain_at(const fw_flexure_path_point *p, double M, double N) {
     double face[2];
     root_faces(p, M, N, face);
-    return fmax(fabs(face[0]), fabs(face[1]));
+    return larger(fabs(face[0]), fabs(face[1]));
+}
+
+/* between the roots, where both faces have as much */
+static inline double strain_between(const fw_flexure_path_point *p, double M, double N) {
+    return fabs(p->strain_per_Nm * M) + fabs(p->strain_per_N * N);
 }
 
 /* section moment where a fillet ends */
@@ -342,54 +356,69 @@ static double least_at_root(const fw_flexure_path_strain *s, int end, const doub
     return least;
 }
 
+/* between: the largest strain between the roots */
 static void ends_of(const fw_flexure_path_strain *s, const double *M, const double *N,
-                    fw_flexure_strip_strains *out) {
+                    double between, fw_flexure_strip_strains *out) {
     for (int end = 0; end < 2; end++)
         narrowed(s, end, M, N, out);
     double least = fmax(least_at_root(s, 0, M, N), least_at_root(s, 1, M, N));
-    for (int i = 1; i < s->n - 1; i++) {
-        const fw_flexure_path_point *p = &s->point[i];
-        least = fmax(least, (1 - s->stretched) *
-                                (p->strain_per_Nm * fabs(M[i]) + p->strain_per_N * fabs(N[i])));
-    }
-    out->least = fmin(least, out->peak);
+    out->least = fmin(larger(least, (1 - s->stretched) * between), out->peak);
+}
+
+/* peak, and what is needed of the roots, of section forces at all places */
+static void strains_of(const fw_flexure_path_strain *s, const double *M, const double *N,
+                       fw_flexure_strip_strains *out) {
+    const int last = s->n - 1;
+    double between = 0;
+    for (int i = 1; i < last; i++)
+        between = larger(between, strain_between(&s->point[i], M[i], N[i]));
+    root_faces(&s->point[0], M[0], N[0], out->root[0]);
+    root_faces(&s->point[last], M[last], N[last], out->root[1]);
+    double most = larger(between, strain_at(&s->point[0], M[0], N[0]));
+    most = larger(most, strain_at(&s->point[last], M[last], N[last]));
+    for (int i = 1; i < last;
+         i++) /* a crest is above its middle by a quarter of the rise at most */
+        if (s->point[i].strain_per_Nm * (fabs(M[i]) + 0.26 * fabs(M[i + 1] - M[i - 1])) > most)
+            most = larger(most, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
+    out->peak = most;
+    ends_of(s, M, N, between, out);
+}
+
+/* along a section that turns by t within the strip */
+static inline double axial(const fw_flexure_path_point *p, const double force[2], double less,
+                           double sine) {
+    double along = force[0] * p->cosine + force[1] * p->sine;
+    return along + less * along + sine * (force[1] * p->cosine - force[0] * p->sine);
 }
 
 void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
                              fw_flexure_strip_strains *out) {
     const fw_flexure_path_point *first = &s->point[0], *last = &s->point[s->n - 1];
     double X = load->force_N[0], Y = load->force_N[1], M[FW_STRIP_PLACES], turn[FW_STRIP_PLACES];
-    double along_N[FW_STRIP_PLACES];
+    double N[FW_STRIP_PLACES], c, n;
     const arms f = {X, Y, first->y_m * X - first->x_m * Y, last->y_m * X - last->x_m * Y};
-    for (int i = 0; i < s->n; i++)
-        turn[i] = 0;
+    const bool bends = (X != 0 || Y != 0) && !load->drawn;
     if (X != 0 || Y != 0) {
         if (load->pull < fw_pressed)
             pressed(s, load, &f, M);
         else
             column(s, load, &f, M);
-        if (!load->drawn) bend_once(s, load, &f, M, turn);
     } else
         for (int i = 0; i < s->n; i++)
             M[i] = load->root_Nm[0];
-    /* the sections at the roots turn with the bodies */
-    turn[0] = -0.5 * load->rotation_rad, turn[s->n - 1] = 0.5 * load->rotation_rad;
-    out->peak = 0;
-    for (int i = 0; i < s->n; i++) {
-        const fw_flexure_path_point *p = &s->point[i];
-        double c, n;
+    turn[0] = 0;
+    if (bends) bend_once(s, load, &f, M, turn);
+    for (int i = 1; !bends && i < s->n - 1; i++)
+        N[i] = X * s->point[i].cosine + Y * s->point[i].sine;
+    for (int i = 1; bends && i < s->n - 1; i++) {
         small_turn(turn[i], &c, &n);
-        if (i == 0 || i == s->n - 1) c = cos(turn[i]) - 1, n = sin(turn[i]);
-        double along = X * p->cosine + Y * p->sine, across = Y * p->cosine - X * p->sine;
-        double N = along_N[i] = along + c * along + n * across;
-        if (i == 0) root_faces(p, M[i], N, out->root[0]);
-        if (i == s->n - 1) root_faces(p, M[i], N, out->root[1]);
-        out->peak = fmax(out->peak, strain_at(p, M[i], N));
-        if (i > 1)
-            out->peak =
-                fmax(out->peak, s->point[i - 1].strain_per_Nm * crest(M[i - 2], M[i - 1], M[i]));
+        N[i] = axial(&s->point[i], load->force_N, c, n);
     }
-    ends_of(s, M, along_N, out);
+    /* the sections at the roots turn with the bodies */
+    c = cos(0.5 * load->rotation_rad) - 1, n = sin(0.5 * load->rotation_rad);
+    N[0] = axial(first, load->force_N, c, -n);
+    N[s->n - 1] = axial(last, load->force_N, c, n);
+    strains_of(s, M, N, out);
 }
 
 void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_elastica *beam,
@@ -398,15 +427,5 @@ void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_e
     for (int i = 0; i < s->n; i++)
         part[i] = s->point[i].part, M[i] = N[i] = 0;
     fw_flexure_elastica_along(beam, s->n, part, M, N);
-    root_faces(&s->point[0], M[0], N[0], out->root[0]);
-    root_faces(&s->point[s->n - 1], M[s->n - 1], N[s->n - 1], out->root[1]);
-    out->peak = 0;
-    for (int i = 0; i < s->n; i++) {
-        const fw_flexure_path_point *p = &s->point[i];
-        out->peak = fmax(out->peak, strain_at(p, M[i], N[i]));
-        if (i > 1)
-            out->peak =
-                fmax(out->peak, s->point[i - 1].strain_per_Nm * crest(M[i - 2], M[i - 1], M[i]));
-    }
-    ends_of(s, M, N, out);
+    strains_of(s, M, N, out);
 }

@@ -544,3 +544,34 @@ int fw_design_progress(fw_design *design, fw_progress_told *told, void *context)
 void fw_plan_design_cancel_with(fw_design *design, const fw_cancel *above) {
     design->cancel.above = above;
 }
+
+/* ---- one design after the other ---- */
+
+fw_status fw_plan_keep(fw_design *design, fw_plan_kept *kept) {
+    *kept = (fw_plan_kept){.design = design};
+    if (design->done != FW_DONE_READ) return FW_USAGE;
+    return fw_arena_copy_take(design->plan->arena, &kept->copy) ? FW_OK : FW_NOMEM;
+}
+
+typedef struct again {
+    const fw_device_set *set;
+    int nset;
+    bool *same;
+} again;
+
+static fw_status again_work(fw_design *d, void *argument) {
+    const again *a = argument;
+    return fw_plan_load_again(d->plan, a->set, a->nset, a->same);
+}
+
+fw_status fw_plan_kept_again(fw_plan_kept *kept, const fw_device_set *set, int nset, bool *same) {
+    again a = {set, nset, same};
+    *same = false;
+    fw_plan_free_steps(kept->design->plan); /* they have arenas of their own */
+    fw_arena_copy_put_back(kept->design->plan->arena, &kept->copy);
+    return (fw_status)fw_plan_design_run(kept->design, again_work, &a);
+}
+
+void fw_plan_kept_free(fw_plan_kept *kept) {
+    fw_arena_copy_free(&kept->copy);
+}

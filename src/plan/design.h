@@ -2,6 +2,7 @@
 /* Behind the public header: for commands that show more than the library does. */
 #ifndef FW_PLAN_DESIGN_H
 #define FW_PLAN_DESIGN_H
+#include "base/arena_copy.h"
 #include "plan/plan.h"
 #include <flexwright.h>
 #include <locale.h>
@@ -15,6 +16,18 @@
 fw_plan *fw_plan_design_plan(fw_design *design); /* NULL for NULL */
 /* a request to stop the whole program stops this design too; before any work */
 void fw_plan_design_cancel_with(fw_design *design, const fw_cancel *above);
+/* A design that was read and nothing else, to be another one over and over: with other settings in place of its own,
+   and what was read of packs as it was. The design stays its caller's and must outlive this.
+   Cost: reading the description, and copying what the design held. Test: tests/unit/study/test_engine.c */
+typedef struct fw_plan_kept {
+    fw_design *design;
+    fw_arena_copy copy;
+} fw_plan_kept;
+fw_status fw_plan_keep(fw_design *design, fw_plan_kept *kept);
+/* The design is then as one that was read with these settings, which must live as long as it is in use.
+   *same false: it names other packs or materials, or has mistakes, and is of no use until the next time */
+fw_status fw_plan_kept_again(fw_plan_kept *kept, const fw_device_set *set, int nset, bool *same);
+void fw_plan_kept_free(fw_plan_kept *kept);
 /* flexwright.table/1 */
 fw_status fw_plan_table_json(fw_text *out);
 /* flexwright.preview/1 of what has been done with the design so far; *provisional as there */

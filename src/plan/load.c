@@ -240,10 +240,15 @@ fw_plan *fw_plan_new(const fw_plan_options *options) {
     return plan;
 }
 
+void fw_plan_free_steps(fw_plan *plan) {
+    for (int i = 0; i < plan->nstep; i++)
+        if (plan->step[i]) fw_arena_free(plan->step[i]->arena); /* steps have none of their own */
+    plan->nstep = 0;
+}
+
 void fw_plan_free(fw_plan *plan) {
     if (!plan) return;
-    for (int i = 0; i < plan->nstep; i++)
-        fw_plan_free(plan->step[i]); /* steps have none of their own */
+    fw_plan_free_steps(plan);
     fw_arena_free(plan->arena);
 }
 
@@ -485,29 +490,15 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
     return fw_process_flow_fabricated(arena, pf->flow, NULL, &pf->variant, &v->input, &v->ninput);
 }
 
-/* a plan of its own for messages and memory, over the packs of this one */
-fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
-                           const fw_device **device, fw_verdict_variant_verdict *variant) {
-    size_t n = (size_t)plan->options.nset, more = (size_t)nset;
-    fw_device_set *sets = fw_arena_array(arena, fw_device_set, n + more);
-    fw_plan_flow *flow = fw_arena_array(arena, fw_plan_flow, (size_t)plan->nflow);
-    FW_NEED(sets && flow ? sets : NULL);
-    if (n > 0) memcpy(sets, plan->options.set, n * sizeof *sets);
-    if (nset > 0) memcpy(sets + n, set, more * sizeof *sets); /* of two for one the last holds */
-    fw_plan other = *plan;
-    other.arena = arena;
-    other.diags = fw_diags_new(arena);
-    other.flow = flow;
-    FW_TRY(
-        fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
-    other.device = *device;
+fw_status fw_plan_take_device(fw_plan *plan, const fw_device *device) {
+    const fw_device *before = plan->device;
     fw_device_material own;
-    FW_TRY(own_material(&other, &own));
+    plan->device = device;
+    FW_TRY(own_material(plan, &own));
     for (int i = 0; i < plan->nflow; i++) {
-        flow[i] = plan->flow[i];
-        if (flow[i].use) flow[i].use = &(*device)->flow[flow[i].use - plan->device->flow];
-        FW_TRY(make_variant(&other, &flow[i], &own));
-        FW_TRY(fw_plan_fabricated_of(arena, &flow[i], &variant[i]));
+        fw_plan_flow *pf = &plan->flow[i];
+        if (pf->use) pf->use = &device->flow[pf->use - before->flow];
+        FW_TRY(make_variant(plan, pf, &own));
     }
     return FW_OK;
 }

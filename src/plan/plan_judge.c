@@ -35,7 +35,8 @@ static fw_status find_tethers(fw_plan *plan, const fw_verdict_variant_verdict *v
                               const fw_statics_tethers **out) {
     if (!v->mechanism) return FW_OK;
     FW_TRY(fw_statics_tethers_find(plan->arena, v->mechanism, out));
-    for (int k = 0; *out && v->motion && k < plan->device->nscene; k++) {
+    const bool watched = *out && v->motion && !plan->options.verdict.bounded;
+    for (int k = 0; watched && k < plan->device->nscene; k++) {
         const fw_dynamics_motion *x = v->motion[k];
         if (!x || !x->q) continue;
         fw_dynamics_motion_rows(x, 0, x->nsample);

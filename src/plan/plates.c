@@ -173,6 +173,7 @@ static void of_body(const fw_mechanism *m, const fw_dynamics_motion *motion, fw_
                     int body, int scene, farthest *far) {
     const fw_geometry_vec2 corner[] = {
         {box.x0, box.y0}, {box.x1, box.y0}, {box.x1, box.y1}, {box.x0, box.y1}};
+    fw_dynamics_motion_rows(motion, 0, motion->nsample);
     for (int i = 0; i < motion->nsample; i++)
         for (int k = 0; k < 4; k++) {
             const double *q = motion->q + 3 * ((size_t)i * (size_t)motion->nbody + (size_t)body);

@@ -12,6 +12,13 @@ fw_status fw_plan_need_material(fw_plan *plan);
    what was read of packs is shared. FW_INPUT: they are not allowed, and nothing says why */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
                            const fw_device **device, fw_verdict_variant_verdict *variant);
+/* A loaded plan with other settings in place of its own, which must live as long as it: the description is
+   read again, what was read of packs stays. *same false: it names other packs or materials, or has mistakes;
+   the plan is of no further use then. */
+fw_status fw_plan_load_again(fw_plan *plan, const fw_device_set *set, int nset, bool *same);
+void fw_plan_free_steps(fw_plan *plan); /* of a wafer's sweeps */
+/* a description that names the same packs in place of the one before, and its variants of them */
+fw_status fw_plan_take_device(fw_plan *plan, const fw_device *device);
 /* the description's text read once more with other settings, and the drawings that it names */
 fw_status fw_plan_device_again(fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
                                fw_diags *diags, const fw_device **device);

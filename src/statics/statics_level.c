@@ -214,17 +214,20 @@ static int row_of_peak(const fw_mechanism *m, const fw_dynamics_motion *x) {
 }
 
 /* Largest deflection of a hinge and way of a body in the whole motion: the instant that is looked at
-   may be one where everything is near its rest. Rows that wait lie between those of the peaks. */
-static void sizes(const fw_mechanism *m, const fw_dynamics_motion *x, const double *rest,
-                  double size[2]) {
+   may be one where everything is near its rest. Rows that wait are taken as they were integrated. */
+static fw_status sizes(fw_arena *arena, const fw_mechanism *m, const fw_dynamics_motion *x,
+                       const double *rest, double size[2]) {
+    double *q = fw_arena_array(arena, double, 3 * (size_t)m->nbody);
+    FW_NEED(q);
     size[0] = size[1] = 0;
     for (int k = 0; k < m->nhinge; k++)
         size[0] = fmax(size[0], fabs(x->peak[m->hinge[k].pin].angle_rad));
-    for (int i = 0; i < x->nsample; i++)
-        for (int b = 0; b < m->nbody && !fw_dynamics_motion_waits(x, i); b++) {
-            const double *q = x->q + 3 * ((size_t)i * (size_t)m->nbody + (size_t)b);
-            size[1] = fmax(size[1], hypot(q[0] - rest[3 * b], q[1] - rest[3 * b + 1]));
-        }
+    for (int i = 0; i < x->nsample; i++) {
+        fw_dynamics_motion_pose(x, i, q);
+        for (int b = 0; b < m->nbody; b++)
+            size[1] = fmax(size[1], hypot(q[3 * b] - rest[3 * b], q[3 * b + 1] - rest[3 * b + 1]));
+    }
+    return FW_OK;
 }
 
 static fw_status in_time(fw_statics_equilibrium *w, fw_arena *arena, const fw_mechanism *m,
@@ -281,7 +284,7 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     if (!x->loads->quasi_static) hand_inertia(&low, &high);
     at_time(&high, step->t_s);
     double least[2];
-    sizes(m, x, low.q0, least);
+    FW_TRY(sizes(arena, m, x, low.q0, least));
     return climb(&low, &high, least, step);
 }
 

@@ -368,6 +368,7 @@ static fw_status judge_device(fw_study *study) {
 static fw_status open_all(fw_study *study) {
     char *xml;
     size_t n;
+    FW_TRY(fw_study_engines_open(study));
     FW_TRY(fw_input_read(study->arena, study->options.file, FILE_MOST, &study->diags, &xml, &n));
     study->source = xml, study->source_length = n;
     study->device_path = study->options.file;
@@ -417,6 +418,7 @@ fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
 void fw_study_free(fw_study *study) {
     if (!study) return;
     fw_study_store_close(study->store);
+    fw_study_engines_close(study);
     fw_design_free(study->design);
     fw_design_free(study->former);
     fw_arena_free(study->arena);

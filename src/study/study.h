@@ -94,6 +94,7 @@ typedef struct fw_study {
     double seconds_each;          /* what the description as it stands took, all its stages; CPU */
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
+    struct fw_study_engines *engines; /* what samples have in common */
 } fw_study;
 
 /* Reads, runs the description as it stands, resolves inputs and responses. What is wrong is in

@@ -84,6 +84,45 @@ static void first_error(fw_design *design, int status, char why[FW_STUDY_WHY]) {
     snprintf(why, FW_STUDY_WHY, "%s", text);
 }
 
+static bool begins_with(const fw_study *study, int document, const char *key, size_t n) {
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *r = &study->response[k];
+        if (r->document == document && strcspn(r->path, ".[") == n && memcmp(r->path, key, n) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Of a document only the members that responses begin with, cut out: reading the others costs as much as composing
+   them all. Bytes between quotes are skipped with what stands behind a backslash. */
+static fw_status members_of(const fw_study *study, int document, fw_arena *arena, const char *text,
+                            size_t n, json_t **root) {
+    fw_text cut = fw_text_new(arena);
+    int depth = 0;
+    const char *member = NULL; /* at its key's quote; NULL: none is begun */
+    size_t key = 0;            /* its length */
+    for (size_t i = 0; i < n; i++) {
+        const char c = text[i];
+        if (c == '"') {
+            const char *from = text + i;
+            for (i++; i < n && text[i] != '"'; i++)
+                i += text[i] == '\\';
+            if (depth == 1 && !member) member = from, key = (size_t)(text + i - from) - 1;
+        } else if (depth == 1 && (c == ',' || c == '}')) {
+            if (member && begins_with(study, document, member + 1, key))
+                fw_text_printf(&cut, "%c%.*s", cut.length > 0 ? ',' : '{', (int)(text + i - member),
+                               member);
+            member = NULL;
+            depth -= c == '}';
+        } else
+            depth += (c == '{' || c == '[') - (c == '}' || c == ']');
+    }
+    fw_text_add(&cut, cut.length > 0 ? "}" : "{}");
+    FW_TRY(fw_text_end(&cut));
+    FW_NEED(*root = json_loadb(cut.data, cut.length, 0, NULL));
+    return FW_OK;
+}
+
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags) {
     char why[FW_STUDY_WHY];
@@ -97,7 +136,12 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
             if (!root) {
                 int status = fw_design_document(design, fw_study_documents[d].document, &text, &n);
                 if (status != FW_STATUS_OK) return status;
-                root = json_loadb(text, n, 0, NULL);
+                if (diags)
+                    root = json_loadb(text, n, 0, NULL);
+                else
+                    status = (int)members_of(study, d, fw_plan_design_plan(design)->arena, text, n,
+                                             &root);
+                if (status != FW_STATUS_OK) return status;
                 if (!root) return FW_STATUS_NOMEM;
             }
             if (!fw_study_response_find(r, root, &value[k], why, sizeof why) && diags)
@@ -143,25 +187,23 @@ static double used_of(const fw_verdict *verdict, int decision) {
     return decision == 0 ? fmin(most, 1) : fmax(most, beyond);
 }
 
-static bool same_files(const fw_study *study, fw_design *design) {
+bool fw_study_same_files(const fw_study *study, fw_design *design) {
     fw_plan *plan = fw_plan_design_plan(design);
     const char *was, *is;
     return fw_study_files_hash(plan->arena, study->plan, &was) == FW_OK &&
            fw_study_files_hash(plan->arena, plan, &is) == FW_OK && strcmp(was, is) == 0;
 }
 
-fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
-                            bool *changed) {
-    int status;
+static void blank(const fw_study *study, fw_study_sample *sample) {
     sample->run = false, sample->decision = -1, sample->why[0] = '\0';
     sample->used = (double)NAN;
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
-    fw_design *design =
-        fw_study_design(study, cancel, (const char(*)[FW_STUDY_TEXT])sample->text, &status);
-    FW_NEED(design);
-    if (status == FW_STATUS_OK && !same_files(study, design)) *changed = true;
-    if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
+}
+
+int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample) {
+    blank(study, sample);
+    int status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK)
         status = fw_study_responses_take(study, design, sample->response, NULL);
     sample->run = status == FW_STATUS_OK;
@@ -171,6 +213,22 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
             sample->used = used_of(&fw_plan_design_plan(design)->verdict, sample->decision);
     } else
         first_error(design, status, sample->why);
+    return status;
+}
+
+fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel,
+                                  fw_study_sample *sample, bool *changed) {
+    int status;
+    blank(study, sample);
+    fw_design *design =
+        fw_study_design(study, cancel, (const char(*)[FW_STUDY_TEXT])sample->text, &status);
+    FW_NEED(design);
+    if (status == FW_STATUS_OK && !fw_study_same_files(study, design)) *changed = true;
+    if (status == FW_STATUS_OK)
+        status = fw_study_answers_take(study, design, sample);
+    else
+        first_error(design, status, sample->why);
     fw_design_free(design);
-    return *changed ? FW_INPUT : fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
+    if (*changed) return FW_INPUT;
+    return fw_plan_is_final((fw_status)status) ? (fw_status)status : FW_OK;
 }

@@ -2,6 +2,7 @@
 /* Shared by the files of a study. Private to the room and its tests. */
 #ifndef FW_STUDY_STUDY_PARTS_H
 #define FW_STUDY_STUDY_PARTS_H
+#include "plan/design.h"
 #include "study/study.h"
 #include "study/study_store.h"
 #include <jansson.h>
@@ -56,11 +57,11 @@ double fw_study_input_share(const fw_study_input *input, double value);
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
 /* everything but the room that it lies in */
 void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to);
-/* Runs the device of sample->text: decision and responses. What cannot be read, drawn or run is in
-   sample->why and no error. FW_NOMEM, FW_CANCELLED, FW_IO, FW_INPUT (FW-D500, in *diags). Called by
-   several threads at once. */
-fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
-                            bool *changed);
+/* Runs the device of sample->text, with everything read anew and nothing left out, as a command does it: decision and
+   responses. What cannot be read, drawn or run is in sample->why and no error. FW_NOMEM, FW_CANCELLED, FW_IO, FW_INPUT
+   (FW-D500, in *changed). Called by several threads at once. */
+fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel,
+                                  fw_study_sample *sample, bool *changed);
 /* a design with the study's options, sets and these settings, read; *status tells. NULL: no memory */
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
                            const char (*text)[FW_STUDY_TEXT], int *status);
@@ -68,10 +69,24 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
    and said in diags (NULL: nobody is told). The library's status */
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags);
+/* what a design that was read says: decision and responses, or why not; the library's status */
+int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample);
 /* what responses need of a design that was read; the library's status */
 int fw_study_stages_run(fw_design *design, unsigned stages);
 /* one hash of all files that a plan has read */
 fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char **hash);
+
+/* is what a design was read from what the study was? */
+bool fw_study_same_files(const fw_study *study, fw_design *design);
+
+/* ---- study_engine.c: what samples have in common ---- */
+
+typedef struct fw_study_engines fw_study_engines;
+fw_status fw_study_engines_open(fw_study *study);
+void fw_study_engines_close(fw_study *study);
+/* as fw_study_evaluate_alone, to the last bit, sharing what samples have in common */
+fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
+                            bool *changed);
 
 /* ---- study_pool.c: many devices in threads ---- */
 

@@ -100,15 +100,26 @@ static int row(const grid *g, double y) {
     return i < 0 ? 0 : i >= g->ny ? g->ny - 1 : i;
 }
 
-/* cells of one row within one piece: between crossings, two by two */
-static void fill_row(grid *g, int j, int first, int last, double *x) {
-    double y = g->box.y0 + (j + 0.5) * g->cell;
-    int n = 0;
+/* Where the lines of one piece cross the middles of rows: into x, from `at` of each row on, which moves along; x NULL:
+   they are counted there. */
+static void cross_rows(const grid *g, int first, int last, int *at, double *x) {
     for (int i = first; i < last; i++) {
         fw_geometry_vec2 a = g->line[i].a, b = g->line[i].b;
-        if ((a.y <= y) == (b.y <= y)) continue;
-        double at = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-        int k = n++;
+        int from = row(g, fw_lesser(a.y, b.y) - g->cell), to = row(g, fw_greater(a.y, b.y));
+        for (int j = from; j <= to; j++) {
+            double y = g->box.y0 + (j + 0.5) * g->cell;
+            if ((a.y <= y) == (b.y <= y)) continue;
+            if (x) x[at[j]] = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+            at[j]++;
+        }
+    }
+}
+
+/* cells of one row within one piece: between crossings, two by two */
+static void fill_row(grid *g, int j, double *x, int n) {
+    for (int i = 1; i < n; i++) {
+        const double at = x[i];
+        int k = i;
         for (; k > 0 && x[k - 1] > at; k--)
             x[k] = x[k - 1];
         x[k] = at;
@@ -120,14 +131,26 @@ static void fill_row(grid *g, int j, int first, int last, double *x) {
         }
 }
 
-static fw_status fill(grid *g) {
-    double *x = fw_arena_array(g->arena, double, (size_t)g->nline);
+static fw_status fill_piece(grid *g, int first, int last) {
+    const size_t ny = (size_t)g->ny;
+    int *at = fw_arena_array(g->arena, int, ny), *end = fw_arena_array(g->arena, int, ny), n = 0;
+    FW_NEED(at && end ? at : NULL);
+    cross_rows(g, first, last, at, NULL);
+    for (int j = 0; j < g->ny; j++)
+        end[j] = n, n += at[j], at[j] = end[j];
+    double *x = fw_arena_array(g->arena, double, (size_t)n);
     FW_NEED(x);
+    cross_rows(g, first, last, end, x);
+    for (int j = 0; j < g->ny; j++)
+        fill_row(g, j, x + at[j], end[j] - at[j]);
+    return FW_OK;
+}
+
+static fw_status fill(grid *g) {
     for (int first = 0, last; first < g->nline; first = last) {
         for (last = first; last < g->nline && g->line[last].piece == g->line[first].piece;)
             last++;
-        for (int j = 0; j < g->ny; j++)
-            fill_row(g, j, first, last, x);
+        FW_TRY(fill_piece(g, first, last));
     }
     return FW_OK;
 }
@@ -158,15 +181,31 @@ static void envelope(double *f, int n, int step, double *copy, int *on, double *
     }
 }
 
+static const double fw_far = 1e12; /* of a cell that no edge crosses */
+
+/* the same along a column of cells that are 0 or far: squares of the way to the nearest 0 */
+static void from_edges(double *f, int n, int step) {
+    int before = -1;
+    for (int q = 0; q < n; q++) {
+        if (f[q * step] != 0) continue;
+        for (int i = before + 1; i < q; i++) {
+            int off = before < 0 || q - i < i - before ? q - i : i - before;
+            f[i * step] = (double)off * off;
+        }
+        before = q;
+    }
+    for (int i = before + 1; before >= 0 && i < n; i++)
+        f[i * step] = (double)(i - before) * (i - before);
+}
+
 static fw_status measure(grid *g) {
-    const double far = 1e12;
     int n = g->nx > g->ny ? g->nx : g->ny;
     double *copy = fw_arena_array(g->arena, double, (size_t)n),
            *until = fw_arena_array(g->arena, double, (size_t)n + 1);
     int *on = fw_arena_array(g->arena, int, (size_t)n);
     FW_NEED(copy && until && on ? copy : NULL);
     for (int i = 0; i < g->nx * g->ny; i++)
-        g->away[i] = far;
+        g->away[i] = fw_far;
     for (int i = 0; i < g->nline; i++) {
         const line *l = &g->line[i];
         int steps = 1 + (int)(2 * vec_distance(l->a, l->b) / g->cell);
@@ -176,10 +215,11 @@ static fw_status measure(grid *g) {
         }
     }
     for (int i = 0; i < g->nx; i++)
-        envelope(g->away + i, g->ny, g->nx, copy, on, until);
+        from_edges(g->away + i, g->ny, g->nx);
     for (int j = 0; j < g->ny; j++)
         envelope(g->away + j * g->nx, g->nx, 1, copy, on, until);
     for (int i = 0; i < g->nx * g->ny; i++) {
+        if (!g->inside[i]) continue;
         double cells = sqrt(g->away[i]), w = fw_greater(cells, 0.5);
         g->away[i] = g->cell * cells;
         g->stiff[i] = 1 / (w * w * w);
@@ -284,7 +324,11 @@ typedef struct edges { /* those around a place */
     int *line;         /* (n) */
     double *off;       /* (nline) squared distances from it */
     int n;
+    int *wide; /* (nwide) those that may be around any place up to FARTHER cells from `centre` */
+    int nwide;
+    fw_geometry_vec2 centre;
 } edges;
+enum { FARTHER = 12 };
 
 /* in one of the pieces: a line to the right crosses it an odd number of times */
 static bool is_inside(const grid *g, fw_geometry_vec2 p) {
@@ -301,18 +345,32 @@ static bool is_inside(const grid *g, fw_geometry_vec2 p) {
     return in;
 }
 
+/* of `from` (n) those that are no farther from a place than the nearest and `more` */
+static int within(const grid *g, fw_geometry_vec2 at, const int *from, int n, double more,
+                  double *off, int *to) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < n; i++) {
+        off[i] = distance_squared(&g->line[from[i]], at);
+        least = fw_lesser(least, off[i]);
+    }
+    double most = sqrt(least) + more;
+    int found = 0;
+    for (int i = 0; i < n; i++)
+        if (off[i] <= most * most) to[found++] = from[i];
+    return found;
+}
+
 /* the edges that may be the nearest of any place within a cell and a half */
 static void look_around(const grid *g, fw_geometry_vec2 at, edges *around) {
-    double least = HUGE_VAL;
-    for (int i = 0; i < g->nline; i++) {
-        if (!g->line[i].edge) continue;
-        around->off[i] = distance_squared(&g->line[i], at);
-        least = fw_lesser(least, around->off[i]);
+    if (around->nwide == 0 || vec_distance(at, around->centre) > FARTHER * g->cell) {
+        around->nwide = 0;
+        for (int i = 0; i < g->nline; i++)
+            if (g->line[i].edge) around->wide[around->nwide++] = i;
+        around->centre = at;
+        around->nwide = within(g, at, around->wide, around->nwide, (2 * FARTHER + 4) * g->cell,
+                               around->off, around->wide);
     }
-    double most = sqrt(least) + 3 * g->cell;
-    around->n = 0;
-    for (int i = 0; i < g->nline; i++)
-        if (g->line[i].edge && around->off[i] <= most * most) around->line[around->n++] = i;
+    around->n = within(g, at, around->wide, around->nwide, 3 * g->cell, around->off, around->line);
 }
 
 static double distance(const grid *g, const edges *around, fw_geometry_vec2 at) {
@@ -383,9 +441,10 @@ static void add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
    root is in its closed form: the way begins where it is a cell inside */
 static fw_status follow(const grid *g, int begin, fw_geometry_vec2 pin, fw_verdict_arm *arm) {
-    edges around = {fw_arena_array(g->arena, int, (size_t)g->nline),
-                    fw_arena_array(g->arena, double, (size_t)g->nline), 0};
-    FW_NEED(around.line && around.off ? around.line : NULL);
+    edges around = {.line = fw_arena_array(g->arena, int, (size_t)g->nline),
+                    .off = fw_arena_array(g->arena, double, (size_t)g->nline),
+                    .wide = fw_arena_array(g->arena, int, (size_t)g->nline)};
+    FW_NEED(around.line && around.off && around.wide ? around.line : NULL);
     arm->known = true;
     arm->narrow_m = HUGE_VAL;
     fw_geometry_vec2 from = place(g, begin), here = from;

@@ -265,7 +265,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
-        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, diags, v));
+        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief || options->bounded,
+                                          diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
         if (v->motion[i] && seen[0]) {
             const fw_verdict_strain_monitor *saw = v->motion[i]->observed,
@@ -393,7 +394,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, is_brief(options, v) || v->corner, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
-    FW_TRY(fw_verdict_clearance_boxes(arena, device, layout, is_brief(options, v), v));
+    FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
+                                      is_brief(options, v) || options->bounded, v));
 
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *hinge = &m->hinge[k];

@@ -332,7 +332,10 @@ typedef struct fw_verdict_options {
     bool at_a_glance; /* no refinement of what is undecided: for trials and previews */
     bool decision_only; /* clearances are bounded until they decide, not found: for trials */
     bool values;        /* of the drawn device they are found all the same: for trials */
-    bool coarse_first;  /* a first look, and what was asked for only where it decides: for trials */
+    /* as drawn, only hinges and requirements are read: clearances are bounded where that is enough to accept them, and
+       tethers are not watched: for studies */
+    bool bounded;
+    bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
     fw_verdict_restated restated; /* with NULL: no advice */
     fw_verdict_fabricated_of fabricated_of;
 } fw_verdict_options;

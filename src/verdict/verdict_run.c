@@ -122,6 +122,33 @@ static fw_status first_attempt(fw_arena *arena, const fw_device *device, const f
     return attempt(arena, device, layout, options, &again, verdict);
 }
 
+/* what is not accepted says how near things come */
+static bool is_bounded_well(const fw_verdict *verdict) {
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        for (int k = 0; k < v->nclearance; k++)
+            if (v->clearance[k].decision != FW_ACCEPT) return false;
+    }
+    return true;
+}
+
+/* with options.bounded, which is taken back where bounds are not good enough to decide */
+static fw_status bounded_attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                 fw_verdict_options *options, fw_diags *diags,
+                                 fw_verdict *verdict) {
+    const fw_verdict empty = {.variant = verdict->variant, .nvariant = verdict->nvariant};
+    if (!options->bounded) return first_attempt(arena, device, layout, options, diags, verdict);
+    fw_diags first = fw_diags_new(arena);
+    fw_status status = first_attempt(arena, device, layout, options, &first, verdict);
+    if (status != FW_OK || is_bounded_well(verdict)) {
+        fw_diags_take(diags, &first);
+        return diags->failed ? FW_NOMEM : status;
+    }
+    options->bounded = false;
+    *verdict = empty;
+    return first_attempt(arena, device, layout, options, diags, verdict);
+}
+
 /* the drawing, whose messages are warnings where the mechanics can be judged without it; *judged:
    NULL where it cannot be made */
 static fw_status draw(fw_arena *arena, const fw_device *device, const fw_verdict_options *options,
@@ -202,10 +229,11 @@ static bool decided_by_drawing(const fw_device *device, const fw_layout *layout,
     return false;
 }
 
-fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
-                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
-                         const fw_layout **layout) {
+fw_status fw_verdict_run(fw_arena *arena, const fw_device *device, const fw_verdict_options *asked,
+                         fw_diags *diags, fw_verdict *verdict, const fw_layout **layout) {
     const fw_layout *judged;
+    fw_verdict_options own = *asked;
+    const fw_verdict_options *options = &own;
     FW_TRY(draw(arena, device, options, diags, layout, &judged));
     if (options->decision_only && decided_by_drawing(device, judged, verdict)) {
         verdict->decision = verdict->drawn = FW_REJECT;
@@ -214,7 +242,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     FW_TRY(take_inputs(arena, device, judged, &options->fabricated_of, verdict));
     int nvariant = verdict->nvariant;
     fw_verdict_variant_verdict *variant = verdict->variant;
-    FW_TRY(first_attempt(arena, device, judged, options, diags, verdict));
+    FW_TRY(bounded_attempt(arena, device, judged, &own, diags, verdict));
 
     /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
        less than better hinges, which then may not be needed */

@@ -72,7 +72,8 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
                              by * (c * load->fy_N - s * load->fx_N)};
     double apart = sense * (c * load->apart_m[0] + s * load->apart_m[1]);
     const double *known = isfinite(apart) ? &apart : NULL;
-    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&h->law);
+    fw_flexure_hinge_rest rest = {0}; /* a pin's place does not move */
+    if (beam || !load->pinned) rest = fw_flexure_hinge_rest_of(&h->law);
     if (beam && by_beam(h, &rest, beam, th, along, known, out)) return true;
     fw_flexure_strip_load strip;
     fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, known,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/arena.h"
+#include "base/arena_copy.h"
 #include "test.h"
 
 static void zeroed_and_aligned(void **state) {
@@ -47,6 +47,32 @@ static void rewinding_gives_back(void **state) {
     fw_arena_free(arena);
 }
 
+/* over and over from the same state, at the same addresses, and without more memory from round to round */
+static void a_copy_is_put_back(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_arena_copy copy;
+    char *before[200], *first = NULL;
+    for (int i = 0; i < 200; i++) /* several chunks */
+        before[i] = fw_arena_printf(arena, "%01000d", i);
+    assert_true(fw_arena_copy_take(arena, &copy));
+    for (int round = 0; round < 50; round++) {
+        for (int i = 0; i < 200; i += 7)
+            before[i][i] = 'x';
+        char *large = fw_arena_alloc(arena, 3 << 20, 1);
+        assert_non_null(large);
+        assert_int_equal(large[round], 0); /* zeroed, though it was in use before */
+        large[round + 1] = 1;
+        if (round == 0) first = large;
+        assert_ptr_equal(large, first);
+        fw_arena_copy_put_back(arena, &copy);
+        for (int i = 0; i < 200; i++)
+            assert_int_equal(strtol(before[i], NULL, 10), i);
+    }
+    fw_arena_copy_free(&copy);
+    fw_arena_free(arena);
+}
+
 static void faults_are_injected(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -64,9 +90,8 @@ static void faults_are_injected(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zeroed_and_aligned),
-        cmocka_unit_test(overflow_and_cap_are_null),
-        cmocka_unit_test(rewinding_gives_back),
+        cmocka_unit_test(zeroed_and_aligned),   cmocka_unit_test(overflow_and_cap_are_null),
+        cmocka_unit_test(rewinding_gives_back), cmocka_unit_test(a_copy_is_put_back),
         cmocka_unit_test(faults_are_injected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

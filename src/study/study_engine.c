@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the samples of a study have in common, computed once: packs, layer tables and materials are read by a
+   design of each thread, which is then one sample after the other (fw_plan_kept_again). And what nobody asks for is
+   left out: rows of a motion wait (fw_dynamics_motion_rows), and clearances that are accepted are bounded, where no
+   response is about them. A sample is what it would be by itself, to the last bit of what is asked for.
+
+   Test: tests/unit/study/test_engine.c */
+#include "plan/stages.h"
+#include "study/study_parts.h"
+#include <pthread.h>
+#include <string.h>
+#include <time.h>
+
+/* files may change while a study runs: looked at this often, which costs a hundredth */
+static const double look_again_s = 1;
+
+typedef struct engine { /* of one thread at a time */
+    fw_arena *arena;    /* holds this */
+    const fw_study *study;
+    fw_design *design;
+    fw_plan_kept kept;
+    fw_device_set *set; /* those of the study's options, then those of the sample */
+    double looked_s;
+    struct engine *next;
+} engine;
+
+struct fw_study_engines {
+    pthread_mutex_t lock; /* of what follows */
+    engine *idle;
+};
+
+static double now_s(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+fw_status fw_study_engines_open(fw_study *study) {
+    FW_NEED(study->engines = fw_arena_one(study->arena, fw_study_engines));
+    return pthread_mutex_init(&study->engines->lock, NULL) == 0 ? FW_OK : FW_NOMEM;
+}
+
+static void engine_free(engine *e) {
+    if (!e) return;
+    fw_plan_kept_free(&e->kept);
+    fw_design_free(e->design);
+    fw_arena_free(e->arena);
+}
+
+void fw_study_engines_close(fw_study *study) {
+    if (!study->engines) return;
+    while (study->engines->idle) {
+        engine *e = study->engines->idle;
+        study->engines->idle = e->next;
+        engine_free(e);
+    }
+    pthread_mutex_destroy(&study->engines->lock);
+}
+
+/* ---- one design after the other ---- */
+
+/* are all responses about hinges and requirements? */
+static bool asks_for_no_clearance(const fw_study *study) {
+    static const char *const key[] = {"governing.", "hinges[", "requirements[", "hinge_model[",
+                                      "failure_probability"};
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *r = &study->response[k];
+        bool is = false;
+        if (fw_study_documents[r->document].document != FW_DOCUMENT_VERDICT_JSON) return false;
+        for (size_t i = 0; i < sizeof key / sizeof key[0]; i++)
+            is = is || strncmp(r->path, key[i], strlen(key[i])) == 0;
+        if (!is) return false;
+    }
+    return true;
+}
+
+/* clearances of devices that are made decide which of them are run */
+static bool may_be_bounded(const engine *e) {
+    const fw_plan *plan = fw_plan_design_plan(e->design);
+    return plan->options.verdict.corners == FW_CORNERS_NONE && asks_for_no_clearance(e->study);
+}
+
+/* of the description as it stands; *changed: its files are others by now */
+static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engine *e,
+                            bool *changed) {
+    int status;
+    e->study = study;
+    e->looked_s = now_s();
+    FW_NEED(e->set = fw_arena_array(e->arena, fw_device_set,
+                                    (size_t)(study->options.nset + study->ninput)));
+    FW_NEED(e->design = fw_study_design(study, cancel, NULL, &status));
+    if (status != FW_STATUS_OK) return (fw_status)status;
+    if (!fw_study_same_files(study, e->design)) {
+        *changed = true;
+        return FW_INPUT;
+    }
+    fw_plan_design_plan(e->design)->options.verdict.motion.late_rows = true;
+    return fw_plan_keep(e->design, &e->kept);
+}
+
+/* the files once more */
+static fw_status look_again(const fw_cancel *cancel, engine *e, bool *changed) {
+    int status;
+    if (now_s() - e->looked_s < look_again_s) return FW_OK;
+    fw_design *design = fw_study_design(e->study, cancel, NULL, &status);
+    FW_NEED(design);
+    const bool final = fw_plan_is_final((fw_status)status);
+    *changed = !final && (status != FW_STATUS_OK || !fw_study_same_files(e->study, design));
+    fw_design_free(design);
+    e->looked_s = now_s();
+    return final ? (fw_status)status : *changed ? FW_INPUT : FW_OK;
+}
+
+/* *taken NULL: the description cannot be read as it stands */
+static fw_status take(const fw_study *study, const fw_cancel *cancel, engine **taken,
+                      bool *changed) {
+    struct fw_study_engines *all = study->engines;
+    *taken = NULL;
+    pthread_mutex_lock(&all->lock);
+    engine *e = all->idle;
+    if (e) all->idle = e->next;
+    pthread_mutex_unlock(&all->lock);
+    *taken = e;
+    if (e) return look_again(cancel, e, changed);
+    fw_arena *arena = fw_arena_part(study->arena, 0);
+    FW_NEED(arena);
+    if (!(e = fw_arena_one(arena, engine))) {
+        fw_arena_free(arena);
+        return FW_NOMEM;
+    }
+    e->arena = arena;
+    fw_status status = engine_new(study, cancel, e, changed);
+    if (status == FW_OK)
+        *taken = e;
+    else
+        engine_free(e);
+    return fw_plan_is_final(status) || *changed ? status : FW_OK;
+}
+
+static void give(const fw_study *study, engine *e) {
+    if (!e) return;
+    pthread_mutex_lock(&study->engines->lock);
+    e->next = study->engines->idle;
+    study->engines->idle = e;
+    pthread_mutex_unlock(&study->engines->lock);
+}
+
+/* in a design that is there; *done false: it is to be read anew, by itself */
+static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
+    const fw_study *study = e->study;
+    int n = 0;
+    for (int i = 0; i < study->options.nset; i++)
+        e->set[n++] = study->options.set[i];
+    for (int i = 0; i < study->ninput; i++)
+        if (sample->text[i][0])
+            e->set[n++] = (fw_device_set){study->input[i].what, sample->text[i]};
+    FW_TRY(fw_plan_kept_again(&e->kept, e->set, n, done));
+    if (!*done) return FW_OK;
+    fw_plan_design_plan(e->design)->options.verdict.bounded = may_be_bounded(e);
+    fw_status status = (fw_status)fw_study_answers_take(study, e->design, sample);
+    return fw_plan_is_final(status) ? status : FW_OK;
+}
+
+fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
+                            bool *changed) {
+    engine *e = NULL;
+    bool done = false;
+    fw_status status = take(study, cancel, &e, changed);
+    if (status == FW_OK && e) status = again(e, sample, &done);
+    give(study, e);
+    return status != FW_OK || done ? status
+                                   : fw_study_evaluate_alone(study, cancel, sample, changed);
+}

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a device of a study costs beside `check` of the same device, and how far one machine is from a million of them.
+
+    tests/bench/study.py build/flexwright [--designs 1000] [--checks 30] [--rounds 3] [--jobs N]
+
+The reference six-bar as drawn, the width and the arc of every hinge at random, a step load, accuracy 1e-3, the
+verdict of every hinge. Rounds take turns, so that all meet the same noise; times are of the processor, user and
+system, of whole commands, less those of a study of two devices where it says "each". The median of the rounds is
+told, and all of them."""
+import argparse
+import os
+import pathlib
+import re
+import resource
+import sqlite3
+import statistics
+import subprocess
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GALLERY = ROOT / "docs/gallery/reference-six-bar/device.xml"
+WIDTHS = dict(zip("ABCDEF", (9, 8.5, 8, 8, 9, 10)))
+
+
+def device():
+    text = re.sub(r'\s*<(flow|workspace|parameter name="arc") [^>]*/>', "", GALLERY.read_text())
+    text = re.sub(r'\s*<scene name="gentle-step".*?</scene>', "", text, flags=re.S)
+    return text.replace(' flow="al-masked-rie"', "").replace('angle="arc"', 'angle="240 deg"')
+
+
+def study(designs):
+    rows = "".join(f'<vary what="flexure[{h}]/@width" from="{0.8 * w:g} um" to="{1.2 * w:g} um"/>'
+                   f'<vary what="flexure[{h}]/@angle" from="200 deg" to="250 deg"/>\n' for h, w in WIDTHS.items())
+    hinges = "".join(f'<respond name="{h}" value="hinges[{h}].utilisation"/>' for h in WIDTHS)
+    return ('<study xmlns="urn:flexwright:study:1" name="six-bars" kind="sweep" as="drawn" points="sobol" '
+            f'samples="{designs}" device="device.xml">\n{rows}{hinges}</study>\n')
+
+
+def run(*command):
+    """seconds of the processor and of the wall; bytes of memory at most, over all children so far"""
+    before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+    subprocess.run(list(map(str, command)), check=True, stdout=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return cpu, time.monotonic() - began, after.ru_maxrss * 1024
+
+
+def main():
+    ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    ask.add_argument("program", type=pathlib.Path)
+    for name, usual in (("designs", 1000), ("checks", 30), ("rounds", 3), ("jobs", 1)):
+        ask.add_argument(f"--{name}", type=int, default=usual)
+    given = ask.parse_args()
+    program = given.program.resolve()
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    with tempfile.TemporaryDirectory(prefix="fw-bench-") as name:
+        place = pathlib.Path(name)
+        (place / "device.xml").write_text(device())
+        for n in (2, given.designs):
+            (place / f"study-{n}.xml").write_text(study(n))
+        each, checks, walls, memory = [], [], [], 0
+        for turn in range(given.rounds):
+            few = run(program, "study", place / "study-2.xml", "-o", place / f"two-{turn}", "--jobs", given.jobs)
+            many = run(program, "study", place / f"study-{given.designs}.xml", "-o", place / f"all-{turn}", "--jobs",
+                       given.jobs)
+            memory = max(memory, many[2])
+            each.append((many[0] - few[0]) / (given.designs - 2))
+            walls.append((many[1] - few[1]) / (given.designs - 2))
+            with sqlite3.connect(place / f"all-{turn}/study.sqlite") as store:
+                names = [row[1] for row in store.execute("PRAGMA table_info(sample)")]
+                inputs = [n for n in names if n.startswith("flexure[")]
+                rows = store.execute("SELECT " + ",".join(f'"{n}"' for n in inputs) + " FROM sample ORDER BY i LIMIT ?",
+                                     (given.checks,)).fetchall()
+            spent = 0
+            for row in rows:
+                sets = [w for n, v in zip(inputs, row)
+                        for w in ("--set", f"{n}={v!r} {'m' if n.endswith('width') else 'rad'}")]
+                spent += run(program, "check", place / "device.xml", "--corners", "none", "--advice", "none", "--quiet",
+                             *sets)[0]
+            checks.append(spent / len(rows))
+    ratios = [b / a for a, b in zip(each, checks)]
+
+    def tell(what, values, unit, by=1e3):
+        print(f"{what:38} {by * statistics.median(values):9.3f} {unit}   "
+              f"({', '.join(f'{by * v:.3f}' for v in values)})")
+
+    tell("a device of a study, processor", each, "ms")
+    tell(f"a device of a study, wall, {given.jobs} jobs", walls, "ms")
+    tell("one `check`, processor", checks, "ms")
+    tell("`check` over a device of a study", ratios, "times", 1)
+    tell("a million devices, processor", each, "s", 1e6)
+    print(f"{'memory, at most':38} {memory / 1e6:9.1f} MB")
+
+
+if __name__ == "__main__":
+    main()
