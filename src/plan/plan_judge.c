@@ -44,9 +44,21 @@ static fw_status find_tethers(fw_plan *plan, const fw_verdict_variant_verdict *v
     return FW_OK;
 }
 
+/* cells that lie where they must not are a mistake of the file, which is said before anything is computed */
+static fw_status check_cells(fw_plan *plan) {
+    const fw_layout *layout = NULL;
+    fw_diags quiet = fw_diags_new(plan->arena); /* the verdict says the rest */
+    if (plan->device->ncell == 0) return FW_OK;
+    fw_status status = fw_layout_build(plan->arena, plan->device, &quiet, &layout);
+    if (status == FW_GEOMETRY || status == FW_INPUT || !layout || !layout->drawn) return FW_OK;
+    FW_TRY(status);
+    return fw_layout_cells_check(layout, &plan->diags);
+}
+
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
     FW_TRY(fw_plan_need_material(plan));
+    FW_TRY(check_cells(plan));
     *verdict = (fw_verdict){.nvariant = plan->nflow};
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_verdict_variant_verdict, (size_t)plan->nflow));
