@@ -161,6 +161,7 @@ static fw_status outlines_of(fw_arena *arena, const fw_geometry_merged *merged,
         for (int k = 0; k < p->count; k++)
             c->segment[k] =
                 (fw_geometry_segment){.kind = FW_LINE,
+                                      .flags = FW_SEGMENT_ROUNDED,
                                       .a = in_metres(p->vertex[k]),
                                       .b = in_metres(p->vertex[k + 1 < p->count ? k + 1 : 0])};
         layer->box = fw_box_join(layer->box, fw_geometry_contour_box(c));
