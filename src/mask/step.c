@@ -39,6 +39,8 @@ typedef struct writer {
     fw_text *out;
     long id; /* of the last entity */
     double top_mm;
+    long along, up, down; /* directions x, z, -z, */
+    long rise;            /* and the vector along z */
 } writer;
 
 /* ---- outlines of the union ---- */
@@ -180,8 +182,13 @@ static long begin(writer *w, const char *kind) {
     return w->id;
 }
 
+/* 16 digits; a number of Part 21 has a point, and its exponent an E */
 static void real(writer *w, double value) {
-    fw_text_real(w->out, "%.15E", value == 0 ? 0.0 : value); /* no -0 */
+    char number[40];
+    fw_number_text(number, sizeof number, value == 0 ? 0.0 : value, 16); /* no -0 */
+    size_t n = strcspn(number, "e");
+    fw_text_printf(w->out, "%.*s%s", (int)n, number, strchr(number, '.') ? "" : ".");
+    if (number[n]) fw_text_printf(w->out, "E%s", number + n + 1);
 }
 
 static long triple(writer *w, const char *kind, double x, double y, double z) {
@@ -210,12 +217,10 @@ static void quoted(writer *w, const char *text) {
     fw_text_add(w->out, "'");
 }
 
-/* axis (ax, ay, az), first direction (rx, ry, 0) */
-static long placement(writer *w, fw_geometry_vec2 o, double z_mm, const double axis[3], double rx,
-                      double ry) {
-    long at = point(w, o, z_mm), z = triple(w, "DIRECTION", axis[0], axis[1], axis[2]);
-    long x = triple(w, "DIRECTION", rx, ry, 0), id = begin(w, "AXIS2_PLACEMENT_3D");
-    fw_text_printf(w->out, "('',#%ld,#%ld,#%ld);\n", at, z, x);
+/* at a point, with the ids of its axis and of its first direction */
+static long placement(writer *w, fw_geometry_vec2 o, double z_mm, long axis, long first) {
+    long at = point(w, o, z_mm), id = begin(w, "AXIS2_PLACEMENT_3D");
+    fw_text_printf(w->out, "('',#%ld,#%ld,#%ld);\n", at, axis, first);
     return id;
 }
 
@@ -227,13 +232,15 @@ static long round_one(writer *w, const char *kind, long at, double radius_m) {
     return id;
 }
 
-static const double UP[3] = {0, 0, 1}, DOWN[3] = {0, 0, -1};
+static long vector(writer *w, long direction) {
+    long id = begin(w, "VECTOR");
+    fw_text_printf(w->out, "('',#%ld,1.);\n", direction);
+    return id;
+}
 
-static long line(writer *w, long from, double dx, double dy, double dz) {
-    long d = triple(w, "DIRECTION", dx, dy, dz), v = begin(w, "VECTOR");
-    fw_text_printf(w->out, "('',#%ld,1.);\n", d);
+static long line(writer *w, long from, long along) {
     long id = begin(w, "LINE");
-    fw_text_printf(w->out, "('',#%ld,#%ld);\n", from, v);
+    fw_text_printf(w->out, "('',#%ld,#%ld);\n", from, along);
     return id;
 }
 
@@ -291,8 +298,8 @@ typedef struct wall {      /* (n) of a loop: at the start of each segment, and a
 static long curve_of(writer *w, const fw_geometry_segment *s, long from, double z_mm) {
     fw_geometry_vec2 d = vec_unit(vec_sub(s->b, s->a));
     if (s->kind == FW_ARC)
-        return round_one(w, "CIRCLE", placement(w, s->centre, z_mm, UP, 1, 0), s->radius);
-    return line(w, from, d.x, d.y, 0);
+        return round_one(w, "CIRCLE", placement(w, s->centre, z_mm, w->up, w->along), s->radius);
+    return line(w, from, vector(w, triple(w, "DIRECTION", d.x, d.y, 0)));
 }
 
 static fw_status draw_edges(writer *w, const loop *l, wall *out) {
@@ -308,7 +315,7 @@ static fw_status draw_edges(writer *w, const loop *l, wall *out) {
         fw_text_printf(w->out, "('',#%ld);\n", low[i]);
         out->high[i] = begin(w, "VERTEX_POINT");
         fw_text_printf(w->out, "('',#%ld);\n", high[i]);
-        out->up[i] = edge(w, out->low[i], out->high[i], line(w, low[i], 0, 0, 1), true);
+        out->up[i] = edge(w, out->low[i], out->high[i], line(w, low[i], w->rise), true);
     }
     for (int i = 0; i < l->n; i++) {
         const fw_geometry_segment *s = &l->segment[i];
@@ -321,19 +328,24 @@ static fw_status draw_edges(writer *w, const loop *l, wall *out) {
     return FW_OK;
 }
 
+/* looks to the right of d */
+static long wall_plane(writer *w, fw_geometry_vec2 at, fw_geometry_vec2 d) {
+    long right = triple(w, "DIRECTION", d.y, -d.x, 0), own = triple(w, "DIRECTION", d.x, d.y, 0);
+    return plane(w, placement(w, at, 0, right, own));
+}
+
 /* Material lies on the left of a segment: its face looks to the right. */
 static long side_face(writer *w, const loop *l, const wall *of, int i) {
     const fw_geometry_segment *s = &l->segment[i];
     fw_geometry_vec2 d = vec_unit(vec_sub(s->b, s->a));
     int next = i + 1 < l->n ? i + 1 : 0;
     bool arc = s->kind == FW_ARC;
-    const double right[3] = {d.y, -d.x, 0};
     long oriented[4] = {use(w, of->below[i], true), use(w, of->up[next], true),
                         use(w, of->above[i], false), use(w, of->up[i], false)};
     long around = bound(w, oriented, 4, true);
-    long surface =
-        arc ? round_one(w, "CYLINDRICAL_SURFACE", placement(w, s->centre, 0, UP, 1, 0), s->radius)
-            : plane(w, placement(w, s->a, 0, right, d.x, d.y));
+    long surface = arc ? round_one(w, "CYLINDRICAL_SURFACE",
+                                   placement(w, s->centre, 0, w->up, w->along), s->radius)
+                       : wall_plane(w, s->a, d);
     return face(w, &around, 1, surface, !arc || s->sweep_rad > 0);
 }
 
@@ -369,8 +381,9 @@ static fw_status draw_solid(writer *w, const loop *list, int n, int outer, long 
             nbound++;
         }
     const fw_geometry_vec2 o = {0, 0};
-    own[nface++] = face(w, low, nbound, plane(w, placement(w, o, 0, DOWN, 1, 0)), true);
-    own[nface++] = face(w, high, nbound, plane(w, placement(w, o, w->top_mm, UP, 1, 0)), true);
+    own[nface++] = face(w, low, nbound, plane(w, placement(w, o, 0, w->down, w->along)), true);
+    own[nface++] =
+        face(w, high, nbound, plane(w, placement(w, o, w->top_mm, w->up, w->along)), true);
     long shell = listed(w, "CLOSED_SHELL", own, nface);
     *id = begin(w, "MANIFOLD_SOLID_BREP");
     fw_text_add(w->out, "(");
@@ -432,7 +445,11 @@ fw_status fw_mask_write_step(const fw_mask *mask, fw_text *out) {
     write_head(out, mask);
     write_product(&w, mask);
     const fw_geometry_vec2 o = {0, 0};
-    solid[nsolid++] = placement(&w, o, 0, UP, 1, 0);
+    w.along = triple(&w, "DIRECTION", 1, 0, 0);
+    w.up = triple(&w, "DIRECTION", 0, 0, 1);
+    w.down = triple(&w, "DIRECTION", 0, 0, -1);
+    w.rise = vector(&w, w.up);
+    solid[nsolid++] = placement(&w, o, 0, w.up, w.along);
     for (int i = 0; i < n; i++)
         if (list[i].area_m2 > 0) FW_TRY(draw_solid(&w, list, n, i, &solid[nsolid++]));
     long shape = begin(&w, "ADVANCED_BREP_SHAPE_REPRESENTATION");

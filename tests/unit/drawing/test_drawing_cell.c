@@ -351,11 +351,11 @@ static void bad_files_are_refused(void **state) {
         int number;
         const char *says;
     } bad[] = {
-        {"A", NULL, 566, "byte 154: cell 'A' holds itself"},
-        {"A", NULL, 568, "byte 90: it refers to a cell 'NOWHERE'"},
-        {"A", NULL, 567, "byte 90: with what its references"},
+        {"A", NULL, 566, "byte 160: cell 'A' holds itself"},
+        {"A", NULL, 568, "byte 96: it refers to a cell 'NOWHERE'"},
+        {"A", NULL, 567, "byte 96: with what its references"},
         {"A", NULL, 567, "farther than 268 mm"},
-        {"A", NULL, 565, "byte 90: this is no GDSII file as it should be: a polygon has fewer"},
+        {"A", NULL, 565, "byte 96: this is no GDSII file as it should be: a polygon has fewer"},
         {"A", NULL, 565, "absolute angle"},
         {"A", NULL, 568, "1/0 and 2/0"},
         {"A", NULL, 565, "between 1e-15 m and 1 m"},
