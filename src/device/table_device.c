@@ -432,9 +432,10 @@ static const fw_xml_element_row own[] = {
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
     {"wafer", "device", .once = true, ROWS(wafer_rows),
      .sentence = "Step and repeat of the die on a wafer, and the mask plate for it."},
-    {"cell", "device wafer", "id", .most = 200, ROWS(cell_rows),
-     .sentence = "A finished drawing that goes onto the mask: on every die, or beside the dies of "
-                 "the wafer."},
+    {"cell", "device", "id", .most = 200, ROWS(cell_rows),
+     .sentence = "A finished drawing that goes onto the mask of every die."},
+    {"cell", "wafer", "id", .most = 200, ROWS(cell_rows),
+     .sentence = "The same, beside the dies of the wafer."},
     {"order", "device", .most = 20, ROWS(order_rows),
      .sentence = "What the mask shop is asked for; all that is not said has a value of its own. "
                  "Without a <wafer> one die stands in the plate's middle."},

@@ -33,6 +33,7 @@ static fw_status add_own(fw_arena *arena, fw_mask_table *table, const char *text
                               .id = id,
                               .name = name,
                               .purpose = "drawn by cells of the description alone; on no plate",
+                              .roles = 1u << FW_ROLE_CELL,
                               .tone = n > 0 ? list[0].tone : NULL,
                               .colour = "#7a7a7a",
                               .place = place};
