@@ -157,11 +157,13 @@ class Cells(unittest.TestCase):
     def test_bad_ones_are_refused(self):
         good = (self.where / "logo.gds").read_bytes()
         (self.where / "cut.gds").write_bytes(good[: len(good) // 2])
+        (self.where / "block.dxf").write_text("0\nSECTION\n2\nENTITIES\n0\nINSERT\n8\nA\n2\nB\n10\n0\n20\n0\n0\nENDSEC\n0\nEOF\n")
         for cell, number, says in (
+                ('file="block.dxf" unit="um" layers="A>77/0"', 565, "line 5, byte 21: INSERT"),
                 ('file="cut.gds" layers="1/0>77/0"', 565, "byte "),
                 ('file="logo.oas" layers="1/0>77/0"', 569, "KLayout"),
                 ('file="logo.gds" layers="1/0>77/0"  x="20 mm"', 571, "leaves the die"),
-                ('file="logo.gds" layers="1/0>mask" x="1.5 mm" y="1.5 mm"', 572, "touches"),
+                ('file="logo.gds" layers="1/0>mask" x="1.4 mm" y="2.9 mm"', 572, "touches"),
                 ('file="logo.gds" layers="1/0>nowhere"', 570, "mask, "),
                 ('file="logo.gds" layers="9/0>mask"', 568, "on layer 9/0"),
                 ('file="logo.gds" layers="1/0"', 568, "without '>'"),
