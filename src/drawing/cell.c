@@ -10,30 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double FARTHEST_NM = 268e6; /* what fw_geometry_merge takes */
-static const double CHORD_M = 5e-9;      /* of a DXF file's arcs: as masks have them */
-
-fw_status fw_drawing_flat_add(fw_drawing_flat *flat, int map, const fw_geometry_vec2 *at, int n,
-                              bool hole) {
-    flat->points += (size_t)n;
-    if (flat->n == FW_DRAWING_SHAPES_MOST || flat->points > FW_DRAWING_POINTS_MOST) return FW_LIMIT;
-    if (flat->n == flat->room) {
-        int more = flat->room ? 2 * flat->room : 256;
-        FW_NEED(flat->shape = fw_arena_grow(flat->arena, flat->shape, (size_t)flat->n, (size_t)more,
-                                            sizeof *flat->shape));
-        flat->room = more;
-    }
-    fw_geometry_point *p = fw_arena_array(flat->arena, fw_geometry_point, (size_t)n);
-    FW_NEED(p);
-    for (int i = 0; i < n; i++) {
-        if (!(fabs(at[i].x) < FARTHEST_NM && fabs(at[i].y) < FARTHEST_NM)) return FW_GEOMETRY;
-        double x = floor(at[i].x + 0.5), y = floor(at[i].y + 0.5);
-        flat->rounded += fabs(at[i].x - x) > 1e-3 || fabs(at[i].y - y) > 1e-3;
-        p[i] = (fw_geometry_point){(int32_t)x, (int32_t)y};
-    }
-    flat->shape[flat->n++] = (fw_drawing_shape){map, {p, n}, hole};
-    return FW_OK;
-}
+static const double CHORD_M = 5e-9; /* of a DXF file's arcs: as masks have them */
 
 /* ---- DXF ---- */
 

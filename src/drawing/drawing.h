@@ -175,7 +175,7 @@ typedef struct fw_drawing_flat { /* a cell without its hierarchy */
 } fw_drawing_flat;
 
 /* one polygon of n points in nm, in the device's axes. FW_LIMIT: too many; FW_GEOMETRY: too far from the
-   origin (cell.c) */
+   origin (trace.c) */
 fw_status fw_drawing_flat_add(fw_drawing_flat *flat, int map, const fw_geometry_vec2 *at, int n,
                               bool hole);
 /* gds_cells.c */

@@ -177,8 +177,10 @@ typedef struct fw_mask {
     const fw_mask_edges *edges;     /* as fabricated; NULL: not known */
     const fw_mask_finding *finding; /* (nfinding) every place where a rule is broken */
     int nfinding;
-    int nbroken; /* of them those that forbid the mask */
-    bool whole;  /* every polygon is there and proven */
+    int nbroken;                  /* of them those that forbid the mask */
+    bool whole;                   /* every polygon is there and proven */
+    const fw_layout_cell *placed; /* (nplaced) drawings of others on it */
+    int nplaced;
     /* nets as drawn; NULL: they were not asked for, and `wired` is empty */
     const fw_wiring *wiring;
     fw_wiring_on_mask wired; /* the same on the mask */

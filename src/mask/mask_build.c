@@ -315,6 +315,8 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
                              "no layer of flow %s draws any of the %d pieces; give a layer of its "
                              "table the roles of these pieces",
                              table->flow, layout->npiece);
+    m->placed = layout->cell;
+    m->nplaced = layout->ncell;
     m->flattening = options->flattening;
     m->thickness_m = options->thickness_m;
     fw_mask_set_flattening(m->shape, m->nshape, options->flattening);
