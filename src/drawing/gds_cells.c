@@ -58,9 +58,8 @@ typedef struct element {
     int kind, layer, type, ends, columns, rows;
     double width, begin, end, scale, angle_deg;
     unsigned transform;
-    const char *name;
     size_t offset;
-    fw_drawing_record xy;
+    fw_drawing_record name, xy; /* data NULL: none */
 } element;
 
 typedef struct library {
@@ -82,11 +81,14 @@ static fw_status damaged(const library *l, size_t offset, const char *what) {
 
 /* ---- first pass: the order of records, and the cells ---- */
 
-static const char *name_of(const library *l, const fw_drawing_record *r) {
+/* without what no name should hold, which a message could not show */
+static const char *name_of(const fw_drawing_record *r, char name[NAME_MOST + 1]) {
     size_t n = r->length < NAME_MOST ? r->length : NAME_MOST;
-    char *name = fw_arena_strndup(l->flat->arena, (const char *)r->data, n);
-    for (char *s = name; s && *s; s++)
-        if (*s < ' ' || *s > '~') *s = '?';
+    for (size_t i = 0; i < n; i++) {
+        char c = (char)r->data[i];
+        name[i] = c == '\0' || (c >= ' ' && c <= '~') ? c : '?';
+    }
+    name[n] = '\0';
     return name;
 }
 
@@ -99,7 +101,8 @@ static fw_status add_cell(library *l, const fw_drawing_record *r, size_t begin) 
     }
     cell *c = &l->cell[l->ncell++];
     *c = (cell){.begin = begin};
-    FW_NEED(c->name = name_of(l, r));
+    char name[NAME_MOST + 1];
+    FW_NEED(c->name = fw_arena_strdup(l->flat->arena, name_of(r, name)));
     return *c->name ? FW_OK : damaged(l, r->offset, "a cell has no name");
 }
 
@@ -180,9 +183,8 @@ static fw_status list_cells(library *l) {
     for (at = 0, r.kind = 0; r.kind != ENDLIB;) {
         r = again(l, &at);
         if (r.kind != SNAME) continue;
-        const char *name = name_of(l, &r);
-        FW_NEED(name);
-        cell *c = find(l, name);
+        char name[NAME_MOST + 1];
+        cell *c = find(l, name_of(&r, name));
         if (c) c->below = true;
     }
     return FW_OK;
@@ -304,7 +306,7 @@ static fw_status take_part(library *l, const fw_drawing_record *r, element *e) {
         e->angle_deg = fw_drawing_real8(r->data);
         break;
     case SNAME:
-        FW_NEED(e->name = name_of(l, r));
+        e->name = *r;
         break;
     case XY:
         if (e->xy.data) return damaged(l, r->offset, "an element has several XY records");
@@ -420,13 +422,14 @@ static fw_status add_references(library *l, const element *e, const frame *f, in
                              a->file, e->offset);
     if (!(e->scale > 1e-6 && e->scale < 1e6 && fabs(e->angle_deg) < 1e6))
         return damaged(l, e->offset, "MAG is not between 1e-6 and 1e6, or ANGLE is no angle");
-    cell *c = e->name ? find(l, e->name) : NULL;
+    char name[NAME_MOST + 1] = "";
+    cell *c = e->name.data ? find(l, name_of(&e->name, name)) : NULL;
     if (!c)
         return fw_diag_error(l->flat->diags, 568, a->place,
                              "%s, byte %zu: it refers to a cell '%.64s' that is not in the file; "
                              "write it with all of its "
                              "cells",
-                             a->file, e->offset, e->name ? e->name : "");
+                             a->file, e->offset, name);
     fw_geometry_vec2 o = point_of(e, 0), right = {0, 0}, up = {0, 0};
     if (array) {
         right = vec_sub(point_of(e, 1), o);

@@ -52,15 +52,22 @@ static int role_of(const fw_mask_layer *layer) {
 static fw_status unknown_layer(fw_arena *arena, const fw_mask_table *t, const char *to,
                                fw_place place, fw_diags *diags) {
     fw_text has = fw_text_new(arena);
+    const char **id = fw_arena_array(arena, const char *, (size_t)t->nlayer + 1);
+    FW_NEED(id);
+    for (int k = 0; k < t->nlayer; k++)
+        id[k] = t->layer[k].id ? t->layer[k].id : "";
+    id[t->nlayer] = "mask";
+    const char *near = fw_did_you_mean(to, id, (size_t)t->nlayer + 1);
     for (int k = 0; k < t->nlayer; k++)
         if (!t->layer[k].documentation)
             fw_text_printf(&has, "%s%s (%d/%d)", k ? ", " : "", t->layer[k].id, t->layer[k].layer,
                            t->layer[k].datatype);
     FW_NEED(has.failed ? NULL : has.data);
     return fw_diag_error(diags, 570, place,
-                         "flow %s has no layer '%.64s' for a cell; it has mask, %s, and any "
+                         "flow %s has no layer '%.64s' for a cell%s%s%s; it has mask, %s, and any "
                          "NUMBER/DATATYPE besides is a layer of the cell's own",
-                         t->flow, to, has.data);
+                         t->flow, to, near ? " (did you mean '" : "", near ? near : "",
+                         near ? "'?)" : "", has.data);
 }
 
 /* one layer of a cell in one flow */

@@ -89,8 +89,14 @@ const fw_device_scene *fw_plan_scene(fw_plan *plan) {
     const fw_device *d = plan->device;
     const char *wanted = plan->options.scene;
     fw_text names = fw_text_new(plan->arena);
+    const char **name = fw_arena_array(plan->arena, const char *, (size_t)d->nscene);
+    if (!name) {
+        plan->diags.failed = 1;
+        return NULL;
+    }
     for (int i = 0; i < d->nscene; i++) {
         const fw_device_scene *scene = &d->scene[i];
+        name[i] = scene->name;
         if (wanted ? strcmp(scene->name, wanted) == 0 : loaded(plan, scene->flow)) {
             if (loaded(plan, scene->flow)) return scene;
             fw_diag_error(&plan->diags, 229, scene->place,
@@ -101,9 +107,11 @@ const fw_device_scene *fw_plan_scene(fw_plan *plan) {
         fw_text_printf(&names, " %s", scene->name);
     }
     const char *has = names.length && !names.failed ? names.data : " none";
+    const char *near = wanted ? fw_did_you_mean(wanted, name, (size_t)d->nscene) : NULL;
     if (wanted)
         fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
-                      "no scene '%s' in the device; it has%s", wanted, has);
+                      "no scene '%s' in the device%s%s%s; it has%s", wanted,
+                      near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", has);
     else
         fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
                       "the device has no scene for this flow; it has%s", has);
