@@ -60,7 +60,7 @@ static const char style_sheet[] =
     "tr.bad td,tr.bad th{background:#fdf1ea}\n"
     ".wide{overflow-x:auto}\n"
     "svg{display:block;max-width:100%;height:auto}\n"
-    "svg.bar{display:inline-block;vertical-align:middle;min-width:150px}\n"
+    "svg.bar{display:inline-block;vertical-align:middle;min-width:100px;max-width:110px}\n"
     ".drawing,.stage{width:100%;border:1px solid var(--line);border-radius:4px;background:#fff}\n"
     ".motion{margin:0 0 26px}\n"
     ".pairs{display:flex;flex-wrap:wrap;gap:24px;margin:8px 0 12px}\n"
