@@ -4,6 +4,7 @@
 #include "mask/mask.h"
 #include "mask/mask_table.h"
 #include "mask/mask_writers.h"
+#include <stdio.h>
 #include <string.h>
 
 int fw_mask_layer_named(const fw_mask_table *table, const char *text) {
@@ -117,18 +118,27 @@ fw_status fw_mask_cells_settle(fw_arena *arena, const fw_device *device,
 
 /* ---- what files say of them ---- */
 
+/* "7/0" of where it goes */
+static const char *gds_of(const fw_mask *mask, const fw_layout_cell *c,
+                          char text[FW_MASK_GDS_TEXT]) {
+    int k = fw_mask_layer_named(mask->table, c->layer);
+    if (k < 0) return c->layer;
+    snprintf(text, FW_MASK_GDS_TEXT, "%d/%d", mask->table->layer[k].layer,
+             mask->table->layer[k].datatype);
+    return text;
+}
+
 void fw_mask_cells_json(fw_json *json, const fw_mask *mask) {
     if (mask->nplaced == 0) return;
     fw_json_line(json, 2);
     fw_json_list(json, "drawings");
     for (int i = 0; i < mask->nplaced; i++) {
         const fw_layout_cell *c = &mask->placed[i];
-        int k = fw_mask_layer_named(mask->table, c->layer);
         char gds[FW_MASK_GDS_TEXT];
         fw_json_object(json, NULL);
         fw_json_text(json, "name", c->of->name);
         fw_json_text(json, "file", c->of->file);
-        fw_json_text(json, "gds", k < 0 ? NULL : fw_mask_order_gds(gds, &mask->table->layer[k]));
+        fw_json_text(json, "gds", gds_of(mask, c, gds));
         fw_json_truth(json, "biased", c->biased);
         fw_json_end(json);
     }
@@ -140,9 +150,7 @@ void fw_mask_cells_order_text(const fw_mask *mask, fw_text *out) {
     fw_text_add(out, "\ndrawings of others on it: name, file, layer\n");
     for (int i = 0; i < mask->nplaced; i++) {
         const fw_layout_cell *c = &mask->placed[i];
-        int k = fw_mask_layer_named(mask->table, c->layer);
         char gds[FW_MASK_GDS_TEXT];
-        fw_text_printf(out, "%s  %s  %s\n", c->of->name, c->of->file,
-                       k < 0 ? c->layer : fw_mask_order_gds(gds, &mask->table->layer[k]));
+        fw_text_printf(out, "%s  %s  %s\n", c->of->name, c->of->file, gds_of(mask, c, gds));
     }
 }
