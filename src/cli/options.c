@@ -197,7 +197,13 @@ static const char *take_scene(fw_cli_options *o, const char *v) {
 /* NULL, or a sentence that names all that are known */
 static const char *from_table(const char *v, fw_multibody_method_row (*at)(size_t)) {
     static char known[600];
-    size_t n = (size_t)snprintf(known, sizeof known, "is not known; known are");
+    const char *name[32];
+    size_t rows = 0;
+    for (; at(rows).name && rows < sizeof name / sizeof name[0]; rows++)
+        name[rows] = at(rows).name;
+    const char *near = fw_did_you_mean(v, name, rows);
+    size_t n = (size_t)snprintf(known, sizeof known, "is not known%s%s%s; known are",
+                                near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
     for (size_t i = 0; at(i).name; i++) {
         if (strcmp(v, at(i).name) == 0) return NULL;
         if (n < sizeof known)

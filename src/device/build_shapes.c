@@ -309,7 +309,27 @@ static bool name_is_sound(const char *name) {
     return true;
 }
 
-static double metres_of(const char *unit) {
+fw_status fw_device_drawing_open(fw_device_reader *r, const fw_xml_record *record,
+                                 const char **data, size_t *n) {
+    const char *name = fw_xml_text_of(record, "file");
+    fw_place place = fw_xml_place_of(record, "file");
+    char label[FW_LABEL];
+    fw_xml_label(record, label);
+    if (!name_is_sound(name))
+        return fw_diag_error(r->diags, 310, place,
+                             "%s: a drawing lies beside the device file or below: a relative name "
+                             "without \"..\", ':' and backslashes; move or copy it there",
+                             label);
+    if (!r->files)
+        return fw_diag_error(r->diags, 311, place,
+                             "%s: files are not opened for a description that is not a file itself "
+                             "(of the page or of standard input); run flexwright on the device "
+                             "file%s",
+                             label, fw_xml_is(record, "cell") ? "" : ", or draw <line> and <arc>");
+    return r->files->read(r->files->of, name, place, data, n);
+}
+
+double fw_device_drawing_unit_m(const char *unit) {
     static const struct {
         const char *name;
         double metres;
@@ -344,7 +364,7 @@ static fw_status file_outline(builder *b) {
                               .layer = fw_xml_text_of(record, "layer"),
                               .cell = fw_xml_text_of(record, "cell"),
                               .unit = unit,
-                              .unit_m = metres_of(unit),
+                              .unit_m = fw_device_drawing_unit_m(unit),
                               .place = fw_xml_place_of(record, "file"),
                               .unit_place = fw_xml_place_of(record, "unit"),
                               .cell_place = fw_xml_place_of(record, "cell"),
@@ -353,19 +373,7 @@ static fw_status file_outline(builder *b) {
     size_t n;
     fw_drawing drawing;
     if (!name || !file_stands_alone(b)) return FW_OK; /* misspelt: that was reported */
-    if (!name_is_sound(name)) {
-        say(b, 310, "file",
-            "a drawing lies beside the device file or below: a relative name without \"..\", ':' "
-            "and backslashes; move or copy it there");
-        return FW_OK;
-    }
-    if (!b->r->files) {
-        say(b, 311, "file",
-            "files are not opened for a description that is not a file itself (of the page or of "
-            "standard input); run flexwright on the device file, or draw <line> and <arc>");
-        return FW_OK;
-    }
-    fw_status status = b->r->files->read(b->r->files->of, name, asked.place, &data, &n);
+    fw_status status = fw_device_drawing_open(b->r, record, &data, &n);
     if (status == FW_OK)
         status = fw_drawing_read(b->r->arena, data, n, &asked, b->r->diags, &drawing);
     if (status == FW_INPUT || status == FW_IO || status == FW_LIMIT) return FW_OK; /* reported */

@@ -9,6 +9,7 @@
 #include "base/diag.h"
 #include "device/device_asked.h"
 #include "device/material.h"
+#include "drawing/drawing.h"
 #include "geometry/contour.h"
 #include "quantity/quantity_law.h"
 #include "quantity/quantity.h"
@@ -355,6 +356,23 @@ typedef struct fw_device_die { /* <die>; NaN: from the drawn mechanism */
     fw_place width_place, height_place, title_place;
 } fw_device_die;
 
+enum { FW_CELL_ROLE_OPEN = -2, FW_CELL_ROLE_NONE = -1 };
+typedef struct fw_device_cell_layer { /* all of a cell that goes to one layer */
+    const char *to;                   /* as the file names it: "mask", "text", "7/0" */
+    const fw_drawing_cell_layer *drawn;
+    /* fw_layout_role of what that layer draws, once the flows' layer tables are known (fw_mask_cells_settle);
+       FW_CELL_ROLE_NONE: a layer of its own, which is nothing of the device; FW_CELL_ROLE_OPEN: not yet */
+    int role;
+} fw_device_cell_layer;
+
+typedef struct fw_device_cell {  /* <cell>: a drawing that is placed on the die, or on the wafer */
+    const char *file, *name;     /* name: id, else the cell's, else the file's */
+    bool biased;                 /* as the device is; else it goes onto the mask as it was drawn */
+    fw_device_cell_layer *layer; /* (nlayer) */
+    int nlayer;
+    fw_place place, layers_place;
+} fw_device_cell;
+
 typedef enum fw_device_wafer_side {
     FW_SIDE_BOTTOM,
     FW_SIDE_TOP,
@@ -412,6 +430,8 @@ typedef struct fw_device_wafer_asked { /* <wafer>; NaN: chosen by the wafer room
     const fw_device_order_asked *ordered; /* (nordered) those of one plate */
     int nordered;
     bool written; /* there is an <order>: a plate is written without a wafer, too, of one die */
+    const fw_device_cell *cell; /* (ncell) about the wafer's middle */
+    int ncell;
     fw_place place;
 } fw_device_wafer_asked;
 /* what is ordered of a plate: its own <order>, or that of all */
@@ -459,6 +479,8 @@ typedef struct fw_device {
     fw_device_die die;
     double release_pitch_m, release_hole_m; /* <die>: holes in bodies; NaN or 0 pitch: none */
     fw_device_wafer_asked wafer;
+    const fw_device_cell *cell; /* (ncell) on the die */
+    int ncell;
     bool rounded; /* the poses were typed with few digits, and closed as they were read: FW-D132 */
 } fw_device;
 

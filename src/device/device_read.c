@@ -26,6 +26,7 @@ static fw_status build(fw_device_reader *r) {
     FW_TRY(fw_xml_ids_check(&r->xml));
     FW_TRY(fw_device_build_parts(r));
     FW_TRY(fw_device_build_wafer(r));
+    FW_TRY(fw_device_build_cells(r));
     FW_TRY(fw_device_build_flexures(r));
     FW_TRY(fw_device_expand_six_bar(r));
     FW_TRY(fw_device_build_mechanism(r));

@@ -37,6 +37,7 @@ fw_status fw_device_parameters_read(fw_device_reader *r);
 /* one step per part of the description */
 fw_status fw_device_build_parts(fw_device_reader *r);
 fw_status fw_device_build_wafer(fw_device_reader *r); /* <wafer> with its sweeps */
+fw_status fw_device_build_cells(fw_device_reader *r); /* drawings on the die and the wafer */
 fw_status fw_device_build_flexures(fw_device_reader *r);
 fw_status fw_device_expand_six_bar(fw_device_reader *r); /* bodies 0..4 and joints 0..5 */
 fw_status fw_device_build_mechanism(fw_device_reader *r);
@@ -45,6 +46,12 @@ fw_status fw_device_build_probes(fw_device_reader *r); /* when all that they nam
 fw_status fw_device_build_studies(fw_device_reader *r);
 /* poses.c: poses whose joints are open by what rounded numbers leave (FW-D132) */
 fw_status fw_device_close_rounded(fw_device_reader *r);
+
+/* build_shapes.c: the drawing that `file` of an element names; FW_INPUT, FW_IO, FW_LIMIT: reported. What
+   one unit of it is by its symbol, NaN without one */
+fw_status fw_device_drawing_open(fw_device_reader *r, const fw_xml_record *record,
+                                 const char **data, size_t *n);
+double fw_device_drawing_unit_m(const char *unit);
 
 /* time_law.c: the law of a load, NULL for one that is constant from the start or was reported */
 fw_status fw_device_time_law(fw_device_reader *r, const fw_xml_record *record,

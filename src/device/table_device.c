@@ -307,6 +307,36 @@ static const fw_xml_attribute_row die_rows[] = {
      .sentence = "Diameter of a release hole."},
 };
 
+static const char *const cell_units[] = {"um", "nm", "mm", "cm", "m", "in", "mil", NULL};
+static const fw_xml_attribute_row cell_rows[] = {
+    {"id", ID, .fallback = "the name of the cell, or of the file",
+     .sentence = "Name in messages and lists."},
+    {"file", TEXT, REQUIRED,
+     .sentence = "A GDSII or DXF file, beside the device file or below it. Of GDSII the "
+                 "boundaries, boxes and paths, "
+                 "with all cells that it refers to; texts are left out."},
+    {"cell", TEXT, .fallback = "the only top cell", .sentence = "Cell of a GDSII file."},
+    {"unit", .kind = FW_KIND_WORD, .words = cell_units, .fallback = "what the file says",
+     .sentence = "What one unit of a DXF file is; where the file says so too ($INSUNITS), both "
+                 "must agree."},
+    {"x", POSITION, .fallback = "0 mm",
+     .sentence = "Where its origin lies: in the device's axes, on a wafer from its middle."},
+    {"y", POSITION, .fallback = "0 mm", .sentence = "See x."},
+    {"angle", TURN, .fallback = "0 deg", .sentence = "By which it is turned about its origin."},
+    {"mirror", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
+     .sentence = "Drawn as its mirror image (y becomes -y), before it is turned."},
+    {"layers", TEXT, .fallback = "its only layer goes to mask",
+     .sentence =
+         "Which of its layers go where: FROM>TO; FROM>TO. FROM is NUMBER/DATATYPE, NUMBER, or of "
+         "DXF a name. TO is "
+         "mask (the layer that draws the device), a role, id or name of the flow's layer table, or "
+         "NUMBER/DATATYPE: a layer of the table, or else one of the cell's own that is on no "
+         "plate."},
+    {"bias", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
+     .sentence =
+         "no: it is on the mask as it was drawn; yes: with the bias of the layer that it goes to."},
+};
+
 static const fw_xml_attribute_row wafer_rows[] = {
     {"diameter", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.305, WAFER), .fallback = "100 mm",
      .sentence = "Of the wafer. Within 2 % of 50.8, 76.2, 100, 125, 150, 200 or 300 mm it is that "
@@ -411,6 +441,10 @@ static const fw_xml_element_row own[] = {
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
     {"wafer", "device", .once = true, ROWS(wafer_rows),
      .sentence = "Step and repeat of the die on a wafer, and the mask plate for it."},
+    {"cell", "device", "id", .most = 200, ROWS(cell_rows),
+     .sentence = "A finished drawing that goes onto the mask of every die."},
+    {"cell", "wafer", "id", .most = 200, ROWS(cell_rows),
+     .sentence = "The same, beside the dies of the wafer."},
     {"order", "device", .most = 20, ROWS(order_rows),
      .sentence = "What the mask shop is asked for; all that is not said has a value of its own. "
                  "Without a <wafer> one die stands in the plate's middle."},

@@ -5,6 +5,7 @@
 #ifndef FW_DRAWING_DRAWING_H
 #define FW_DRAWING_DRAWING_H
 #include "geometry/contour.h"
+#include "geometry/polygon.h"
 
 enum {
     FW_DRAWING_SEGMENTS_MOST = 4000, /* of one outline, and of what is taken from a file */
@@ -78,8 +79,124 @@ fw_status fw_drawing_read_dxf(fw_arena *arena, const char *data, size_t n,
 fw_status fw_drawing_read_gds(fw_arena *arena, const char *data, size_t n,
                               const fw_drawing_asked *asked, fw_diags *diags, fw_drawing *out);
 
+/* ---- cells: finished drawings that are placed on a mask as they are ----
+   A cell of a GDSII file with all that it refers to, or a DXF file, as polygons on the 1 nm grid, merged
+   for each layer that they go to. */
+
+enum {
+    FW_DRAWING_MAPS_MOST = 32,        /* "1/0>mask" of one cell */
+    FW_DRAWING_DEEPEST = 32,          /* cells within cells */
+    FW_DRAWING_SHAPES_MOST = 1000000, /* polygons, and references followed, of one cell */
+    FW_DRAWING_POINTS_MOST = 2000000, /* of its polygons before they are merged, */
+    FW_DRAWING_PARTS_MOST = 4000,     /* polygons after that, */
+    FW_DRAWING_CORNERS_MOST = 200000, /* and their vertices */
+};
+
+typedef struct fw_drawing_map { /* layers="FROM>TO; ..." */
+    const char *from, *to;
+    int layer, type; /* of `from` in a GDSII file; type -1: any */
+    bool found;      /* something lay on it */
+} fw_drawing_map;
+
+typedef struct fw_drawing_cell_asked {
+    const char *file, *cell;   /* cell NULL: the only top cell */
+    const char *unit;          /* of a DXF file; NULL: what the file says */
+    double unit_m;             /* its size; else NaN */
+    const fw_drawing_map *map; /* (nmap); 0: the only layer, to `usual` */
+    int nmap;
+    const char *usual;
+    fw_geometry_pose pose; /* mirrored first (y becomes -y), then turned, then moved */
+    bool mirrored;
+    fw_place place, cell_place, unit_place, layers_place;
+} fw_drawing_cell_asked;
+
+typedef struct fw_drawing_cell_layer { /* all that goes to one layer */
+    const char *to;
+    /* (n) of lines between points of the grid, counter-clockwise; what two share because a hole was cut
+       open there is a JOINT of both */
+    fw_geometry_contour *outline;
+    int n;
+    fw_geometry_box box;
+} fw_drawing_cell_layer;
+
+typedef struct fw_drawing_cell {
+    const char *name;             /* of the cell; of a DXF file NULL */
+    fw_drawing_cell_layer *layer; /* (nlayer) in the order of the map */
+    int nlayer;
+} fw_drawing_cell;
+
+/* FW_INPUT: reported at the place that asked, with the byte of the file (FW-D565 to FW-D569). Points that
+   do not lie on the grid are rounded to it, half up, and counted in a note (FW-D573). Exact on the grid:
+   fw_geometry_merge. Cost: linear in the bytes and in what references multiply, then n log n. Test:
+   test_drawing_cell.c */
+fw_status fw_drawing_cell_read(fw_arena *arena, const char *data, size_t n,
+                               const fw_drawing_cell_asked *asked, fw_diags *diags,
+                               fw_drawing_cell *out);
+
 /* what a flaw is, for a message about a file: "does not close: ..." */
 const char *fw_drawing_flaw_text(fw_arena *arena, const fw_drawing_flaw *flaw);
+
+/* ---- between the files of the readers of GDSII: records, and what a cell is flattened to ---- */
+
+typedef struct fw_drawing_record {
+    int kind;
+    size_t offset; /* of its first byte in the file */
+    const unsigned char *data;
+    size_t length; /* of data */
+} fw_drawing_record;
+/* the record at *at, which moves behind it; what is wrong with it, or NULL (gds_reader.c) */
+const char *fw_drawing_record_next(const char *data, size_t n, size_t *at, fw_drawing_record *out);
+/* numbers of a record: big-endian, and the real number of eight bytes */
+static inline unsigned fw_drawing_u16(const unsigned char *p) {
+    return (unsigned)p[0] << 8 | p[1];
+}
+static inline int fw_drawing_i32(const unsigned char *p) {
+    return (int)((unsigned)p[0] << 24 | (unsigned)p[1] << 16 | (unsigned)p[2] << 8 | p[3]);
+}
+double fw_drawing_real8(const unsigned char *p);
+
+typedef struct fw_drawing_shape {
+    int map;                     /* index of what takes it */
+    fw_geometry_polygon polygon; /* in either direction, may cross itself */
+    bool hole;                   /* of a DXF file: cut out of the others */
+} fw_drawing_shape;
+
+typedef struct fw_drawing_flat { /* a cell without its hierarchy */
+    fw_arena *arena;
+    fw_diags *diags;
+    const fw_drawing_cell_asked *asked;
+    fw_drawing_map *map; /* (nmap) */
+    int nmap;
+    fw_drawing_shape *shape; /* (n) */
+    int n, room;
+    size_t points;
+    int rounded;      /* points that were not on the grid */
+    const char *name; /* of the cell */
+} fw_drawing_flat;
+
+/* one polygon of n points in nm, in the device's axes. FW_LIMIT: too many; FW_GEOMETRY: too far from the
+   origin (trace.c) */
+fw_status fw_drawing_flat_add(fw_drawing_flat *flat, int map, const fw_geometry_vec2 *at, int n,
+                              bool hole);
+/* gds_cells.c */
+fw_status fw_drawing_flatten_gds(fw_drawing_flat *flat, const char *data, size_t n);
+
+/* The stroke of a path: a strip of twice `half` along its points, mitred at corners. */
+typedef struct fw_drawing_stroke {
+    const fw_geometry_vec2 *p; /* (n >= 2) none repeats the one before */
+    int n;
+    double half, begin, end; /* begin, end: beyond its first and last point */
+    bool round;              /* at both ends, of chords that are at most `chord` inside the arc */
+    double chord;
+} fw_drawing_stroke;
+typedef struct fw_drawing_points {
+    fw_geometry_vec2 *p; /* (n) */
+    int n;
+} fw_drawing_points;
+/* Polygons that cover it: one, where its segments leave room for the mitres on their inner sides; else one
+   for each segment and each corner, which is mitred up to a right angle and cut off beyond (trace.c) */
+fw_status fw_drawing_stroke_parts(fw_arena *arena, const fw_drawing_stroke *stroke,
+                                  fw_drawing_points **part, int *n);
 
 /* ---- between the two halves of the reader of DXF: what was read of the text (dxf_reader.c), and the outlines that
    are made of it (dxf_outlines.c) ---- */

@@ -6,7 +6,6 @@
 #include "drawing/drawing.h"
 #include "geometry/segment.h"
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 enum {
@@ -30,11 +29,7 @@ enum {
 };
 #define FARTHEST_M 0.3
 
-typedef struct record {
-    int kind, number; /* number: from 1 */
-    const unsigned char *data;
-    size_t length;
-} record;
+typedef fw_drawing_record record;
 
 typedef struct element {
     int kind, layer, type, number;
@@ -45,9 +40,10 @@ typedef struct reader {
     fw_arena *arena;
     fw_diags *diags;
     const fw_drawing_asked *asked;
-    const unsigned char *data;
+    const char *data;
     size_t n, at;
     record now;
+    int number; /* of that record, from 1 */
     double dbu_m;
     int layer, type;        /* asked for, or the only ones; -1: none yet, any */
     char cell[NAME_MOST];   /* the one that is being read, */
@@ -65,18 +61,11 @@ static fw_place place_of(const reader *r) {
 static fw_status damaged(const reader *r, const char *what) {
     return fw_diag_error(r->diags, 312, place_of(r),
                          "record %d: this is no GDSII file as it should be: %s; write it again",
-                         r->now.number, what);
-}
-
-static unsigned u16(const unsigned char *p) {
-    return (unsigned)p[0] << 8 | p[1];
-}
-static int32_t i32(const unsigned char *p) {
-    return (int32_t)((uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3]);
+                         r->number, what);
 }
 
 /* sign, exponent of 16 in excess 64, 56 bits of a fraction below 1 */
-static double real8(const unsigned char *p) {
+double fw_drawing_real8(const unsigned char *p) {
     double fraction = 0;
     for (int i = 7; i >= 1; i--)
         fraction = (fraction + p[i]) / 256;
@@ -84,22 +73,28 @@ static double real8(const unsigned char *p) {
     return p[0] & 0x80 ? -value : value;
 }
 
+const char *fw_drawing_record_next(const char *data, size_t n, size_t *at, fw_drawing_record *out) {
+    const unsigned char *p = (const unsigned char *)data + *at;
+    out->offset = *at;
+    if (n - *at < 4) return "it ends before ENDLIB";
+    size_t length = fw_drawing_u16(p);
+    if (length < 4 || length > n - *at) return "the length of a record does not fit";
+    out->kind = p[2];
+    out->data = p + 4;
+    out->length = length - 4;
+    *at += length;
+    return NULL;
+}
+
 static fw_status next(reader *r) {
-    r->now.number++;
-    if (r->n - r->at < 4) return damaged(r, "it ends before ENDLIB");
-    size_t length = u16(r->data + r->at);
-    if (length < 4 || length > r->n - r->at)
-        return damaged(r, "the length of a record does not fit");
-    r->now.kind = r->data[r->at + 2];
-    r->now.data = r->data + r->at + 4;
-    r->now.length = length - 4;
-    r->at += length;
-    return FW_OK;
+    r->number++;
+    const char *wrong = fw_drawing_record_next(r->data, r->n, &r->at, &r->now);
+    return wrong ? damaged(r, wrong) : FW_OK;
 }
 
 static fw_status read_units(reader *r) {
     if (r->now.length != 16) return damaged(r, "UNITS has not two numbers");
-    r->dbu_m = real8(r->now.data + 8);
+    r->dbu_m = fw_drawing_real8(r->now.data + 8);
     if (!(r->dbu_m > 1e-15 && r->dbu_m < 1))
         return damaged(r, "the database unit of UNITS is not between 1e-15 m and 1 m");
     return FW_OK;
@@ -141,7 +136,7 @@ static fw_status add_polygon(reader *r, const element *e, fw_drawing *out) {
     int count = 0;
     for (size_t i = 0; i <= n; i++) {
         const unsigned char *p = e->xy.data + 8 * (i % n);
-        fw_geometry_vec2 to = {i32(p) * r->dbu_m, i32(p + 4) * r->dbu_m};
+        fw_geometry_vec2 to = {fw_drawing_i32(p) * r->dbu_m, fw_drawing_i32(p + 4) * r->dbu_m};
         if (fmax(fabs(to.x), fabs(to.y)) > FARTHEST_M)
             return fw_diag_error(r->diags, 313, place_of(r),
                                  "record %d: it lies farther than 300 mm from the origin, wider "
@@ -197,15 +192,15 @@ static fw_status take_element(reader *r, const element *e, fw_drawing *out) {
 }
 
 static fw_status read_element(reader *r, fw_drawing *out) {
-    element e = {.kind = r->now.kind, .layer = -1, .type = -1, .number = r->now.number};
+    element e = {.kind = r->now.kind, .layer = -1, .type = -1, .number = r->number};
     for (;;) {
         FW_TRY(next(r));
         const record *now = &r->now;
         if (now->kind == ENDEL) break;
         if (now->kind == LAYER && now->length == 2)
-            e.layer = (int)u16(now->data);
+            e.layer = (int)fw_drawing_u16(now->data);
         else if ((now->kind == DATATYPE || now->kind == BOXTYPE) && now->length == 2)
-            e.type = (int)u16(now->data);
+            e.type = (int)fw_drawing_u16(now->data);
         else if (now->kind == XY)
             e.xy = *now;
         else if (now->kind == ENDSTR || now->kind == ENDLIB || now->kind == BGNSTR)
@@ -263,11 +258,7 @@ static fw_status nothing_there(const reader *r) {
 
 fw_status fw_drawing_read_gds(fw_arena *arena, const char *data, size_t n,
                               const fw_drawing_asked *asked, fw_diags *diags, fw_drawing *out) {
-    reader r = {.arena = arena,
-                .diags = diags,
-                .asked = asked,
-                .data = (const unsigned char *)data,
-                .n = n};
+    reader r = {.arena = arena, .diags = diags, .asked = asked, .data = data, .n = n};
     *out = (fw_drawing){0};
     if (asked->unit)
         return fw_diag_error(diags, 313, asked->unit_place,

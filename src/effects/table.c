@@ -43,13 +43,18 @@ static fw_status check_list(fw_arena *arena, const char *list, fw_diags *diags) 
     for (fw_word word; list && fw_word_next(&list, fw_between, &word);) {
         if (known(word)) continue;
         fw_text names = fw_text_new(arena);
-        for (size_t i = 0; i < ROWS; i++)
-            fw_text_printf(&names, "%s%s", i ? ", " : "", rows[i]->id);
+        const char *id[ROWS], *own = fw_arena_strndup(arena, word.at, word.length);
+        FW_NEED(own);
+        for (size_t i = 0; i < ROWS; i++) {
+            id[i] = rows[i]->id;
+            fw_text_printf(&names, "%s%s", i ? ", " : "", id[i]);
+        }
         FW_TRY(fw_text_end(&names));
-        fw_status status =
-            fw_diag_error(diags, 110, (fw_place){"--effects", 0, 0},
-                          "there is no effect \"%.*s\"; known are auto, all, none, or a list of %s",
-                          word.length > 60 ? 60 : (int)word.length, word.at, names.data);
+        const char *near = fw_did_you_mean(own, id, ROWS);
+        fw_status status = fw_diag_error(
+            diags, 110, (fw_place){"--effects", 0, 0},
+            "there is no effect \"%.60s\"%s%s%s; known are auto, all, none, or a list of %s", own,
+            near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", names.data);
         return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
     }
     return FW_OK;

@@ -21,6 +21,7 @@ enum {
     FW_SEGMENT_THROUGH = 16, /* besides: at either end the edge runs on in the neighbouring piece on
                                 the same line or circle, not square to the joint */
     FW_SEGMENT_DRAWN = 32,   /* as somebody drew it: a corner between two of them stays */
+    FW_SEGMENT_ROUNDED = 64, /* its ends were rounded to the grid of masks before it came to be */
 };
 
 typedef struct fw_geometry_segment {

@@ -137,6 +137,7 @@ bool fw_layout_is_wall(const fw_layout_piece *p) {
     case FW_ROLE_LAND:
     case FW_ROLE_METAL:
     case FW_ROLE_COUNT:
+    case FW_ROLE_CELL:
         break;
     }
     return false;

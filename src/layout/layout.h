@@ -22,7 +22,8 @@ typedef enum fw_layout_role {
     FW_ROLE_CAVITY,    /* hollow in the carrier, below what moves */
     FW_ROLE_LAND,      /* within a cavity: what stays of the carrier, below what is held there */
     FW_ROLE_METAL,     /* of bond pads */
-    FW_ROLE_COUNT
+    FW_ROLE_COUNT,     /* those that a layer table may name */
+    FW_ROLE_CELL       /* of a cell on a layer of its own: nothing of the device */
 } fw_layout_role;
 
 /* body of a piece that stands on the carrier by itself, insulated from the rest: stators with their
@@ -102,6 +103,14 @@ typedef struct fw_layout_missing {
 /* what stands between its `why` and its `room` */
 const char *fw_layout_missing_way(const fw_layout_missing *missing);
 
+/* pieces of a cell that go to one layer: they have this label, this very pointer */
+typedef struct fw_layout_cell {
+    const char *label;
+    const char *layer; /* as the description names it (fw_mask_layer_named) */
+    bool biased;       /* as the device is; else the outlines are those of the mask */
+    const fw_device_cell *of;
+} fw_layout_cell;
+
 typedef struct fw_layout_tether { /* a straight finger of the frame with a neck at the body */
     int body;
     const char *label;           /* of its piece: "tether of link AB" */
@@ -138,7 +147,18 @@ typedef struct fw_layout {
     int ntether;
     fw_layout_missing *missing; /* (nmissing) of a layout that is drawn, too */
     int nmissing;
+    const fw_layout_cell *cell; /* (ncell) */
+    int ncell;
 } fw_layout;
+
+/* the cell that a piece is of; NULL: of none */
+const fw_layout_cell *fw_layout_cell_of(const fw_layout *layout, const fw_layout_piece *piece);
+/* pieces of cells behind those of a list: of *layout, whose pieces and cells they become (layout_cells.c) */
+fw_status fw_layout_cells_add(fw_arena *arena, const fw_device_cell *cell, int ncell,
+                              fw_layout *layout, int *capacity);
+/* Do they lie on the die, and clear of what moves, of what bends and of stators? FW_INPUT: reported
+   (FW-D571, FW-D572) */
+fw_status fw_layout_cells_check(const fw_layout *layout, fw_diags *diags);
 
 /* what is drawn of a drive of a scene; NULL: nothing was planned for it */
 const fw_layout_electrode *fw_layout_electrode_of(const fw_layout *layout,

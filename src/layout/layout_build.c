@@ -238,7 +238,8 @@ static fw_status draw(fw_layout_drawing *d) {
     fw_layout *l = d->layout;
     FW_TRY(fw_layout_annotate(d->arena, d->device, l->window, l->die, d->said ? NULL : d->diags,
                               &l->piece, &l->npiece, &d->capacity));
-    return fw_layout_actuators_letters(d);
+    FW_TRY(fw_layout_actuators_letters(d));
+    return fw_layout_cells_add(d->arena, d->device->cell, d->device->ncell, l, &d->capacity);
 }
 
 /* the pieces that can be shown, and at least one fault: the first error where none has a place */

@@ -87,8 +87,9 @@ const fw_mask_content_kind fw_mask_content_cavity = {
 enum { SIDE, LEAST, INSET };
 static const double STEP_M = 5e-6;
 
-static bool is_held(const fw_layout_piece *p) {
-    return p->role == FW_ROLE_STRUCTURE && (p->body == FW_GROUND || p->body == FW_ISLAND);
+static bool is_held(const fw_layout *layout, const fw_layout_piece *p) {
+    return !fw_layout_cell_of(layout, p) && p->role == FW_ROLE_STRUCTURE &&
+           (p->body == FW_GROUND || p->body == FW_ISLAND);
 }
 
 /* one of the pieces of a part that are joined: the one with the largest square stands for it */
@@ -106,7 +107,7 @@ static fw_status draw_pad_metal(const fw_mask_content *content, fw_mask_sheet *s
     for (int i = 0; i < sheet->device->npiece; i++) {
         fw_geometry_box b;
         fw_geometry_contour square;
-        if (!is_held(&sheet->device->piece[i])) continue;
+        if (!is_held(sheet->device, &sheet->device->piece[i])) continue;
         FW_TRY(square_of(sheet->arena, content, sheet->device, i, &b));
         if (b.x1 - b.x0 < content->value[LEAST] - 1e-12) continue;
         FW_TRY(fw_geometry_contour_rectangle(sheet->arena, b, &square));
@@ -124,7 +125,7 @@ static fw_status judge_pad_metal(const fw_mask_content *content, const fw_mask_t
         const fw_layout_piece *p = &layout->piece[i];
         fw_geometry_box b;
         char least[32];
-        if (!is_held(p)) continue;
+        if (!is_held(layout, p)) continue;
         FW_TRY(square_of(verdict->arena, content, layout, i, &b));
         bool room = b.x1 - b.x0 >= content->value[LEAST] - 1e-12;
         if (p->body == FW_GROUND) grounded = grounded || room;

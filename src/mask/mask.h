@@ -177,8 +177,10 @@ typedef struct fw_mask {
     const fw_mask_edges *edges;     /* as fabricated; NULL: not known */
     const fw_mask_finding *finding; /* (nfinding) every place where a rule is broken */
     int nfinding;
-    int nbroken; /* of them those that forbid the mask */
-    bool whole;  /* every polygon is there and proven */
+    int nbroken;                  /* of them those that forbid the mask */
+    bool whole;                   /* every polygon is there and proven */
+    const fw_layout_cell *placed; /* (nplaced) drawings of others on it */
+    int nplaced;
     /* nets as drawn; NULL: they were not asked for, and `wired` is empty */
     const fw_wiring *wiring;
     fw_wiring_on_mask wired; /* the same on the mask */
@@ -208,6 +210,14 @@ bool fw_mask_plate_draws(const fw_mask_table *table, int plate, int layer);
 
 fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                              fw_diags *diags, fw_mask_table *table);
+/* the layer that a name of a cell's layers="...>NAME" means: "mask" is the one that draws the structure, else an id,
+   a name, NUMBER/DATATYPE or a role; -1: the table has none */
+int fw_mask_layer_named(const fw_mask_table *table, const char *text);
+/* What the layers draw that cells of the device and of its wafer go to (fw_device_cell_layer.role). Numbers that a
+   table has not become rows of it, which no plate has. FW_INPUT: reported (FW-D570) */
+fw_status fw_mask_cells_settle(fw_arena *arena, const fw_device *device,
+                               fw_mask_table *const *table, int ntable, fw_diags *diags);
+
 typedef struct fw_mask_options {
     double bias_m, tolerance_m; /* 0 tolerance: 5 nm */
     int vertex_limit;           /* 0: 4094; else 8 to 8190 */

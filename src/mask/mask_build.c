@@ -29,7 +29,10 @@ static int list_shapes(const fw_layout *layout, const fw_mask_table *table, bool
     for (int k = 0; k < table->nlayer; k++)
         for (int i = 0; i < layout->npiece; i++) {
             const fw_layout_piece *piece = &layout->piece[i];
-            if (!(table->layer[k].roles & 1u << piece->role)) continue;
+            const fw_layout_cell *cell = fw_layout_cell_of(layout, piece);
+            bool drawn = cell ? fw_mask_layer_named(table, cell->layer) == k
+                              : (table->layer[k].roles & 1u << piece->role) != 0;
+            if (!drawn) continue;
             if (no_islands && piece->body == FW_ISLAND) continue;
             if (shape)
                 shape[n] = (fw_mask_shape){.layer = k, .piece = piece, .contour = piece->contour};
@@ -82,7 +85,8 @@ static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, fw_mask *
     fw_mask_shape *shape = mask->shape;
     for (int k = 0; k < mask->nshape; k++) {
         double bias_m = fw_mask_layer_bias_m(mask, shape[k].layer);
-        if (bias_m == 0) continue;
+        const fw_layout_cell *cell = fw_layout_cell_of(layout, shape[k].piece);
+        if (bias_m == 0 || (cell && !cell->biased)) continue;
         int i = -1, j = -1;
         fw_status status = fw_geometry_contour_offset(arena, &shape[k].piece->contour, bias_m,
                                                       &shape[k].contour, &i, &j);
@@ -311,6 +315,8 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
                              "no layer of flow %s draws any of the %d pieces; give a layer of its "
                              "table the roles of these pieces",
                              table->flow, layout->npiece);
+    m->placed = layout->cell;
+    m->nplaced = layout->ncell;
     m->flattening = options->flattening;
     m->thickness_m = options->thickness_m;
     fw_mask_set_flattening(m->shape, m->nshape, options->flattening);

@@ -357,6 +357,7 @@ static fw_status certificate(fw_json *json, const fw_mask *mask, const char *gds
     for (int k = 0; k < mask->table->nlayer; k++)
         layer(json, &mask->table->layer[k], &mask->measure[k]);
     fw_json_end_line(json, 2);
+    fw_mask_cells_json(json, mask);
     line_text(json, "flattening", fw_mask_flattening_name(mask->flattening));
     fw_mask_json_files(json, file, nfile);
     if (nfile)
@@ -503,6 +504,7 @@ static void order_head(fw_json *json, const fw_mask *mask, const fw_mask_order *
     yes_no(json, "rejected", mask->rejected);
     fw_mask_json_because(json, mask);
     fw_mask_json_set(json, mask->table, order);
+    fw_mask_cells_json(json, mask);
     line_text(json, "plate", row->layers);
     line_text(json, "plate_text", row->order);
     line_text(json, "polygon_tone", order->tone);

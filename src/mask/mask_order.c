@@ -102,7 +102,7 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
     FW_NEED(order->plate = fw_arena_array(arena, bool, (size_t)table->nlayer));
     if (!fw_mask_plate_layers(table, row->layers, order->plate, &first, &wrong)) return FW_INPUT;
     for (int k = 0; !row->layers && k < table->nlayer; k++) /* not said: all that is drawn */
-        order->plate[k] = table->layer[k].roles != 0;
+        order->plate[k] = (table->layer[k].roles & ~(1u << FW_ROLE_CELL)) != 0;
     if (first >= 0) {
         order->tone = table->layer[first].tone;
         order->field = strcmp(order->tone, "data dark") == 0 ? "clear" : "dark";
@@ -318,6 +318,7 @@ fw_status fw_mask_write_order_text(const fw_mask *mask, int plate, const fw_outp
     layers(mask, &order, out);
     sites(mask, &order, out);
     FW_TRY(fw_mask_wiring_order_text(mask, out));
+    fw_mask_cells_order_text(mask, out);
     fw_text_add(out, "\nfiles: sha256, bytes, name\n");
     for (int i = 0; i < nfile; i++)
         fw_text_printf(out, "%s  %zu  %s\n", file[i].sha256, file[i].size, file[i].name);

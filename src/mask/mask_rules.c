@@ -270,10 +270,19 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
         rule->source, kind->advice);
 }
 
+/* a cell of the description stands at a line of it; nothing else does */
+static fw_place place_of(const fw_mask_rules *r, const fw_mask_finding *f) {
+    for (int i = 0; r->layout && i < r->layout->ncell; i++)
+        for (int side = 0; side < 2; side++)
+            if (r->layout->cell[i].label == f->label[side])
+                return r->layout->cell[i].of->layers_place;
+    return (fw_place){0};
+}
+
 static fw_status tell(fw_mask_rules *r, const fw_mask_finding *f, fw_diags *diags) {
     const char *text = sentence(r->arena, r->layout, &r->table->layer[f->rule->layer], f);
     FW_NEED(text);
-    fw_place place = {0};
+    fw_place place = place_of(r, f);
     if (f->rule->severity == FW_ERROR)
         fw_diag_error(diags, f->rule->kind->number, place, "%s", text);
     else

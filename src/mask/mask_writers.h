@@ -38,6 +38,10 @@ void fw_mask_wiring_json(fw_json *json, const fw_mask *mask);
 void fw_mask_wiring_order_json(fw_json *json, const fw_mask *mask);
 fw_status fw_mask_wiring_order_text(const fw_mask *mask, fw_text *out);
 
+/* drawings of others on the mask, where there are some (mask_cells.c) */
+void fw_mask_cells_json(fw_json *json, const fw_mask *mask);
+void fw_mask_cells_order_text(const fw_mask *mask, fw_text *out);
+
 /* which plate of a flow that prints several, as a member; files with their hashes, without the last
    bracket (mask_json.c) */
 void fw_mask_json_set(fw_json *json, const fw_mask_table *table, const fw_mask_order *order);

@@ -66,6 +66,14 @@ typedef struct fw_mask_rule_search { /* one layer */
     bool no_memory;
 } fw_mask_rule_search;
 
+/* By how much, as a sine, a corner between two edges may be sharper than it was drawn, where both came from a
+   drawing on the grid: each end is off by at most 0.71 nm. Else 0. */
+static inline double fw_mask_rule_lean(const fw_mask_rule_edge *p, const fw_mask_rule_edge *q) {
+    if (!(p->s.flags & q->s.flags & FW_SEGMENT_ROUNDED)) return 0;
+    return 1.42 * FW_GEOMETRY_GRID_M *
+           (1 / vec_distance(p->s.a, p->s.b) + 1 / vec_distance(q->s.a, q->s.b));
+}
+
 /* outlines farther apart than this have no chord between written edges that breaks a rule; 0: there
    is none */
 static inline double fw_mask_rule_needed(const fw_mask_rule_search *in, fw_mask_rule_kind kind,

@@ -141,7 +141,7 @@ static fw_status corners_of_outline(fw_mask_rules *rules, const fw_mask_rule *ru
         fw_geometry_vec2 u = tangent(e, 1), v = tangent(&in->edge[next], 0);
         if (vec_dot(u, v) > blunt) continue;
         double angle = FW_PI - fabs(atan2(vec_cross(u, v), vec_dot(u, v)));
-        if (angle < rule->least - SAME_RAD)
+        if (angle < rule->least - SAME_RAD - fw_mask_rule_lean(e, &in->edge[next]))
             found_corner(rules, rule, e->s.b, angle, rules->shape[e->shape].piece->label,
                          e->segment);
     }

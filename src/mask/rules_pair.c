@@ -198,8 +198,9 @@ static void look_at_own(fw_mask_rule_search *in, fw_mask_rule_edge *e) {
 
 /* does p end where q begins, at a corner that is square, or blunter? */
 static bool square_corner(const fw_mask_rule_edge *p, const fw_mask_rule_edge *q) {
-    return p->corner_b && vec_dot(fw_geometry_segment_tangent(&p->s, 1),
-                                  fw_geometry_segment_tangent(&q->s, 0)) >= FACING;
+    return p->corner_b &&
+           vec_dot(fw_geometry_segment_tangent(&p->s, 1), fw_geometry_segment_tangent(&q->s, 0)) >=
+               FACING - fw_mask_rule_lean(p, q);
 }
 
 /* Reports, as overlaps, all places where two edges meet that are no corners: pieces of one layer may

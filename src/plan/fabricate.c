@@ -341,6 +341,23 @@ fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double
     return FW_OK;
 }
 
+/* what a cell draws of the device's layer hangs together with nothing */
+static void warn_of_loose_cells(fw_plan *plan, const fw_plan_flow *pf) {
+    const fw_layout *l = plan->layout;
+    if (fw_plan_insulated(pf)) return;
+    for (int i = 0; i < l->ncell; i++)
+        for (int k = 0; k < l->npiece; k++) {
+            if (l->piece[k].label != l->cell[i].label || !fw_layout_is_wall(&l->piece[k])) continue;
+            fw_diag_warning(
+                &plan->diags, 574, l->cell[i].of->layers_place,
+                "%s hangs together with nothing in flow %s, which has no insulating carrier: it "
+                "falls out when "
+                "the device is cut free; put it on text, or plan for a flow that insulates",
+                l->cell[i].label, pf->flow->id);
+            break;
+        }
+}
+
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout || plan->layout->nfault > 0) { /* dimensions that do not fit in any flow */
@@ -371,6 +388,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     FW_TRY(fw_plan_layer_bias(plan, pf, &options.layer_bias_m));
     const fw_layout *layout;
     int left_out; /* a mark that finds no room on the frame is no mistake */
+    warn_of_loose_cells(plan, pf);
     FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
     const fw_mask *mask = NULL;
     fw_status status = fw_mask_examine(plan->arena, layout, pf->table, plan->device->name, &options,

@@ -128,11 +128,24 @@ static const fw_device_files *files_or_none(const fw_plan *plan, const fw_device
     return plan->directory ? files : NULL;
 }
 
+/* what the layers draw that its cells go to, in the flows that are planned */
+static fw_status settle_cells(const fw_plan *plan, fw_arena *arena, const fw_device *device,
+                              fw_diags *diags) {
+    fw_mask_table **table;
+    int n = 0;
+    if (device->ncell + device->wafer.ncell == 0 || plan->nflow == 0) return FW_OK;
+    FW_NEED(table = fw_arena_array(arena, fw_mask_table *, (size_t)plan->nflow));
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].table) table[n++] = plan->flow[i].table;
+    return fw_mask_cells_settle(plan->arena, device, table, n, diags);
+}
+
 fw_status fw_plan_device_again(fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
                                fw_diags *diags, const fw_device **device) {
     fw_device_files files = files_of(plan);
-    return fw_device_read_with(arena, plan->source_file, plan->source, plan->source_length, set,
-                               nset, files_or_none(plan, &files), diags, device);
+    FW_TRY(fw_device_read_with(arena, plan->source_file, plan->source, plan->source_length, set,
+                               nset, files_or_none(plan, &files), diags, device));
+    return settle_cells(plan, arena, *device, diags);
 }
 
 static fw_status read_packs(fw_plan *plan) {
@@ -573,5 +586,6 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     plan->device = device;
     FW_TRY(load_flows(plan));
     FW_TRY(check_layers(plan));
+    FW_TRY(settle_cells(plan, plan->arena, device, &plan->diags));
     return warn_of_unused_packs(plan);
 }

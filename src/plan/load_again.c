@@ -12,13 +12,13 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
     FW_NEED(sets && flow ? sets : NULL);
     if (n > 0) memcpy(sets, plan->options.set, n * sizeof *sets);
     if (nset > 0) memcpy(sets + n, set, more * sizeof *sets); /* of two for one the last holds */
+    memcpy(flow, plan->flow, (size_t)plan->nflow * sizeof *flow);
     fw_plan other = *plan;
     other.arena = arena;
     other.diags = fw_diags_new(arena);
     other.flow = flow;
     FW_TRY(
         fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
-    memcpy(flow, plan->flow, (size_t)plan->nflow * sizeof *flow);
     FW_TRY(fw_plan_take_device(&other, *device));
     for (int i = 0; i < plan->nflow; i++)
         FW_TRY(fw_plan_fabricated_of(arena, &flow[i], &variant[i]));

@@ -54,7 +54,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_device_flow_use *use; /* NULL: the device's own material without a flow */
     fw_mechanism_variant variant;
     fw_process_flow *flow; /* NULL: none */
-    const fw_mask_table *table;
+    fw_mask_table *table;  /* with rows for cells on layers of their own */
     const fw_mask *mask;
     const fw_mask *violated; /* the mask where it breaks rules or nearly does, to look at; NULL: it
                                 has no findings */
@@ -66,7 +66,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const char *coupons_sha256;
     const fw_wafer *wafer;  /* NULL: none asked for, or no mask */
     const fw_wafer *single; /* without <wafer>, but with <order>: the plate of one die; else NULL */
-    fw_text wafer_gds;     /* composed once, as above */
+    fw_text wafer_gds;      /* composed once, as above */
     const char *wafer_sha256;
     const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */
     const fw_recipe_cut *cut;    /* the same; NULL: there is nothing to cut */

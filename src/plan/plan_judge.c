@@ -45,9 +45,21 @@ static fw_status find_tethers(fw_plan *plan, const fw_verdict_variant_verdict *v
     return FW_OK;
 }
 
+/* cells that lie where they must not are a mistake of the file, which is said before anything is computed */
+static fw_status check_cells(fw_plan *plan) {
+    const fw_layout *layout = NULL;
+    fw_diags quiet = fw_diags_new(plan->arena); /* the verdict says the rest */
+    if (plan->device->ncell == 0) return FW_OK;
+    fw_status status = fw_layout_build(plan->arena, plan->device, &quiet, &layout);
+    if (status == FW_GEOMETRY || status == FW_INPUT || !layout || !layout->drawn) return FW_OK;
+    FW_TRY(status);
+    return fw_layout_cells_check(layout, &plan->diags);
+}
+
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
     FW_TRY(fw_plan_need_material(plan));
+    FW_TRY(check_cells(plan));
     *verdict = (fw_verdict){.nvariant = plan->nflow};
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_verdict_variant_verdict, (size_t)plan->nflow));
@@ -78,8 +90,14 @@ const fw_device_scene *fw_plan_scene(fw_plan *plan) {
     const fw_device *d = plan->device;
     const char *wanted = plan->options.scene;
     fw_text names = fw_text_new(plan->arena);
+    const char **name = fw_arena_array(plan->arena, const char *, (size_t)d->nscene);
+    if (!name) {
+        plan->diags.failed = 1;
+        return NULL;
+    }
     for (int i = 0; i < d->nscene; i++) {
         const fw_device_scene *scene = &d->scene[i];
+        name[i] = scene->name;
         if (wanted ? strcmp(scene->name, wanted) == 0 : loaded(plan, scene->flow)) {
             if (loaded(plan, scene->flow)) return scene;
             fw_diag_error(&plan->diags, 229, scene->place,
@@ -90,9 +108,11 @@ const fw_device_scene *fw_plan_scene(fw_plan *plan) {
         fw_text_printf(&names, " %s", scene->name);
     }
     const char *has = names.length && !names.failed ? names.data : " none";
+    const char *near = wanted ? fw_did_you_mean(wanted, name, (size_t)d->nscene) : NULL;
     if (wanted)
         fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
-                      "no scene '%s' in the device; it has%s", wanted, has);
+                      "no scene '%s' in the device%s%s%s; it has%s", wanted,
+                      near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", has);
     else
         fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
                       "the device has no scene for this flow; it has%s", has);

@@ -27,6 +27,12 @@ static const char style_sheet[] =
     "nav a:hover,nav a:focus{color:var(--ink);text-decoration:underline}\n"
     "section{padding:26px 0 6px;scroll-margin-top:34px}\n"
     "h2{font-size:22px;line-height:1.3;margin:0 0 10px}\n"
+    "summary{cursor:pointer;color:var(--soft)}\n"
+    "summary h2{display:inline;color:var(--ink)}\n"
+    "details[open]>summary{margin-bottom:10px}\n"
+    "nav button{font:inherit;font-size:13px;border:0;padding:0;background:none;color:var(--soft);"
+    "cursor:pointer;margin-left:auto}\n"
+    "nav button[hidden]{display:none}\n"
     "h3{font-size:16px;margin:20px 0 6px}\n"
     "p{margin:6px 0 10px;max-width:72em}\n"
     ".soft{color:var(--soft)}\n"
@@ -54,7 +60,7 @@ static const char style_sheet[] =
     "tr.bad td,tr.bad th{background:#fdf1ea}\n"
     ".wide{overflow-x:auto}\n"
     "svg{display:block;max-width:100%;height:auto}\n"
-    "svg.bar{display:inline-block;vertical-align:middle;min-width:150px}\n"
+    "svg.bar{display:inline-block;vertical-align:middle;min-width:100px;max-width:110px}\n"
     ".drawing,.stage{width:100%;border:1px solid var(--line);border-radius:4px;background:#fff}\n"
     ".motion{margin:0 0 26px}\n"
     ".pairs{display:flex;flex-wrap:wrap;gap:24px;margin:8px 0 12px}\n"
@@ -157,6 +163,17 @@ static const char player_script[] =
     "addEventListener('beforeprint',function(){stop();t=d.at;show(false);});\n"
     "fig.querySelector('.controls').hidden=false;show(false);}\n"
     "all(document,'.motion').forEach(motion);\n"
+    "var parts=all(document,'main>section>details'),each=document.querySelector('.each');\n"
+    "function reveal(){var e=document.getElementById(location.hash.slice(1));\n"
+    "var part=e?e.querySelector('details'):null;if(part)part.open=true;}\n"
+    "function shut(part){return !part.open;}\n"
+    "function name(){each.textContent=parts.some(shut)?'Open all':'Close all';}\n"
+    "each.addEventListener('click',function(){var open=parts.some(shut);\n"
+    "parts.forEach(function(part){part.open=open;});});\n"
+    "parts.forEach(function(part){part.addEventListener('toggle',name);});\n"
+    "all(document,'nav a').forEach(function(a){a.addEventListener('click',"
+    "function(){setTimeout(reveal,0);});});\n"
+    "addEventListener('hashchange',reveal);each.hidden=false;name();reveal();\n"
     "})();\n";
 
 /* the path of a --set is no file path; the rest as fw_place_file */
@@ -194,6 +211,8 @@ static fw_status messages_section(fw_report_page *page) {
 /* The page is HTML and well-formed XML at once, needs no network (its content policy forbids it)
    and reads without script. */
 
+/* what answers on the first page: the others are opened by who wants to know more, and printed when they are open */
+enum { OPEN_SECTIONS = 2 };
 static const struct {
     const char *id, *title;
     fw_status (*write)(fw_report_page *page);
@@ -241,7 +260,8 @@ static void navigation(fw_report_page *page) {
     for (int i = 0; i < SECTIONS; i++)
         if (is_there(page, i))
             fw_markup(page->out, "<a href=\"#{r}\">{r}</a>\n", sections[i].id, sections[i].title);
-    fw_text_add(page->out, "</div></nav>\n");
+    fw_text_add(page->out, "<button type=\"button\" class=\"each\" hidden=\"hidden\">Open all"
+                           "</button></div></nav>\n");
 }
 
 /* one view for the drawing and all scenes, so that their shapes are shared */
@@ -279,11 +299,12 @@ fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw
     for (int i = 0; i < SECTIONS; i++) {
         if (!is_there(&page, i)) continue;
         fw_markup(out,
-                  "<section id=\"{r}\" aria-labelledby=\"h-{r}\"><h2 id=\"h-{r}\">{r}"
-                  "</h2>\n",
-                  sections[i].id, sections[i].id, sections[i].id, sections[i].title);
+                  "<section id=\"{r}\" aria-labelledby=\"h-{r}\"><details{r}><summary>"
+                  "<h2 id=\"h-{r}\">{r}</h2></summary>\n",
+                  sections[i].id, sections[i].id, i < OPEN_SECTIONS ? " open=\"open\"" : "",
+                  sections[i].id, sections[i].title);
         FW_TRY(sections[i].write(&page));
-        fw_text_add(out, "</section>\n");
+        fw_text_add(out, "</details></section>\n");
     }
     fw_markup(out,
               "</main>\n<footer><p>Flexwright {s}. The same input gives the same bytes: this "

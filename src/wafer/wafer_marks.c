@@ -8,6 +8,7 @@
    readable. Within a place the cross is cut out of a block of that
    layer, as the crosses of a die are cut out of its frame. */
 #include "layout/layout_text.h"
+#include "geometry/segment.h"
 #include "wafer/wafer_parts.h"
 #include <math.h>
 #include <string.h>
@@ -100,7 +101,11 @@ fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, bool as_r
     options.nnote = 0;
     options.no_islands = false;
     if (as_read) options.layer_bias_m = NULL;
-    fw_layout layout = {.drawn = true, .piece = sheet->piece, .npiece = sheet->npiece};
+    fw_layout layout = {.drawn = true,
+                        .piece = sheet->piece,
+                        .npiece = sheet->npiece,
+                        .cell = sheet->cell,
+                        .ncell = sheet->ncell};
     /* such a cell is a part of a picture: what relates layers to each other holds where it lies */
     fw_mask_table *alone = fw_arena_one(m->arena, fw_mask_table);
     FW_NEED(alone);
@@ -259,6 +264,45 @@ static fw_status draw_plate(fw_wafer_maker *m, fw_wafer_sheet *s, int plate, boo
     return FW_OK;
 }
 
+/* does a box lie on the plate, and beside every place of a die? */
+static bool is_beside(const fw_wafer *w, fw_geometry_box b) {
+    const double half = 0.5 * w->form.plate_m;
+    bool beside = b.x0 >= -half && b.y0 >= -half && b.x1 <= half && b.y1 <= half;
+    for (int i = 0; i < w->grid.nsite && beside; i++) {
+        const fw_wafer_site *s = &w->grid.site[i];
+        fw_geometry_box place = {s->x * 1e-9, s->y * 1e-9, (s->x + (double)w->grid.width) * 1e-9,
+                                 (s->y + (double)w->grid.height) * 1e-9};
+        beside = fw_box_gap(b, place) > 0;
+    }
+    return beside;
+}
+
+/* drawings of the description that stand beside the dies */
+static fw_status add_cells(fw_wafer_sheet *s) {
+    fw_wafer_maker *m = s->maker;
+    const fw_device_wafer_asked *asked = &m->wafer->device->wafer;
+    fw_layout sheet = {.piece = s->piece, .npiece = s->npiece};
+    fw_status status = FW_OK;
+    FW_TRY(fw_layout_cells_add(m->arena, asked->cell, asked->ncell, &sheet, &s->capacity));
+    s->piece = sheet.piece, s->npiece = sheet.npiece;
+    s->cell = sheet.cell, s->ncell = sheet.ncell;
+    for (int i = 0; i < sheet.ncell; i++)
+        for (int k = 0; k < sheet.npiece; k++) {
+            if (sheet.piece[k].label != sheet.cell[i].label) continue;
+            fw_geometry_box b = fw_geometry_contour_box(&sheet.piece[k].contour);
+            char x[32], y[32];
+            if (is_beside(m->wafer, b)) continue;
+            status = fw_diag_error(
+                m->diags, 571, sheet.cell[i].of->place,
+                "<wafer>: %s lies on the place of a die or leaves the plate near (%s, %s) mm from "
+                "its middle; move it to where the wafer map has nothing, or put it on the die",
+                sheet.cell[i].label, fw_number_text(x, sizeof x, b.x0 * 1e3, 6),
+                fw_number_text(y, sizeof y, b.y0 * 1e3, 6));
+            break;
+        }
+    return status;
+}
+
 fw_status fw_wafer_plate(fw_wafer_maker *m) {
     fw_wafer *w = m->wafer;
     if (!fw_wafer_draws(m->input->table, FW_ROLE_FRAME)) return FW_OK;
@@ -269,6 +313,7 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
         FW_TRY(fw_layout_text_check(stated->title, "<wafer>: the title", stated->place, m->diags));
     for (int p = 0; p < fw_mask_plates(w->table); p++)
         FW_TRY(draw_plate(m, &s, p, &whole));
+    FW_TRY(add_cells(&s));
     if (!whole)
         fw_diag_warning(
             m->diags, 195, w->device->wafer.place,

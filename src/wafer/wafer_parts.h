@@ -19,6 +19,8 @@ typedef struct fw_wafer_sheet {
     fw_layout_role role; /* of lettering, bars and crosses beside the dies */
     fw_layout_piece *piece;
     int npiece, capacity;
+    const fw_layout_cell *cell; /* (ncell) among them */
+    int ncell;
 } fw_wafer_sheet;
 /* as_read: other plates than the device's are drawn as they are read, without what an etch takes */
 fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, bool as_read,

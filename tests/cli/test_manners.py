@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import pty
+import re
 import subprocess
 import sys
 import tempfile
@@ -74,6 +75,22 @@ class Manners(unittest.TestCase):
         self.assertIn("did you mean 'al-masked-rie'?", run("check", "-", input=text).stderr)
         text = pathlib.Path(SIX_BAR).read_text().replace('ref="al-masked-rie"', 'ref="xyz"')
         self.assertIn("silicon-on-glass, soi-deep-rie", run("check", "-", input=text).stderr)
+        for command, options, near in (("simulate", ("--scene", "step-laod"), "'step-load'?"), ("simulate", ("--method", "chian"), "did you mean chain?"),
+                                       ("simulate", ("--integrator", "radua5"), "did you mean radau5?"), ("check", ("--effects", "fricton"), "'friction'?")):
+            done = run(command, SIX_BAR, *options)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(near, done.stderr)
+
+    def test_report_is_folded(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            out = pathlib.Path(scratch, "out")
+            run("plan", SIX_BAR, "-o", out, "--flow", "al-masked-rie", "--corners", "none", "--advice", "none", "--hinge-model", "revolute", "--accuracy",
+                "3e-2", "-q")
+            page = (out / "report.html").read_text()
+        main = page[page.index("<main>"):page.index("</main>")]
+        folds = re.findall(r'<section id="([\w-]+)" aria-labelledby="h-\1"><details( open="open")?><summary><h2', main)
+        self.assertEqual(len(folds), main.count("<section "))
+        self.assertEqual([name for name, opened in folds if opened], ["device", "hinges"])
 
     def test_explain(self):
         want = run("explain", "FW-D204").stdout

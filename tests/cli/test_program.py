@@ -516,7 +516,7 @@ class Recipe(InTemporary):
 
     def test_formats_of_masks_and_what_the_order_sheet_says_of_them(self):
         flow, always = FLOWS[0], {".gds", ".json", ".lyp", ".lyt"}
-        for formats, more in (("all", {".svg", ".oas", ".dxf", ".stl"}), ("oasis", {".oas"}), ("dxf,svg", {".dxf", ".svg"})):
+        for formats, more in (("all", {".svg", ".oas", ".dxf", ".stl", ".step"}), ("oasis", {".oas"}), ("dxf,svg", {".dxf", ".svg"})):
             out = self.here / formats
             self.expect(run("mask", GALLERY, "--flow", flow, "--mask-format", formats, "--mask-vertices", "199", "-o", out), 0)
             order = json.loads((out / f"masks/{flow}.order.json").read_text())

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STL: read back, closed, with the Euler number and the volume that they must have. */
 #include "mask/mask.h"
+#include "mask/mask_writers.h"
 #include "scene.h"
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct point {
     double x, y, z;
@@ -114,6 +116,44 @@ static double volume(const mesh *m) {
     return sum / 6;
 }
 
+static int times(const char *text, const char *word) {
+    int n = 0;
+    for (const char *at = text; (at = strstr(at, word)) != NULL; at += strlen(word))
+        n++;
+    return n;
+}
+
+/* STEP: so many solids, and every edge in two faces, once in each direction */
+static void check_step(scene *s, const fw_mask *mask, int shells) {
+    fw_text step = fw_text_new(s->arena), again = fw_text_new(s->arena);
+    assert_int_equal(fw_mask_write_step(mask, &step), FW_OK);
+    assert_int_equal(fw_mask_write_step(mask, &again), FW_OK);
+    assert_string_equal(step.data, again.data);
+    assert_int_equal(times(step.data, "=MANIFOLD_SOLID_BREP("), shells);
+    assert_int_equal(times(step.data, "=CLOSED_SHELL("), shells);
+    int most = times(step.data, "\n#") + 2;
+    int *used = fw_arena_array(s->arena, int, 2 * (size_t)most);
+    for (const char *at = step.data; (at = strstr(at, "=ORIENTED_EDGE(")) != NULL; at++) {
+        const char *of = strchr(at, '#');
+        long id = strtol(of + 1, NULL, 10);
+        const char *sense = strchr(of, '.');
+        assert_true(id > 0 && id < most);
+        used[2 * id + (sense[1] == 'T')]++;
+    }
+    for (const char *at = step.data; (at = strstr(at, "=EDGE_CURVE(")) != NULL; at++) {
+        const char *begin = at;
+        while (*begin != '#')
+            begin--;
+        long id = strtol(begin + 1, NULL, 10);
+        assert_int_equal(used[2 * id], 1);
+        assert_int_equal(used[2 * id + 1], 1);
+    }
+    /* Euler: vertices - edges + faces = 2 for a solid without holes, less with them; never more */
+    int euler = times(step.data, "=VERTEX_POINT(") - times(step.data, "=EDGE_CURVE(") +
+                times(step.data, "=ADVANCED_FACE(") - times(step.data, "=FACE_BOUND(");
+    assert_true(euler <= 2 * shells && euler % 2 == 0);
+}
+
 static void check(scene *s, const fw_mask *mask, int shells) {
     double want = mask->measure[0].polygon_area_m2 * 1e12 * s->options.thickness_m * 1e6;
     fw_text stl = fw_text_new(s->arena);
@@ -121,6 +161,7 @@ static void check(scene *s, const fw_mask *mask, int shells) {
     mesh a = read_stl(s->arena, &stl);
     assert_closed(s->arena, &a, shells);
     assert_relative(volume(&a), want, 1e-6); /* floats */
+    check_step(s, mask, shells);
 }
 
 /* ring and legs become one solid, without walls at the joints; a plate beside it another */

@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""cells.py PROGRAM: drawings of others on our masks, against KLayout, which draws them, places them and compares.
+
+A cell with references, arrays, paths and holes goes onto the mask, onto lettering and onto a layer of its own; masks that the program wrote come back
+as they are (GDSII) and within the tolerance of arcs (DXF); every format and the plate as it is written have it, and the manifest its hash; what must
+not be touched, is too large, damaged or misplaced is refused with the line of the device file and the byte of the drawing, and nothing is written."""
+import hashlib
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SIX = ROOT / "docs/gallery/reference-six-bar/device.xml"
+FLOW = "al-masked-rie"
+FAST = ["--flow", FLOW, "--corners", "none", "--advice", "none", "--hinge-model", "revolute", "--accuracy", "3e-2", "--force", "-q"]
+DRAW = """
+import pya
+l = pya.Layout(); l.dbu = 0.001
+a = l.layer(1, 0); b = l.layer(2, 0); c = l.layer(5, 2)
+leaf = l.create_cell("LEAF")
+leaf.shapes(a).insert(pya.Box(0, 0, 60000, 40000))
+leaf.shapes(b).insert(pya.Box(12000, 12000, 48000, 28000))
+leaf.shapes(a).insert(pya.Path([pya.Point(0, 60000), pya.Point(40000, 60000), pya.Point(40000, 90000)], 12000, 6000, 6000))
+leaf.shapes(a).insert(pya.Region(pya.Box(100000, 0, 160000, 60000)) - pya.Region(pya.Box(115000, 15000, 145000, 45000)))
+leaf.shapes(c).insert(pya.Text("not a shape", pya.Trans(0, 0)))
+top = l.create_cell("LOGO")
+top.insert(pya.CellInstArray(leaf.cell_index(), pya.Trans(1, True, 0, 0)))
+top.insert(pya.CellInstArray(leaf.cell_index(), pya.ICplxTrans(1.5, 180, True, 200000, 0)))
+top.insert(pya.CellInstArray(leaf.cell_index(), pya.Trans(0, False, 400000, 0), pya.Vector(200000, 0), pya.Vector(0, 120000), 2, 2))
+o = pya.SaveLayoutOptions(); l.write("logo.gds", o)
+o.format = "OASIS"; l.write("logo.oas", o)
+pya.Application.instance().exit(0)
+"""
+# areas of differences in nm2: of layers of a file against what is expected, both merged
+COMPARE = """
+import json, pya
+known = {}
+def layer(file, number, at=None):
+    if file not in known:
+        known[file] = pya.Layout(); known[file].read(file)
+    l = known[file]; i = l.find_layer(*number)
+    r = pya.Region() if i is None else pya.Region(l.top_cell().begin_shapes_rec(i))
+    r.merged_semantics = True
+    if at: r = r.transformed(pya.ICplxTrans(1, at[2], at[3], at[0], at[1]))
+    return r.merged()
+out = []
+for file, number, parts in json.loads(open(jobs).read()):
+    want = pya.Region()
+    for p in parts: want += layer(*p)
+    got = layer(file, number); want.merge()
+    x = got ^ want
+    out.append([got.area(), x.area(), x.sized(-4, 2).area()])
+open(result, "w").write(json.dumps(out))
+pya.Application.instance().exit(0)
+"""
+
+
+def klayout(script, where, **variables):
+    path = pathlib.Path(where, "script.py")
+    path.write_text(script)
+    given = [w for k, v in variables.items() for w in ("-rd", "%s=%s" % (k, v))]
+    subprocess.run(["klayout", "-zz", "-r", path.name, *given], cwd=where, check=True, capture_output=True, timeout=240)
+
+
+class Cells(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.where = pathlib.Path(tempfile.mkdtemp())
+        klayout(DRAW, cls.where)
+        cls.own("plain", "")
+        for ending in ("gds", "dxf"):
+            shutil.copy(cls.where / ("plain/masks/%s.%s" % (FLOW, ending)), cls.where / ("own." + ending))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.where)
+
+    @classmethod
+    def make(cls, name, cells, wafer="", options=(), source=SIX):
+        text = source.read_text().replace("<die ", cells + "\n" + wafer + "<die ")
+        (cls.where / (name + ".xml")).write_text(text)
+        return subprocess.run([PROGRAM, "mask", name + ".xml", "-o", name, "--mask-format", "all", *FAST, *options], cwd=cls.where, capture_output=True,
+                              text=True, check=False, timeout=240)
+
+    @classmethod
+    def own(cls, name, cells, wafer=""):
+        done = cls.make(name, cells, wafer)
+        assert done.returncode == 0, done.stderr
+        return done
+
+    def compare(self, jobs):
+        (self.where / "jobs.json").write_text(json.dumps(jobs))
+        klayout(COMPARE, self.where, jobs="jobs.json", result="result.json")
+        return json.loads((self.where / "result.json").read_text())
+
+    def test_it_is_on_the_mask_as_it_was_drawn(self):
+        self.own("logo", '<cell file="logo.gds" x="-0.6 mm" y="3.2 mm" layers="1/0>mask; 1/0>77/3; 2/0>text"/>')
+        self.own("turned", '<cell file="logo.gds" cell="LEAF" x="-0.6 mm" y="3.3 mm" angle="90 deg" mirror="yes" layers="1/0>mask"/>')
+        at, plain = [-600000, 3200000, 0, False], "plain/masks/%s.gds" % FLOW
+        jobs = []
+        for file in ("logo/masks/%s.gds", "logo/masks/%s.oas"):
+            file = file % FLOW
+            jobs += [[file, [1, 0], [[plain, [1, 0]], ["logo.gds", [1, 0], at]]], [file, [77, 3], [["logo.gds", [1, 0], at]]],
+                     [file, [2, 0], [[plain, [2, 0]], ["logo.gds", [2, 0], at]]]]
+        # LEAF alone: KLayout mirrors about x and then turns, as we do
+        (self.where / "leaf.json").write_text("")
+        klayout("import pya\nl = pya.Layout(); l.read('logo.gds')\nl.prune_cell(l.cell('LOGO').cell_index(), 0)\nl.write('leaf.gds')\n"
+                "pya.Application.instance().exit(0)\n", self.where)
+        jobs.append(["turned/masks/%s.gds" % FLOW, [1, 0], [[plain, [1, 0]], ["leaf.gds", [1, 0], [-600000, 3300000, 90, True]]]])
+        for (area, off, _), job in zip(self.compare(jobs), jobs):
+            self.assertGreater(area, 0, job)
+            self.assertEqual(off, 0, job)
+        masks = self.where / "logo/masks"
+        svg, dxf = (masks / (FLOW + ".svg")).read_text(), (masks / (FLOW + ".dxf")).read_text()
+        for text, says in ((svg, 'data-gds="77/3"'), (dxf, "CELL_77_3"), ((masks / (FLOW + ".lyp")).read_text(), "77/3")):
+            self.assertTrue(says in text, says)
+        certificate = {y["gds"]: y for y in json.loads((masks / (FLOW + ".json")).read_text())["layers"]}
+        before = {y["gds"]: y for y in json.loads((self.where / "plain/masks" / (FLOW + ".json")).read_text())["layers"]}
+        logo = self.compare([["logo.gds", [1, 0], []]])[0][0] * 1e-6
+        self.assertAlmostEqual(certificate["1/0"]["area_um2"] - before["1/0"]["area_um2"], logo, delta=1e-3)
+        self.assertAlmostEqual(certificate["77/3"]["area_um2"], logo, delta=1e-3)
+        manifest = json.loads((self.where / "logo/manifest.json").read_text())
+        self.assertIn(hashlib.sha256((self.where / "logo.gds").read_bytes()).hexdigest(), json.dumps(manifest))
+
+    def test_own_files_come_back(self):
+        numbers = {1: 101, 2: 102, 3: 103, 4: 104}
+        self.own("back", '<cell file="own.gds" layers="%s"/><cell id="dxf" file="own.dxf" layers="AL_MASK>111/0; TEXT>112/0"/>' %
+                 "; ".join("%d/0>%d/0" % p for p in numbers.items()))
+        file = "back/masks/%s.gds" % FLOW
+        jobs = [[file, [to, 0], [["own.gds", [of, 0]]]] for of, to in numbers.items()]
+        for area, off, _ in self.compare(jobs):
+            self.assertGreater(area, 0)
+            self.assertEqual(off, 0)
+        for area, off, wide in self.compare([[file, [111, 0], [["own.gds", [1, 0]]]], [file, [112, 0], [["own.gds", [2, 0]]]]]):
+            self.assertGreater(area, 0)
+            self.assertLess(off, 1e-5 * area)
+            self.assertEqual(wide, 0)  # nothing wider than the chords of both, 5 nm each
+
+    def test_wafer(self):
+        wafer = '<wafer diameter="100 mm"><cell file="logo.gds" x="%s mm" y="-58 mm" layers="1/0>mask"/></wafer>'
+        self.own("wafer", "", wafer % "5")
+        self.own("empty", "", '<wafer diameter="100 mm"/>')
+        at = [5000000, -58000000, 0, False]
+        (area, off, _), = self.compare([["wafer/masks/%s-wafer.gds" % FLOW, [1, 0], [["empty/masks/%s-wafer.gds" % FLOW, [1, 0]], ["logo.gds", [1, 0], at]]]])
+        self.assertGreater(area, 0)
+        self.assertEqual(off, 0)
+        done = self.make("over", "", (wafer % "0").replace("-58", "0"))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("FW-D571", done.stderr)
+
+    def test_bad_ones_are_refused(self):
+        good = (self.where / "logo.gds").read_bytes()
+        (self.where / "cut.gds").write_bytes(good[: len(good) // 2])
+        (self.where / "block.dxf").write_text("0\nSECTION\n2\nENTITIES\n0\nINSERT\n8\nA\n2\nB\n10\n0\n20\n0\n0\nENDSEC\n0\nEOF\n")
+        for cell, number, says in (
+                ('file="block.dxf" unit="um" layers="A>77/0"', 565, "line 5, byte 21: INSERT"),
+                ('file="cut.gds" layers="1/0>77/0"', 565, "byte "),
+                ('file="logo.oas" layers="1/0>77/0"', 569, "KLayout"),
+                ('file="logo.gds" layers="1/0>77/0"  x="20 mm"', 571, "leaves the die"),
+                ('file="logo.gds" layers="1/0>mask" x="1.4 mm" y="2.9 mm"', 572, "touches"),
+                ('file="logo.gds" layers="1/0>nowhere"', 570, "mask, "),
+                ('file="logo.gds" layers="9/0>mask"', 568, "on layer 9/0"),
+                ('file="logo.gds" layers="1/0"', 568, "without '>'"),
+                ('file="logo.gds"', 568, "say which go where"),
+                ('file="../logo.gds"', 310, "beside the device file"),
+                ('file="missing.gds"', 310, "missing.gds"),
+                ('file="logo.gds" layers="1/0>63/0"', 570, "never exposed")):
+            shutil.rmtree(self.where / "bad", ignore_errors=True)
+            done = self.make("bad", "<cell %s/>" % cell)
+            self.assertEqual(done.returncode, 3, (cell, done.stderr))
+            lines = [y for y in done.stderr.splitlines() if "FW-D%d" % number in y]
+            self.assertTrue(lines and says in lines[0], (cell, done.stderr))
+            line = 1 + (self.where / "bad.xml").read_text().split("<cell")[0].count("\n")
+            self.assertTrue(lines[0].startswith("bad.xml:%d:" % line), (cell, lines[0]))
+            self.assertFalse((self.where / "bad").exists())
+
+    def test_rules_hold_for_it(self):
+        done = self.make("near", '<cell file="logo.gds" cell="LEAF" x="-0.9 mm" y="3.6 mm" layers="1/0>mask"/>', options=())
+        self.assertIn("cell LEAF", done.stderr)
+        self.assertIn("FW-D152", done.stderr)  # it lies on the frame
+
+
+if __name__ == "__main__":
+    if not shutil.which("klayout"):
+        print("SKIPPED: klayout is not installed (Debian: apt-get install klayout)")
+        sys.exit(77)
+    unittest.main()
