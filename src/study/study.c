@@ -452,6 +452,16 @@ static fw_status tally(void *context, const fw_study_sample *sample) {
     return FW_OK;
 }
 
+fw_status fw_study_check_apart(fw_study *study) {
+    if (study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity)
+        return FW_OK;
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: a study of kind %s looks at earlier samples to choose later ones; "
+        "run it in one piece, in as many threads as there are (--jobs)",
+        fw_device_study_kind_text(study->asked->kind));
+}
+
 fw_status fw_study_run(fw_study *study) {
     fw_study_result *result = fw_arena_one(study->arena, fw_study_result);
     FW_NEED(result);
@@ -460,14 +470,7 @@ fw_status fw_study_run(fw_study *study) {
     for (int k = 0; k < study->nresponse; k++)
         result->extreme[k] = (fw_study_extreme){
             .least = (double)NAN, .largest = (double)NAN, .least_at = -1, .largest_at = -1};
-    bool apart =
-        study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity;
-    if (study->options.shards > 0 && !apart)
-        return fw_diag_error(
-            &study->diags, 490, study->asked->place,
-            "--shard: a study of kind %s looks at earlier samples to choose later ones; "
-            "run it in one piece, in as many threads as there are (--jobs)",
-            fw_device_study_kind_text(study->asked->kind));
+    if (study->options.shards > 0) FW_TRY(fw_study_check_apart(study));
     if (study->options.output && !study->store) {
         mkdir(study->options.output, 0777); /* what is wrong with it, the store will say */
         FW_TRY(fw_study_store_open(study, &study->store));
