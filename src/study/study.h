@@ -47,6 +47,7 @@ typedef struct fw_study_input {
     const char *const *text; /* (ntext) listed values */
     int ntext;
     double now; /* SI, of the description as it stands; NaN: not a parameter */
+    const fw_device_uncertain *uncertain; /* its first row; NULL: chosen, or of a flow */
     fw_place place;
 } fw_study_input;
 
@@ -83,10 +84,11 @@ typedef struct fw_study {
     const char *device_path, *device_name;
     const char *source; /* (source_length) of options.file, for carets */
     size_t source_length;
-    bool stored_only;      /* of a merge: what the store has not is not run */
-    const char *hash;      /* of everything that decides what a sample is */
-    fw_study_input *input; /* (ninput) those of <vary>, then those of <uncertain> */
-    int ninput, nvary;
+    bool stored_only; /* of a merge: what the store has not is not run */
+    const char *hash; /* of everything that decides what a sample is */
+    /* (ninput) those of <vary>, then what <uncertain> sets (of flexure[*] each), then quantities of flows */
+    fw_study_input *input;
+    int ninput, nvary, nsetting;
     fw_study_response *response; /* (nresponse) */
     int nresponse;
     unsigned stages;              /* FW_STUDY_STAGE_..., what the responses need */
