@@ -211,6 +211,7 @@ fw_status fw_study_csv_save(fw_study *study, const char *path);
 typedef struct fw_study_picture {
     const char *name;  /* "map-C", of its file NAME.svg */
     const char *title; /* a sentence */
+    bool captioned;    /* the page says the title below it: it is not in the picture */
     fw_text svg;
 } fw_study_picture;
 /* what there is to look at, by kind */

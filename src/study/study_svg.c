@@ -4,9 +4,11 @@
    drawn. Colours tell accepted, rejected and undecided, and so do the shapes. */
 #include "base/sort.h"
 #include "base/svg.h"
+#include "plan/stages.h"
 #include "study/study_parts.h"
 #include "study/study.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { DRAWN_MOST = 3000, PAIRS_MOST = 12, LINES_MOST = 400, BARS = 40 };
@@ -474,12 +476,58 @@ static fw_status front(fw_study_sheet *s, const points *p) {
     return fw_text_end(out);
 }
 
+/* ---- the best designs ---- */
+
+enum { DRAWINGS_MOST = 3 };
+
+/* judged once more, for its drawing with the hinges coloured by what they use */
+static fw_status draw_design(fw_study_sheet *s, const fw_study_found *f, const char *name,
+                             const char *title) {
+    fw_study *study = s->study;
+    const char *svg = NULL;
+    size_t n;
+    int status;
+    fw_design *design = fw_study_design(study, study->options.cancel, f->text, &status);
+    FW_NEED(design);
+    if (status == FW_STATUS_OK) status = fw_design_judge(design);
+    if (status == FW_STATUS_OK)
+        status = fw_design_document(design, FW_DOCUMENT_DEVICE_SVG, &svg, &n);
+    const char *picture = status == FW_STATUS_OK && svg ? strstr(svg, "<svg") : NULL;
+    fw_text *out = picture ? fw_study_sheet_add(s, name, title) : NULL;
+    if (out) s->item[s->n - 1].captioned = true;
+    if (out) fw_text_add(out, picture);
+    fw_design_free(design);
+    if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
+    return out ? fw_text_end(out) : FW_OK;
+}
+
+static fw_status drawings(fw_study_sheet *s) {
+    const fw_study *study = s->study;
+    const fw_study_result *r = study->result;
+    for (int i = 0; i < r->nfound && i < DRAWINGS_MOST; i++) {
+        /* of a front one at each end and one between */
+        int k = r->nfound <= DRAWINGS_MOST ? i : i * (r->nfound - 1) / (DRAWINGS_MOST - 1);
+        char number[24];
+        snprintf(number, sizeof number, "%d", k + 1);
+        FW_TRY(draw_design(s, &r->found[k], fw_study_picture_name(study->arena, "design", number),
+                           fw_arena_printf(study->arena,
+                                           "Design %d of the table, hinges coloured by what they "
+                                           "use of their limits",
+                                           k + 1)));
+    }
+    if (r->nfound == 0 && r->nearest.text)
+        return draw_design(s, &r->nearest, "design-nearest",
+                           "The nearest design, hinges coloured by what they use of their limits");
+    return FW_OK;
+}
+
 static fw_status pictures(fw_study_sheet *s, const points *p) {
     const fw_study *study = s->study;
     const fw_device_study *asked = study->asked;
     bool grid =
         asked->kind == FW_STUDY_IS_sweep && asked->points == FW_POINTS_GRID && study->ninput == 2;
     if (study->result->derivative) FW_TRY(tornados(s));
+    if (asked->kind == FW_STUDY_IS_size) FW_TRY(drawings(s));
     if (asked->kind == FW_STUDY_IS_size) FW_TRY(front(s, p));
     for (int r = 0; grid && r < study->nresponse; r++)
         FW_TRY(map(s, p, r));
@@ -497,7 +545,8 @@ fw_status fw_study_pictures(fw_study *study, const fw_study_picture **picture, i
     size_t inputs = (size_t)study->ninput, responses = (size_t)study->nresponse;
     points p = {.study = study, .every = (r->run + r->failed) / DRAWN_MOST + 1};
     fw_study_sheet s = {.study = study,
-                        .most = 6 + PAIRS_MOST + 3 * study->nresponse + 3 * r->nyield};
+                        .most =
+                            6 + DRAWINGS_MOST + PAIRS_MOST + 3 * study->nresponse + 3 * r->nyield};
     FW_NEED(s.item = fw_arena_array(study->arena, fw_study_picture, (size_t)s.most));
     FW_NEED(p.x = fw_arena_array(study->arena, double, DRAWN_MOST *inputs + 1));
     FW_NEED(p.y = fw_arena_array(study->arena, double, DRAWN_MOST *responses + 1));

@@ -375,6 +375,7 @@ static void designs(const fw_study *study, fw_text *out) {
 static void figure(const fw_study_picture *p, fw_text *out) {
     fw_text_add(out, "<figure>");
     fw_text_add(out, p->svg.data);
+    if (p->captioned) text(out, "<figcaption>", p->title, "</figcaption>");
     fw_text_add(out, "</figure>\n");
 }
 
