@@ -351,7 +351,7 @@ class Study(unittest.TestCase):
         tried = [float(r["angle"]) for r in self.rows("grid") if r["state"] == "accept" and float(r["U"]) <= 0.7]
         is_ = {r["name"]: r["value"] for r in found[0]["responses"]}
         drawn = (self.place / "size/pictures/design-1.svg").read_text()
-        used = max(float(u) for u in re.findall(r">([\d.]+) %</", drawn))
+        used = max(float(u) for u in re.findall(r"</tspan>\s([\d.]+)\s%</text>", drawn))
         self.assertAlmostEqual(used, 100 * is_["U"], delta=0.06)  # the hinge that uses most, as the drawing writes it
         self.assertIn("<figcaption>Design 1", (self.place / "size/study.html").read_text())
         self.assertLessEqual(is_["angle"], 1.01 * min(tried))
