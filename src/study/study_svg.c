@@ -492,7 +492,8 @@ static fw_status draw_design(fw_study_sheet *s, const fw_study_found *f, const c
     if (status == FW_STATUS_OK) status = fw_design_judge(design);
     if (status == FW_STATUS_OK)
         status = fw_design_document(design, FW_DOCUMENT_DEVICE_SVG, &svg, &n);
-    const char *picture = status == FW_STATUS_OK && svg ? strstr(svg, "<svg") : NULL;
+    const char *head = status == FW_STATUS_OK && svg ? strstr(svg, "?>\n") : NULL;
+    const char *picture = head ? head + 3 : NULL; /* without the declaration of a file */
     fw_text *out = picture ? fw_study_sheet_add(s, name, title) : NULL;
     if (out) s->item[s->n - 1].captioned = true;
     if (out) fw_text_add(out, picture);
