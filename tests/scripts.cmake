@@ -40,6 +40,9 @@ fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/b
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 1200)
 fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/cli/test_advice.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.study COMMAND ${Python3_EXECUTABLE} tests/cli/test_study.py ${FW_PROGRAM} TIMEOUT 1200)
+# a cluster of one node; what needs none is tried first, and 77 says that there is no Slurm
+fw_script_test(cli.slurm COMMAND ${Python3_EXECUTABLE} tests/cli/test_slurm.py ${FW_PROGRAM} TIMEOUT 300)
+set_tests_properties(cli.slurm PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(cli.measurements COMMAND ${Python3_EXECUTABLE} tests/cli/test_measurements.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})

@@ -32,6 +32,18 @@ void fw_chance_count_add(fw_chance_count *count, double value) {
         count->failed++;
 }
 
+void fw_chance_trace(const fw_chance_run *run, const fw_chance_estimate *now,
+                     fw_chance_estimate *out) {
+    if (out->steps == FW_CHANCE_STEPS) {
+        for (size_t k = 1; k < FW_CHANCE_STEPS; k += 2)
+            out->step[k / 2] = out->step[k];
+        out->steps = FW_CHANCE_STEPS / 2;
+    }
+    out->step[out->steps++] =
+        (fw_chance_step){run->used, (now->probability_low + now->probability_high) / 2,
+                         fmin(now->low, now->high), now->high};
+}
+
 static double lower(size_t failed, size_t points, double tail) {
     return failed ? fw_maths_beta_quantile(tail, (double)failed, (double)(points - failed) + 1) : 0;
 }
@@ -83,8 +95,9 @@ fw_status fw_chance_monte_carlo(fw_chance_run *run, fw_chance_estimate *out) {
         FW_TRY(fw_chance_evaluate(run, now, u, value));
         for (size_t i = 0; i < now; i++)
             fw_chance_count_add(&count, value[i]);
+        count_interval(&count, run->level, out);
+        fw_chance_trace(run, out, out);
     }
-    count_interval(&count, run->level, out);
     return FW_OK;
 }
 
@@ -111,6 +124,20 @@ static fw_status replicate(fw_chance_run *run, size_t number, size_t points, dou
     return FW_OK;
 }
 
+static void quasi_result(const fw_chance_count *all, size_t replicates, const double *low,
+                         const double *high, double level, fw_chance_estimate *out) {
+    count_interval(all, level, out);
+    if (replicates < 2) return; /* one mean has no interval, its count has */
+    fw_chance_mean least = fw_chance_mean_of(replicates, low, level);
+    fw_chance_mean most = fw_chance_mean_of(replicates, high, level);
+    bool few_fail = all->failed < FEW,
+         few_do_not = all->points - all->failed - all->unevaluated < FEW;
+    out->low = few_fail || few_do_not ? fmin(out->low, least.low) : least.low;
+    out->high = few_fail || few_do_not ? fmax(out->high, most.high) : most.high;
+    if (!few_fail && !few_do_not)
+        out->standard_error = fmax(least.standard_error, most.standard_error);
+}
+
 /* 16 scramblings of the first 2^k Sobol' points, as many as the budget allows. They are independent, so that Student's
    interval of their means holds, whatever the points of one have to do with each other. Where fewer than 160 points fail,
    or do not, the means are too few steps of 1/N for Student, and the interval is widened to that of Clopper and Pearson for
@@ -132,14 +159,8 @@ fw_status fw_chance_quasi(fw_chance_run *run, fw_chance_estimate *out) {
         low[r] = (double)count.failed / (double)points;
         high[r] = (double)(count.failed + count.unevaluated) / (double)points;
         all.points += points, all.failed += count.failed, all.unevaluated += count.unevaluated;
+        quasi_result(&all, r + 1, low, high, run->level, out);
+        fw_chance_trace(run, out, out);
     }
-    count_interval(&all, run->level, out);
-    fw_chance_mean least = fw_chance_mean_of(REPLICATES, low, run->level);
-    fw_chance_mean most = fw_chance_mean_of(REPLICATES, high, run->level);
-    bool few_fail = all.failed < FEW, few_do_not = all.points - all.failed - all.unevaluated < FEW;
-    out->low = few_fail || few_do_not ? fmin(out->low, least.low) : least.low;
-    out->high = few_fail || few_do_not ? fmax(out->high, most.high) : most.high;
-    if (!few_fail && !few_do_not)
-        out->standard_error = fmax(least.standard_error, most.standard_error);
     return FW_OK;
 }

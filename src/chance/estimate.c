@@ -59,6 +59,32 @@ static fw_status weighted(fw_chance_run *run, size_t samples, fw_chance_weighted
     return status;
 }
 
+/* repetitions, or points, for all that is left, with what each step said */
+
+static fw_status subsets_to_the_end(fw_chance_run *run, fw_chance_subset *s,
+                                    fw_chance_estimate *out) {
+    for (size_t before = SIZE_MAX; before != s->repetitions;) {
+        before = s->repetitions;
+        FW_TRY(subsets(run, fw_chance_left(run), 1, s));
+        fw_chance_subset_result(s, run->level, out);
+        if (before != s->repetitions) fw_chance_trace(run, out, out);
+    }
+    return FW_OK;
+}
+
+static fw_status weighted_to_the_end(fw_chance_run *run, fw_chance_weighted *w,
+                                     fw_chance_estimate *out) {
+    enum { PARTS = 24 };
+    size_t each = (fw_chance_left(run) / PARTS / run->batch + 1) * run->batch;
+    do {
+        size_t now = fw_chance_left(run) < each ? fw_chance_left(run) : each;
+        FW_TRY(weighted(run, now, w));
+        fw_chance_weighted_result(w, run->level, out);
+        fw_chance_trace(run, out, out);
+    } while (fw_chance_left(run) > 0);
+    return FW_OK;
+}
+
 static const char *caution_of(fw_arena *arena, const fw_chance_weighted *w, double level) {
     char text[32];
     double unseen = -expm1(log(1 - level) / fmax(1, (double)w->own));
@@ -75,8 +101,7 @@ static const char *const no_repetition =
 static fw_status by_subsets(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_subset s;
     FW_TRY(subsets_start(run, fw_chance_left(run), REPEATED, &s));
-    FW_TRY(subsets(run, fw_chance_left(run), SIZE_MAX, &s));
-    fw_chance_subset_result(&s, run->level, out);
+    FW_TRY(subsets_to_the_end(run, &s, out));
     if (s.repetitions < 2) out->caution = no_repetition;
     return FW_OK;
 }
@@ -91,8 +116,7 @@ static fw_status by_design_points(fw_chance_run *run, fw_chance_estimate *out) {
     FW_TRY(fw_chance_points_find(run, part(run, 2 * OF_POINTS), s.failing, s.failed, &points));
     if (!points.count) return FW_SOLVER;
     fw_chance_weighted_start(&points, &w);
-    FW_TRY(weighted(run, fw_chance_left(run), &w));
-    fw_chance_weighted_result(&w, run->level, out);
+    FW_TRY(weighted_to_the_end(run, &w, out));
     out->points = points.count, out->point = points.point;
     FW_NEED(out->caution = caution_of(run->arena, &w, run->level));
     return FW_OK;
@@ -189,14 +213,12 @@ static fw_status go_on(fw_chance_run *run, rare *r, bool around_points, fw_chanc
     out->points = r->points.count, out->point = r->points.point;
     if (around_points) {
         out->method = FW_CHANCE_IMPORTANCE;
-        FW_TRY(weighted(run, fw_chance_left(run), &r->weighted));
-        fw_chance_weighted_result(&r->weighted, run->level, out);
+        FW_TRY(weighted_to_the_end(run, &r->weighted, out));
         FW_NEED(out->caution = caution_of(run->arena, &r->weighted, run->level));
         return FW_OK;
     }
     out->method = FW_CHANCE_SUBSET;
-    FW_TRY(subsets(run, fw_chance_left(run), SIZE_MAX, &r->subset));
-    fw_chance_subset_result(&r->subset, run->level, out);
+    FW_TRY(subsets_to_the_end(run, &r->subset, out));
     if (r->subset.repetitions < 2) out->caution = no_repetition;
     return FW_OK;
 }

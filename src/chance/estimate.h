@@ -54,6 +54,13 @@ typedef struct fw_chance_design_point {
     double *alpha; /* (dimensions) */
 } fw_chance_design_point;
 
+/* what the method would have said after fewer evaluations, by the same formulas */
+typedef struct fw_chance_step {
+    size_t evaluations;
+    double probability, low, high;
+} fw_chance_step;
+enum { FW_CHANCE_STEPS = 64 };
+
 typedef struct fw_chance_estimate {
     fw_chance_method method; /* the one that gave the numbers */
     const char *reason;      /* one sentence: why this method */
@@ -64,6 +71,9 @@ typedef struct fw_chance_estimate {
     double standard_error;   /* of the estimate; NaN where it is not known (no failure seen) */
     size_t evaluations;      /* all, pilots and gradients included */
     size_t unevaluated;      /* NaN among them */
+    size_t
+        steps; /* evenly over the part of the budget that gave the numbers; the last is the estimate itself */
+    fw_chance_step step[FW_CHANCE_STEPS];
     size_t points;
     /* (points), nearest first; none where they were not looked for */
     const fw_chance_design_point *point;

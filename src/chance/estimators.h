@@ -27,6 +27,10 @@ typedef struct fw_chance_count {
 } fw_chance_count;
 void fw_chance_count_add(fw_chance_count *count, double value);
 
+/* what `now` says becomes a step of *out; of more than there is room for every second one stays */
+void fw_chance_trace(const fw_chance_run *run, const fw_chance_estimate *now,
+                     fw_chance_estimate *out);
+
 /* mean and its Student interval from `count` independent estimates, within [0, 1] */
 typedef struct fw_chance_mean {
     double mean, standard_error, low, high;

@@ -149,26 +149,36 @@ static bool unknown_option(const fw_cli_command *command, const char *argument) 
     return false;
 }
 
-/* one option at argv[*i]; takes its value from behind '=' or from the next argument */
-static bool one_option(const fw_cli_command *command, int argc, char **argv, int *i,
-                       fw_cli_options *o) {
-    const char *argument = argv[*i], *value = NULL;
+/* the row of the option at argv[*i], and its value from behind '=' or from the next argument; a value that is missing or
+   not wanted is the caller's affair */
+static const fw_cli_option_row *option_at(const fw_cli_command *command, char **argv, int *i,
+                                          const char **value) {
+    const char *argument = argv[*i];
     const fw_cli_option_row *row;
     if (argument[1] == '-') {
         size_t n = strcspn(argument + 2, "=");
         row = find(command, argument + 2, n, 0);
-        value = argument[2 + n] == '=' ? argument + 3 + n : NULL;
+        *value = argument[2 + n] == '=' ? argument + 3 + n : NULL;
     } else {
         row = find(command, NULL, 0, argument[1]);
-        value = argument[2] ? argument + 2 : NULL;
+        *value = argument[2] ? argument + 2 : NULL;
     }
+    if (row && row->argument && !*value && argv[*i + 1]) *value = argv[++*i];
+    return row;
+}
+
+static bool one_option(const fw_cli_command *command, char **argv, int *i, fw_cli_options *o) {
+    const char *argument = argv[*i], *value;
+    int first = *i;
+    const fw_cli_option_row *row = option_at(command, argv, i, &value);
     if (!row || (!row->argument && value)) return unknown_option(command, argument);
     if (row->argument && !value) {
-        if (*i + 1 >= argc) {
-            fw_cli_usage("--%s needs %s: %s", row->name, row->argument, fw_cli_option_help(row));
-            return false;
-        }
-        value = argv[++*i];
+        fw_cli_usage("--%s needs %s: %s", row->name, row->argument, fw_cli_option_help(row));
+        return false;
+    }
+    if (o->ngiven < FW_MOST_GIVEN) {
+        o->given[o->ngiven].name = row->name;
+        o->given[o->ngiven].first = first, o->given[o->ngiven++].last = *i;
     }
     const char *wrong = row->take(o, value);
     if (wrong) fw_cli_usage("--%s%s%s %s", row->name, value ? " " : "", value ? value : "", wrong);
@@ -210,7 +220,7 @@ bool fw_cli_parse(const fw_cli_command *command, int argc, char **argv, fw_cli_o
         if (!only_names && strcmp(argument, "--") == 0)
             only_names = true;
         else if (!only_names && argument[0] == '-' && argument[1]) {
-            if (!one_option(command, argc, argv, &i, o)) return false;
+            if (!one_option(command, argv, &i, o)) return false;
         } else if (o->device && (command->options & FW_OPT_STUDY) && o->nmore < FW_MOST_NAMES) {
             o->more[o->nmore++] = argument;
         } else if (o->device) {

@@ -168,6 +168,27 @@ const char *fw_cli_take_plan_only(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+const char *fw_cli_take_tasks(fw_cli_options *o, const char *v) {
+    double n;
+    if (!fw_number_parse(v, strlen(v), &n) || n != floor(n) || !(n >= 1 && n <= 1000))
+        return "needs a whole number between 1 and 1000, the most tasks of an array where the "
+               "cluster's MaxArraySize is not changed";
+    o->tasks = (int)n;
+    return NULL;
+}
+
+const char *fw_cli_take_no_submit(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->no_submit = true;
+    return NULL;
+}
+
+const char *fw_cli_take_sbatch(fw_cli_options *o, const char *v) {
+    if (o->nsbatch == FW_MOST_SETS) return "is given more than 64 times";
+    o->sbatch[o->nsbatch++] = v;
+    return v[0] == '-' ? NULL : "needs options of sbatch, like \"--partition=long --time=60\"";
+}
+
 /* ---- options of log ---- */
 
 const char *fw_cli_take_run(fw_cli_options *o, const char *v) {

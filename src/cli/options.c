@@ -365,8 +365,18 @@ static const fw_cli_option_row table[] = {
      "only every N-th sample from the I-th on, for a machine of its own; study merge puts the N "
      "directories together",
      FW_OPT_STUDY, fw_cli_take_shard},
-    {"resume", 0, NULL, "go on with the samples that are in the directory", FW_OPT_STUDY,
-     fw_cli_take_resume},
+    {"resume", 0, NULL,
+     "go on with the samples that are in the directory; where another process writes there, after "
+     "it",
+     FW_OPT_STUDY, fw_cli_take_resume},
+    {"shards", 0, "N", "of study slurm: tasks of the array job, 1 to 1000, a shard each",
+     FW_OPT_STUDY, fw_cli_take_tasks},
+    {"sbatch", 0, "OPTIONS",
+     "of study slurm: the cluster's own options, of both jobs: \"--partition=long --time=60\"; "
+     "repeatable",
+     FW_OPT_STUDY, fw_cli_take_sbatch},
+    {"no-submit", 0, NULL, "of study slurm: write the two scripts and submit nothing", FW_OPT_STUDY,
+     fw_cli_take_no_submit},
     {"set", 0, "PATH=VALUE",
      "override a parameter (arc=\"250 deg\") or an attribute (flexure[A]/@length=\"312 um\"); "
      "repeatable",

@@ -9,7 +9,7 @@
 #include <flexwright.h>
 #include <stdbool.h>
 
-enum { FW_MOST_SETS = 64, FW_MOST_NAMES = 1024 };
+enum { FW_MOST_SETS = 64, FW_MOST_NAMES = 1024, FW_MOST_GIVEN = 256 };
 
 typedef struct fw_cli_options {
     fw_design_options design;
@@ -32,11 +32,20 @@ typedef struct fw_cli_options {
     const char *more[FW_MOST_NAMES]; /* (nmore) names behind the first */
     int nmore, jobs, shard, shards;
     bool resume, plan_only;
+    int tasks; /* of study slurm; 0: not given */
+    bool no_submit;
+    const char *sbatch[FW_MOST_SETS]; /* (nsbatch) */
+    int nsbatch;
     int port; /* of serve; 0: a free one */
     bool no_browser, ipv6;
     const char *settings;          /* of tradeoff; NULL: all */
     double budget_s, time_limit_s; /* the second 0: none */
     bool no_time;
+    struct { /* (ngiven) options of the line: their rows' names, their words in argv */
+        const char *name;
+        int first, last;
+    } given[FW_MOST_GIVEN];
+    int ngiven;
     char **argv; /* as it was started, for tradeoff, which starts it again under callgrind */
     const fw_cancel *interrupted; /* set by SIGINT and SIGTERM: every design here stops then */
     bool json, quiet, verbose, no_progress, help, version;
@@ -119,6 +128,9 @@ const char *fw_cli_take_jobs(fw_cli_options *o, const char *v);
 const char *fw_cli_take_shard(fw_cli_options *o, const char *v);
 const char *fw_cli_take_resume(fw_cli_options *o, const char *v);
 const char *fw_cli_take_plan_only(fw_cli_options *o, const char *v);
+const char *fw_cli_take_tasks(fw_cli_options *o, const char *v);
+const char *fw_cli_take_no_submit(fw_cli_options *o, const char *v);
+const char *fw_cli_take_sbatch(fw_cli_options *o, const char *v);
 
 const char *fw_cli_take_run(fw_cli_options *o, const char *v);
 const char *fw_cli_take_entry(fw_cli_options *o, const char *v);

@@ -130,9 +130,14 @@ static fw_status build_vary(fw_xml_reader *r, const fw_xml_record *record, fw_de
     return FW_OK;
 }
 
-/* which of mean, sd, from and to a spread is stated by */
+/* is it of the same input as an earlier row? */
+static bool is_same_input(const char *what, const char *flow, const fw_device_uncertain *u) {
+    return strcmp(what, u->what) == 0 && !flow == !u->flow && (!flow || strcmp(flow, u->flow) == 0);
+}
+
+/* which of mean, sd, from and to a spread is stated by; further: it is a deviation from an earlier row's mean */
 static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
-                         const fw_device_uncertain *u) {
+                         const fw_device_uncertain *u, bool further) {
     static const char *const name[] = {"mean", "sd", "from", "to"};
     static const unsigned needs[] = {[FW_SPREAD_NORMAL] = 3,
                                      [FW_SPREAD_LOGNORMAL] = 3,
@@ -140,13 +145,18 @@ static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
                                      [FW_SPREAD_TRUNCATED] = 15,
                                      [FW_SPREAD_INTERVAL] = 12};
     char label[FW_LABEL];
+    bool free_mean = u->spread == FW_SPREAD_NORMAL && u->flow && !further;
     for (int i = 0; i < 4; i++) {
         bool given = fw_xml_given(record, name[i]), needed = needs[u->spread] >> i & 1u;
-        if (given == needed) continue;
+        if (i == 0 && further && u->spread == FW_SPREAD_NORMAL) needed = false;
+        if (given == needed || (i == 0 && free_mean)) continue;
         fw_diag_error(
             r->diags, 491, given ? fw_xml_place_of(record, name[i]) : record->element->place,
             needed ? "%s: spread=\"%s\" needs %s=\"...\""
-                   : "%s: spread=\"%s\" has no %s; remove it, or name another spread",
+            : further
+                ? "%s: spread=\"%s\" of a further level is a deviation and has no %s; the first "
+                  "row of the input has it"
+                : "%s: spread=\"%s\" has no %s; remove it, or name another spread",
             fw_xml_label(record, label), fw_device_study_words_of.spread[u->spread], name[i]);
         return;
     }
@@ -163,23 +173,93 @@ static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
                       "%s: a lognormal spread is of values above 0", fw_xml_label(record, label));
 }
 
+/* what a level, and a further row of an input, ask for */
+static void check_level(fw_xml_reader *r, const fw_xml_record *record, const fw_device_study *s,
+                        const fw_device_uncertain *u, bool further) {
+    char label[FW_LABEL];
+    const char *what = NULL;
+    bool all = strncmp(u->what, "flexure[*]/", 11) == 0;
+    if (further && u->spread != FW_SPREAD_NORMAL && u->spread != FW_SPREAD_UNIFORM)
+        what =
+            "a further level of an input is a deviation from its mean: normal with sd, or uniform "
+            "with from and to about 0";
+    else if (further && u->spread == FW_SPREAD_UNIFORM && !(u->from < 0 && u->to > 0))
+        what = "a further level of an input is a deviation from its mean: from is below 0 and to "
+               "above";
+    else if (u->spread == FW_SPREAD_INTERVAL && (u->levelled || further))
+        what =
+            "an interval is one value of which nothing is known, on no level; remove the level, or "
+            "name a spread";
+    else if (u->level == FW_LEVEL_HINGE && u->flow)
+        what = "a flow makes all hinges of a die alike; what differs from hinge to hinge is an "
+               "attribute of the flexures, what=\"flexure[*]/@width\"";
+    else if (u->level == FW_LEVEL_HINGE && !all)
+        what = "what differs from hinge to hinge is an attribute of all flexures, "
+               "what=\"flexure[*]/@width\"";
+    for (int k = 0; k < s->nuncertain && !what; k++) {
+        const fw_device_uncertain *before = &s->uncertain[k];
+        if (!is_same_input(u->what, u->flow, before)) continue;
+        if (before->level == u->level)
+            what = "the input has a row of this level; rows of one input are of different levels";
+        else if (before->spread == FW_SPREAD_INTERVAL)
+            what = "an input of which only an interval is known has no levels";
+        else if (!fw_quantity_dimension_equal(before->dimension, u->dimension))
+            what = "its rows are of different dimensions";
+    }
+    if (what)
+        fw_diag_error(r->diags, 556, record->element->place, "%s: %s", fw_xml_label(record, label),
+                      what);
+}
+
 static fw_status build_uncertain(fw_xml_reader *r, const fw_xml_record *record,
                                  fw_device_study *s) {
     static const char *const parts[] = {"mean", "from", "to", "sd", NULL};
+    const fw_device_study_words *words = &fw_device_study_words_of;
     fw_device_uncertain u = {
         .what = fw_xml_text_of(record, "what"),
+        .flow = fw_xml_text_of(record, "flow"),
+        .level = (fw_device_level)word_of(record, "level", words->level, FW_LEVEL_DIE),
+        .levelled = fw_xml_given(record, "level"),
         .unit = "",
-        .spread = (fw_device_spread)word_of(record, "spread", fw_device_study_words_of.spread, 0),
+        .spread = (fw_device_spread)word_of(record, "spread", words->spread, 0),
         .place = record->element->place};
-    bool known = false;
+    bool known = false, further = false;
     size_t before = r->diags->errors;
+    for (int k = 0; k < s->nuncertain && u.what; k++)
+        further = further || is_same_input(u.what, u.flow, &s->uncertain[k]);
     FW_TRY(value_of(r, record, "mean", &known, &u.dimension, &u.mean));
     FW_TRY(value_of(r, record, "from", &known, &u.dimension, &u.from));
     FW_TRY(value_of(r, record, "to", &known, &u.dimension, &u.to));
     FW_TRY(value_of(r, record, "sd", &known, &u.dimension, &u.sd));
-    if (r->diags->errors == before) check_spread(r, record, &u);
+    if (r->diags->errors == before) check_spread(r, record, &u, further);
     if (r->diags->errors == before) FW_TRY(unit_of(r, record, parts, u.dimension, &u.unit));
+    if (r->diags->errors == before && u.what) check_level(r, record, s, &u, further);
     if (u.what) s->uncertain[s->nuncertain++] = u;
+    return FW_OK;
+}
+
+static fw_status build_trend(fw_xml_reader *r, const fw_xml_record *record, fw_device_study *s) {
+    fw_device_trend t = {.what = fw_xml_text_of(record, "what"),
+                         .flow = fw_xml_text_of(record, "flow"),
+                         .place = record->element->place};
+    char label[FW_LABEL];
+    bool known = false;
+    size_t before = r->diags->errors;
+    FW_TRY(value_of(r, record, "radial", &known, &t.dimension, &t.radial));
+    FW_TRY(value_of(r, record, "along-x", &known, &t.dimension, &t.along_x));
+    FW_TRY(value_of(r, record, "along-y", &known, &t.dimension, &t.along_y));
+    const char *what = known || r->diags->errors > before
+                           ? NULL
+                           : "needs radial=\"...\", along-x=\"...\" or along-y=\"...\"";
+    for (int k = 0; k < s->ntrend && t.what && !what; k++)
+        if (strcmp(t.what, s->trend[k].what) == 0 && !t.flow == !s->trend[k].flow &&
+            (!t.flow || strcmp(t.flow, s->trend[k].flow) == 0))
+            what = "the input has a trend; keep one row, with all three numbers";
+    if (what) fw_diag_error(r->diags, 557, t.place, "%s: %s", fw_xml_label(record, label), what);
+    double *const part[] = {&t.radial, &t.along_x, &t.along_y};
+    for (int k = 0; k < 3; k++)
+        if (isnan(*part[k])) *part[k] = 0;
+    if (t.what) s->trend[s->ntrend++] = t;
     return FW_OK;
 }
 
@@ -210,7 +290,8 @@ static void check_inputs(fw_xml_reader *r, const fw_device_study *s) {
         fw_place place = i < s->nvary ? s->vary[i].place : s->uncertain[i - s->nvary].place;
         for (int k = 0; k < i; k++) {
             const char *other = k < s->nvary ? s->vary[k].what : s->uncertain[k - s->nvary].what;
-            if (strcmp(what, other) != 0) continue;
+            /* several rows of chance add up, level by level */
+            if (strcmp(what, other) != 0 || (i >= s->nvary && k >= s->nvary)) continue;
             fw_diag_error(r->diags, 490, place,
                           "study '%s': '%.80s' has two rows; an input is chosen or left to chance, "
                           "once",
@@ -251,6 +332,7 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
     if (!what && s->kind != FW_STUDY_IS_yield && s->nrespond == 0)
         what = "nothing is asked; add <respond name=\"...\" value=\"governing.utilisation\"/>";
     bool yield = s->kind == FW_STUDY_IS_yield;
+    if (!what && !yield && s->ntrend > 0) what = "<trend> belongs to kind=\"yield\"; remove it";
     if (!what && yield && s->nvary > 0)
         what = "a yield chooses nothing; remove <vary>, or make it <uncertain>";
     if (!what && yield && s->nrespond > 0)
@@ -280,13 +362,16 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         .place = record->element->place};
     size_t varied = (size_t)fw_xml_children(record, "vary"),
            uncertain = (size_t)fw_xml_children(record, "uncertain"),
+           trends = (size_t)fw_xml_children(record, "trend"),
            responses = (size_t)fw_xml_children(record, "respond");
     FW_NEED(s->vary = fw_arena_array(r->arena, fw_device_vary, varied));
     FW_NEED(s->uncertain = fw_arena_array(r->arena, fw_device_uncertain, uncertain));
+    FW_NEED(s->trend = fw_arena_array(r->arena, fw_device_trend, trends));
     FW_NEED(s->respond = fw_arena_array(r->arena, fw_device_respond, responses));
     for (const fw_xml_record *c = record->first_child; c; c = c->next) {
         if (fw_xml_is(c, "vary")) FW_TRY(build_vary(r, c, s));
         if (fw_xml_is(c, "uncertain")) FW_TRY(build_uncertain(r, c, s));
+        if (fw_xml_is(c, "trend")) FW_TRY(build_trend(r, c, s));
         if (fw_xml_is(c, "respond")) FW_TRY(build_respond(r, c, s));
     }
     check_inputs(r, s);

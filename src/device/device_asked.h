@@ -136,14 +136,38 @@ typedef enum fw_device_spread {
     FW_SPREAD_INTERVAL   /* nothing is known but from and to */
 } fw_device_spread;
 
-typedef struct fw_device_uncertain { /* <uncertain>: an input that differs from device to device */
-    const char *what;                /* parameter or path, as --set takes it */
+typedef enum fw_device_level { /* with what an input takes a new value */
+                               FW_LEVEL_LOT,
+                               FW_LEVEL_WAFER,
+                               FW_LEVEL_DIE,
+                               FW_LEVEL_HINGE
+} fw_device_level;
+
+/* <uncertain>: an input that differs from device to device. Rows of one input on several levels add up: the first has the
+   mean, the others are deviations from it. */
+typedef struct fw_device_uncertain {
+    const char
+        *what; /* parameter or path, as --set takes it; of a flow: the name of a quantity of it */
+    const char *flow; /* NULL: an input of the device */
+    fw_device_level level;
+    bool levelled; /* the level is stated */
     fw_device_spread spread;
-    double mean, sd, from, to; /* SI; NaN: not stated */
+    double mean, sd, from,
+        to; /* SI; NaN: not stated; a mean that is not stated: 0 of a further row, of a flow what the
+                                  pack states */
     fw_quantity_dimension dimension;
     const char *unit; /* values are written in it; "" for pure numbers */
     fw_place place;
 } fw_device_uncertain;
+
+typedef struct
+    fw_device_trend { /* <trend>: how an uncertain input goes over the wafer, the same on all wafers */
+    const char *what, *flow; /* as its <uncertain>; the flow may be NULL */
+    double radial;           /* SI: at the rim less in the centre; 0: not stated */
+    double along_x, along_y; /* at the rim to the right, and at the top, less in the centre */
+    fw_quantity_dimension dimension;
+    fw_place place;
+} fw_device_trend;
 
 typedef enum fw_device_respond_take { /* of several values at one place */
                                       FW_TAKE_ONE,
@@ -180,6 +204,8 @@ typedef struct fw_device_study {
     int nvary;
     fw_device_uncertain *uncertain; /* (nuncertain) */
     int nuncertain;
+    fw_device_trend *trend; /* (ntrend) */
+    int ntrend;
     fw_device_respond *respond; /* (nrespond) */
     int nrespond;
     fw_place place;

@@ -32,8 +32,8 @@ extern const fw_xml_table fw_device_table, fw_device_study_table;
 
 /* the words of a study's attributes, each in the order of its enum, NULL behind the last */
 typedef struct fw_device_study_words {
-    const char *const *kind, *const *points, *const *judge, *const *spread, *const *take,
-                                                                                *const *goal;
+    const char *const *kind,
+        *const *points, *const *judge, *const *spread, *const *take, *const *goal, *const *level;
 } fw_device_study_words;
 extern const fw_device_study_words fw_device_study_words_of;
 

@@ -32,6 +32,11 @@ static const char *const goals[] = {[FW_GOAL_NONE] = "none",
                                     [FW_GOAL_MINIMISE] = "minimise",
                                     [FW_GOAL_MAXIMISE] = "maximise",
                                     [FW_GOAL_MAXIMISE + 1] = NULL};
+static const char *const levels[] = {[FW_LEVEL_LOT] = "lot",
+                                     [FW_LEVEL_WAFER] = "wafer",
+                                     [FW_LEVEL_DIE] = "die",
+                                     [FW_LEVEL_HINGE] = "hinge",
+                                     [FW_LEVEL_HINGE + 1] = NULL};
 static const char *const scales[] = {"linear", "logarithmic", NULL};
 
 const char *fw_device_study_kind_text(fw_device_study_kind kind) {
@@ -46,8 +51,8 @@ const char *fw_device_study_judge_text(fw_device_study_judge judge) {
     return judged[judge];
 }
 
-const fw_device_study_words fw_device_study_words_of = {kinds,   points, judged,
-                                                        spreads, takes,  goals};
+const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, spreads,
+                                                        takes, goals,  levels};
 
 /* what both rows of <study> have */
 #define STUDY_ROWS                                                                                 \
@@ -90,7 +95,20 @@ static const fw_xml_attribute_row vary_rows[] = {
     {"values", TEXT, .sentence = "Values as --set takes them, with ; between: \"8 um; 10 um\"."},
 };
 static const fw_xml_attribute_row uncertain_rows[] = {
-    {"what", TEXT, REQUIRED, .sentence = "A parameter or a path, as --set takes it."},
+    {"what", TEXT, REQUIRED,
+     .sentence =
+         "A parameter or a path, as --set takes it; flexure[*] stands for all flexures. With "
+         "flow: the name of a quantity of it, as the study lists its inputs (thickness)."},
+    {"flow", TEXT, .fallback = "of the device",
+     .sentence =
+         "The quantity is of this flow; what is stated here stands in the place of what its "
+         "pack states, and a mean that is not stated is the pack's value."},
+    {"level", .kind = FW_KIND_WORD, .words = levels, .fallback = "die",
+     .sentence =
+         "With what it takes a new value: lot (all wafers of a lot share it), wafer (all dies "
+         "of a wafer), die (all hinges of a die), hinge (none; what is then flexure[*]/@...). "
+         "Rows of one input on several levels add up: the first has the mean, each other one "
+         "is a deviation from it, stated by sd alone or by from and to about 0."},
     {"spread", .kind = FW_KIND_WORD, .words = spreads, .fallback = "normal",
      .sentence = "normal and lognormal: mean and sd; uniform: from and to; truncated: all four; "
                  "interval: nothing is known but from and to, and the yield is then a range."},
@@ -98,6 +116,20 @@ static const fw_xml_attribute_row uncertain_rows[] = {
     {"sd", .kind = FW_KIND_ANY, .sentence = "Standard deviation of the values."},
     {"from", .kind = FW_KIND_ANY, .sentence = "Least value."},
     {"to", .kind = FW_KIND_ANY, .sentence = "Largest value."},
+};
+static const fw_xml_attribute_row trend_rows[] = {
+    {"what", TEXT, REQUIRED, .sentence = "As in its <uncertain>, or a quantity of the flow."},
+    {"flow", TEXT, .fallback = "of the device", .sentence = "As in its <uncertain>."},
+    {"radial", .kind = FW_KIND_ANY, .fallback = "none",
+     .sentence =
+         "How much more it is at the rim of the wafer than in its centre; in between it goes "
+         "with the square of the radius."},
+    {"along-x", .kind = FW_KIND_ANY, .fallback = "none",
+     .sentence =
+         "How much more it is at the rim on the right than in the centre, in a straight line."},
+    {"along-y", .kind = FW_KIND_ANY, .fallback = "none",
+     .sentence =
+         "How much more it is at the rim at the top than in the centre, in a straight line."},
 };
 static const fw_xml_attribute_row respond_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the column."},
@@ -121,6 +153,11 @@ static const fw_xml_attribute_row respond_rows[] = {
         {"uncertain", "study", .most = 200, ROWS(uncertain_rows),                                  \
          .sentence = "An input that differs from device to device, beside what the flow may make " \
                      "of it."},                                                                    \
+        {"trend", "study", .most = 200, ROWS(trend_rows),                                          \
+         .sentence =                                                                               \
+             "How an uncertain input goes over the wafer, the same on every wafer; the mean "      \
+             "over the whole wafer stays what it is. The device needs a <wafer>: its dies "        \
+             "are the places."},                                                                   \
         {"respond", "study", .most = 1000, ROWS(respond_rows),                                     \
          .sentence = "A number that is looked at."},
 

@@ -10,7 +10,7 @@
    input that a pack does not know (an assumed range) and spread="interval" make a range as well.
    Theory: docs/theory/chance.md. Test: tests/cli/test_study.py */
 #include "chance/estimate.h"
-#include "chance/joint.h"
+#include "maths/functions.h"
 #include "plan/design.h"
 #include "plan/stages.h"
 #include "study/study_parts.h"
@@ -29,14 +29,14 @@ typedef struct yielding {
     int flow;        /* of the plan */
     int ninput;      /* of the flow */
     int first_input; /* column of its first one */
-    fw_chance_joint joint;
+    fw_study_scatter scatter;
     const double *unknown; /* values of what is not known; NULL: middles */
-    double *middle;
-    double shift;   /* added to ln: what the model may be off by */
-    long evaluated; /* devices of this flow so far */
-    long base;      /* number of its first sample */
+    double shift;          /* added to ln: what the model may be off by */
+    long evaluated;        /* devices of this flow so far */
+    long told;             /* those and what simulated wafers had, for progress */
+    long base;             /* number of its first sample */
     /* devices by their values (open addressing): methods ask for the same ones again */
-    double *key;   /* (room x values) */
+    double *key;   /* (room x npoint) */
     cached *value; /* (room) */
     size_t room, filled;
     /* of the estimators, which give back what they took: nothing of ours is in it */
@@ -48,21 +48,17 @@ typedef struct yielding {
 typedef struct batch {
     yielding *y;
     size_t n;
-    const double *x;       /* (n x values) */
+    const double *x;       /* (n x npoint) */
     fw_verdict_made *made; /* (n) */
     bool *wanted;          /* (n) not known from before */
 } batch;
-
-static double draw_of_input(const yielding *y, const double *x, int k) {
-    return x[y->joint.value_first[k]];
-}
 
 /* with settings of <uncertain>: the description read again and judged as drawn, then as made */
 static fw_status judge_restated(const yielding *y, fw_arena *arena, const double *x,
                                 fw_verdict_made *made) {
     const fw_study *study = y->study;
     const fw_plan *plan = study->plan;
-    int n = study->asked->nuncertain;
+    int n = study->nsetting;
     fw_device_set *set = fw_arena_array(arena, fw_device_set, (size_t)n);
     fw_verdict_variant_verdict *variant =
         fw_arena_array(arena, fw_verdict_variant_verdict, (size_t)plan->nflow);
@@ -74,8 +70,8 @@ static fw_status judge_restated(const yielding *y, fw_arena *arena, const double
         char *text = fw_arena_array(arena, char, FW_STUDY_TEXT);
         double shown;
         FW_NEED(text);
-        FW_TRY(fw_study_input_write(&study->input[study->nvary + k],
-                                    draw_of_input(y, x, y->ninput + k), 12, text, &shown));
+        FW_TRY(fw_study_input_write(&study->input[study->nvary + k], x[y->ninput + k], 12, text,
+                                    &shown));
         set[k] = (fw_device_set){study->input[study->nvary + k].what, text};
     }
     *made = (fw_verdict_made){.ln = (double)NAN, .hinge = FW_NONE};
@@ -96,18 +92,15 @@ static fw_status judge_restated(const yielding *y, fw_arena *arena, const double
 
 static fw_status judge_one(const yielding *y, const double *x, fw_verdict_made *made) {
     const fw_plan *plan = y->study->plan;
-    double point[FW_FABRICATION_INPUTS];
-    for (int k = 0; k < y->ninput; k++)
-        point[k] = draw_of_input(y, x, k);
     fw_arena *arena = fw_arena_part(plan->arena, 0);
     FW_NEED(arena);
     fw_arena_stop_with(arena, y->study->options.cancel);
     fw_status status;
-    if (y->study->asked->nuncertain > 0)
+    if (y->study->nsetting > 0)
         status = judge_restated(y, arena, x, made);
     else
         status = fw_verdict_made_at(arena, plan->device, plan->layout, &plan->options.verdict,
-                                    &plan->verdict.variant[y->flow], point, made);
+                                    &plan->verdict.variant[y->flow], x, made);
     made->why = NULL; /* of this arena */
     fw_arena_free(arena);
     return status;
@@ -115,19 +108,20 @@ static fw_status judge_one(const yielding *y, const double *x, fw_verdict_made *
 
 static fw_status judge_kth(void *context, long k) {
     batch *b = context;
-    return b->wanted[k] ? judge_one(b->y, b->x + (size_t)k * b->y->joint.values, &b->made[k])
-                        : FW_OK;
+    return b->wanted[k]
+               ? judge_one(b->y, b->x + (size_t)k * (size_t)b->y->scatter.npoint, &b->made[k])
+               : FW_OK;
 }
 
 /* ---- devices that were judged before ---- */
 
 static size_t slot_of(const yielding *y, const double *x) {
-    size_t n = y->joint.values * sizeof *x, at = 0;
+    size_t values = (size_t)y->scatter.npoint, n = values * sizeof *x, at = 0;
     uint64_t hash = 14695981039346656037u; /* FNV-1a */
     for (const unsigned char *byte = (const unsigned char *)x; at < n; at++)
         hash = (hash ^ byte[at]) * 1099511628211u;
     size_t k = (size_t)(hash ^ (hash >> 29)) & (y->room - 1);
-    while (y->value[k].i >= 0 && memcmp(y->key + k * y->joint.values, x, n) != 0)
+    while (y->value[k].i >= 0 && memcmp(y->key + k * values, x, n) != 0)
         k = (k + 1) & (y->room - 1);
     return k;
 }
@@ -135,7 +129,7 @@ static size_t slot_of(const yielding *y, const double *x) {
 static fw_status make_room(yielding *y, size_t more) {
     if (2 * (y->filled + more) < y->room) return FW_OK;
     yielding was = *y;
-    size_t values = y->joint.values;
+    size_t values = (size_t)y->scatter.npoint;
     y->room = y->room ? y->room : 256;
     while (2 * (y->filled + more) >= y->room)
         y->room *= 2;
@@ -160,9 +154,9 @@ static void fill_sample(const yielding *y, const double *x, const cached *c,
     for (int k = 0; k < study->ninput; k++)
         sample->value[k] = (double)NAN, sample->text[k][0] = '\0';
     for (int k = 0; k < y->ninput; k++)
-        sample->value[y->first_input + k] = draw_of_input(y, x, k);
-    for (int k = 0; k < study->asked->nuncertain; k++)
-        sample->value[study->nvary + k] = draw_of_input(y, x, y->ninput + k);
+        sample->value[y->first_input + k] = x[k];
+    for (int k = 0; k < study->nsetting; k++)
+        sample->value[study->nvary + k] = x[y->ninput + k];
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
     sample->i = c->i;
@@ -187,48 +181,76 @@ static fw_status from_store(yielding *y, batch *b, fw_study_sample *sample, long
     return FW_OK;
 }
 
-static fw_status judge_new(yielding *y, fw_arena *scratch, size_t n, const double *x) {
+/* n points, numbered from `first` on, into the store as well */
+static fw_status judge_points(void *context, long first, size_t n, const double *x, double *ln) {
+    yielding *y = context;
+    fw_arena *scratch = fw_arena_part(y->study->arena, 0);
+    FW_NEED(scratch);
     batch b = {.y = y, .n = n, .x = x};
     fw_study_sample sample;
-    long first = y->base + y->evaluated;
-    size_t values = y->joint.values;
-    FW_NEED(b.made = fw_arena_array(scratch, fw_verdict_made, n));
-    FW_NEED(b.wanted = fw_arena_array(scratch, bool, n));
     bool *stored = fw_arena_array(scratch, bool, n);
-    FW_NEED(stored);
-    FW_TRY(fw_study_sample_new(scratch, y->study, &sample));
-    for (size_t k = 0; k < n; k++)
+    b.made = fw_arena_array(scratch, fw_verdict_made, n);
+    b.wanted = fw_arena_array(scratch, bool, n);
+    fw_status status = stored && b.made && b.wanted ? FW_OK : FW_NOMEM;
+    if (status == FW_OK) status = fw_study_sample_new(scratch, y->study, &sample);
+    for (size_t k = 0; status == FW_OK && k < n; k++)
         b.wanted[k] = true;
-    FW_TRY(from_store(y, &b, &sample, first));
-    for (size_t k = 0; k < n; k++)
+    if (status == FW_OK) status = from_store(y, &b, &sample, first);
+    for (size_t k = 0; status == FW_OK && k < n; k++)
         stored[k] = !b.wanted[k];
-    FW_TRY(fw_study_each(y->study, (long)n, judge_kth, &b));
+    if (status == FW_OK) status = fw_study_each(y->study, (long)n, judge_kth, &b);
+    for (size_t k = 0; status == FW_OK && k < n; k++) {
+        ln[k] = log(exp(b.made[k].ln)); /* as a store that is read again says it */
+        cached c = {first + (long)k, ln[k]};
+        if (stored[k]) continue;
+        fill_sample(y, x + k * (size_t)y->scatter.npoint, &c, &sample);
+        status = fw_study_keep(y->study, &sample);
+    }
+    fw_arena_free(scratch);
+    FW_TRY(status);
+    y->told += (long)n;
+    const fw_study_options *o = &y->study->options;
+    if (o->progress) o->progress(o->progress_context, y->told, 0, 0);
+    return FW_OK;
+}
+
+static fw_status judge_new(yielding *y, fw_arena *scratch, size_t n, const double *x) {
+    long first = y->base + y->evaluated;
+    size_t values = (size_t)y->scatter.npoint;
+    double *ln = fw_arena_array(scratch, double, n);
+    FW_NEED(ln);
+    FW_TRY(judge_points(y, first, n, x, ln));
     for (size_t k = 0; k < n; k++) {
-        cached c = {first + (long)k, b.made[k].ln};
         size_t to = slot_of(y, x + k * values);
         if (y->value[to].i < 0) y->filled++;
         memcpy(y->key + to * values, x + k * values, values * sizeof *x);
-        y->value[to] = c;
-        if (stored[k]) continue;
-        fill_sample(y, x + k * values, &c, &sample);
-        FW_TRY(fw_study_keep(y->study, &sample));
+        y->value[to] = (cached){first + (long)k, ln[k]};
     }
     y->evaluated += (long)n;
-    const fw_study_options *o = &y->study->options;
-    if (o->progress) o->progress(o->progress_context, y->evaluated, 0, 0);
     return FW_OK;
+}
+
+/* the last number of a point says at which place of the wafer it is, where that matters */
+static const fw_chance_place *place_of(const yielding *y, const double *u) {
+    const fw_study_scatter *s = &y->scatter;
+    if (s->dimensions == s->joint.dimensions) return NULL;
+    const fw_study_place *p =
+        fw_study_scatter_place(s, fw_maths_normal_cdf(u[s->joint.dimensions]));
+    return p ? &p->at : NULL;
 }
 
 static fw_status limit_with(yielding *y, fw_arena *scratch, size_t count, const double *u,
                             double *value) {
-    size_t values = y->joint.values, n = 0;
-    double *x = fw_arena_array(scratch, double, count *values);
+    const fw_study_scatter *s = &y->scatter;
+    size_t values = (size_t)s->npoint, n = 0;
+    double *x = fw_arena_array(scratch, double, count *values),
+           *drawn = fw_arena_array(scratch, double, s->joint.values + 1);
     double *fresh = fw_arena_array(scratch, double, count *values);
-    FW_NEED(x && fresh ? x : NULL);
+    FW_NEED(x && fresh && drawn ? x : NULL);
     FW_TRY(make_room(y, count));
     for (size_t k = 0; k < count; k++) {
-        fw_chance_joint_map(&y->joint, u + k * y->joint.dimensions,
-                            y->unknown ? y->unknown : y->middle, NULL, x + k * values);
+        const double *at = u + k * s->dimensions;
+        fw_study_scatter_point(s, at, y->unknown, place_of(y, at), drawn, x + k * values);
         if (y->value[slot_of(y, x + k * values)].i >= 0) continue;
         memcpy(fresh + n++ * values, x + k * values, values * sizeof *x);
     }
@@ -254,63 +276,6 @@ static void set_unknown(void *context, const double *unknown) {
     ((yielding *)context)->unknown = unknown;
 }
 
-/* ---- how the inputs scatter ---- */
-
-/* an input of a flow: what its pack states, else a range of which nothing but the ends is known */
-static fw_chance_distribution of_input(const fw_verdict_fabrication_input *in) {
-    if (!(in->high > in->low))
-        return (fw_chance_distribution){.kind = FW_CHANCE_CONSTANT, .mean = in->nominal};
-    if (in->unknown)
-        return (fw_chance_distribution){
-            .kind = FW_CHANCE_INTERVAL, .low = in->low, .high = in->high};
-    if (in->q.interval || !(in->sigma > 0))
-        return (fw_chance_distribution){
-            .kind = FW_CHANCE_UNIFORM, .low = in->low, .high = in->high};
-    return (fw_chance_distribution){.kind = FW_CHANCE_NORMAL, .mean = in->nominal, .sd = in->sigma};
-}
-
-static fw_chance_distribution of_uncertain(const fw_device_uncertain *u) {
-    static const fw_chance_kind kind[] = {[FW_SPREAD_NORMAL] = FW_CHANCE_NORMAL,
-                                          [FW_SPREAD_LOGNORMAL] = FW_CHANCE_LOGNORMAL,
-                                          [FW_SPREAD_UNIFORM] = FW_CHANCE_UNIFORM,
-                                          [FW_SPREAD_TRUNCATED] = FW_CHANCE_TRUNCATED,
-                                          [FW_SPREAD_INTERVAL] = FW_CHANCE_INTERVAL};
-    return (fw_chance_distribution){
-        .kind = kind[u->spread], .mean = u->mean, .sd = u->sd, .low = u->from, .high = u->to};
-}
-
-static fw_status build_joint(yielding *y, const fw_verdict_variant_verdict *v) {
-    fw_study *study = y->study;
-    size_t n = (size_t)(v->ninput + study->asked->nuncertain);
-    fw_chance_variable *variable = fw_arena_array(study->arena, fw_chance_variable, n);
-    fw_chance_fault fault = {0};
-    FW_NEED(variable);
-    for (int k = 0; k < v->ninput; k++)
-        variable[k] = (fw_chance_variable){.name = v->input[k].name,
-                                           .distribution = of_input(&v->input[k]),
-                                           .level = FW_CHANCE_DIE};
-    for (int k = 0; k < study->asked->nuncertain; k++)
-        variable[v->ninput + k] =
-            (fw_chance_variable){.name = study->asked->uncertain[k].what,
-                                 .distribution = of_uncertain(&study->asked->uncertain[k]),
-                                 .level = FW_CHANCE_DIE};
-    fw_status status =
-        fw_chance_joint_new(study->arena, 1, n, variable, 0, NULL, &y->joint, &fault);
-    if (status == FW_INPUT)
-        return fw_diag_error(&study->diags, 491,
-                             fault.variable >= (size_t)v->ninput && fault.variable < n
-                                 ? study->asked->uncertain[fault.variable - (size_t)v->ninput].place
-                                 : study->asked->place,
-                             "study '%s': %s", study->asked->name, fault.why ? fault.why : "?");
-    FW_TRY(status);
-    FW_NEED(y->middle = fw_arena_array(study->arena, double, y->joint.unknowns + 1));
-    for (size_t k = 0; k < y->joint.unknowns; k++) {
-        const fw_chance_distribution *d = &variable[y->joint.unknown[k]].distribution;
-        y->middle[k] = 0.5 * (d->low + d->high);
-    }
-    return FW_OK;
-}
-
 /* ---- the estimate ---- */
 
 typedef struct bounds {
@@ -321,28 +286,29 @@ typedef struct bounds {
 
 static fw_status estimate(yielding *y, bounds *out) {
     fw_study *study = y->study;
-    const fw_chance_limit of = {.dimensions = y->joint.dimensions, .g = limit, .context = y};
+    const fw_chance_limit of = {.dimensions = y->scatter.dimensions, .g = limit, .context = y};
     const fw_chance_options o = {.method = FW_CHANCE_AUTO,
                                  .seed = (uint64_t)study->asked->seed,
                                  .budget = study->asked->samples > 0 ? (size_t)study->asked->samples
                                                                      : 4000,
                                  .level = study->asked->confidence};
+    const fw_chance_joint *joint = &y->scatter.joint;
     const char *why = NULL;
     fw_status status;
-    if (y->joint.unknowns == 0) {
+    if (joint->unknowns == 0) {
         y->unknown = NULL;
         status = fw_chance_estimate_run(y->chance, &of, &o, &out->estimate, &why);
         out->low = out->estimate.low, out->high = out->estimate.high;
         out->probability = 0.5 * (out->estimate.probability_low + out->estimate.probability_high);
     } else {
-        double *low = fw_arena_array(study->arena, double, y->joint.unknowns),
-               *high = fw_arena_array(study->arena, double, y->joint.unknowns);
+        double *low = fw_arena_array(study->arena, double, joint->unknowns),
+               *high = fw_arena_array(study->arena, double, joint->unknowns);
         FW_NEED(low && high ? low : NULL);
-        for (size_t k = 0; k < y->joint.unknowns; k++) {
-            const fw_chance_distribution *d = &y->joint.variable[y->joint.unknown[k]].distribution;
+        for (size_t k = 0; k < joint->unknowns; k++) {
+            const fw_chance_distribution *d = &joint->variable[joint->unknown[k]].distribution;
             low[k] = d->low, high[k] = d->high;
         }
-        const fw_chance_unknowns unknowns = {.count = y->joint.unknowns,
+        const fw_chance_unknowns unknowns = {.count = joint->unknowns,
                                              .low = low,
                                              .high = high,
                                              .set = set_unknown,
@@ -362,28 +328,44 @@ static fw_status estimate(yielding *y, bounds *out) {
     return status;
 }
 
-static fw_status describe(yielding *y, const fw_verdict_variant_verdict *v, const bounds *b,
-                          fw_study_flow_yield *out) {
+/* the shares of the way to the nearest failing device: alpha^2 of every number, by the input that it is of */
+static void shares_of(const yielding *y, const fw_chance_design_point *p, double *share) {
+    const fw_study_scatter *s = &y->scatter;
+    for (size_t d = 0; d < s->joint.dimensions; d++)
+        for (int k = 0; k < s->groups; k++) {
+            int v = (int)s->joint.u_variable[d] - s->group[k].first;
+            if (v >= 0 && v < s->group[k].variables) share[k] += p->alpha[d] * p->alpha[d];
+        }
+    for (size_t d = s->joint.dimensions; d < s->dimensions; d++)
+        share[s->groups] += p->alpha[d] * p->alpha[d];
+}
+
+static fw_status describe(yielding *y, const bounds *b, fw_study_flow_yield *out) {
     fw_study *study = y->study;
-    size_t n = y->joint.values;
+    const fw_study_scatter *s = &y->scatter;
+    size_t n = (size_t)s->groups + (s->dimensions > s->joint.dimensions);
     const char **name = fw_arena_array(study->arena, const char *, n),
                **unit = fw_arena_array(study->arena, const char *, n);
-    FW_NEED(name && unit ? name : NULL);
-    for (int k = 0; k < v->ninput; k++)
-        name[k] = v->input[k].name, unit[k] = v->input[k].q.unit ? v->input[k].q.unit : "1";
-    for (int k = 0; k < study->asked->nuncertain; k++) {
-        name[v->ninput + k] = study->asked->uncertain[k].what;
-        unit[v->ninput + k] = study->asked->uncertain[k].unit;
+    double *point = fw_arena_array(study->arena, double, (size_t)s->npoint),
+           *drawn = fw_arena_array(study->arena, double, s->joint.values + 1);
+    FW_NEED(name && unit && point && drawn ? name : NULL);
+    for (size_t k = 0; k < n; k++) {
+        bool place = k == (size_t)s->groups;
+        name[k] = place ? "place on the wafer" : s->group[k].what;
+        unit[k] = place ? "m" : s->group[k].unit;
     }
     out->ninput = (int)n, out->input = name, out->unit = unit;
     if (b->estimate.points == 0) return FW_OK;
     const fw_chance_design_point *p = &b->estimate.point[0];
     double *share = fw_arena_array(study->arena, double, n),
            *at = fw_arena_array(study->arena, double, n);
-    FW_NEED(share && at ? at : NULL);
-    fw_chance_joint_map(&y->joint, p->u, y->middle, NULL, at);
-    for (size_t d = 0; d < y->joint.dimensions; d++)
-        share[y->joint.u_variable[d]] += p->alpha[d] * p->alpha[d];
+    FW_NEED(share && at ? share : NULL);
+    const fw_chance_place *place = place_of(y, p->u);
+    fw_study_scatter_point(s, p->u, NULL, place, drawn, point);
+    shares_of(y, p, share);
+    for (int k = 0; k < s->groups; k++)
+        at[k] = s->group[k].count == 1 ? point[s->group[k].at] : (double)NAN;
+    if (place) at[s->groups] = hypot(place->x_m, place->y_m);
     out->beta = p->beta, out->share = share, out->at = at;
     return FW_OK;
 }
@@ -406,7 +388,7 @@ static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
     fw_verdict_made nominal;
     FW_TRY(judge_nominal(y, v, &nominal));
     FW_TRY(estimate(y, &plain));
-    FW_TRY(describe(y, v, &plain, out));
+    FW_TRY(describe(y, &plain, out));
     out->sampled_low = 1 - plain.high, out->sampled_high = 1 - plain.low;
     out->value = 1 - plain.probability;
     out->method = fw_chance_method_text(plain.estimate.method);
@@ -414,6 +396,10 @@ static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
     if (plain.estimate.caution)
         FW_NEED(out->caution = fw_arena_strdup(arena, plain.estimate.caution));
     out->unevaluated = (long)plain.estimate.unevaluated;
+    fw_chance_step *step = fw_arena_array(arena, fw_chance_step, FW_CHANCE_STEPS);
+    FW_NEED(out->step = step);
+    memcpy(step, plain.estimate.step, plain.estimate.steps * sizeof *step);
+    out->steps = plain.estimate.steps;
     const double up = nominal.up, down = isfinite(nominal.down) ? nominal.down : 0;
     y->shift = up;
     FW_TRY(estimate(y, &worst));
@@ -425,6 +411,25 @@ static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
     return FW_OK;
 }
 
+/* of one estimate; there are some more of each flow where the limit is moved or a range is not known */
+long fw_study_count_yield(const fw_study *study) {
+    return study->asked->samples > 0 ? study->asked->samples : BUDGET_USUAL;
+}
+
+/* only where somebody said on which level or where something differs: the yield itself does not need it */
+static fw_status simulate_wafers(yielding *y, fw_study_flow_yield *out) {
+    fw_study *study = y->study;
+    fw_study_scatter *scatter = fw_arena_one(study->arena, fw_study_scatter);
+    fw_study_levels *levels = fw_arena_one(study->arena, fw_study_levels);
+    FW_NEED(scatter && levels ? levels : NULL);
+    *scatter = y->scatter;
+    FW_TRY(fw_study_levels_run(study, scatter, fw_study_count_yield(study), y->base + PART / 2,
+                               judge_points, y, levels));
+    out->levels = levels;
+    out->evaluations += levels->devices;
+    return FW_OK;
+}
+
 static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_flow_yield *out) {
     const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[flow];
     yielding y = {.study = study,
@@ -433,8 +438,8 @@ static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_f
                   .first_input = first_input,
                   .base = (long)flow * PART};
     *out = (fw_study_flow_yield){.flow = v->variant->flow, .beta = (double)NAN};
-    FW_TRY(build_joint(&y, v));
-    if (y.joint.dimensions == 0)
+    FW_TRY(fw_study_scatter_of(study, v, &y.scatter));
+    if (y.scatter.dimensions == 0)
         return fw_diag_error(&study->diags, 491, study->asked->place,
                              "study '%s': nothing differs from device to device%s%s; add an "
                              "<uncertain>",
@@ -442,17 +447,13 @@ static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_f
                              v->variant->flow ? v->variant->flow : "");
     FW_NEED(y.chance = fw_arena_part(study->arena, 0));
     fw_status status = estimate_all(&y, v, out);
+    if (status == FW_OK && y.scatter.levels) status = simulate_wafers(&y, out);
     fw_arena_free(y.chance);
     return status;
 }
 
-/* of one estimate; there are some more of each flow where the limit is moved or a range is not known */
-long fw_study_count_yield(const fw_study *study) {
-    return study->asked->samples > 0 ? study->asked->samples : BUDGET_USUAL;
-}
-
 fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
-    int flows = study->plan->nflow, column = study->asked->nvary + study->asked->nuncertain;
+    int flows = study->plan->nflow, column = study->nvary + study->nsetting;
     FW_NEED(result->yield = fw_arena_array(study->arena, fw_study_flow_yield, (size_t)flows));
     for (int i = 0; i < flows; i++) {
         const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[i];

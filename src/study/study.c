@@ -130,11 +130,44 @@ static fw_status add_made_inputs(fw_study *study) {
     return FW_OK;
 }
 
+/* "flexure[*]/@width" of flexure i; else as it is */
+static const char *of_flexure(fw_study *study, const char *what, int i) {
+    static const char all[] = "flexure[*]";
+    const fw_device *d = study->plan->device;
+    return strncmp(what, all, sizeof all - 1) == 0 && d->nflexure > 0
+               ? fw_arena_printf(study->arena, "flexure[%s]%s", d->flexure[i].id,
+                                 what + sizeof all - 1)
+               : what;
+}
+
+/* an input left to chance, of flexure[*] one each; further rows of it are levels of the same */
+static fw_status take_uncertain(fw_study *study, const fw_device_uncertain *u) {
+    const fw_device_study *asked = study->asked;
+    if (u->flow) return FW_OK; /* stands in the place of what the pack states */
+    for (const fw_device_uncertain *before = asked->uncertain; before < u; before++)
+        if (!before->flow && strcmp(before->what, u->what) == 0) return FW_OK;
+    int n = of_flexure(study, u->what, 0) != u->what ? study->plan->device->nflexure : 1;
+    for (int i = 0; i < n; i++) {
+        fw_study_input *in = &study->input[study->ninput++];
+        *in = (fw_study_input){.what = of_flexure(study, u->what, i),
+                               .unit_text = u->unit,
+                               .from = (double)NAN,
+                               .to = (double)NAN,
+                               .now = value_now(study->plan->device, u->what),
+                               .uncertain = u,
+                               .place = u->place};
+        FW_NEED(in->what);
+        FW_TRY(unit_of(u->unit, &in->unit));
+    }
+    return FW_OK;
+}
+
 static fw_status take_inputs(fw_study *study) {
     const fw_device_study *asked = study->asked;
-    study->nvary = asked->nvary;
-    study->ninput = asked->nvary + asked->nuncertain;
-    FW_NEED(study->input = fw_arena_array(study->arena, fw_study_input, (size_t)study->ninput));
+    int each = study->plan->device->nflexure > 1 ? study->plan->device->nflexure : 1;
+    study->ninput = study->nvary = asked->nvary;
+    FW_NEED(study->input = fw_arena_array(study->arena, fw_study_input,
+                                          (size_t)(asked->nvary + each * asked->nuncertain)));
     for (int k = 0; k < asked->nvary; k++) {
         const fw_device_vary *v = &asked->vary[k];
         fw_study_input *in = &study->input[k];
@@ -150,17 +183,9 @@ static fw_status take_inputs(fw_study *study) {
                                .place = v->place};
         FW_TRY(unit_of(v->unit, &in->unit));
     }
-    for (int k = 0; k < asked->nuncertain; k++) {
-        const fw_device_uncertain *u = &asked->uncertain[k];
-        fw_study_input *in = &study->input[asked->nvary + k];
-        *in = (fw_study_input){.what = u->what,
-                               .unit_text = u->unit,
-                               .from = (double)NAN,
-                               .to = (double)NAN,
-                               .now = value_now(study->plan->device, u->what),
-                               .place = u->place};
-        FW_TRY(unit_of(u->unit, &in->unit));
-    }
+    for (int k = 0; k < asked->nuncertain; k++)
+        FW_TRY(take_uncertain(study, &asked->uncertain[k]));
+    study->nsetting = study->ninput - study->nvary;
     return FW_OK;
 }
 
@@ -224,7 +249,7 @@ static fw_status check_input(fw_study *study, int k) {
     char text[FW_STUDY_TEXT];
     double shown;
     if (k >= study->nvary) {
-        double value = some_value(&study->asked->uncertain[k - study->nvary]);
+        double value = some_value(in->uncertain);
         FW_TRY(fw_study_input_write(in, value, 12, text, &shown));
         return check_value(study, k, text);
     }
@@ -327,6 +352,12 @@ static fw_status find_hash(fw_study *study) {
         add_text(&t, u->what);
         fw_text_printf(&t, " %d %s", (int)u->spread, u->unit);
         add_real(&t, u->mean), add_real(&t, u->sd), add_real(&t, u->from), add_real(&t, u->to);
+        if (u->flow || u->levelled) add_text(&t, u->flow), fw_text_printf(&t, " %d", (int)u->level);
+    }
+    for (int k = 0; k < a->ntrend; k++) {
+        const fw_device_trend *q = &a->trend[k];
+        add_text(&t, q->what), add_text(&t, q->flow);
+        add_real(&t, q->radial), add_real(&t, q->along_x), add_real(&t, q->along_y);
     }
     for (int k = 0; k < a->nrespond; k++) {
         const fw_device_respond *q = &a->respond[k];
@@ -388,6 +419,7 @@ static fw_status open_all(fw_study *study) {
     FW_TRY(responses);
     if (study->diags.errors > 0) return FW_INPUT;
     if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(judge_device(study));
+    if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(fw_study_scatter_check(study));
     if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(add_made_inputs(study));
     FW_TRY(find_hash(study));
     return run_as_it_stands(study);
@@ -454,6 +486,16 @@ static fw_status tally(void *context, const fw_study_sample *sample) {
     return FW_OK;
 }
 
+fw_status fw_study_check_apart(fw_study *study) {
+    if (study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity)
+        return FW_OK;
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: a study of kind %s looks at earlier samples to choose later ones; "
+        "run it in one piece, in as many threads as there are (--jobs)",
+        fw_device_study_kind_text(study->asked->kind));
+}
+
 fw_status fw_study_run(fw_study *study) {
     fw_study_result *result = fw_arena_one(study->arena, fw_study_result);
     FW_NEED(result);
@@ -462,14 +504,7 @@ fw_status fw_study_run(fw_study *study) {
     for (int k = 0; k < study->nresponse; k++)
         result->extreme[k] = (fw_study_extreme){
             .least = (double)NAN, .largest = (double)NAN, .least_at = -1, .largest_at = -1};
-    bool apart =
-        study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity;
-    if (study->options.shards > 0 && !apart)
-        return fw_diag_error(
-            &study->diags, 490, study->asked->place,
-            "--shard: a study of kind %s looks at earlier samples to choose later ones; "
-            "run it in one piece, in as many threads as there are (--jobs)",
-            fw_device_study_kind_text(study->asked->kind));
+    if (study->options.shards > 0) FW_TRY(fw_study_check_apart(study));
     if (study->options.output && !study->store) {
         mkdir(study->options.output, 0777); /* what is wrong with it, the store will say */
         FW_TRY(fw_study_store_open(study, &study->store));

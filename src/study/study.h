@@ -33,6 +33,8 @@ typedef struct fw_study_options {
     /* called now and then from the thread that runs the study; NULL: nobody asks */
     void (*progress)(void *context, long done, long all, double seconds);
     void *progress_context;
+    /* called once where another process writes into `output`, which is waited for (resume) */
+    void (*waits)(void);
 } fw_study_options;
 
 /* an input of the study: chosen, or left to chance */
@@ -45,6 +47,7 @@ typedef struct fw_study_input {
     const char *const *text; /* (ntext) listed values */
     int ntext;
     double now; /* SI, of the description as it stands; NaN: not a parameter */
+    const fw_device_uncertain *uncertain; /* its first row; NULL: chosen, or of a flow */
     fw_place place;
 } fw_study_input;
 
@@ -81,10 +84,11 @@ typedef struct fw_study {
     const char *device_path, *device_name;
     const char *source; /* (source_length) of options.file, for carets */
     size_t source_length;
-    bool stored_only;      /* of a merge: what the store has not is not run */
-    const char *hash;      /* of everything that decides what a sample is */
-    fw_study_input *input; /* (ninput) those of <vary>, then those of <uncertain> */
-    int ninput, nvary;
+    bool stored_only; /* of a merge: what the store has not is not run */
+    const char *hash; /* of everything that decides what a sample is */
+    /* (ninput) those of <vary>, then what <uncertain> sets (of flexure[*] each), then quantities of flows */
+    fw_study_input *input;
+    int ninput, nvary, nsetting;
     fw_study_response *response; /* (nresponse) */
     int nresponse;
     unsigned stages;              /* FW_STUDY_STAGE_..., what the responses need */
@@ -117,9 +121,26 @@ int fw_study_decision(const fw_study *study);
 /* as fw_study_open, of the file and the study that the store of a shard names */
 fw_status fw_study_open_merge(const fw_study_options *options, const char *directory,
                               fw_study **study);
+/* FW-D490 where samples depend on earlier ones, so that there are no shards */
+fw_status fw_study_check_apart(fw_study *study);
 /* the rows of all shards into options.output, then the result: the same bytes as of one run. FW-D497: a
    shard is missing, twice, not complete or of another study */
 fw_status fw_study_merge(fw_study *study, const char *const *directory, int n);
+
+typedef struct fw_study_cluster { /* how shards are run as an array job of Slurm */
+    int shards, jobs;             /* tasks, threads of each */
+    const char *const *argument;  /* (nargument) options of the study, as words of a line */
+    int nargument;
+    const char *const *sbatch; /* (nsbatch) the cluster's own, as lines of #SBATCH: "--time=60" */
+    int nsbatch;
+    const char *program, *where; /* absolute: this program, the directory that paths count from */
+    const char *data;            /* FLEXWRIGHT_DATA; NULL: not set */
+    bool submit;                 /* false: the scripts are written, and that is all */
+    const char *array_job, *merge_job; /* out: numbers of the jobs */
+} fw_study_cluster;
+/* Writes array.sh and merge.sh into options.output and submits them, the second after all tasks of the first. FW-D490,
+   FW-D554, FW-D555, FW_IO. */
+fw_status fw_study_slurm(fw_study *study, fw_study_cluster *cluster);
 
 /* ---- the results as documents ----
    JSON (schema flexwright.study/1), CSV (a row each sample), a text for a terminal, pictures and one page. After

@@ -4,6 +4,9 @@
 #define FW_STUDY_STUDY_PARTS_H
 #include "plan/design.h"
 #include "study/study.h"
+#include "base/svg.h"
+#include "chance/estimate.h"
+#include "chance/nested.h"
 #include "study/study_store.h"
 #include <jansson.h>
 
@@ -151,6 +154,68 @@ void fw_study_sort_samples(fw_study_sample *sample, int n);
    a response that has a limit has no value */
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample);
 
+/* ---- study_scatter.c: what differs from device to device, on which level, and where ---- */
+
+typedef struct fw_study_group { /* an input: the rows that say how it differs add up */
+    const char *what, *unit;
+    const fw_device_uncertain *asked; /* its first row; NULL: a quantity of the flow */
+    const fw_device_trend *trend;     /* NULL: none */
+    int first, variables;             /* of the joint */
+    int at, count; /* values of a point: one, or of what=flexure[*]/... one each flexure */
+    int carrier;   /* variable, normal and not of hinges, with the largest spread; -1 */
+} fw_study_group;
+
+typedef struct fw_study_place { /* a die of the wafer */
+    fw_chance_place at;
+    const char *id; /* "C07" */
+    int number;     /* of the grid */
+} fw_study_place;
+
+typedef struct
+    fw_study_scatter { /* of one flow; a point: its quantities, then the settings of the study */
+    fw_chance_joint joint;
+    int variables;
+    fw_study_group *group; /* (groups) in the order of the point */
+    int groups, trends;
+    int ninput, npoint;
+    size_t dimensions;     /* of the joint, and one for the place where there are trends */
+    double *middle;        /* (joint.unknowns) */
+    bool levels;           /* a level or a trend is stated */
+    fw_study_place *place; /* (places) from the centre outwards; none without <wafer> */
+    size_t places;
+    double rim_m, flat_m, die_x_m, die_y_m;
+    fw_device_wafer_side side; /* of the flat, which is 0 where there is none */
+} fw_study_scatter;
+
+/* FW_INPUT: a row names what is not there (FW-D556, FW-D557) */
+fw_status fw_study_scatter_check(fw_study *study);
+fw_status fw_study_scatter_of(fw_study *study, const fw_verdict_variant_verdict *v,
+                              fw_study_scatter *scatter);
+/* the place at a share (0..1) of all, from the centre outwards; NULL: there is no wafer */
+const fw_study_place *fw_study_scatter_place(const fw_study_scatter *s, double share);
+/* point (npoint) of u (joint.dimensions). unknown NULL: middles; place NULL: no trends. x: room for joint.values */
+void fw_study_scatter_point(const fw_study_scatter *s, const double *u, const double *unknown,
+                            const fw_chance_place *place, double *x, double *point);
+
+/* ---- study_scatter.c: simulated wafers ---- */
+
+typedef struct fw_study_levels {
+    fw_chance_nested used; /* of the logarithm of the largest share of a limit that is used */
+    fw_chance_nested held; /* of 1 where a die holds every limit, else 0 */
+    bool hinges;           /* something differs from hinge to hinge */
+    long devices, not_judged;
+    const fw_study_scatter *scatter;
+    const fw_chance_share *at; /* (scatter->places) yield by place; NULL: no trends, or no wafer */
+} fw_study_levels;
+
+/* judges n points (npoint each): ln of the largest share of a limit; NaN: it could not be judged */
+typedef fw_status fw_study_judge(void *context, long first, size_t n, const double *point,
+                                 double *ln);
+/* from `devices` dies at most, numbered from `first` on */
+fw_status fw_study_levels_run(fw_study *study, const fw_study_scatter *scatter, long devices,
+                              long first, fw_study_judge *judge, void *context,
+                              fw_study_levels *out);
+
 /* ---- parts of the documents ---- */
 
 /* inputs and responses as they were asked for; before it runs, too */
@@ -161,10 +226,28 @@ fw_status fw_study_csv_save(fw_study *study, const char *path);
 typedef struct fw_study_picture {
     const char *name;  /* "map-C", of its file NAME.svg */
     const char *title; /* a sentence */
+    bool captioned;    /* the page says the title below it: it is not in the picture */
     fw_text svg;
 } fw_study_picture;
 /* what there is to look at, by kind */
 fw_status fw_study_pictures(fw_study *study, const fw_study_picture **picture, int *n);
+
+/* study_yield_svg.c: what pictures begin and end with, and those of a yield */
+typedef struct fw_study_sheet { /* all pictures so far */
+    fw_study *study;
+    fw_study_picture *item;
+    int n, most;
+} fw_study_sheet;
+enum { FW_STUDY_WIDE = 620, FW_STUDY_HIGH = 424 }; /* of a picture */
+/* the next picture; NULL: there is no room, or no memory for its name or title */
+fw_text *fw_study_sheet_add(fw_study_sheet *s, const char *name, const char *title);
+/* a name for a file, "A-B": letters, digits and '-' */
+const char *fw_study_picture_name(fw_arena *arena, const char *a, const char *b);
+void fw_study_picture_begin(fw_text *out, double height, const char *title);
+void fw_study_picture_grid(fw_text *out, const fw_svg_axes *axes);
+/* from dark to light, in even steps of lightness: "#2d1450" */
+void fw_study_shade(char text[8], double share);
+fw_status fw_study_yield_pictures(fw_study_sheet *s);
 
 /* the page: the pictures, which are also files of their own, and the numbers; it needs nothing beside it */
 fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, int n,
@@ -230,6 +313,10 @@ typedef struct fw_study_flow_yield { /* yield of one flow */
     const double *at;         /* (ninput) SI: the nearest device that fails; NULL: none found */
     const char *const *unit;  /* (ninput) */
     double beta;              /* its distance in standard deviations; NaN */
+    const fw_chance_step
+        *step; /* (steps) of the probability of failing, by the utilisations themselves */
+    size_t steps;
+    const fw_study_levels *levels; /* NULL: neither a level nor a trend is stated */
 } fw_study_flow_yield;
 
 typedef struct fw_study_result {

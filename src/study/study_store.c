@@ -3,12 +3,14 @@
 #include "base/output.h"
 #include "base/text.h"
 #include "study/study_parts.h"
+#include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -25,7 +27,8 @@ struct fw_study_store {
     sqlite3 *db;
     sqlite3_stmt *add, *get, *each;
     fw_study_sample row;
-    int open; /* rows of the transaction */
+    int open;      /* rows of the transaction */
+    int directory; /* its lock: whoever has it writes there; -1: none */
     struct timespec begun;
 };
 
@@ -194,8 +197,9 @@ static fw_status check_same(const fw_study_store *store) {
 
 /* what an earlier study left beside its store: nothing of it is of the one that begins */
 static void remove_results(const char *directory) {
-    static const char *const name[] = {"study.json", "study.csv", "study.html", "study.sqlite-wal",
-                                       "study.sqlite-shm"};
+    static const char *const name[] = {"study.json",       "study.csv",
+                                       "study.html",       "study.sqlite-wal",
+                                       "study.sqlite-shm", "study.sqlite-journal"};
     int at = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (at < 0) return;
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
@@ -204,12 +208,43 @@ static void remove_results(const char *directory) {
     close(at);
 }
 
+/* One process at a time writes into a directory. Where a task of a cluster was put in the queue again and the one before it
+   still runs, the later one waits and then finds nothing left to do. The lock is of the open directory and ends with the
+   process. Where a file system has none (a directory on NFS) nobody is kept out. */
+static fw_status lock_directory(fw_study_store *store) {
+    const fw_study_options *o = &store->study->options;
+    bool told = false;
+    store->directory = open(o->output, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (store->directory < 0) return FW_OK; /* what is wrong with it, the store will say */
+    while (flock(store->directory, LOCK_EX | LOCK_NB) != 0) {
+        if (errno == EINTR) continue;
+        if (errno != EWOULDBLOCK) return FW_OK;
+        if (!o->resume)
+            return fw_diag_error(&store->study->diags, 553, (fw_place){.file = o->output},
+                                 "another process writes a study into this directory; name "
+                                 "another one with -o, or wait with --resume until it has ended");
+        if (fw_cancel_requested(o->cancel)) return FW_CANCELLED;
+        if (!told && o->waits) o->waits();
+        told = true;
+        nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
+    }
+    return FW_OK;
+}
+
+/* a file in which nothing was begun: its process was killed before the tables were there */
+static bool is_empty(fw_study_store *store) {
+    struct stat info;
+    sqlite3_exec(store->db, "PRAGMA schema_version", NULL, NULL, NULL); /* undoes what was open */
+    return stat(store->path, &info) == 0 && info.st_size == 0;
+}
+
 static fw_status open_file(fw_study_store *store, bool resume) {
     if (access(store->path, F_OK) == 0) {
-        bool ours =
-            sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READWRITE, NULL) == SQLITE_OK &&
-            is_ours(store->db);
-        if (!ours)
+        bool open =
+            sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READWRITE, NULL) == SQLITE_OK;
+        bool ours = open && is_ours(store->db), empty = open && !ours && is_empty(store);
+        resume = resume && ours && said(store->study->arena, store->db, "hash");
+        if (!ours && !empty)
             return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
                                  "there is a file of this name that is no store of a study; name "
                                  "another directory with -o");
@@ -236,8 +271,10 @@ static fw_status open_file(fw_study_store *store, bool resume) {
 fw_status fw_study_store_open(fw_study *study, fw_study_store **out) {
     fw_study_store *store = fw_arena_one(study->arena, fw_study_store);
     FW_NEED(*out = store);
-    store->study = study;
+    *store = (fw_study_store){.study = study, .directory = -1};
     FW_NEED(store->path = fw_arena_printf(study->arena, "%s/study.sqlite", study->options.output));
+    FW_TRY(lock_directory(store));
+    fw_output_remove_leftovers(study->arena, store->path);
     FW_TRY(fw_study_sample_new(study->arena, study, &store->row));
     FW_TRY(open_file(store, study->options.resume));
     return prepare_all(store);
@@ -259,9 +296,11 @@ static fw_status commit(fw_study_store *store) {
 }
 
 void fw_study_store_close(fw_study_store *store) {
-    if (!store || !store->db) return;
-    commit(store);
+    if (!store) return;
+    if (store->db) commit(store);
     let_go(store);
+    if (store->directory >= 0) close(store->directory);
+    store->directory = -1;
 }
 
 /* ---- rows ---- */

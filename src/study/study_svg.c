@@ -4,13 +4,22 @@
    drawn. Colours tell accepted, rejected and undecided, and so do the shapes. */
 #include "base/sort.h"
 #include "base/svg.h"
+#include "plan/stages.h"
 #include "study/study_parts.h"
 #include "study/study.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { DRAWN_MOST = 3000, PAIRS_MOST = 12, LINES_MOST = 400, BARS = 40 };
-enum { WIDTH = 620, HEIGHT = 424, LEFT = 86, RIGHT = 600, TOP = 46, BOTTOM = 340 };
+enum {
+    WIDTH = FW_STUDY_WIDE,
+    HEIGHT = FW_STUDY_HIGH,
+    LEFT = 86,
+    RIGHT = 600,
+    TOP = 46,
+    BOTTOM = 340
+};
 
 typedef struct points { /* of the samples that are drawn */
     const fw_study *study;
@@ -73,14 +82,6 @@ static void widen(double *low, double *high) {
     *low -= room, *high += room;
 }
 
-static void begin(fw_text *out, double height, const char *title) {
-    fw_svg_begin_picture(out, WIDTH, height, false); /* a page takes it in as it is */
-    fw_svg_title(out, "{s}", title);
-    fw_svg_paper(out, "#fff");
-    fw_svg_put(out, "text x='16' y='24' font-size='14' font-weight='600' fill='#1f2328'>{s}\n",
-               title);
-}
-
 static void labels(fw_text *out, const char *x, const char *x_unit, const char *y,
                    const char *y_unit) {
     fw_svg_put(
@@ -135,29 +136,6 @@ static bool fit(const double *x, int nx, const double *y, int ny, int n, fw_svg_
     return true;
 }
 
-typedef struct sheet { /* all pictures so far */
-    fw_study *study;
-    fw_study_picture *item;
-    int n, most;
-} sheet;
-
-static fw_text *add(sheet *s, const char *name, const char *title) {
-    if (s->n == s->most || !name || !title) return NULL;
-    fw_study_picture *p = &s->item[s->n++];
-    *p = (fw_study_picture){.name = name, .title = title, .svg = fw_text_new(s->study->arena)};
-    return &p->svg;
-}
-
-/* a name for a file: letters, digits and '-' */
-static const char *file_name(fw_arena *arena, const char *a, const char *b) {
-    char *name = fw_arena_printf(arena, "%s-%s", a, b);
-    for (char *at = name; at && *at; at++)
-        if (!((*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') ||
-              (*at >= '0' && *at <= '9')))
-            *at = '-';
-    return name;
-}
-
 typedef struct order { /* of points along an input */
     double x;
     int at;
@@ -191,7 +169,7 @@ static fw_status curve(const points *p, fw_arena *arena, const fw_svg_axes *a, c
     return FW_OK;
 }
 
-static fw_status pair(sheet *s, const points *p, int r, int k) {
+static fw_status pair(fw_study_sheet *s, const points *p, int r, int k) {
     const fw_study *study = p->study;
     const fw_study_response *q = &study->response[r];
     const fw_study_input *in = &study->input[k];
@@ -207,11 +185,12 @@ static fw_status pair(sheet *s, const points *p, int r, int k) {
     for (int b = 0; b < 2; b++)
         if (!isnan(bound[b]) && fabs(bound[b] - 0.5 * (a.y0 + a.y1)) < 2 * (a.y1 - a.y0))
             a.y0 = fmin(a.y0, bound[b]), a.y1 = fmax(a.y1, bound[b]);
-    fw_text *out = add(s, file_name(arena, q->asked->name, in->what),
-                       fw_arena_printf(arena, "%s against %s", q->asked->name, in->what));
+    fw_text *out =
+        fw_study_sheet_add(s, fw_study_picture_name(arena, q->asked->name, in->what),
+                           fw_arena_printf(arena, "%s against %s", q->asked->name, in->what));
     if (!out) return FW_OK;
-    begin(out, HEIGHT, s->item[s->n - 1].title);
-    fw_svg_grid(out, &a);
+    fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
+    fw_study_picture_grid(out, &a);
     if (study->ninput == 1 && study->asked->kind == FW_STUDY_IS_sweep)
         FW_TRY(curve(p, arena, &a, x, p->y + r, study->nresponse, out));
     for (int i = 0; i < p->n; i++) {
@@ -229,21 +208,6 @@ static fw_status pair(sheet *s, const points *p, int r, int k) {
 
 /* ---- two inputs ---- */
 
-/* from dark to light, in even steps of lightness */
-static void shade(char text[8], double share) {
-    static const int key[5][3] = {
-        {45, 20, 80}, {60, 80, 150}, {40, 145, 140}, {120, 200, 90}, {250, 230, 90}};
-    static const char digit[] = "0123456789abcdef";
-    double at = fmin(fmax(share, 0), 1) * 4;
-    int i = at >= 4 ? 3 : (int)at;
-    text[0] = '#';
-    for (int k = 0; k < 3; k++) {
-        int v = (int)lround(key[i][k] + (at - i) * (key[i + 1][k] - key[i][k]));
-        text[1 + 2 * k] = digit[v >> 4], text[2 + 2 * k] = digit[v & 15];
-    }
-    text[7] = '\0';
-}
-
 static double cell(const fw_study_input *in) {
     int steps = fw_study_input_steps(in);
     if (in->ntext > 0) return 1;
@@ -252,7 +216,7 @@ static double cell(const fw_study_input *in) {
            (steps - 1);
 }
 
-static fw_status map(sheet *s, const points *p, int r) {
+static fw_status map(fw_study_sheet *s, const points *p, int r) {
     const fw_study *study = p->study;
     const fw_study_response *q = &study->response[r];
     fw_svg_axes a;
@@ -264,25 +228,26 @@ static fw_status map(sheet *s, const points *p, int r) {
         if (isfinite(v)) least = fmin(least, v), most = fmax(most, v);
     }
     if (!(most >= least)) return FW_OK;
-    fw_text *out = add(s, file_name(study->arena, "map", q->asked->name),
-                       fw_arena_printf(study->arena, "%s over %s and %s", q->asked->name,
-                                       study->input[0].what, study->input[1].what));
+    fw_text *out =
+        fw_study_sheet_add(s, fw_study_picture_name(study->arena, "map", q->asked->name),
+                           fw_arena_printf(study->arena, "%s over %s and %s", q->asked->name,
+                                           study->input[0].what, study->input[1].what));
     if (!out) return FW_OK;
     a.x0 = fmin(a.x0, a.x0 - 0.5 * wide), a.x1 += 0.5 * wide, a.y0 -= 0.5 * high,
     a.y1 += 0.5 * high;
-    begin(out, HEIGHT, s->item[s->n - 1].title);
+    fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
     for (int i = 0; i < p->n; i++) {
         double v = p->y[(size_t)i * (size_t)study->nresponse + (size_t)r];
         double x = p->x[2 * i], y = p->x[2 * i + 1];
         char colour[8];
         if (!isfinite(v)) continue;
-        shade(colour, most > least ? (v - least) / (most - least) : 0.5);
+        fw_study_shade(colour, most > least ? (v - least) / (most - least) : 0.5);
         double left = fw_svg_axes_x(&a, x - 0.5 * wide), top = fw_svg_axes_y(&a, y + 0.5 * high);
         fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='{r}'\n", left, top,
                    fw_svg_axes_x(&a, x + 0.5 * wide) - left + 0.3,
                    fw_svg_axes_y(&a, y - 0.5 * high) - top + 0.3, colour);
     }
-    fw_svg_grid(out, &a);
+    fw_study_picture_grid(out, &a);
     for (int i = 0; i < p->n; i++)
         if (p->decision[i] > 0)
             dot(out, fw_svg_axes_x(&a, p->x[2 * i]), fw_svg_axes_y(&a, p->x[2 * i + 1]),
@@ -293,7 +258,7 @@ static fw_status map(sheet *s, const points *p, int r) {
            study->input[1].ntext > 0 ? "of the list" : study->input[1].unit_text);
     char number[2][32], colour[8];
     for (int k = 0; k <= 40; k++) {
-        shade(colour, k / 40.0);
+        fw_study_shade(colour, k / 40.0);
         fw_svg_put(out, "rect x='{c}' y='{c}' width='4.2' height='10' fill='{r}'\n", LEFT + 4.0 * k,
                    HEIGHT - 20.0, colour);
     }
@@ -318,18 +283,18 @@ static int by_size(const void *a, const void *b) {
     return c ? c : strcmp(p->what, q->what);
 }
 
-static fw_status bars(sheet *s, const char *name, const char *title, const char *unit, bar *b,
-                      int n) {
+static fw_status bars(fw_study_sheet *s, const char *name, const char *title, const char *unit,
+                      bar *b, int n) {
     double least = 0, most = 0;
     qsort(b, (size_t)n, sizeof *b, by_size);
     for (int i = 0; i < n; i++)
         least = fmin(least, fmin(b[i].low, b[i].high)),
         most = fmax(most, fmax(b[i].low, b[i].high));
     if (!(most > least)) return FW_OK;
-    fw_text *out = add(s, name, title);
+    fw_text *out = fw_study_sheet_add(s, name, title);
     if (!out) return FW_OK;
     double height = 110.0 + 26.0 * n;
-    begin(out, height, title);
+    fw_study_picture_begin(out, height, title);
     fw_svg_axes a = {190, RIGHT, TOP, height - 60, least, most, 0, 1, 6, 1};
     widen(&a.x0, &a.x1);
     for (int i = 0; i < n; i++) {
@@ -358,7 +323,7 @@ static fw_status bars(sheet *s, const char *name, const char *title, const char 
     return fw_text_end(out);
 }
 
-static fw_status tornados(sheet *s) {
+static fw_status tornados(fw_study_sheet *s) {
     const fw_study *study = s->study;
     for (int r = 0; r < study->nresponse; r++)
         for (int share = 0; share < 2; share++) {
@@ -377,7 +342,7 @@ static fw_status tornados(sheet *s) {
                                         : d};
             }
             const char *of = study->response[r].asked->name;
-            FW_TRY(bars(s, file_name(study->arena, share ? "shares" : "tornado", of),
+            FW_TRY(bars(s, fw_study_picture_name(study->arena, share ? "shares" : "tornado", of),
                         fw_arena_printf(study->arena,
                                         share ? "Where the variance of %s comes from"
                                               : "What half the range of each input makes of %s",
@@ -391,7 +356,7 @@ static fw_status tornados(sheet *s) {
 
 /* ---- how much of the limits is used ---- */
 
-static fw_status histogram(sheet *s, const points *p) {
+static fw_status histogram(fw_study_sheet *s, const points *p) {
     double least = HUGE_VAL, most = -HUGE_VAL;
     int count[BARS] = {0}, top = 0;
     for (int i = 0; i < p->n; i++)
@@ -403,11 +368,12 @@ static fw_status histogram(sheet *s, const points *p) {
             count[(int)fmin(BARS - 1, BARS * (p->used[i] - least) / (most - least))]++;
     for (int i = 0; i < BARS; i++)
         top = count[i] > top ? count[i] : top;
-    fw_text *out = add(s, "used", "How much of their limits the devices use that were judged");
+    fw_text *out =
+        fw_study_sheet_add(s, "used", "How much of their limits the devices use that were judged");
     if (!out) return FW_OK;
     fw_svg_axes a = {LEFT, RIGHT, TOP, BOTTOM, least, most, 0, 1.05 * top, 6, 5};
-    begin(out, HEIGHT, s->item[s->n - 1].title);
-    fw_svg_grid(out, &a);
+    fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
+    fw_study_picture_grid(out, &a);
     for (int i = 0; i < BARS; i++) {
         double from = least + (most - least) * i / BARS, x = fw_svg_axes_x(&a, from),
                y = fw_svg_axes_y(&a, count[i]);
@@ -427,16 +393,17 @@ static fw_status histogram(sheet *s, const points *p) {
 
 /* ---- all inputs and responses side by side ---- */
 
-static fw_status parallel(sheet *s, const points *p) {
+static fw_status parallel(fw_study_sheet *s, const points *p) {
     const fw_study *study = p->study;
     int n = study->ninput + study->nresponse;
     if (n < 3 || n > 14 || p->n < 2) return FW_OK;
-    fw_text *out = add(s, "parallel", "Every device a line through its inputs and responses");
+    fw_text *out =
+        fw_study_sheet_add(s, "parallel", "Every device a line through its inputs and responses");
     if (!out) return FW_OK;
     double *low = fw_arena_array(study->arena, double, (size_t)n),
            *high = fw_arena_array(study->arena, double, (size_t)n);
     FW_NEED(low && high ? low : NULL);
-    begin(out, HEIGHT, s->item[s->n - 1].title);
+    fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0, every = p->n / LINES_MOST + 1; i < p->n; i += pass ? every : 1) {
             if (pass)
@@ -478,7 +445,7 @@ static fw_status parallel(sheet *s, const points *p) {
     return fw_text_end(out);
 }
 
-static fw_status front(sheet *s, const points *p) {
+static fw_status front(fw_study_sheet *s, const points *p) {
     const fw_study *study = p->study;
     int goal[2], n = 0;
     fw_svg_axes a;
@@ -486,10 +453,11 @@ static fw_status front(sheet *s, const points *p) {
         if (study->response[r].asked->goal != FW_GOAL_NONE && n < 2) goal[n++] = r;
     if (n < 2 || !fit(p->y + goal[0], study->nresponse, p->y + goal[1], study->nresponse, p->n, &a))
         return FW_OK;
-    fw_text *out = add(s, "front", "Both goals: what no other device beats in both is ringed");
+    fw_text *out =
+        fw_study_sheet_add(s, "front", "Both goals: what no other device beats in both is ringed");
     if (!out) return FW_OK;
-    begin(out, HEIGHT, s->item[s->n - 1].title);
-    fw_svg_grid(out, &a);
+    fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
+    fw_study_picture_grid(out, &a);
     for (int i = 0; i < p->n; i++) {
         const double *y = p->y + (size_t)i * (size_t)study->nresponse;
         if (isfinite(y[goal[0]]) && isfinite(y[goal[1]]))
@@ -508,15 +476,63 @@ static fw_status front(sheet *s, const points *p) {
     return fw_text_end(out);
 }
 
-static fw_status pictures(sheet *s, const points *p) {
+/* ---- the best designs ---- */
+
+enum { DRAWINGS_MOST = 3 };
+
+/* judged once more, for its drawing with the hinges coloured by what they use */
+static fw_status draw_design(fw_study_sheet *s, const fw_study_found *f, const char *name,
+                             const char *title) {
+    fw_study *study = s->study;
+    const char *svg = NULL;
+    size_t n;
+    int status;
+    fw_design *design = fw_study_design(study, study->options.cancel, f->text, &status);
+    FW_NEED(design);
+    if (status == FW_STATUS_OK) status = fw_design_judge(design);
+    if (status == FW_STATUS_OK)
+        status = fw_design_document(design, FW_DOCUMENT_DEVICE_SVG, &svg, &n);
+    const char *head = status == FW_STATUS_OK && svg ? strstr(svg, "?>\n") : NULL;
+    const char *picture = head ? head + 3 : NULL; /* without the declaration of a file */
+    fw_text *out = picture ? fw_study_sheet_add(s, name, title) : NULL;
+    if (out) s->item[s->n - 1].captioned = true;
+    if (out) fw_text_add(out, picture);
+    fw_design_free(design);
+    if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
+    return out ? fw_text_end(out) : FW_OK;
+}
+
+static fw_status drawings(fw_study_sheet *s) {
+    const fw_study *study = s->study;
+    const fw_study_result *r = study->result;
+    for (int i = 0; i < r->nfound && i < DRAWINGS_MOST; i++) {
+        /* of a front one at each end and one between */
+        int k = r->nfound <= DRAWINGS_MOST ? i : i * (r->nfound - 1) / (DRAWINGS_MOST - 1);
+        char number[24];
+        snprintf(number, sizeof number, "%d", k + 1);
+        FW_TRY(draw_design(s, &r->found[k], fw_study_picture_name(study->arena, "design", number),
+                           fw_arena_printf(study->arena,
+                                           "Design %d of the table, hinges coloured by what they "
+                                           "use of their limits",
+                                           k + 1)));
+    }
+    if (r->nfound == 0 && r->nearest.text)
+        return draw_design(s, &r->nearest, "design-nearest",
+                           "The nearest design, hinges coloured by what they use of their limits");
+    return FW_OK;
+}
+
+static fw_status pictures(fw_study_sheet *s, const points *p) {
     const fw_study *study = s->study;
     const fw_device_study *asked = study->asked;
     bool grid =
         asked->kind == FW_STUDY_IS_sweep && asked->points == FW_POINTS_GRID && study->ninput == 2;
     if (study->result->derivative) FW_TRY(tornados(s));
+    if (asked->kind == FW_STUDY_IS_size) FW_TRY(drawings(s));
     if (asked->kind == FW_STUDY_IS_size) FW_TRY(front(s, p));
     for (int r = 0; grid && r < study->nresponse; r++)
         FW_TRY(map(s, p, r));
+    if (asked->kind == FW_STUDY_IS_yield) FW_TRY(fw_study_yield_pictures(s));
     if (asked->kind == FW_STUDY_IS_yield) return histogram(s, p);
     int pairs = 0;
     for (int r = 0; r < study->nresponse; r++)
@@ -529,7 +545,9 @@ fw_status fw_study_pictures(fw_study *study, const fw_study_picture **picture, i
     const fw_study_result *r = study->result;
     size_t inputs = (size_t)study->ninput, responses = (size_t)study->nresponse;
     points p = {.study = study, .every = (r->run + r->failed) / DRAWN_MOST + 1};
-    sheet s = {.study = study, .most = 6 + PAIRS_MOST + 3 * study->nresponse};
+    fw_study_sheet s = {.study = study,
+                        .most =
+                            6 + DRAWINGS_MOST + PAIRS_MOST + 3 * study->nresponse + 3 * r->nyield};
     FW_NEED(s.item = fw_arena_array(study->arena, fw_study_picture, (size_t)s.most));
     FW_NEED(p.x = fw_arena_array(study->arena, double, DRAWN_MOST *inputs + 1));
     FW_NEED(p.y = fw_arena_array(study->arena, double, DRAWN_MOST *responses + 1));

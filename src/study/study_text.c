@@ -190,6 +190,61 @@ static void percent(fw_text *out, double share) {
     fw_text_add(out, " %");
 }
 
+static void say_place(fw_text *out, const fw_study_levels *l, size_t q) {
+    percent(out, l->at[q].value);
+    fw_text_printf(out, " at %s (", l->scatter->place[q].id);
+    percent(out, l->at[q].low);
+    fw_text_add(out, " to ");
+    percent(out, l->at[q].high);
+    fw_text_add(out, ")");
+}
+
+static void say_places(fw_text *out, const fw_study_levels *l) {
+    size_t least = 0, most = 0;
+    if (!l->at) return;
+    for (size_t q = 0; q < l->scatter->places; q++) {
+        if (l->at[q].value < l->at[least].value) least = q;
+        if (l->at[q].value > l->at[most].value) most = q;
+    }
+    fw_text_printf(out, "  of %zu dies on the wafer: ", l->scatter->places);
+    say_place(out, l, least);
+    fw_text_add(out, ", ");
+    say_place(out, l, most);
+    fw_text_add(out, "\n");
+}
+
+/* what is on which level, of the spread of what devices use */
+static void say_levels(fw_text *out, const fw_study_levels *l) {
+    const struct {
+        const char *name;
+        const fw_chance_share *share;
+        bool always;
+    } row[] = {{"from lot to lot", &l->used.lot, true},
+               {"from wafer to wafer", &l->used.wafer, true},
+               {"by place on the wafer", &l->used.place, l->at != NULL},
+               {"from die to die", &l->used.die, true},
+               {"from hinge to hinge", &l->used.hinge, l->hinges}};
+    if (l->used.units == 0 || !(l->used.variance > 0)) return;
+    fw_text_add(out, "  of the spread of what devices use, ");
+    for (size_t k = 0, n = 0; k < sizeof row / sizeof row[0]; k++) {
+        if (!row[k].always) continue;
+        fw_text_add(out, n++ ? ", " : "");
+        fw_text_fixed(out, 100 * row[k].share->value, 0);
+        fw_text_printf(out, " %% is %s", row[k].name);
+    }
+    fw_text_add(out, " (");
+    fw_text_printf(out, "%ld devices of simulated wafers)\n", l->devices);
+    fw_text_add(out, "  the yield of a wafer is off by ");
+    percent(out, l->held.wafer_sd);
+    fw_text_add(out, ", that of a lot by ");
+    percent(out, l->held.lot_sd);
+    fw_text_add(out, " (standard deviations)\n");
+    say_places(out, l);
+    if (l->not_judged > 0)
+        fw_text_printf(out, "  %ld of these devices could not be judged and are left out\n",
+                       l->not_judged);
+}
+
 static void say_yield(fw_text *out, const fw_study *study) {
     for (int i = 0; i < study->result->nyield; i++) {
         const fw_study_flow_yield *y = &study->result->yield[i];
@@ -209,6 +264,7 @@ static void say_yield(fw_text *out, const fw_study *study) {
         if (y->unevaluated > 0)
             fw_text_printf(out, "  %ld of them could not be judged: they count both ways\n",
                            y->unevaluated);
+        if (y->levels) say_levels(out, y->levels);
         if (!y->share) continue;
         fw_text_add(out, "  the nearest device that fails is ");
         fw_text_number(out, y->beta, 3);

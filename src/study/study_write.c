@@ -146,6 +146,68 @@ static void size(fw_json *j, const fw_study *study) {
         fw_json_null(j, "nearest");
 }
 
+static void share(fw_json *j, const char *key, const fw_chance_share *v) {
+    fw_json_object(j, key);
+    fw_json_real(j, "value", v->value);
+    fw_json_list(j, "interval");
+    fw_json_real(j, NULL, v->low);
+    fw_json_real(j, NULL, v->high);
+    fw_json_end(j);
+    fw_json_end(j);
+}
+
+static void places(fw_json *j, const fw_study_levels *l) {
+    fw_json_list(j, "places");
+    for (size_t q = 0; l->at && q < l->scatter->places; q++) {
+        const fw_study_place *p = &l->scatter->place[q];
+        fw_json_object(j, NULL);
+        fw_json_text(j, "die", p->id);
+        fw_json_real(j, "x_m", p->at.x_m);
+        fw_json_real(j, "y_m", p->at.y_m);
+        share(j, "yield", &l->at[q]);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
+static void levels(fw_json *j, const fw_study_levels *l) {
+    if (!l || l->used.units == 0) {
+        fw_json_null(j, "levels");
+        return;
+    }
+    fw_json_object(j, "levels");
+    fw_json_whole(j, "devices", l->devices);
+    fw_json_whole(j, "not_judged", l->not_judged);
+    fw_json_object(j, "shares");
+    share(j, "lot", &l->used.lot);
+    share(j, "wafer", &l->used.wafer);
+    share(j, "place", &l->used.place);
+    share(j, "die", &l->used.die);
+    share(j, "hinge", &l->used.hinge);
+    fw_json_end(j);
+    share(j, "dies_of_one_wafer", &l->used.of_one_wafer);
+    share(j, "wafers_of_one_lot", &l->used.of_one_lot);
+    fw_json_real(j, "yield_deviation_of_wafers", l->held.wafer_sd);
+    fw_json_real(j, "yield_deviation_of_lots", l->held.lot_sd);
+    places(j, l);
+    fw_json_end(j);
+}
+
+static void steps(fw_json *j, const fw_study_flow_yield *y) {
+    fw_json_list(j, "convergence");
+    for (size_t k = 0; k < y->steps; k++) {
+        fw_json_object(j, NULL);
+        fw_json_whole(j, "devices", (long)y->step[k].evaluations);
+        fw_json_real(j, "yield", 1 - y->step[k].probability);
+        fw_json_list(j, "sampling_interval");
+        fw_json_real(j, NULL, 1 - y->step[k].high);
+        fw_json_real(j, NULL, 1 - y->step[k].low);
+        fw_json_end(j);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
 static void yields(fw_json *j, const fw_study *study) {
     if (study->asked->kind != FW_STUDY_IS_yield) return;
     fw_json_list(j, "yields");
@@ -180,6 +242,8 @@ static void yields(fw_json *j, const fw_study *study) {
             fw_json_end(j);
         }
         fw_json_end(j);
+        levels(j, y->levels);
+        steps(j, y);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -311,6 +375,7 @@ static void designs(const fw_study *study, fw_text *out) {
 static void figure(const fw_study_picture *p, fw_text *out) {
     fw_text_add(out, "<figure>");
     fw_text_add(out, p->svg.data);
+    if (p->captioned) text(out, "<figcaption>", p->title, "</figcaption>");
     fw_text_add(out, "</figure>\n");
 }
 

@@ -193,6 +193,19 @@ class Study(unittest.TestCase):
             ("sweep", vary + respond + '<uncertain what="link" mean="120 um" sd="1 um"/>', "FW-D490", "belongs to kind"),
             ("yield", '<uncertain what="arc" spread="normal" mean="240 deg" sd="0 deg"/>', "FW-D491", "above 0"),
             ("yield", '<uncertain what="arc" spread="uniform" mean="240 deg"/>', "FW-D491", "uniform"),
+            ("yield", '<uncertain what="arc" level="hinge" mean="240 deg" sd="1 deg"/>', "FW-D556", "flexure[*]/@width"),
+            ("yield", '<uncertain what="arc" mean="240 deg" sd="1 deg"/><uncertain what="arc" sd="2 deg"/>', "FW-D556",
+             "different levels"),
+            ("yield", '<uncertain what="arc" level="lot" mean="240 deg" sd="1 deg"/><uncertain what="arc" level="wafer" '
+             'mean="240 deg" sd="2 deg"/>', "FW-D491", "deviation"),
+            ("yield", '<uncertain what="thickness" flow="al-masked-rie" level="wafer" sd="1 deg"/>', "FW-D556", "is in um"),
+            ("yield", '<uncertain what="thicknes" flow="al-masked-rie" sd="1 um"/>', "FW-D556", "edge of the aluminium"),
+            ("yield", '<uncertain what="thickness" flow="rie" sd="1 um"/>', "FW-D556", "names no flow"),
+            ("yield", '<uncertain what="arc" mean="240 deg" sd="1 deg"/><trend what="arc" radial="1 deg"/>', "FW-D557",
+             "wafer diameter"),
+            ("yield", '<trend what="arc"/>', "FW-D557", "radial="),
+            ("yield", '<uncertain what="arc" level="lot" spread="interval" from="230 deg" to="240 deg"/>', "FW-D556", "interval"),
+            ("sweep", vary + respond + '<trend what="arc" radial="1 deg"/>', "FW-D490", "belongs to kind"),
             ("sweeep", vary + respond, "FW-D048", "sweep"),
         )
         for kind, rows, code, says in cases:
@@ -268,6 +281,62 @@ class Study(unittest.TestCase):
             if sigmas == 1.3:  # as likely in the other: nothing but the number of samples differs
                 self.assertEqual(self.run_study(file, f"z{sigmas}", "--jobs", 1), result)
 
+    def test_levels_and_places_are_those_of_the_closed_form(self):
+        """U rises with the load alone, so that its levels are the load's, and a die holds where the load is below a limit"""
+        path = self.write(bare().replace("</device>", '<wafer diameter="50.8 mm" flat="16 mm"/></device>'), "bare.xml")
+        mean, lot, wafer, radial = 0.42, 0.05, 0.05, 0.24
+        low, high = 0.35, 0.7
+        for _ in range(9):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self.used(path, push=f"{middle!r} mN") < 1 else (low, middle)
+        rows = (f'<uncertain what="push" level="lot" mean="{mean} mN" sd="{lot} mN"/>'
+                f'<uncertain what="push" level="wafer" sd="{wafer} mN"/><trend what="push" radial="{radial} mN"/>')
+        file = self.write(study("y", "yield", rows, path, samples=400))
+        found = self.run_study(file, "y")["yields"][0]
+        levels, rim = found["levels"], 25.4e-3
+        squares = [(p["x_m"] ** 2 + p["y_m"] ** 2) / rim ** 2 for p in levels["places"]]
+        self.assertGreater(len(squares), 20)
+        average = sum(squares) / len(squares)
+        place = radial ** 2 * sum((s - average) ** 2 for s in squares) / len(squares)
+        every = lot ** 2 + wafer ** 2 + place
+        for name, truth in (("lot", lot ** 2 / every), ("wafer", wafer ** 2 / every), ("place", place / every),
+                            ("die", 0), ("hinge", 0)):
+            least, most = levels["shares"][name]["interval"]
+            self.assertTrue(least - 0.05 <= truth <= most + 0.05, (name, truth, levels["shares"]))  # U is not straight
+        least, most = levels["dies_of_one_wafer"]["interval"]
+        self.assertTrue(least - 0.05 <= (lot ** 2 + wafer ** 2) / every <= most + 0.05, levels)
+        held = total = 0
+        for p, s in zip(levels["places"], squares):
+            truth = 0.5 * math.erfc((mean + radial * (s - 0.5) - 0.5 * (low + high)) / math.hypot(lot, wafer) / math.sqrt(2))
+            least, most = p["yield"]["interval"]
+            held, total = held + (least - 0.01 <= truth <= most + 0.01), total + truth
+        self.assertGreaterEqual(held, 0.9 * len(squares))
+        least, most = found["sampling_interval"]
+        self.assertTrue(least - 0.01 <= total / len(squares) <= most + 0.01, (total / len(squares), found))
+        self.assertLess(min(p["yield"]["value"] for p in levels["places"]) + 0.1,
+                        max(p["yield"]["value"] for p in levels["places"]))
+        steps = found["convergence"]
+        self.assertEqual([steps[-1]["yield"], steps[-1]["sampling_interval"]], [found["yield"], found["sampling_interval"]])
+        for name in ("wafer", "levels", "convergence"):
+            self.assertTrue((self.place / f"y/pictures/{name}-reference-six-bar.svg").exists())
+
+    def test_what_differs_from_hinge_to_hinge(self):
+        """one width for all hinges and one for each: the second has less of a spread where the most strained one rules less"""
+        rows = '<uncertain what="flexure[*]/@width" level="{}" mean="8 um" sd="0.2 um"/>'
+        path = self.write(bare(), "bare.xml")
+        self.run_study(self.write(study("y", "yield", rows.format("hinge"), path, samples=200)), "h")
+        self.run_study(self.write(study("y", "yield", rows.format("lot"), path, samples=200), "lot.xml"), "l")
+        hinge, lot = (json.loads((self.place / f"{k}/study.json").read_text())["yields"][0]["levels"]["shares"] for k in "hl")
+        self.assertEqual(hinge["lot"]["interval"][0], 0)
+        self.assertGreater(hinge["hinge"]["value"], 0.6)
+        self.assertGreater(lot["lot"]["value"], 0.6)
+        self.assertEqual(lot["hinge"]["value"], 0)
+        row = self.rows("h")[0]
+        widths = [float(row[f"flexure[{k}]/@width"]) for k in "ABCDEF"]
+        self.assertEqual(len(set(widths)), 6)
+        row = self.rows("l")[0]
+        self.assertEqual(len({row[f"flexure[{k}]/@width"] for k in "ABCDEF"}), 1)
+
     def test_a_size_is_within_a_percent_of_what_trying_everything_finds(self):
         """the widest hinge C that is accepted and keeps U below 0.7, as drawn"""
         rows = ('<vary what="flexure[C]/@width" from="6 um" to="12 um"/><vary what="arc" from="200 deg" to="260 deg"/>'
@@ -281,6 +350,10 @@ class Study(unittest.TestCase):
         self.run_study(self.write(study("g", "sweep", grid).replace("<study", '<study as="drawn"')), "grid")
         tried = [float(r["angle"]) for r in self.rows("grid") if r["state"] == "accept" and float(r["U"]) <= 0.7]
         is_ = {r["name"]: r["value"] for r in found[0]["responses"]}
+        drawn = (self.place / "size/pictures/design-1.svg").read_text()
+        used = max(float(u) for u in re.findall(r"</tspan>\s([\d.]+)\s%</text>", drawn))
+        self.assertAlmostEqual(used, 100 * is_["U"], delta=0.06)  # the hinge that uses most, as the drawing writes it
+        self.assertIn("<figcaption>Design 1", (self.place / "size/study.html").read_text())
         self.assertLessEqual(is_["angle"], 1.01 * min(tried))
         self.assertLessEqual(is_["U"], 0.7)
         sets = [w for s in found[0]["set"] for w in ("--set", f"{s['path']}={s['value']}")]

@@ -22,7 +22,8 @@ SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model":
           "wiring": "wiring"}
 # pictures of docs/studies.md, drawn by its studies
 PICTURES = {"width-and-arc": {"map-used.svg": "study-map.svg"},
-            "which-matters": {"tornado-C.svg": "study-tornado.svg"}}
+            "which-matters": {"tornado-C.svg": "study-tornado.svg"},
+            "where-on-the-wafer": {"wafer-al-masked-rie.svg": "study-wafer.svg"}}
 problems, seen, documents = [], {}, 0
 
 SIX = "docs/gallery/reference-six-bar/device.xml"
@@ -130,7 +131,7 @@ with tempfile.TemporaryDirectory() as here:
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-plate.order.json").read_text()), "written plate")
 
-    for name in ("width-and-arc", "worst-load", "widest-hinge", "how-many-survive", "which-matters"):
+    for name in ("width-and-arc", "worst-load", "widest-hinge", "how-many-survive", "which-matters", "where-on-the-wafer"):
         form = (ROOT / f"docs/studies/{name}.xml").read_text().replace("../gallery", str(ROOT / "docs/gallery"))
         if not os.environ.get("FW_TEST_ALL"):  # keys need no more than a few devices
             form = form.replace('samples="300"', 'samples="200"').replace('as="made"', 'as="drawn" samples="12"')
