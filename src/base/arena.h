@@ -72,6 +72,21 @@ fw_mark fw_arena_mark(const fw_arena *arena);
 void fw_arena_rewind(fw_arena *arena, fw_mark mark);
 size_t fw_arena_peak(const fw_arena *arena);
 
+/* ---- all that an arena holds, byte by byte ---- */
+
+/* So that it can be as it was at the same addresses: for work that begins over and over from the same state, whatever it
+   changes of it. Pointers into the arena stay good; what is not in it (files, memory of libraries) is the caller's affair. */
+typedef struct fw_arena_copy {
+    fw_mark mark;
+    unsigned char *bytes; /* of malloc; NULL: none */
+} fw_arena_copy;
+
+/* false: no memory. What is rewound from then on stays with the arena for the next time */
+bool fw_arena_copy_take(fw_arena *arena, fw_arena_copy *copy);
+/* The arena must not have been rewound behind the copy meanwhile. Cost: that of copying the bytes */
+void fw_arena_copy_put_back(fw_arena *arena, const fw_arena_copy *copy);
+void fw_arena_copy_free(fw_arena_copy *copy);
+
 /* fault injection for tests: the n-th allocation from now on (1 = next) fails, and every later one
    too when `ever_after`; n = 0 turns it off. Counts over all arenas of the process. */
 void fw_arena_fail_at(long n, int ever_after);

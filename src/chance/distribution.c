@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "chance/distribution.h"
+#include "chance/joint.h"
 #include "maths/functions.h"
 #include <math.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 /* Behind the public header: for commands that show more than the library does. */
 #ifndef FW_PLAN_DESIGN_H
 #define FW_PLAN_DESIGN_H
-#include "base/arena_copy.h"
+#include "base/arena.h"
 #include "plan/plan.h"
 #include <flexwright.h>
 #include <locale.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/arena_copy.h"
+#include "base/arena.h"
 #include "test.h"
 
 static void zeroed_and_aligned(void **state) {

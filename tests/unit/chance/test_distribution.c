@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each kind: there and back, moments by quadrature, what is refused. */
-#include "chance/distribution.h"
+#include "chance/joint.h"
 #include "maths/functions.h"
 #include "chance_test.h"
 
