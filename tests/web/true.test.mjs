@@ -127,7 +127,7 @@ test("New…: every device to begin from is judged, has its picture, and is one 
 
 describe("what is added", () => {
     // what needs a place that only a person knows; a third flow needs a scene of its own
-    const NEEDS_A_PERSON = new Set(["mechanism>revolute", "mechanism>prismatic", "mechanism>weld", "body>outline", "body>lettering", "device>flow"]);
+    const NEEDS_A_PERSON = new Set(["mechanism>revolute", "mechanism>prismatic", "mechanism>weld", "body>outline", "body>lettering", "device>flow", "device>cell"]);
     for (const device of ["reference-six-bar", "leaf-four-bar", "free-form-gripper"])
         test(`Add… writes what the description takes: ${device}`, async () => {
             const server = await serve(device);
