@@ -23,5 +23,6 @@
 #define FW_VACUUM_PERMITTIVITY_F_PER_m 8.8541878128e-12 /* relative uncertainty 1.5e-10 */
 #define FW_DRY_AIR_J_PER_kg_K          287.05           /* specific gas constant (ISO 2533) */
 #define FW_STANDARD_ATMOSPHERE_Pa      101325.0         /* exact (ISO 2533) */
+#define FW_STANDARD_GRAVITY_m_per_s2   9.80665          /* exact (CGPM 1901) */
 #define FW_ICE_POINT_K                 273.15           /* 0 degrees Celsius, exact */
 #endif

@@ -6,13 +6,6 @@
 #include "mechanism/mechanism_plates.h"
 #include <string.h>
 
-static double gradient_of(const fw_device_scene *s) {
-    double sum = 0;
-    for (int i = 0; i < s->nstress; i++)
-        sum += s->stress[i].gradient_Pa_per_m;
-    return sum;
-}
-
 static double shock_of(const fw_device_scene *s) { /* m/s2, at most, ringing included */
     double sum = 0;
     for (int i = 0; i < s->nbase; i++)
@@ -23,18 +16,7 @@ static double shock_of(const fw_device_scene *s) { /* m/s2, at most, ringing inc
 }
 
 static bool called_for(const fw_effect_case *c) {
-    const fw_device_scene *s = c->scene;
-    bool shaken = false;
-    for (int i = 0; i < s->nbase; i++)
-        shaken = shaken || s->base[i].az_m_per_s2 != 0;
-    return s->gz_m_per_s2 != 0 || shaken || gradient_of(s) != 0;
-}
-
-static double curvature_of(const fw_effect_case *c) {
-    const fw_device_material *of = &c->mechanism->variant->material;
-    double gradient = gradient_of(c->scene);
-    if (gradient == 0 || of->youngs.unknown) return 0;
-    return gradient * (1 - (of->poisson.unknown ? 0 : of->poisson.value)) / of->youngs.value;
+    return fw_mechanism_plates_asked(c->scene);
 }
 
 /* largest stiffness against tilt over that of the rotation, of any flexure */
@@ -73,7 +55,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         return FW_OK;
     }
     size_t n = (size_t)p.n;
-    double curvature = curvature_of(c), *f, *x, *bow;
+    double curvature = fw_mechanism_plates_curvature(c->mechanism, c->scene), *f, *x, *bow;
     FW_NEED(f = fw_arena_array(c->arena, double, n));
     FW_NEED(x = fw_arena_array(c->arena, double, n));
     FW_NEED(bow = fw_arena_array(c->arena, double, n));

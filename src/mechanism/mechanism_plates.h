@@ -93,4 +93,10 @@ typedef struct fw_mechanism_plates_pressed {
 fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plates *plates,
                                        const fw_mechanism_plates_pressed *by, double *factor,
                                        int *hinge);
+
+/* what a scene asks of the plates: an acceleration across the plane that changes in time (az), that or weight (gz) or a
+   stress gradient, and the curvature such a gradient gives a free plate, g (1 - nu)/E; 0 where E is not known */
+bool fw_mechanism_plates_shaken(const fw_device_scene *scene);
+bool fw_mechanism_plates_asked(const fw_device_scene *scene);
+double fw_mechanism_plates_curvature(const fw_mechanism *mechanism, const fw_device_scene *scene);
 #endif

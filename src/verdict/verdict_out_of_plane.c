@@ -3,12 +3,11 @@
    across the plane, do the forces in the plane tip it out of it? Bodies are plates that are rigid; with what they may
    give at most (body_arms.c) frequencies have their lower end and sags their upper one.
    Theory: docs/theory/effects/out-of-plane.md. Test: test_out_of_plane.py */
+#include "base/constants.h"
 #include "mechanism/mechanism_plates.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <string.h>
-
-static const double fw_weight_m_per_s2 = 9.80665;
 
 typedef struct both { /* rigid bodies; bodies that give as much as they may */
     fw_mechanism_plates rigid, soft;
@@ -17,27 +16,11 @@ typedef struct both { /* rigid bodies; bodies that give as much as they may */
 
 /* ---- who asks ---- */
 
-static bool shaken(const fw_device_scene *s) {
-    for (int i = 0; i < s->nbase; i++)
-        if (s->base[i].az_m_per_s2 != 0) return true;
-    return false;
-}
-
-static double gradient_of(const fw_device_scene *s) {
-    double sum = 0;
-    for (int i = 0; i < s->nstress; i++)
-        sum += s->stress[i].gradient_Pa_per_m;
-    return sum;
-}
-
-static bool asks(const fw_device_scene *s) {
-    return s->gz_m_per_s2 != 0 || shaken(s) || gradient_of(s) != 0;
-}
-
 static bool somebody_asks(const fw_mechanism *m) {
     const fw_device *d = m->device;
     for (int i = 0; i < d->nscene; i++)
-        if (fw_device_in_flow(d->scene[i].flow, m->variant->flow) && asks(&d->scene[i]))
+        if (fw_device_in_flow(d->scene[i].flow, m->variant->flow) &&
+            fw_mechanism_plates_asked(&d->scene[i]))
             return true;
     for (int i = 0; i < d->nrequirement; i++) {
         const fw_device_probe *p = &d->probe[d->requirement[i].probe];
@@ -125,13 +108,6 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
     }
 }
 
-static double curvature_of(const fw_mechanism *m, const fw_device_scene *s) {
-    const fw_device_material *of = &m->variant->material;
-    double gradient = gradient_of(s);
-    if (gradient == 0) return 0;
-    return gradient * (1 - (of->poisson.unknown ? 0 : of->poisson.value)) / of->youngs.value;
-}
-
 static fw_status add(fw_verdict_variant_verdict *v, const fw_device_scene *s, int number,
                      fw_verdict_decision decision, double keep, const char *text) {
     FW_NEED(text);
@@ -168,7 +144,7 @@ static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_sc
 static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scene *s,
                            fw_verdict_variant_verdict *v, fw_verdict_across *to) {
     const fw_mechanism *m = v->mechanism;
-    double curvature = curvature_of(m, s);
+    double curvature = fw_mechanism_plates_curvature(m, s);
     fw_geometry_vec2 middle;
     to->asked = true;
     load_scene(is, &is->rigid, s, curvature, &middle, &to->dynamic);
@@ -253,7 +229,7 @@ static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_o
     out->body = fw_text_name(is->rigid.mechanism->body[stiff.body].id);
     out->across_N_per_m = stiff.across_N_per_m;
     out->ratio = stiff.across_N_per_m / stiff.in_N_per_m;
-    fw_mechanism_plates_weight(&is->rigid, -fw_weight_m_per_s2, is->f);
+    fw_mechanism_plates_weight(&is->rigid, -FW_STANDARD_GRAVITY_m_per_s2, is->f);
     fw_mechanism_plates_answer(&is->rigid, is->f, is->x);
     const fw_geometry_vec2 origin = {0, 0};
     out->weight_m = -fw_mechanism_plates_reached(&is->rigid, is->x, NULL, 0, origin).lowest_m;
@@ -282,7 +258,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
         if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
         fw_verdict_across *to = &out->scene[out->nscene++];
         *to = (fw_verdict_across){.scene = s->name, .scene_index = i, .tips = (double)NAN};
-        if (out->why && (s->gz_m_per_s2 != 0 || shaken(s)))
+        if (out->why && (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)))
             FW_TRY(add(
                 v, s, 581, FW_INCONCLUSIVE, 0.5,
                 fw_arena_printf(arena,
@@ -290,7 +266,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                 "its plane is not known: %s",
                                 s->name, out->why)));
         if (out->why) continue;
-        if (asks(s)) FW_TRY(judge_sag(arena, &is, s, v, to));
+        if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, &is, s, v, to));
         if (!brief) FW_TRY(judge_tipping(arena, &is, s, v->motion[i], v, to));
     }
     return FW_OK;
