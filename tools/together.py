@@ -3,9 +3,10 @@
 """together.py SIZE FILE...: which sources of one target may be compiled as one, at most SIZE of them: no two name the same
 at the level of the file (a static function or object, a type, an enumerator, a macro), and a macro is no word of a file behind it.
 What the level of one file names may be a local name of another: such a tree is compiled with -Wno-shadow. Prints one line "FILE GROUP" for each
-FILE, in their order. A compiler reads headers and starts once for each group, a third of its time under the sanitizers; the
+FILE, in their order; files of different folders are never of one group. A compiler reads headers and starts once for each group, a third of its time under the sanitizers; the
 usual build compiles each file by itself, so that a file that misses a header of its own is noticed there.
 tests/build/together.py tries it on files with every kind of name."""
+import functools
 import pathlib
 import re
 import sys
@@ -49,19 +50,33 @@ def names(text):
     return {name for name in own - COMMON if name != "main" and not name.startswith("fw_")}, macros, words
 
 
-def headers(path, text, places):
+@functools.cache
+def looked_at(path):
+    """(text, what names() says of it): of a header once, though many files include it"""
+    text = path.read_text(encoding="utf-8")
+    return text, names(text)
+
+
+@functools.cache
+def header_of(folder, name, places):
+    """the header of ours that `name` is in a file of `folder`, or None"""
+    return next(((p / name).resolve() for p in (folder, *places) if (p / name).is_file()), None)
+
+
+@functools.cache
+def headers(path, places):
     """({name: header} of the headers of ours that a file includes, and that these include; how many ask for <complex.h>)"""
-    found, lonely, todo, known = {}, 0, [(path, text)], set()
+    found, lonely, todo, known = {}, 0, [path], set()
     while todo:
-        place, text = todo.pop()
+        place = todo.pop()
+        text, _ = looked_at(place)
         lonely += LONELY.search(text) is not None
         for name in INCLUDE.findall(text):
-            header = next((p / name for p in (place.parent, *places) if (p / name).is_file()), None)
-            header = header and header.resolve()
+            header = header_of(place.parent, name, places)
             if header and header.suffix == ".h" and header not in known:
                 known.add(header)
-                todo.append((header, header.read_text(encoding="utf-8")))
-                found.update(dict.fromkeys(names(todo[-1][1])[0], header))
+                todo.append(header)
+                found.update(dict.fromkeys(looked_at(header)[1][0], header))
     return found, lonely
 
 
@@ -69,9 +84,8 @@ def grouped(files, size, places):
     """{file: number of its group}"""
     groups, of = [], {}
     for path in map(pathlib.Path, files):
-        text = path.read_text(encoding="utf-8")
-        own, macros, words = names(text)
-        theirs, lonely = headers(path, text, places)
+        own, macros, words = looked_at(path)[1]
+        theirs, lonely = headers(path, tuple(places))
         alone = lonely or own & SYSTEM
         for number, group in enumerate(groups):
             other = group["theirs"]
@@ -92,5 +106,9 @@ def grouped(files, size, places):
 
 
 if __name__ == "__main__":
-    for path, group in grouped(sys.argv[2:], int(sys.argv[1]), PLACES).items():
-        print(path, group)
+    folders = {}
+    for file in sys.argv[2:]:
+        folders.setdefault(pathlib.Path(file).parent, []).append(file)
+    for files in folders.values():
+        for path, group in grouped(files, int(sys.argv[1]), PLACES).items():
+            print(path, group)
