@@ -450,6 +450,18 @@ static fw_status make_room(fw_arena *arena, const fw_xml_record *e, fw_process_s
     return FW_OK;
 }
 
+/* what is said of a step is what its machine can do; more wafers than places would be run in loads that nobody wrote */
+static void batch_fits(fw_process_pack *pack, const fw_xml_record *e, const fw_process_step *s) {
+    const fw_xml_attribute *batch = fw_process_pack_get(e, "batch");
+    if (!batch || !s->equipment || fw_process_step_is_of_lot(s)) return;
+    if (s->batch > s->equipment->capacity)
+        fw_diag_error(pack->diags, 558, batch->place,
+                      "step %s is for %d wafers at once, and %s takes %d (its capacity): write "
+                      "batch=\"%d\", or the capacity that the machine has",
+                      s->id, s->batch, s->equipment->id, s->equipment->capacity,
+                      s->equipment->capacity);
+}
+
 static fw_status read_step(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_xml_attribute *equipment = fw_process_pack_get(e, "equipment");
     *s = (fw_process_step){.id = fw_process_pack_text(e, "id"),
@@ -468,6 +480,7 @@ static fw_status read_step(fw_process_pack *pack, const fw_xml_record *e, fw_pro
                            .attended_s = 60.0 * fw_process_pack_number(e, "attended", 0.0),
                            .place = e->element->place};
     if (equipment) s->equipment = fw_process_pack_find(pack, equipment, FW_ID_EQUIPMENT);
+    batch_fits(pack, e, s);
     FW_TRY(make_room(pack->arena, e, s));
     for (const fw_xml_record *c = e->first_child; c; c = c->next)
         FW_TRY(read_child(pack, c, s));

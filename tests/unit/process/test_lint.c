@@ -354,6 +354,12 @@ static void steps_that_do_nothing(void **state) {
     const char *cold = "<q id=\"bake.T\" value=\"20\"";
     assert_null(read_pack(arena, SILICON, "<q id=\"bake.T\" value=\"100\"", cold, &diags));
     assert_non_null(said_of(532, "step S08 bakes at 20 Cel"));
+    /* six wafers into a bench of six pass, into one of four do not, whatever the lot */
+    diags = fw_diags_new(arena);
+    const char *bench = "id=\"clean-bench\" class=\"wet bench for SC1\" capacity=\"6\"";
+    const char *smaller = "id=\"clean-bench\" class=\"wet bench for SC1\" capacity=\"4\"";
+    assert_null(read_pack(arena, SILICON, bench, smaller, &diags));
+    assert_non_null(said_of(558, "step S02 is for 6 wafers at once, and clean-bench takes 4"));
 }
 
 /* one die in the middle of the pack's own wafer, where the description lays out none; currents against the supply */
