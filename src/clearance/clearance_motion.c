@@ -327,10 +327,11 @@ static void meet_here(const motion *s, const fw_clearance_pair *pair, const fw_c
     least->share = fmin(1, fw_clearance_slack_m(pair, &off) / least->moved_m);
 }
 
-/* The earliest instant at which a pair that meets does: spans in order of time, each cleared or
-   halved; what is left within 1 nm of motion is where they meet. */
-static void first_meeting(const void *context, const fw_clearance_pair *pair,
-                          const fw_clearance_region *all, fw_clearance_least *least) {
+/* The earliest instant, and before that of `before_s`, at which a pair meets: spans in order of time, each cleared or
+   halved; what is left within 1 nm of motion is where they meet. False: it does not, or was not found. */
+static bool first_meeting(const void *context, const fw_clearance_pair *pair,
+                          const fw_clearance_region *all, double before_s,
+                          fw_clearance_least *least) {
     enum { DEPTH = 512, TRIES = 4096 };
     const motion *s = context;
     fw_clearance_region stack[DEPTH];
@@ -338,6 +339,8 @@ static void first_meeting(const void *context, const fw_clearance_pair *pair,
     stack[depth++] = *all;
     for (int tries = 0; depth > 0 && tries < TRIES; tries++) {
         const fw_clearance_region now = stack[--depth];
+        const double *t = s->path->t_s + 2 * now.span.first;
+        if (t[0] + now.span.from * (t[1] - t[0]) >= before_s) return false; /* so are all others */
         fw_clearance_pose middle[2];
         double slack;
         bound(s, pair, &now, middle, &slack);
@@ -348,11 +351,12 @@ static void first_meeting(const void *context, const fw_clearance_pair *pair,
         bool one = now.span.first == now.span.last;
         if (one && (slack < 1e-9 || parts == 0)) {
             meet_here(s, pair, &now.span, least);
-            return;
+            return least->t_s < before_s;
         }
         for (int i = parts - 1; i >= 0 && depth < DEPTH; i--)
             stack[depth++] = part[i];
     }
+    return false;
 }
 
 static void start_at(const void *context, const fw_clearance_pair *pair,

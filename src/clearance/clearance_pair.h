@@ -94,9 +94,10 @@ typedef struct fw_clearance_domain {
                  fw_clearance_region part[FW_CLEARANCE_PARTS]);
     /* `bound` gives the pose in the middle of the region, part 0.5, as its middle poses */
     bool middle_is_a_pose;
-    /* NULL: there is no order */
-    void (*first_meeting)(const void *context, const fw_clearance_pair *pair,
-                          const fw_clearance_region *all, fw_clearance_least *least);
+    /* where a pair meets first, and before that of before_s; false: it does not. NULL: there is no order */
+    bool (*first_meeting)(const void *context, const fw_clearance_pair *pair,
+                          const fw_clearance_region *all, double before_s,
+                          fw_clearance_least *least);
 } fw_clearance_domain;
 
 fw_status fw_clearance_search(fw_arena *arena, const fw_clearance_things *things,

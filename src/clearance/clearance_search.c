@@ -239,6 +239,34 @@ static int pair_of(const search *s, const fw_clearance_least *least) {
     return FW_NONE;
 }
 
+static double start_distance(const search *s, int p) {
+    fw_clearance_pose start[2];
+    s->domain->start(s->domain->context, &s->pair[p], start);
+    return fw_clearance_pair_distance(&s->pair[p], start, HUGE_VAL, NULL);
+}
+
+/* Pair p was found to meet, where it was looked first. What counts is which pair meets first, and when: behind a meeting
+   the motion is none of the device's. A flexure that is only bounded does not go before what is drawn. */
+static void meets_first(search *s, const fw_clearance_region *all, int p) {
+    const fw_clearance_domain *domain = s->domain;
+    fw_clearance_least *least = s->least;
+    domain->first_meeting(domain->context, &s->pair[p], all, HUGE_VAL, least);
+    for (int k = 0; k < s->npair; k++) {
+        const fw_clearance_pair *pair = &s->pair[k];
+        if (k == p || pair->count[0] == 0 || pair->count[1] == 0) continue;
+        fw_clearance_least other = {.known = true};
+        other.moved_m = s->narrowed[k] ? s->moved_m[k] : domain->moved(domain->context, pair, all);
+        bool before = domain->first_meeting(domain->context, pair, all, least->t_s, &other);
+        least->looked += other.looked;
+        if (!before || (other.at.bound && !least->at.bound)) continue;
+        s->moved_m[k] = other.moved_m;
+        const double share = other.share;
+        record(s, k, &other, 0, &other.at);
+        least->share = share;
+        least->start_m = start_distance(s, k);
+    }
+}
+
 static fw_status run(search *s, const fw_clearance_region *all) {
     fw_clearance_least *least = s->least;
     const double before = least->known ? least->left_m : HUGE_VAL;
@@ -260,11 +288,8 @@ static fw_status run(search *s, const fw_clearance_region *all) {
     least->low_m = fmin(least->low_m, fmin(s->open_m, bar(s)));
     int p = least->known && least->left_m < before ? pair_of(s, least) : FW_NONE;
     if (p == FW_NONE) return FW_OK;
-    fw_clearance_pose start[2];
-    s->domain->start(s->domain->context, &s->pair[p], start);
-    least->start_m = fw_clearance_pair_distance(&s->pair[p], start, HUGE_VAL, NULL);
-    if (least->m <= 0 && s->domain->first_meeting)
-        s->domain->first_meeting(s->domain->context, &s->pair[p], all, least);
+    least->start_m = start_distance(s, p);
+    if (least->m <= 0 && s->domain->first_meeting) meets_first(s, all, p);
     return FW_OK;
 }
 

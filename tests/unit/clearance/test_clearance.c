@@ -142,8 +142,13 @@ static void slack_bounds_every_pose(void **state) {
 static const fw_clearance_wish closely = {
     .relative = 1e-6, .enough_m = HUGE_VAL, .most = 100000, .most_ever = 100000};
 
-static double sampled(const scene *s, int pieces, int each) {
-    double least = HUGE_VAL;
+typedef struct samples {
+    double least_m, first_s; /* HUGE_VAL: no sample met */
+    int a, b;                /* of the first meeting */
+} samples;
+
+static samples sampled(const scene *s, int pieces, int each) {
+    samples is = {.least_m = HUGE_VAL, .first_s = HUGE_VAL};
     for (int a = 0; a < BODIES; a++)
         for (int b = a + 1; b <= BODIES; b++) {
             fw_clearance_pair pair;
@@ -152,23 +157,16 @@ static double sampled(const scene *s, int pieces, int each) {
                              FW_OK);
             for (int i = 0; i <= pieces * each; i++) {
                 int piece = i / each < pieces ? i / each : pieces - 1;
-                double theta = (double)i / each - piece;
+                double theta = (double)i / each - piece, t_s = piece + theta;
                 fw_clearance_pose pose[2];
-                for (int k = 0; k < 2; k++) {
-                    int solid = k ? pair.b : pair.a;
-                    const fw_clearance_solid *g = &s->things.solid[BODIES];
-                    pose[k] = (fw_clearance_pose){g->centre.x, g->centre.y, 0};
-                    if (solid == BODIES) continue;
-                    pose[k].x_m = fw_clearance_path_value(&s->path, piece, 3 * solid, theta);
-                    pose[k].y_m = fw_clearance_path_value(&s->path, piece, 3 * solid + 1, theta);
-                    pose[k].phi_rad =
-                        fw_clearance_path_value(&s->path, piece, 3 * solid + 2, theta);
-                }
-                least = fmin(least, fw_clearance_pair_distance(
-                                        &pair, (const fw_clearance_pose *)pose, least, NULL));
+                fw_clearance_pair_at(&pair, &s->path, piece, theta, pose);
+                double d = fw_clearance_pair_distance(&pair, (const fw_clearance_pose *)pose,
+                                                      HUGE_VAL, NULL);
+                is.least_m = fmin(is.least_m, d);
+                if (d <= 0 && t_s < is.first_s) is.first_s = t_s, is.a = a, is.b = b;
             }
         }
-    return least;
+    return is;
 }
 
 /* the samples are never below the proved bound, and the least is what they come near */
@@ -185,7 +183,7 @@ static void least_is_that_of_dense_samples(void **state) {
         fw_clearance_least least = fw_clearance_nothing();
         assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &closely, &least),
                          FW_OK);
-        double seen = sampled(&s, PIECES, 400);
+        double seen = sampled(&s, PIECES, 400).least_m;
         assert_true(least.known && !least.given_up);
         if (least.m > 0) {
             assert_true(least.m - least.low_m <= 1.001e-9);
@@ -228,6 +226,38 @@ static void what_meets_between_samples_is_found(void **state) {
     }
 }
 
+/* Of several pairs that meet the one that meets first is named, at its instant: a body that wanders between two
+   walls meets both. */
+static void first_of_several_meetings(void **state) {
+    (void)state;
+    uint64_t seed = 21;
+    int several = 0;
+    for (int i = 0; i < test_cases(100, 20); i++) {
+        enum { PIECES = 60 };
+        scene s = start();
+        box(&s, 0, 0, 0, 1e-4, 1e-4);
+        box(&s, 1, 1.5e-4, 0, 2.5e-4, 1e-4);
+        box(&s, 2, -1e-4, -2.5e-4, 1e-3, -0.5e-4);
+        wander(&s, &seed, PIECES, 1.2e-4, 0.3);
+        fw_clearance_least least = fw_clearance_nothing();
+        assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &closely, &least),
+                         FW_OK);
+        const samples is = sampled(&s, PIECES, 200);
+        if (isfinite(is.first_s)) {
+            assert_true(least.m <= 0);
+            assert_true(least.t_s <= is.first_s + 1e-9);
+            /* but for a brush that no sample saw */
+            if (least.t_s > is.first_s - 0.02) {
+                several++;
+                assert_int_equal(least.a, is.a);
+                assert_int_equal(least.b == FW_GROUND ? BODIES : least.b, is.b);
+            }
+        }
+        fw_arena_free(s.arena);
+    }
+    assert_true(several > test_cases(60, 10));
+}
+
 /* more pieces than fit are looked at in parts, with the same end */
 static void enough_is_enough(void **state) {
     (void)state;
@@ -252,6 +282,7 @@ int main(void) {
         cmocka_unit_test(slack_bounds_every_pose),
         cmocka_unit_test(least_is_that_of_dense_samples),
         cmocka_unit_test(what_meets_between_samples_is_found),
+        cmocka_unit_test(first_of_several_meetings),
         cmocka_unit_test(enough_is_enough),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
