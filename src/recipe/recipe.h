@@ -7,7 +7,7 @@
 #include "measuring/measuring.h"
 #include "process/process.h"
 #include "schedule/schedule.h"
-#include "statics/tethers.h"
+#include "statics/statics.h"
 
 typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of it is shown */
     fw_geometry_cut_line line; /* shown from 0 to length_m along it */

@@ -235,6 +235,34 @@ static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
     fw_text_add(out, " % of the capacitance and lower it by about half of that\n");
 }
 
+/* where friction may hold it: the pose above, more or less this */
+static void friction(const fw_mechanism *m, const fw_statics_friction_range *f, fw_text *out) {
+    if (f->why) {
+        fw_text_printf(out, "\nfriction: how far from here it may rest is not known: %s\n", f->why);
+        return;
+    }
+    double far = 0;
+    for (int i = 0; i < 3 * m->nbody; i++)
+        far = i % 3 == 2 ? far : fmax(far, f->q[i]);
+    const fw_report_magnitude length = fw_report_magnitude_of(FW_MEASURE_LENGTH, far);
+    fw_text_printf(out,
+                   "\nfriction may hold it anywhere within (first order)\n"
+                   "  centre of      +- x %-2s        +- y %-2s      +- phi deg\n",
+                   length.unit, length.unit);
+    for (int b = 0; b < m->nbody; b++) {
+        fw_text_printf(out, "  %-8s ", m->body[b].id);
+        column(out, f->q[3 * b] * length.per_si);
+        column(out, f->q[3 * b + 1] * length.per_si);
+        column(out, degrees(f->q[3 * b + 2]));
+        fw_text_add(out, "\n");
+    }
+    for (int i = 0; i < f->count; i++) {
+        fw_text_printf(out, "  friction of %s is at most ", f->joint[i]);
+        fw_text_number(out, f->limit[i], 4);
+        fw_text_add(out, f->slides[i] ? " N\n" : " N m\n");
+    }
+}
+
 fw_status fw_report_statics_text(const fw_mechanism *m, const fw_device_scene *scene,
                                  const fw_statics *s, fw_text *out) {
     fw_text_printf(out, "scene %s: equilibrium under its loads, ", scene->name);
@@ -275,6 +303,7 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_device_scene *s
         fw_text_add(out, "\n");
     }
     joints(m, s, force, out);
+    if (s->friction) friction(m, s->friction, out);
     if (s->pull_in) pull_in(s->pull_in, out);
     if (s->path) path_events(out, s);
     fw_report_hinge_model(m, &s->ledger.hinge, s->level, out);

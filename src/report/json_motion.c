@@ -457,6 +457,35 @@ static void load_path(fw_json *json, const fw_mechanism *m, const fw_statics *s)
     fw_json_end(json);
 }
 
+/* null where nothing rubs; within: of centres of mass, [m, m, rad] */
+static void friction_range(fw_json *json, const fw_mechanism *m,
+                           const fw_statics_friction_range *f) {
+    if (!f) {
+        fw_json_null(json, "friction_range");
+        return;
+    }
+    fw_json_object(json, "friction_range");
+    fw_json_truth(json, "known", !f->why);
+    fw_json_text(json, "why", f->why);
+    fw_json_object(json, "within");
+    for (int b = 0; !f->why && b < m->nbody; b++)
+        fw_report_json_reals(json, m->body[b].id, f->q + 3 * (size_t)b, 3);
+    fw_json_end(json);
+    fw_json_object(json, "angle_rad");
+    for (int k = 0; !f->why && k < m->npin; k++)
+        fw_json_real(json, m->pin[k].id, f->angle_rad[k]);
+    fw_json_end(json);
+    fw_json_list(json, "limits");
+    for (int i = 0; !f->why && i < f->count; i++) {
+        fw_json_object(json, NULL);
+        fw_json_text(json, "joint", f->joint[i]);
+        fw_json_real(json, f->slides[i] ? "force_N" : "torque_Nm", f->limit[i]);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    fw_json_end(json);
+}
+
 /* none without comb drives, else the one that loses the equilibrium first */
 static void pull_ins(fw_json *json, const fw_statics_pull_in *p) {
     fw_json_list(json, "pull_in");
@@ -490,6 +519,7 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_
     actives(&json, s);
     FW_TRY(probes_of_statics(&json, mechanism, scene, s, out->arena));
     fw_report_json_reals(&json, "eigenvalues_per_s2", s->eigenvalue_per_s2, s->dof);
+    friction_range(&json, mechanism, s->friction);
     pull_ins(&json, s->pull_in);
     load_path(&json, mechanism, s);
     hinge_model(&json, mechanism, &s->ledger.hinge, s->level);

@@ -20,7 +20,6 @@
 #include "process/process.h"
 #include "recipe/recipe.h"
 #include "statics/statics.h"
-#include "statics/tethers.h"
 #include "verdict/verdict.h"
 #include "workspace/survey.h"
 

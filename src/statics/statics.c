@@ -110,6 +110,7 @@ fw_status fw_statics_equilibrium_statics(fw_statics_equilibrium *w,
     FW_NEED(out = fw_arena_one(w->arena, fw_statics));
     FW_TRY(reach(w, options, out));
     FW_TRY(answer(w, out));
+    FW_TRY(fw_statics_equilibrium_friction(w, &out->friction));
     *statics = out;
     return FW_OK;
 }

@@ -168,7 +168,7 @@ static void leave_out_friction(fw_statics_equilibrium *w, fw_effects_loads *load
         if (strcmp(e->id, "friction") != 0 || !e->called_for) continue;
         e->active = false;
         e->reason = "left out at rest: friction can hold in a range of positions around the "
-                    "equilibrium without it, which is the one reported";
+                    "equilibrium without it, which is the one reported, with that range";
     }
 }
 

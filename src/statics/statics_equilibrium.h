@@ -170,6 +170,12 @@ int fw_statics_equilibrium_mover(const fw_statics_equilibrium *w, const double *
 double fw_statics_equilibrium_per_s2(const fw_statics_equilibrium *w);
 const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
 
+/* ---- statics_friction.c ---- */
+
+/* of an evaluated equilibrium, which it is again afterwards; NULL: nothing rubs */
+fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
+                                          const fw_statics_friction_range **range);
+
 /* ---- tangent.c ---- */
 
 /* Exact derivatives of the equations of motion, dense, in scaled units. Private to statics/. */

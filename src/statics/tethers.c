@@ -19,7 +19,7 @@
    hinges at every joint. Out: force, way, share. Error: that of the closed forms, and of small
    displacements. Cost: (3 nbody)^3/3 for each tether, twice. Source: S. Timoshenko, Strength of Materials I,
    1955, ch. 5 and 11 (beams, unit loads); docs/theory/release.md. Test: test_tethers.c */
-#include "statics/tethers.h"
+#include "statics/statics.h"
 #include "base/text.h"
 #include "maths/dense.h"
 #include <math.h>

@@ -210,13 +210,15 @@ def effect_friction(g):
     while abs(load - g["k"] * places[-1]) > hold:
         places.append(2 * (load - sense * hold) / g["k"] - places[-1])
         sense = -sense
-    return {"hold": hold, "first": places[1], "back": places[2], "rest": places[-1], "swings": len(places) - 1}
+    return {"hold": hold, "first": places[1], "back": places[2], "rest": places[-1], "swings": len(places) - 1,
+            "around": hold / g["k"]}
 
 
 def effect_friction_program(run, _):
     rub = simulate(run, CART, "rub")
     return {"first": rub["travels"][0]["travel_m"], "rest": rub["final"]["q"]["plate"][0],
-            "held": simulate(run, CART, "hold")["travels"][0]["travel_m"]}
+            "held": simulate(run, CART, "hold")["travels"][0]["travel_m"],
+            "around": at_rest(run, CART, "rub")["friction_range"]["within"]["plate"][0]}
 
 
 def effect_tendon(g):

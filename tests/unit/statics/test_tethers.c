@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Breaking a tether: a uniform beam between two walls and a free cantilever in closed form, and stepped
    beams on a body that turns on a hinge against direct stiffness. */
-#include "statics/tethers.h"
+#include "statics/statics.h"
 #include "test.h"
 #include <math.h>
 #include <string.h>

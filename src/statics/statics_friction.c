@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where dry friction may hold a mechanism: around the equilibrium u without it
+
+     |u' - u| <= sum_j |S_j| T_j,   S_j = sum_k phi_k (phi_k . h_j)/mu_k,   h_j = d x_j/du
+     T = m r (preload + N),         N_i <= N0_i + sum_j G_ij T_j
+
+   of every coordinate, first order in T. x_j: angle of a pin or travel of a slide that rubs; phi_k, mu_k: modes of the
+   reduced stiffness (mass-orthonormal); m: the larger of the coefficients at rest and in motion; N0: what presses there
+   without friction; G_ij: what the torque of j changes of the force on i, by a difference of 1e-3 of T_j. All signs are
+   possible at rest, since each depends on the way there, so that the sum is what can be and not only a bound of it.
+
+   Inputs: an evaluated stable equilibrium, scaled units. Outputs: m, rad. Valid to first order: test_statics.c compares
+   with motions that come to rest from either side. Not where a contact presses (its force is another question), or the
+   stiffness vanishes. Where friction makes what presses grow faster than itself (spectral radius of m r G at 1) it holds
+   anywhere. Cost: one evaluation for each joint that rubs. Source: docs/theory/effects/friction.md. */
+#include "statics/statics_equilibrium.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct rub {
+    fw_statics_equilibrium *w;
+    const fw_effects_friction *item;
+    int count;
+    double *row;      /* (count x n) h */
+    double *give;     /* (count x n) S */
+    double *arm;      /* (count) m r, SI */
+    double *press_N;  /* (count) N0 */
+    double *gain;     /* (count x count) G, N per torque unit in SI */
+    double *force[3]; /* pins (2 npin), joints (3 njoint), drivers */
+    double *before;   /* (2 count) force on each at the equilibrium, N */
+} rub;
+
+static int body_row(const fw_statics_equilibrium *w, int body) {
+    return body == FW_GROUND || body >= w->model->nbody ? FW_NONE : 3 * body;
+}
+
+static void turn_row(const rub *r, const fw_effects_friction *f, double *h) {
+    const fw_mechanism_pin *p = &r->w->mechanism->pin[f->pin];
+    int a = body_row(r->w, p->body_a), b = body_row(r->w, p->body_b);
+    if (a != FW_NONE) h[a + 2] -= 1;
+    if (b != FW_NONE) h[b + 2] += 1;
+}
+
+/* travel along the axis e of body a, from its point to that of b: d = p_b - p_a turns with a */
+static void slide_row(const rub *r, const fw_effects_friction *f, const fw_multibody_pose *pose,
+                      double *h) {
+    const fw_statics_equilibrium *w = r->w;
+    const fw_device_joint *t = &w->mechanism->joint[f->joint];
+    int block = w->model->joint_block[f->joint], a = body_row(w, t->body_a),
+        b = body_row(w, t->body_b);
+    const double *ra = pose->arm + 4 * block, *rb = ra + 2;
+    double d[2], e[2], n[2];
+    fw_multibody_frame(w->model, pose, block, d, e, n);
+    if (a != FW_NONE) {
+        h[a] -= e[0], h[a + 1] -= e[1];
+        h[a + 2] += -(e[1] * ra[0] - e[0] * ra[1]) + n[0] * d[0] + n[1] * d[1];
+    }
+    if (b != FW_NONE) h[b] += e[0], h[b + 1] += e[1], h[b + 2] += e[1] * rb[0] - e[0] * rb[1];
+}
+
+static void rows_and_gives(rub *r) {
+    const fw_statics_equilibrium *w = r->w;
+    const fw_statics_reduced *d = &w->reduced;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(w->system, w->t, w->y);
+    size_t n = (size_t)d->n;
+    for (int j = 0; j < r->count; j++) {
+        double *h = r->row + (size_t)j * n, *s = r->give + (size_t)j * n;
+        if (r->item[j].pin == FW_NONE)
+            slide_row(r, &r->item[j], pose, h);
+        else
+            turn_row(r, &r->item[j], h);
+        for (size_t k = 0; k < (size_t)d->dof; k++) {
+            double along = 0;
+            for (size_t i = 0; i < n; i++)
+                along += d->shape[k * n + i] * h[i];
+            for (size_t i = 0; i < n; i++)
+                s[i] += d->shape[k * n + i] * along / d->value[k];
+        }
+    }
+}
+
+/* the force on each joint that rubs, N: (2 count) */
+static void forces(rub *r, double *out) {
+    fw_statics_equilibrium_reactions(r->w, r->force[0], r->force[1], r->force[2]);
+    for (int i = 0; i < r->count; i++) {
+        const fw_effects_friction *f = &r->item[i];
+        const double *from =
+            f->pin == FW_NONE ? r->force[1] + 3 * f->joint : r->force[0] + 2 * f->pin;
+        out[2 * i] = from[0], out[2 * i + 1] = from[1];
+    }
+}
+
+/* SI per scaled unit of what pushes along coordinate j */
+static double unit(const rub *r, int j) {
+    const fw_multibody_model *m = r->w->model;
+    return fw_multibody_newton(m) * (r->item[j].pin == FW_NONE ? 1 : m->scale.length_m);
+}
+
+/* column j of the gains, at the pose that a thousandth of its torque leads to */
+static fw_status gains_of(rub *r, int j, const double *u, double *work) {
+    fw_statics_equilibrium *w = r->w;
+    size_t n = (size_t)w->model->nq;
+    double *after = work + n, torque = 1e-3 * r->arm[j] * r->press_N[j];
+    if (!(torque > 0)) return FW_OK;
+    for (size_t i = 0; i < n; i++)
+        w->y[i] = u[i] + r->give[(size_t)j * n + i] * torque / unit(r, j);
+    FW_TRY(fw_statics_equilibrium_evaluate(w));
+    for (size_t i = 0; i < n; i++)
+        work[i] = w->force[i] + r->row[(size_t)j * n + i] * torque / unit(r, j);
+    fw_statics_reduced_multipliers(w->model, &w->reduced, work, w->lambda);
+    forces(r, after);
+    for (int i = 0; i < r->count; i++)
+        r->gain[i * r->count + j] =
+            hypot(after[2 * i] - r->before[2 * i], after[2 * i + 1] - r->before[2 * i + 1]) /
+            torque;
+    return FW_OK;
+}
+
+/* (1 - m r G) T = m r (preload + N0) by iteration from below; false: it grows without end */
+static bool torques(const rub *r, double *limit) {
+    enum { TURNS = 400 };
+    for (int turn = 0; turn < TURNS; turn++) {
+        double change = 0, largest = 0;
+        for (int i = 0; i < r->count; i++) {
+            double press = r->press_N[i];
+            for (int j = 0; j < r->count; j++)
+                press += r->gain[i * r->count + j] * limit[j];
+            double next = r->arm[i] * press;
+            change = fmax(change, fabs(next - limit[i]));
+            largest = fmax(largest, next);
+            limit[i] = next;
+        }
+        if (!isfinite(largest)) return false;
+        if (change <= 1e-9 * largest) return true;
+    }
+    return false;
+}
+
+static fw_status find(rub *r, fw_statics_friction_range *out) {
+    fw_statics_equilibrium *w = r->w;
+    size_t n = (size_t)w->model->nq, count = (size_t)r->count;
+    double *u, *work;
+    FW_NEED(u = fw_arena_array(w->arena, double, n));
+    FW_NEED(work = fw_arena_array(w->arena, double, n + 2 * count));
+    memcpy(u, w->y, n * sizeof *u);
+    rows_and_gives(r);
+    forces(r, r->before);
+    for (size_t i = 0; i < count; i++) {
+        const fw_effects_friction *f = &r->item[i];
+        r->arm[i] = fmax(f->static_coefficient, f->kinetic_coefficient) *
+                    (f->pin == FW_NONE ? 1 : f->radius_m);
+        r->press_N[i] = f->preload_N + hypot(r->before[2 * i], r->before[2 * i + 1]);
+    }
+    fw_status status = FW_OK;
+    for (int j = 0; j < r->count && status == FW_OK; j++)
+        status = gains_of(r, j, u, work);
+    memcpy(w->y, u, n * sizeof *u);
+    if (status == FW_SOLVER) out->why = "the joints do not close where friction would hold it";
+    if (status != FW_OK && status != FW_SOLVER) return status;
+    FW_TRY(fw_statics_equilibrium_evaluate(w));
+    if (out->why) return FW_OK;
+    if (!torques(r, out->limit)) {
+        out->why = "what presses grows with the friction faster than this: it holds anywhere";
+        return FW_OK;
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < count; j++)
+            out->q[i] += fabs(r->give[j * n + i]) * out->limit[j] / unit(r, (int)j) *
+                         (i % 3 == 2 ? 1 : w->model->scale.length_m);
+    for (int k = 0; k < w->mechanism->npin; k++) {
+        const fw_mechanism_pin *p = &w->mechanism->pin[k];
+        int a = body_row(w, p->body_a), b = body_row(w, p->body_b);
+        for (size_t j = 0; j < count; j++) {
+            const double *s = r->give + j * n;
+            double turn = (b == FW_NONE ? 0 : s[b + 2]) - (a == FW_NONE ? 0 : s[a + 2]);
+            out->angle_rad[k] += fabs(turn) * out->limit[j] / unit(r, (int)j);
+        }
+    }
+    return FW_OK;
+}
+
+static fw_status room(rub *r, fw_statics_friction_range *out) {
+    fw_statics_equilibrium *w = r->w;
+    const fw_mechanism *m = w->mechanism;
+    size_t n = (size_t)w->model->nq, count = (size_t)r->count;
+    FW_NEED(r->row = fw_arena_array(w->arena, double, count *n));
+    FW_NEED(r->give = fw_arena_array(w->arena, double, count *n));
+    FW_NEED(r->arm = fw_arena_array(w->arena, double, count));
+    FW_NEED(r->press_N = fw_arena_array(w->arena, double, count));
+    FW_NEED(r->gain = fw_arena_array(w->arena, double, count *count));
+    FW_NEED(r->before = fw_arena_array(w->arena, double, 2 * count));
+    FW_NEED(r->force[0] = fw_arena_array(w->arena, double, 2 * (size_t)m->npin));
+    FW_NEED(r->force[1] = fw_arena_array(w->arena, double, 3 * (size_t)m->njoint));
+    FW_NEED(r->force[2] = fw_arena_array(w->arena, double, (size_t)m->ndriver));
+    FW_NEED(out->q = fw_arena_array(w->arena, double, n));
+    FW_NEED(out->angle_rad = fw_arena_array(w->arena, double, (size_t)m->npin));
+    FW_NEED(out->limit = fw_arena_array(w->arena, double, count));
+    FW_NEED(out->joint = fw_arena_array(w->arena, const char *, count));
+    FW_NEED(out->slides = fw_arena_array(w->arena, bool, count));
+    for (size_t i = 0; i < count; i++) {
+        out->joint[i] = fw_text_name(r->item[i].id);
+        out->slides[i] = r->item[i].pin == FW_NONE;
+    }
+    return FW_OK;
+}
+
+fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
+                                          const fw_statics_friction_range **range) {
+    const fw_effects_loads *loads = w->loads;
+    fw_statics_friction_range *out;
+    *range = NULL;
+    if (!loads || loads->nfriction == 0) return FW_OK;
+    rub r = {.w = w, .item = loads->friction, .count = loads->nfriction};
+    FW_NEED(out = fw_arena_one(w->arena, fw_statics_friction_range));
+    out->count = r.count;
+    FW_TRY(room(&r, out));
+    for (int i = 0; i < r.count; i++)
+        if (r.item[i].element != FW_NONE)
+            out->why = "a contact presses on what rubs, with a force that this does not follow";
+    for (int k = 0; k < w->reduced.dof; k++)
+        if (!(w->reduced.value[k] > w->reduced.zero[k]))
+            out->why = "nothing but friction holds it: it may rest anywhere nearby";
+    if (!out->why) FW_TRY(find(&r, out));
+    *range = out;
+    return FW_OK;
+}
