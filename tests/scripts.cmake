@@ -151,6 +151,10 @@ include(web/web.cmake)
 add_executable(live live/live.c)
 target_link_libraries(live PRIVATE fw_plan)
 fw_first_part_of(live.memory COMMAND live memory FIRST 3000 WHOLE 10000)
+fw_first_part_of(live.designs COMMAND live designs FIRST 30 WHOLE 1000)
+# files and descriptions that are mostly right, by seed; tests/build/fuzz.sh has the same with coverage, under the sanitizers
+fw_first_part_of(fuzz.files COMMAND fuzzed_files FIRST 2000 WHOLE 100000)
+fw_first_part_of(fuzz.judge COMMAND fuzzed_judge FIRST 40 WHOLE 500)
 
 add_executable(fault_memory faults/memory.c faults/sites.c)
 target_include_directories(fault_memory PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -244,6 +244,27 @@ static void copied_element(fuzz_text *t) {
     if (tag < t->n && to < t->n) put(t, to, 0, t->data + tag, end - tag);
 }
 
+/* one number, by a factor that most descriptions survive */
+void fuzz_mutate_number(fuzz_text *t) {
+    static const double factor[] = {0.3, 0.7, 0.9, 0.99, 1.01, 1.1, 1.5, 3, -1, 0};
+    for (int tries = 0; tries < 20; tries++) {
+        spot s;
+        char old[64] = "", value[64];
+        double v;
+        int used = 0;
+        if (!find_attribute(t, NULL, 0, &s)) return;
+        memcpy(old, t->data + s.a.value,
+               s.a.value_length < sizeof old - 1 ? s.a.value_length : sizeof old - 1);
+        if (sscanf(old, "%lf%n", &v, &used) != 1 ||
+            strstr(t->data + s.a.name, "xmlns") == t->data + s.a.name)
+            continue;
+        snprintf(value, sizeof value, "%.6g",
+                 v * factor[fuzz_below(sizeof factor / sizeof *factor)]);
+        put_text(t, s.a.value, (size_t)used, value);
+        return;
+    }
+}
+
 void fuzz_mutate_xml(fuzz_text *t, const fw_xml_table *table) {
     switch (fuzz_below(12)) {
     case 0:

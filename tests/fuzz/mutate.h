@@ -17,6 +17,7 @@ size_t fuzz_below(size_t n);
 
 /* table NULL: values and elements of the text itself */
 void fuzz_mutate_xml(fuzz_text *text, const fw_xml_table *table);
+void fuzz_mutate_number(fuzz_text *text);
 void fuzz_mutate_gds(fuzz_text *text);
 void fuzz_mutate_lines(fuzz_text *text); /* of DXF, logs, tables, layer maps, requests */
 void fuzz_mutate_bytes(fuzz_text *text);
