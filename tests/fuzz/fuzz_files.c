@@ -4,7 +4,8 @@
    status and its messages agree; no message gives orders to a terminal; what the program writes of it, it reads again.
 
    As a program of libFuzzer (FW_FUZZ, clang), by tests/build/fuzz.sh; and alone, with FUZZ_ALONE:
-   fuzz_files RUNS [SEED] starts from files of this tree, and is the same on every machine. */
+   fuzzed_files RUNS [SEED]  starts from files of this tree, and is the same on every machine
+   fuzzed_files corpus DIR   writes these files as inputs of the other one */
 #include "base/output.h"
 #include "device/device_table.h"
 #include "drawing/drawing.h"
@@ -364,7 +365,31 @@ static void from_file(unsigned char *room, int kind, const char *path, int round
     }
 }
 
+/* each file of the tree that inputs begin with, behind the byte of its kind */
+static int corpus(const char *directory) {
+    for (int kind = 0; kind < KINDS; kind++) {
+        glob_t found;
+        const char *pattern = fw_arena_printf(kept, FW_TEST_SOURCE_DIR "/%s", kinds[kind].files);
+        if (!pattern || glob(pattern, 0, NULL, &found) != 0) wrong(kinds[kind].files);
+        for (size_t i = 0; i < found.gl_pathc; i++) {
+            size_t n;
+            const char *data = tree_file(found.gl_pathv[i] + strlen(FW_TEST_SOURCE_DIR "/"), &n);
+            const char *path = fw_arena_printf(kept, "%s/%d-%zu", directory, kind, i);
+            FILE *file = path ? fopen(path, "wb") : NULL;
+            if (!file || fputc(kind, file) == EOF || fwrite(data, 1, n, file) != n ||
+                fclose(file) != 0)
+                wrong(directory);
+        }
+        globfree(&found);
+    }
+    return 0;
+}
+
 int main(int argc, char **argv) {
+    if (argc > 2 && strcmp(argv[1], "corpus") == 0) {
+        prepare();
+        return corpus(argv[2]);
+    }
     const long runs = argc > 1 ? strtol(argv[1], NULL, 10) : 1000;
     const uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     unsigned char *room = malloc(ROOM);
