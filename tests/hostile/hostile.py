@@ -372,6 +372,9 @@ def main():
         return re.search(o.only, name)
 
     report("readers", readers.seen(), None)
+    told = f"{len(documents.KINDS)} kinds of documents and {len(TEXTS)} of texts"
+    page = (ROOT / "docs/reliability.md").read_text(encoding="utf-8")
+    report("docs/reliability.md", [] if told in page else [f"it does not say '{told}'"], None)
     refusals(program, chosen, report)
     kinds = len([k for k in documents.KINDS[::EVERY] if chosen(k.name)])
     said = texts(program, report, o.keep) if chosen("texts") else "no texts"
