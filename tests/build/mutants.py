@@ -116,7 +116,7 @@ def verdict_near(change):
         file.write_text(text[:begin] + by + text[end:])
         if quiet("cmake", "--build", BUILD, "--target", f"unit_{room}").returncode:
             return "compiler"
-        done = quiet("ctest", "--test-dir", BUILD, "-L", "quick", "-R", rf"^unit\.{room}\.", "--stop-on-failure", "--timeout", 60, timeout=200)
+        done = quiet("ctest", "--test-dir", BUILD, "-L", "quick|longer", "-R", rf"^unit\.{room}\.", "--stop-on-failure", "--timeout", 60, timeout=200)
         if done is None:
             return "time"
         failed = re.search(r"\d+ - (\S+) \(", done.stdout)
