@@ -151,6 +151,10 @@ include(web/web.cmake)
 add_executable(live live/live.c)
 target_link_libraries(live PRIVATE fw_plan)
 fw_first_part_of(live.memory COMMAND live memory FIRST 3000 WHOLE 10000)
+fw_first_part_of(live.designs COMMAND live designs FIRST 30 WHOLE 1000)
+# files and descriptions that are mostly right, by seed; tests/build/fuzz.sh has the same with coverage, under the sanitizers
+fw_first_part_of(fuzz.files COMMAND fuzzed_files FIRST 2000 WHOLE 100000)
+fw_first_part_of(fuzz.judge COMMAND fuzzed_judge FIRST 40 WHOLE 500)
 
 add_executable(fault_memory faults/memory.c faults/sites.c)
 target_include_directories(fault_memory PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -171,6 +175,7 @@ if(NOT FW_SANITIZE) # a sanitizer has an allocator of its own
                      FIRST --most 2 --runs 3 --case plan log statics WHOLE --most 8)
 endif()
 fw_script_test(fault.instead COMMAND ${Python3_EXECUTABLE} tests/faults/instead.py ${FW_PROGRAM})
+fw_script_test(hostile.documents COMMAND ${Python3_EXECUTABLE} tests/hostile/hostile.py ${FW_PROGRAM} TIMEOUT 600)
 fw_first_part_of(fault.limits COMMAND ${Python3_EXECUTABLE} tests/faults/limits.py ${FW_PROGRAM} FIRST --count 8 WHOLE --count 200)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
 fw_script_test(accept.wafer COMMAND tests/accept/wafer.sh ${FW_PROGRAM} TIMEOUT 600)
@@ -198,7 +203,7 @@ list(REMOVE_DUPLICATES programs)
 add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 
 # The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
-foreach(cost cli.advice:85 web.page:80 build.threads:60 accept.masks:55 cli.program:50 cli.workspace:50 fuzz.device:40
+foreach(cost cli.advice:85 web.page:80 build.threads:60 accept.masks:55 cli.program:50 cli.workspace:50 fuzz.device:40 hostile.documents:12
         effects.absent:40 docs.json:35 accuracy.survey:30 accept.wafer:30 cli.tradeoff:30 unit.plan.test_advice:30 hard.valgrind:25
         cli.limits:25 build.bytes:20 hard.test_hard_bounds:20 serve.robust:20 hard.test_hard_surfaces:18 serve.mutants:18
         hard.test_hard_friction:17 accept.random:15 accept.written:10 fault.files:15 live.memory:15 cli.hinge:14 accuracy.reference:14 docs.readme:13

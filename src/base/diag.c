@@ -53,7 +53,8 @@ static void add(fw_diags *diags, fw_diag kind, const char *format, va_list argum
     }
     char buffer[2048];
     vsnprintf(buffer, sizeof buffer, format, arguments);
-    kind.message = fw_arena_strdup(diags->arena, buffer);
+    /* it may quote what a stranger wrote */
+    kind.message = fw_text_shown(diags->arena, buffer, strlen(buffer));
     if (!kind.message) {
         diags->failed = 1;
         return;
@@ -124,17 +125,16 @@ static void show_line(fw_text *out, const char *source, size_t n, fw_place place
     const char *end = memchr(source + start, '\n', n - start);
     size_t length = end ? (size_t)(end - source) - start : n - start;
     if (length > 200 || (size_t)place.column > length + 1 || place.column < 1) return;
-    fw_text_printf(out, "  %4d | ", place.line);
-    for (size_t i = 0; i < length; i++) {
-        unsigned char c = (unsigned char)source[start + i];
-        char shown = c < 0x20 || c == 0x7f ? ' ' : (char)c;
-        fw_text_bytes(out, &shown, 1);
+    const char *shown = fw_text_shown(out->arena, source + start, length);
+    const char *before = fw_text_shown(out->arena, source + start, (size_t)place.column - 1);
+    if (!shown || !before) {
+        out->failed = 1;
+        return;
     }
-    fw_text_add(out, "\n       | ");
-    for (int i = 1; i < place.column; i++) {
-        unsigned char c = (unsigned char)source[start + (size_t)i - 1];
-        if ((c & 0xc0) != 0x80) /* one caret column per UTF-8 character */
-            fw_text_add(out, " ");
+    fw_text_printf(out, "  %4d | %s\n       | ", place.line, shown);
+    while (*before) { /* one column per character */
+        fw_text_character(&before);
+        fw_text_add(out, " ");
     }
     fw_text_add(out, "^\n");
 }
@@ -156,7 +156,10 @@ void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const
     qsort(order, diags->count, sizeof order[0], in_file_order);
     for (size_t i = 0; i < diags->count; i++) {
         const fw_diag *d = order[i];
-        if (d->place.file) fw_text_printf(out, "%s:", d->place.file);
+        const char *name = d->place.file ? d->place.file : "";
+        name = fw_text_shown(out->arena, name, strlen(name));
+        if (!name) out->failed = 1;
+        if (d->place.file && name) fw_text_printf(out, "%s:", name);
         if (d->place.line > 0) fw_text_printf(out, "%d:%d:", d->place.line, d->place.column);
         fw_text_printf(out, "%s%s%s%s: %s [FW-D%03d]\n", d->place.file ? " " : "",
                        colour ? paint[d->severity] : "", word[d->severity], colour ? "\033[0m" : "",

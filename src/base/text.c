@@ -29,6 +29,48 @@ unsigned fw_text_character(const char **at) {
     return n > 0 ? code : 0xfffd;
 }
 
+bool fw_text_is_order(unsigned code) {
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x200e || code == 0x200f ||
+           (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+}
+
+bool fw_text_is_line(const char *string) {
+    unsigned code;
+    for (size_t n; *string; string += n)
+        if ((n = fw_text_utf8(string, &code)) == 0 || fw_text_is_order(code)) return false;
+    return true;
+}
+
+static const char NO_CHARACTER[] = "\xef\xbf\xbd"; /* U+FFFD */
+
+/* the character at s as it may be shown; bytes of it that are there: at most n */
+static size_t shown(fw_text *out, const char *s, size_t n) {
+    unsigned code;
+    /* a sequence that is cut off ends with the string: none of its bytes is read beyond n */
+    char whole[5] = {0};
+    memcpy(whole, s, n < 4 ? n : 4);
+    const size_t length = fw_text_utf8(whole, &code);
+    if (length == 1 && code < 0x20)
+        fw_text_bytes(out, " ", 1);
+    else if (length == 0 || fw_text_is_order(code))
+        fw_text_add(out, NO_CHARACTER);
+    else
+        fw_text_bytes(out, s, length);
+    return length ? length : 1;
+}
+
+const char *fw_text_shown(fw_arena *arena, const char *string, size_t n) {
+    size_t plain = 0;
+    while (plain < n && string[plain] >= ' ' && string[plain] <= '~')
+        plain++;
+    if (plain == n) return fw_arena_strndup(arena, string, n);
+    fw_text out = fw_text_new(arena);
+    fw_text_reserve(&out, n);
+    for (size_t at = 0; at < n;)
+        at += shown(&out, string + at, n - at);
+    return fw_text_end(&out) == FW_OK ? out.data : NULL;
+}
+
 fw_text fw_text_new(fw_arena *arena) {
     return (fw_text){.arena = arena};
 }
@@ -298,6 +340,11 @@ void fw_text_real(fw_text *text, const char *conversion, double value) {
 
 void fw_text_escaped(fw_text *text, const char *string) {
     for (const unsigned char *s = (const unsigned char *)string; *s; s++) {
+        if (*s >= 0x7f) { /* a whole character at once */
+            const size_t n = strnlen((const char *)s, 4);
+            s += shown(text, (const char *)s, n) - 1;
+            continue;
+        }
         switch (*s) {
         case '&':
             fw_text_add(text, "&amp;");
@@ -320,6 +367,23 @@ void fw_text_escaped(fw_text *text, const char *string) {
         }
         }
     }
+}
+
+void fw_text_csv(fw_text *text, const char *string) {
+    /* the wide forms of = + - @ count in spreadsheets, too */
+    static const char *const wide[] = {"\xef\xbc\x9d", "\xef\xbc\x8b", "\xef\xbc\x8d",
+                                       "\xef\xbc\xa0"};
+    const char *first = string + strspn(string, " \t\r\n");
+    bool formula = *string == '\t' || *string == '\r' || (*first && strchr("=+-@", *first));
+    for (size_t i = 0; i < sizeof wide / sizeof wide[0]; i++)
+        formula = formula || strncmp(first, wide[i], 3) == 0;
+    bool quoted = formula || strpbrk(string, ",\"\r\n");
+    if (quoted) fw_text_add(text, formula ? "\"'" : "\"");
+    for (const char *at = string; *at;) {
+        if (*at == '"') fw_text_bytes(text, "\"", 1);
+        at += shown(text, at, strnlen(at, 4));
+    }
+    if (quoted) fw_text_bytes(text, "\"", 1);
 }
 
 fw_status fw_text_end(const fw_text *text) {

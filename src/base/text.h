@@ -18,6 +18,14 @@ typedef struct fw_text {
 size_t fw_text_utf8(const char *string, unsigned *code);
 /* the character at *at, which moves behind it; U+FFFD for a byte that is no UTF-8 */
 unsigned fw_text_character(const char **at);
+/* an order to who shows a text, in place of something to be read: a control character (C0, DEL, C1), or what turns the
+   order of reading or breaks the line (U+200E, U+200F, U+2028 to U+202E, U+2066 to U+2069) */
+bool fw_text_is_order(unsigned code);
+/* UTF-8 without any of them */
+bool fw_text_is_line(const char *string);
+/* n bytes as one line that may be shown anywhere: C0 is a blank, other orders and bytes that are no UTF-8 are U+FFFD.
+   NULL: no memory. Test: test_growing_text.c */
+const char *fw_text_shown(fw_arena *arena, const char *string, size_t n);
 
 fw_text fw_text_new(fw_arena *arena);
 void fw_text_add(fw_text *text, const char *string);
@@ -34,8 +42,11 @@ void fw_text_number(fw_text *text, double value, int digits);
 void fw_text_fixed(fw_text *text, double value, int decimals);
 /* one printf conversion of a double ("%8.2f", "%.1e"), with '.' in every locale: aligned tables */
 void fw_text_real(fw_text *text, const char *conversion, double value);
-/* escape & < > " ' for XML and HTML; control characters become spaces */
+/* escape & < > " ' for XML and HTML; control characters become spaces, other orders and what is no UTF-8 U+FFFD */
 void fw_text_escaped(fw_text *text, const char *string);
+/* a field of CSV (RFC 4180), quoted where needed; line breaks and orders become spaces, and what a spreadsheet would take
+   for a formula gets a quote in front */
+void fw_text_csv(fw_text *text, const char *string);
 fw_status fw_text_end(const fw_text *text); /* FW_OK or FW_NOMEM */
 
 /* the same fixed decimals (at most 17) into a buffer of FW_FIXED_BYTES; returns the end, where a

@@ -83,10 +83,13 @@ const char *fw_cli_needs(const char *(*names)(void)) {
 int fw_cli_usage(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    fputs("flexwright: error: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputs(" [FW-D230]\n", stderr);
+    char said[4096];
+    vsnprintf(said, sizeof said, format, arguments);
     va_end(arguments);
+    fw_arena *arena = fw_arena_new(0);
+    const char *shown = arena ? fw_text_shown(arena, said, strlen(said)) : NULL;
+    fprintf(stderr, "flexwright: error: %s [FW-D230]\n", shown ? shown : "out of memory");
+    fw_arena_free(arena);
     return fw_status_exit(FW_USAGE);
 }
 
@@ -208,8 +211,7 @@ const char *fw_cli_take_entries(fw_cli_options *o, const char *v) {
 
 const char *fw_cli_take_lot(fw_cli_options *o, const char *v) {
     o->lot = v;
-    for (const char *c = v; *c; c++)
-        if ((unsigned char)*c < 0x20) return "has characters that cannot stand in a line";
+    if (!fw_text_is_line(v)) return "has characters that cannot stand in a line";
     return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
 }
 

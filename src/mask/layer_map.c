@@ -122,6 +122,9 @@ fw_status fw_mask_layer_map_read(fw_arena *arena, const char *file, const char *
     size_t errors = diags->errors;
     fw_place place = {file, 1, 1};
     *map = (fw_mask_layer_map){0};
+    if (memchr(text, '\0', n))
+        return fw_diag_error(diags, 380, place,
+                             "the file holds a NUL byte, so that it is no text; save it as UTF-8");
     for (size_t i = 0; i < n; place.line++) {
         const char *end = memchr(text + i, '\n', n - i);
         size_t length = end ? (size_t)(end - (text + i)) : n - i;

@@ -6,7 +6,9 @@
 
 #define ROWS(a) .attribute = (a), .nattribute = sizeof(a) / sizeof((a)[0])
 #define TEXT    .kind = FW_KIND_TEXT
-#define TOKEN   .kind = FW_KIND_TEXT, .datatype = "NCName"
+/* ids come into names of files and of cells, and into lines of calendars and tables */
+#define TOKEN                                                                                      \
+    .kind = FW_KIND_FORM, .form = fw_xml_is_token, .datatype = "NCName", .reason = FW_XML_TOKEN
 #define ID                                                                                         \
     { "id", TOKEN, .required = true, .sentence = "Name that references use." }
 #define WORD(of) .kind = FW_KIND_WORD, .words = (of)
@@ -200,8 +202,9 @@ static const fw_xml_attribute_row step_rows[] = {
     {"mask", TEXT, .sentence = "Layer of the mask that it exposes."},
     {"batch", COUNT, .fallback = "1", .sentence = "Wafers at once."},
     {"leaves", WORD(leavings), .fallback = "wafers",
-     .sentence = "dies: the step parts the wafer, and from the next one on the sheet is of the dies "
-                 "of each wafer, in a box of their own."},
+     .sentence =
+         "dies: the step parts the wafer, and from the next one on the sheet is of the dies "
+         "of each wafer, in a box of their own."},
     {"second-signature", WORD(yes_no), .fallback = "no", .sentence = "Two people sign."},
     {"attended", AMOUNT, .fallback = "0", .sentence = "How many minutes somebody must be there."},
 };
@@ -421,6 +424,7 @@ const fw_xml_table fw_process_pack_table = {FILE_OF("process pack", pack_parts),
                                                         .missing = 162,
                                                         .text = 49,
                                                         .word = 163,
+                                                        .form = 545,
                                                         .range = 171,
                                                         .whole = 171,
                                                         .decimal = 171}};
@@ -436,6 +440,7 @@ const fw_xml_table fw_process_laboratory_table = {FILE_OF("laboratory pack", lab
                                                               .missing = 211,
                                                               .text = 49,
                                                               .word = 163,
+                                                              .form = 545,
                                                               .range = 211,
                                                               .whole = 211,
                                                               .decimal = 211}};

@@ -94,7 +94,7 @@ static const char *value_of(fw_arena *arena, const char *line, size_t n, const c
     const char *at = copy && key ? strstr(copy, key) : NULL;
     if (!at) return NULL;
     at += strlen(key);
-    return fw_arena_strndup(arena, at, strcspn(at, "\t"));
+    return fw_text_shown(arena, at, strcspn(at, "\t")); /* whoever wrote it */
 }
 
 /* "1,2,3"; a log of before there were wafers has none */
@@ -115,6 +115,8 @@ static fw_status read_first(const fw_recipe_asrun_reader *r, const char *plan, c
     if (!fw_recipe_asrun_is_log(line, n))
         return damaged(r, "it does not begin with 'flexwright as-run 1'");
     FW_TRY(unchain(r, line, n, run->chain, &words));
+    if (!memmem(line, words, "\tflow=", 6) || !memmem(line, words, "\tplan=", 6))
+        return damaged(r, "its first line lacks its flow or its plan");
     const char *flow = value_of(r->arena, line, words, "flow");
     run->plan = value_of(r->arena, line, words, "plan");
     run->lot = value_of(r->arena, line, words, "lot");
@@ -220,12 +222,6 @@ const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char
     return *wrong ? NULL : fw_arena_strdup(arena, text);
 }
 
-static bool writable(const char *s) {
-    for (; *s; s++)
-        if ((unsigned char)*s < 0x20) return false;
-    return true;
-}
-
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
                                 const char **line) {
@@ -327,10 +323,12 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
     fw_recipe_asrun_entry e;
     char chain[65];
     size_t n = strlen(words);
-    if (n > LONGEST_WORDS || !writable(words))
-        return fw_diag_error(diags, 282, r.place,
-                             "an entry has at most %d bytes and no tabs or line ends",
-                             LONGEST_WORDS);
+    if (n > LONGEST_WORDS || !fw_text_is_line(words))
+        return fw_diag_error(
+            diags, 282, r.place,
+            "an entry has at most %d bytes of UTF-8 and no tabs, line ends or other "
+            "control characters",
+            LONGEST_WORDS);
     FW_TRY(fw_recipe_asrun_entry_read(&r, words, n, ';', &e));
     FW_TRY(check_clock(&r, &e, now_s));
     ask(&r, run, &e);

@@ -248,7 +248,10 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
             return fw_diag_error(r->diags, 282, r->place, "'%s' is not written as name=value",
                                  word);
         *equal = '\0';
-        FW_TRY(read_word(r, e, word, equal + 1));
+        /* whoever wrote the log: it is shown on terminals and pages */
+        const char *value = fw_text_shown(r->arena, equal + 1, strlen(equal + 1));
+        FW_NEED(value);
+        FW_TRY(read_word(r, e, word, value));
     }
     if (!e->step)
         return fw_diag_error(r->diags, 282, r->place,

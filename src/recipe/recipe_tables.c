@@ -7,26 +7,12 @@
 
 /* ---- tables (CSV, RFC 4180) ---- */
 
-/* RFC 4180: quoted where needed; what a spreadsheet would take for a formula gets a quote in front
- */
-static void put_csv(fw_text *out, const char *text) {
-    bool formula = text[0] && strchr("=+-@\t", text[0]) != NULL;
-    if (!formula && !strpbrk(text, ",\"\r\n")) {
-        fw_text_add(out, text);
-        return;
-    }
-    fw_text_add(out, formula ? "\"'" : "\"");
-    for (const char *c = text; *c; c++)
-        fw_text_bytes(out, *c == '"' ? "\"\"" : *c == '\n' ? " " : c, *c == '"' ? 2 : 1);
-    fw_text_add(out, "\"");
-}
-
 static void head(fw_text *out, const fw_process_step *s, const char *name) {
-    put_csv(out, s->id);
+    fw_text_csv(out, s->id);
     fw_text_add(out, ",");
-    put_csv(out, s->title);
+    fw_text_csv(out, s->title);
     fw_text_add(out, ",");
-    put_csv(out, name);
+    fw_text_csv(out, name);
     fw_text_add(out, ",");
 }
 
@@ -35,13 +21,13 @@ static void quantity_row(fw_text *out, const fw_process_step *s, const fw_recipe
     head(out, s, row->name);
     if (!q->unknown) fw_recipe_put_plain(out, fw_quantity_in_unit(q));
     fw_text_add(out, ",");
-    put_csv(out, q->unit);
+    fw_text_csv(out, q->unit);
     fw_text_add(out, ",");
     if (!q->unknown) fw_recipe_put_uncertainty(out, fw_recipe_row_uncertainty(q));
     fw_text_add(out, ",");
-    put_csv(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
+    fw_text_csv(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
     fw_text_add(out, ",");
-    put_csv(out, q->unknown && q->note ? q->note : q->source ? q->source : "");
+    fw_text_csv(out, q->unknown && q->note ? q->note : q->source ? q->source : "");
     fw_text_add(out, "\n");
 }
 
@@ -61,7 +47,7 @@ static fw_status time_rows(fw_text *out, const fw_process_step *s) {
         FW_NEED(text);
         head(out, s, "time, nominal");
         fw_text_add(out, ",s,,NOT COMPUTABLE,");
-        put_csv(out, text);
+        fw_text_csv(out, text);
         fw_text_add(out, "\n");
         return FW_OK;
     }
@@ -89,9 +75,9 @@ static fw_status finish_rows(fw_text *out, const fw_process_step *s) {
         fw_text_add(out, ",s,");
         if (known) fw_recipe_put_uncertainty(out, f->time->uncertainty);
         fw_text_printf(out, ",%s,", known ? fw_quantity_value_status_text(f->time->status) : "");
-        put_csv(out, f->time && f->time->source ? f->time->source
-                     : f->time                  ? ""
-                                                : "within the time of the step");
+        fw_text_csv(out, f->time && f->time->source ? f->time->source
+                         : f->time                  ? ""
+                                                    : "within the time of the step");
         fw_text_add(out, "\n");
     }
     return FW_OK;
@@ -104,7 +90,7 @@ fw_status fw_recipe_write_csv(const fw_process_flow *flow, const fw_recipe_heade
         fw_text_add(out, ",REJECTED,the verdict rejects this design: do not fabricate,,,,,\n");
     for (int i = 0; header->rejected && i < header->nbecause; i++) {
         fw_text_add(out, ",REJECTED,");
-        put_csv(out, header->because[i]);
+        fw_text_csv(out, header->because[i]);
         fw_text_add(out, ",,,,,\n");
     }
     for (int i = 0; i < flow->nstep; i++) {
@@ -137,13 +123,13 @@ fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_rec
     for (int i = 0; s && i < s->nrun; i++) {
         const fw_schedule_run *r = &s->run[i];
         const fw_schedule_task *t = &s->shop->task[r->task];
-        put_csv(out, t->id);
+        fw_text_csv(out, t->id);
         fw_text_add(out, ",");
-        put_csv(out, t->title);
+        fw_text_csv(out, t->title);
         fw_text_add(out, ",");
         fw_recipe_put_wafers(out, r);
         fw_text_add(out, ",");
-        put_csv(out, s->shop->machine[t->machine].title);
+        fw_text_csv(out, s->shop->machine[t->machine].title);
         fw_text_add(out, ",");
         if (r->operator_ >= 0) fw_text_printf(out, "%d", r->operator_ + 1);
         fw_text_add(out, ",\"");

@@ -313,20 +313,6 @@ typedef struct table {
     fw_arena *arena;
 } table;
 
-/* a field of CSV (RFC 4180); a text that a spreadsheet would take for a formula gets a quote */
-static void field(fw_text *out, const char *text) {
-    bool formula = *text && strchr("=+-@\t\r", *text) != NULL;
-    bool quoted = formula || strpbrk(text, ",\"\n\r") != NULL;
-    if (!quoted) {
-        fw_text_add(out, text);
-        return;
-    }
-    fw_text_add(out, formula ? "\"'" : "\"");
-    for (const char *at = text; *at; at++)
-        fw_text_printf(out, *at == '"' ? "\"\"" : "%c", *at);
-    fw_text_add(out, "\"");
-}
-
 static void real(fw_text *out, double value) {
     fw_text_add(out, ",");
     if (!isnan(value)) fw_text_number(out, value, 17);
@@ -339,11 +325,11 @@ static fw_status row(void *context, const fw_study_sample *s) {
     fw_text_printf(&line, "%ld,", s->i);
     fw_text_add(&line, fw_study_state_text(s->run, s->decision));
     fw_text_add(&line, ",");
-    field(&line, s->run ? "" : s->why);
+    fw_text_csv(&line, s->run ? "" : s->why);
     real(&line, s->used);
     for (int k = 0; k < t->study->ninput; k++)
         if (t->study->input[k].ntext > 0)
-            fw_text_add(&line, ","), field(&line, s->text[k]);
+            fw_text_add(&line, ","), fw_text_csv(&line, s->text[k]);
         else
             real(&line, s->value[k]);
     for (int k = 0; k < t->study->nresponse; k++)
@@ -360,9 +346,9 @@ static fw_status write_table(table *t) {
     fw_text *head = &t->line;
     fw_text_add(head, "i,state,why,limit_used");
     for (int k = 0; k < t->study->ninput; k++)
-        fw_text_add(head, ","), field(head, t->study->input[k].what);
+        fw_text_add(head, ","), fw_text_csv(head, t->study->input[k].what);
     for (int k = 0; k < t->study->nresponse; k++)
-        fw_text_add(head, ","), field(head, t->study->response[k].asked->name);
+        fw_text_add(head, ","), fw_text_csv(head, t->study->response[k].asked->name);
     fw_text_add(head, "\n");
     FW_TRY(fw_text_end(head));
     if (fwrite(head->data, 1, head->length, t->file) != head->length) return FW_IO;

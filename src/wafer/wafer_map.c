@@ -17,16 +17,6 @@ static void csv_heading(const fw_wafer *w, fw_text *out) {
     fw_text_add(out, ",verdict,utilisation,note\n");
 }
 
-/* a note holds commas */
-static void quoted(fw_text *out, const char *text) {
-    fw_text_add(out, "\"");
-    for (const char *s = text; *s; s++) {
-        if (*s == '"') fw_text_add(out, "\"");
-        fw_text_bytes(out, *s == '\n' ? " " : s, 1);
-    }
-    fw_text_add(out, "\"");
-}
-
 /* what the die is, which need not be what its step asked for */
 static fw_status variant(const fw_wafer *w, const fw_wafer_site *s, fw_text *out) {
     int sweeps = w->device->wafer.nsweep;
@@ -50,7 +40,7 @@ static fw_status variant(const fw_wafer *w, const fw_wafer_site *s, fw_text *out
     FW_NEED(values);
     const char *note = fw_arena_printf(out->arena, "nominal die in place of %s", values);
     FW_NEED(note);
-    quoted(out, note);
+    fw_text_csv(out, note);
     return FW_OK;
 }
 

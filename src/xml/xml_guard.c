@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The raw bytes: where tags and attributes stand, and what a file may not hold. That is refused
    here, so that no parser has to be trusted with it, and every refusal has an exact place. */
+#include "base/text.h"
 #include "xml/xml.h"
 #include <string.h>
 
@@ -116,6 +117,17 @@ static size_t sequence(const unsigned char *s, size_t n) {
     return length;
 }
 
+/* characters that XML allows, and that give orders to a terminal or turn the order of reading: nothing that is
+   described needs them, and what is shown would not be what is read */
+static fw_status check_order(const guard *g, size_t at, unsigned code, const char *how) {
+    if (!fw_text_is_order(code) || code == '\t' || code == '\n' || code == '\r') return FW_OK;
+    return fw_diag_error(
+        g->diags, 16, place(g, at),
+        "character U+%04X%s; control characters and those that turn the order of reading are "
+        "refused, since what is shown would not be what is read: remove it",
+        code, how);
+}
+
 static fw_status check_bytes(const guard *g) {
     const unsigned char *s = (const unsigned char *)g->xml.data;
     size_t n = g->xml.n;
@@ -138,9 +150,29 @@ static fw_status check_bytes(const guard *g) {
                                  "byte 0x%02x is not UTF-8 here; save the file as UTF-8 (it may be "
                                  "Latin-1)",
                                  (unsigned)s[i]);
+        if (s[i] == 0x7f || s[i] == 0xc2 || s[i] == 0xe2) { /* where such characters begin */
+            unsigned code;
+            fw_text_utf8(g->xml.data + i, &code);
+            FW_TRY(check_order(g, i, code, ""));
+        }
         i += length;
     }
     return FW_OK;
+}
+
+/* the character of &#65; or &#x41; from its digits on; one that no order has where it is none: the parser says that */
+static unsigned numbered(const guard *g, size_t at) {
+    const char *s = g->xml.data;
+    const bool hexadecimal = at < g->xml.n && s[at] == 'x';
+    unsigned code = 0;
+    for (at += hexadecimal; at < g->xml.n && s[at] != ';' && code <= 0x10ffff; at++) {
+        const int digit = s[at] >= '0' && s[at] <= '9'                 ? s[at] - '0'
+                          : (s[at] | 32) >= 'a' && (s[at] | 32) <= 'f' ? (s[at] | 32) - 'a' + 10
+                                                                       : 16;
+        if (digit >= (hexadecimal ? 16 : 10)) return 'A';
+        code = code * (hexadecimal ? 16 : 10) + (unsigned)digit;
+    }
+    return code ? code : 'A';
 }
 
 /* & at `at`: only the five built-in entities and character references; *behind is what follows */
@@ -148,7 +180,9 @@ static fw_status check_reference(const guard *g, size_t at, size_t *behind) {
     static const char *const allowed[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&apos;", "&#"};
     *behind = at + 1;
     for (size_t i = 0; i < sizeof allowed / sizeof allowed[0]; i++)
-        if (fw_xml_starts_with(g->xml, at, allowed[i])) return FW_OK;
+        if (fw_xml_starts_with(g->xml, at, allowed[i]))
+            return allowed[i][1] == '#' ? check_order(g, at, numbered(g, at + 2), " by its number")
+                                        : FW_OK;
     size_t end = at + 1;
     while (end < g->xml.n && end - at < 64 && !strchr(" \t\r\n<>&;\"'", g->xml.data[end]))
         end++;

@@ -118,6 +118,10 @@ static int copy_attributes(reader *r, fw_xml_element *e, int count, const xmlCha
         to = stpcpy(to, (const char *)g[0]) + 1;
         e->attribute[i].value = to;
         memcpy(to, g[3], (size_t)(g[4] - g[3]));
+        /* a value is one line, as XML makes it of those that are broken, also where a break was given by its number: it
+           comes into lines of tables, order sheets and drawings */
+        for (char *c = to; *c; c++)
+            if (*c == '\n' || *c == '\r' || *c == '\t') *c = ' ';
         to += g[4] - g[3] + 1;
         e->attribute[i].place = e->attribute[i].name_place = e->place;
     }

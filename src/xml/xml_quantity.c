@@ -267,6 +267,13 @@ static void read_range(const fw_xml_element *e, fw_diags *diags, const fw_quanti
     fw_xml_quantity_check_range(q, q, diags);
 }
 
+bool fw_xml_is_token(const char *text) {
+    static const char first[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_",
+                      later[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-.";
+    const size_t n = strlen(text);
+    return n >= 1 && n <= 64 && strchr(first, *text) && strspn(text, later) == n;
+}
+
 fw_status fw_xml_quantity_read(fw_arena *arena, const fw_xml_element *element,
                                const fw_xml_source_text *source, int nsource, fw_diags *diags,
                                fw_quantity *q) {
@@ -279,6 +286,8 @@ fw_status fw_xml_quantity_read(fw_arena *arena, const fw_xml_element *element,
                            *range = fw_xml_attribute_of(element, "range");
     if (!id || !id->value[0])
         fw_diag_error(diags, 43, element->place, "<q> has no id; add id=\"...\"");
+    else if (!fw_xml_is_token(id->value))
+        fw_diag_error(diags, 545, id->place, "<q> id=\"%.64s\" must be " FW_XML_TOKEN, id->value);
     else
         q->id = id->value;
     q->note = note ? note->value : NULL;

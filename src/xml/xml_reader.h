@@ -248,6 +248,10 @@ typedef struct fw_xml_source_text { /* <source id ...>text</source> */
 fw_status fw_xml_sources_read(fw_arena *arena, const fw_xml_element *parent, fw_diags *diags,
                               fw_xml_source_text **source, int *nsource);
 
+/* ids of packs: they come into names of files and of cells, into lines of calendars and tables, and into pages */
+#define FW_XML_TOKEN "a letter or _ first, then letters, digits, _ - and ., at most 64"
+bool fw_xml_is_token(const char *text);
+
 /* false and FW-D278 when the value is outside the plausible range of `range`, which is q itself or
    the one that q replaces */
 bool fw_xml_quantity_check_range(const fw_quantity *q, const fw_quantity *range, fw_diags *diags);

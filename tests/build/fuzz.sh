@@ -2,13 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A short run of every fuzz harness, from the gallery and the broken files, under ASan and UBSan.
 # RUNS=1000000 tests/build/fuzz.sh for a long one; 40000 runs, with FW_TEST_ALL=1 (./test --all) 100000. LIVE_RUNS=3000: the functions behind the page, too, whose
-# harness needs all rooms; test_live_hostile has a short run of the same.
+# harness needs all rooms; test_live_hostile has a short run of the same. FILES_RUNS=1000000: every file that is read, by the
+# tables of its rows, and JUDGE_RUNS=10000: through judging, masks and recipes; fuzz.files and fuzz.judge have short runs of these
+# without the sanitizers. tests/build/coverage.py --run says what each reaches.
 set -eu
 cd "$(dirname "$0")/../.."
 . tools/setup.sh
 . tests/build/sanitized_build.sh
 sanitized_build fuzz_device
 [ -z "${LIVE_RUNS:-}" ] || sanitized_build fuzz_live
+if [ -n "${FILES_RUNS:-}${JUDGE_RUNS:-}" ]; then
+    sanitized_build fuzz_files
+    sanitized_build fuzz_judge
+    sanitized_build fuzzed_files
+fi
 corpus=$(mktemp -d)
 trap 'rm -rf "$corpus"' EXIT
 mkdir "$corpus/device" "$corpus/live"
@@ -37,3 +44,13 @@ run() { # HARNESS RUNS
 }
 run device "${RUNS:-$([ -n "${FW_TEST_ALL:-}" ] && echo 100000 || echo 40000)}"
 [ -z "${LIVE_RUNS:-}" ] || run live "$LIVE_RUNS"
+[ -n "${FILES_RUNS:-}${JUDGE_RUNS:-}" ] || exit 0
+mkdir "$corpus/files" "$corpus/judge"
+build-asan/tests/fuzz/fuzzed_files corpus "$corpus/files"
+for file in docs/gallery/*/device.xml tests/data/effects/*.xml; do
+    for how in 0 3 4; do # other analyses, two methods, judging to the end
+        { printf "\\$how"; cat "$file"; } >"$corpus/judge/$how-$(echo "$file" | tr / -)"
+    done
+done
+[ -z "${FILES_RUNS:-}" ] || run files "$FILES_RUNS"
+[ -z "${JUDGE_RUNS:-}" ] || run judge "$JUDGE_RUNS"

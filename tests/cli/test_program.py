@@ -61,6 +61,11 @@ class Plan(InTemporary):
         for hinge in verdict["hinges"]:
             self.assertLess(hinge["utilisation"], 1)
             self.assertGreater(hinge["utilisation"], 0)
+            # what the force adds, beside what the rotation alone takes of the limit
+            turned = abs(hinge["peak_angle_rad"]) / hinge["limit_angle_rad"]
+            self.assertAlmostEqual(hinge["force_share"], max(0, 1 - turned / hinge["utilisation"]), delta=1e-9)
+        self.assertGreater(max(h["force_share"] for h in verdict["hinges"]), 0.1)
+        self.assertEqual({h["scene"] for h in verdict["hinges"]}, {"step-load", "workspace"})
         self.assertEqual([f["id"] for f in verdict["flows"]], list(FLOWS))
         self.assertIsNone(verdict["flows"][0]["manufacturable"])
         self.assertTrue(any("anisotropy" in r for r in verdict["flows"][0]["reasons"]))

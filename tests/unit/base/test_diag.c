@@ -36,6 +36,25 @@ static void only_the_first_hundred(void **state) {
     fw_arena_free(arena);
 }
 
+/* a message, a file's name and a line of the file are shown as they are, but for orders to the terminal */
+static void orders_are_not_shown(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_text out = fw_text_new(arena);
+    const char *source = "x \xc2\x9b\x1b[31m\xe2\x80\xae\xc3\xa4 y", *file = "a\nb\x1b.xml";
+    fw_diag_error(&diags, 20, (fw_place){file, 1, 15}, "'%s' is\nno name%s", source, "\xe2\x82");
+    assert_string_equal(
+        diags.item[0].message,
+        "'x \xef\xbf\xbd [31m\xef\xbf\xbd\xc3\xa4 y' is no name\xef\xbf\xbd\xef\xbf\xbd");
+    fw_diags_print(&diags, &out, file, source, strlen(source), 0);
+    assert_string_equal(out.data, "a b .xml:1:15: error: 'x \xef\xbf\xbd [31m\xef\xbf\xbd\xc3\xa4 "
+                                  "y' is no name\xef\xbf\xbd\xef\xbf\xbd [FW-D020]\n"
+                                  "     1 | x \xef\xbf\xbd [31m\xef\xbf\xbd\xc3\xa4 y\n"
+                                  "       |           ^\n");
+    fw_arena_free(arena);
+}
+
 static void table_is_sorted_and_complete(void **state) {
     (void)state;
     size_t n;
@@ -54,6 +73,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(printed_in_file_order_with_caret),
         cmocka_unit_test(only_the_first_hundred),
+        cmocka_unit_test(orders_are_not_shown),
         cmocka_unit_test(table_is_sorted_and_complete),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -138,12 +138,56 @@ static void zero_has_no_sign(void **state) {
     fw_arena_free(arena);
 }
 
+/* a terminal, a browser and a spreadsheet get no orders from a text */
+static void orders_are_not_given(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const struct {
+        const char *text, *shown, *csv;
+    } row[] = {
+        {"plain, \xc2\xb5m \xf0\x9f\x98\x80", "plain, \xc2\xb5m \xf0\x9f\x98\x80",
+         "\"plain, \xc2\xb5m \xf0\x9f\x98\x80\""},
+        {"a\x1b[31m\tb\r\nc", "a [31m b  c", "\"a [31m b  c\""},
+        {"\x7f\xc2\x9b\x32J\xe2\x80\xae!\xe2\x81\xa7",
+         "\xef\xbf\xbd\xef\xbf\xbd\x32J\xef\xbf\xbd!\xef\xbf\xbd",
+         "\xef\xbf\xbd\xef\xbf\xbd\x32J\xef\xbf\xbd!\xef\xbf\xbd"},
+        {"\xff\xc3", "\xef\xbf\xbd\xef\xbf\xbd",
+         "\xef\xbf\xbd\xef\xbf\xbd"}, /* no UTF-8, and cut off */
+        {"=1+1", "=1+1", "\"'=1+1\""},
+        {"\t=1+1", " =1+1", "\"' =1+1\""},
+        {" @x", " @x", "\"' @x\""},
+        {"\xef\xbc\x9d\x31", "\xef\xbc\x9d\x31", "\"'\xef\xbc\x9d\x31\""},
+        {"a \"b\"", "a \"b\"", "\"a \"\"b\"\"\""},
+        {"3 - 2 = 1", "3 - 2 = 1", "3 - 2 = 1"},
+        {"", "", ""},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        assert_string_equal(fw_text_shown(arena, row[i].text, strlen(row[i].text)), row[i].shown);
+        assert_int_equal(fw_text_is_line(row[i].text), strcmp(row[i].text, row[i].shown) == 0);
+        fw_text csv = fw_text_new(arena), escaped = fw_text_new(arena);
+        fw_text_add(&csv, "");
+        fw_text_add(&escaped, "");
+        fw_text_csv(&csv, row[i].text);
+        assert_string_equal(csv.data, row[i].csv);
+        fw_text_escaped(&escaped, row[i].text); /* keeps tabs and line ends */
+        for (const char *c = escaped.data; *c;) {
+            unsigned code = fw_text_character(&c);
+            assert_true(!fw_text_is_order(code) || code == '\t' || code == '\n');
+        }
+    }
+    /* nothing beyond n is read or shown */
+    assert_string_equal(fw_text_shown(arena, "\xe2\x82\xac", 2), "\xef\xbf\xbd\xef\xbf\xbd");
+    assert_string_equal(fw_text_shown(arena, "a\0b", 3), "a b");
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zero_has_no_sign),   cmocka_unit_test(numbers_round_trip),
-        cmocka_unit_test(numbers_are_strict), cmocka_unit_test(fixed_and_escaped),
-        cmocka_unit_test(fixed_as_printf),    cmocka_unit_test(short_memory_sticks),
-        cmocka_unit_test(spelling),           cmocka_unit_test(percents_keep_three_digits),
+        cmocka_unit_test(orders_are_not_given),       cmocka_unit_test(zero_has_no_sign),
+        cmocka_unit_test(numbers_round_trip),         cmocka_unit_test(numbers_are_strict),
+        cmocka_unit_test(fixed_and_escaped),          cmocka_unit_test(fixed_as_printf),
+        cmocka_unit_test(short_memory_sticks),        cmocka_unit_test(spelling),
+        cmocka_unit_test(percents_keep_three_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

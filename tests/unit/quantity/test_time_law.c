@@ -198,10 +198,69 @@ static void jolts(void **state) {
     assert_near(fw_quantity_law_jolt(&table, true, end, w), 2 / w, 1e-12);
 }
 
+/* what is said of a law as a whole, before 40001 samples of it: slopes and how they vary, over pieces without a break */
+static void sizes_before_samples(void **state) {
+    (void)state;
+    static const double t_s[] = {-1, 0.5, 0.75, 2, 3}, value[] = {1, 1, 3, -2, 0};
+    const fw_quantity_law law[] = {
+        {.kind = &fw_quantity_law_table, .table_t_s = t_s, .table_value = value, .ntable = 5},
+        {.kind = &fw_quantity_law_ramp, .start_s = 1, .rise_s = 0.25},
+        {.kind = &fw_quantity_law_sine, .frequency_Hz = 0.3, .phase_rad = 2.5, .end_s = 9},
+        {.kind = &fw_quantity_law_sine,
+         .frequency_Hz = 2.1,
+         .phase_rad = -7,
+         .start_s = 1,
+         .end_s = 3.3},
+        {.kind = &fw_quantity_law_half_sine, .start_s = 0.5, .rise_s = 2},
+    };
+    static const double slope[] = {8, 4, 0.6 * pi, 4.2 * pi, 0.5 * pi};
+    enum { N = 40001 };
+    const double end_s = 4;
+    for (size_t l = 0; l < sizeof law / sizeof law[0]; l++) {
+        const fw_quantity_law_size size = fw_quantity_law_measure(&law[l], end_s);
+        double most = 0, steepest = 0, edge[16] = {0};
+        int breaks = fw_quantity_law_breaks_of(&law[l], end_s, edge + 1, 14);
+        edge[breaks + 1] = end_s;
+        for (int piece = 0; piece <= breaks; piece++) {
+            double a_s = edge[piece], h = (edge[piece + 1] - a_s) / (N - 1), bent = 0;
+            for (int i = 0; i < N; i++) {
+                double v[3];
+                fw_quantity_law_value(&law[l], a_s + h * i, a_s + h * (N - 1) / 2, v);
+                most = fmax(most, fabs(v[0])), steepest = fmax(steepest, fabs(v[1]));
+                bent += h * fabs(v[2]) * (i == 0 || i == N - 1 ? 0.5 : 1);
+            }
+            if (law[l].kind->slope_variation)
+                assert_near(law[l].kind->slope_variation(&law[l], a_s, edge[piece + 1]), bent,
+                            1e-6 * (1 + bent));
+        }
+        assert_true(size.most >= most - 1e-12 && size.slope >= steepest - 1e-12);
+        assert_near(size.slope, slope[l], 1e-12);
+    }
+    /* over any part of a sine, in whatever half of a period it begins and ends */
+    for (int i = 0; i < 60; i++) {
+        const fw_quantity_law s = {.kind = &fw_quantity_law_sine,
+                                   .frequency_Hz = 1,
+                                   .phase_rad = 0.37 * i - 11,
+                                   .end_s = 9};
+        double a_s = 0.013 * i, b_s = a_s + 0.031 * (i + 1), bent = 0, h = (b_s - a_s) / (N - 1);
+        for (int k = 0; k < N; k++) {
+            double v[3];
+            fw_quantity_law_value(&s, a_s + h * k, a_s, v);
+            bent += h * fabs(v[2]) * (k == 0 || k == N - 1 ? 0.5 : 1);
+        }
+        assert_near(s.kind->slope_variation(&s, a_s, b_s), bent, 1e-6 * (1 + bent));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step),      cmocka_unit_test(ramp),  cmocka_unit_test(sine),
-        cmocka_unit_test(half_sine), cmocka_unit_test(table), cmocka_unit_test(expressions),
+        cmocka_unit_test(sizes_before_samples),
+        cmocka_unit_test(step),
+        cmocka_unit_test(ramp),
+        cmocka_unit_test(sine),
+        cmocka_unit_test(half_sine),
+        cmocka_unit_test(table),
+        cmocka_unit_test(expressions),
         cmocka_unit_test(jolts),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

@@ -168,6 +168,59 @@ static void changes_are_seen(void **state) {
     assert_int_equal(read_log(twice, strlen(twice), &run), FW_INPUT);
 }
 
+/* a looked-at measure has one answer, or one for each site; never another number of them */
+static void answers_are_one_or_of_all_sites(void **state) {
+    (void)state;
+    static const char start[] =
+        "C20; start=2026-11-20T11:00; end=2026-11-20T11:10; by=AB; copper bright in the mould=";
+    const fw_process_step *s = step_of(flow, "C20");
+    int sites = 0;
+    for (int i = 0; i < s->naccept; i++)
+        if (strcmp(s->accept[i].measure, "copper bright in the mould") == 0)
+            sites = s->accept[i].sites;
+    assert_true(sites >= 1);
+    fw_text all = fw_text_new(arena);
+    for (int i = 1; i <= sites + 2; i++) {
+        fw_text_add(&all, i % 2 ? " yes" : " no");
+        with(begun(), fw_arena_printf(arena, "%s%s", start, all.data + 1),
+             i == 1 || i == sites ? 0 : 282);
+    }
+    with(begun(), fw_arena_printf(arena, "%syes 3", start), 282);
+}
+
+/* what a terminal takes for orders is not written, and what an older log holds is not shown */
+static void orders_are_not_logged(void **state) {
+    (void)state;
+    static const char start[] = "C20; start=2026-11-20T11:00; end=2026-11-20T11:10; by=AB; copper "
+                                "bright in the mould=yes; note=";
+    static const char *const order[] = {"a\x1b[31m", "a\xc2\x9b\x32J", "a\xe2\x80\xae",
+                                        "a\x7f",     "9 \xb5m",        "a\tb"};
+    for (size_t i = 0; i < sizeof order / sizeof order[0]; i++)
+        with(begun(), fw_arena_printf(arena, "%s%s", start, order[i]), 282);
+    const char *good = with(begun(), fw_arena_printf(arena, "%s9 \xc2\xb5m", start), 0);
+    fw_recipe_asrun run;
+    assert_int_equal(read_log(good, strlen(good), &run), FW_OK);
+    assert_string_equal(run.entry[0].note, "9 \xc2\xb5m");
+    /* the same line as somebody else may write it, with its chain */
+    const char *first = begun(), *tail = strstr(first, "\tchain=");
+    const char *words = "step=C20\tstart=2026-11-20T11:00\tend=2026-11-20T11:10\tby=A\x1b["
+                        "2J\tcopper bright in the mould=yes\tnote=\xff";
+    char chain[65];
+    const char *both = fw_arena_printf(arena, "%.64s\n%s", tail + 7, words);
+    fw_sha256(both, strlen(both), chain);
+    const char *foreign = fw_arena_printf(arena, "%s%s\tchain=%s\n", first, words, chain);
+    assert_int_equal(read_log(foreign, strlen(foreign), &run), FW_OK);
+    assert_string_equal(run.entry[0].by, "A [2J");
+    assert_string_equal(run.entry[0].note, "\xef\xbf\xbd");
+    /* a first line without its plan is damaged, not a lack of memory */
+    const char *bare = "flexwright as-run 1\tflow=" COPPER;
+    both = fw_arena_printf(arena, "\n%s", bare);
+    fw_sha256(both, strlen(both), chain);
+    bare = fw_arena_printf(arena, "%s\tchain=%s\n", bare, chain);
+    assert_int_equal(read_log(bare, strlen(bare), &run), FW_INPUT);
+    assert_int_equal(diags.item[0].number, 280);
+}
+
 static void another_plan(void **state) {
     (void)state;
     fw_recipe_asrun run;
@@ -345,7 +398,8 @@ static void refused_values(void **state) {
         {"coupon=plating-pads, drawn=1 mm, value=9 um, u=-1 um, at=25 C/cm2", "not below 0", 282},
         {"coupon=plating-pads, drawn=1 mm, value=9 um, u=1 um", "needs the columns at", 211},
         {"coupon=plating-pads, value=9 um, u=1 um, at=25 C/cm2", "drawn_um", 211},
-        {"coupon=plating-pads, drawn=1 mm, value=9 um, u=1 um, at=25 s", "which stands under at", 211},
+        {"coupon=plating-pads, drawn=1 mm, value=9 um, u=1 um, at=25 s", "which stands under at",
+         211},
         {"coupon=cd-lines, drawn=9 um, value=9 um, u=1 um", "is line or space, not ''", 211},
         {"coupon=undercut-ladder, gon, drawn=9 um, value=9 um, u=1 um, at=9 min",
          "is width, gone or stands", 211},
@@ -570,6 +624,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(dates, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
         cmocka_unit_test_setup_teardown(changes_are_seen, setup, teardown),
+        cmocka_unit_test_setup_teardown(answers_are_one_or_of_all_sites, setup, teardown),
+        cmocka_unit_test_setup_teardown(orders_are_not_logged, setup, teardown),
         cmocka_unit_test_setup_teardown(another_plan, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),

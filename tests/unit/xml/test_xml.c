@@ -125,6 +125,18 @@ static void many_elements_keep_their_places(void **state) {
     fw_arena_free(arena);
 }
 
+/* a break in a value is a blank, whether it was written or given by its number; other numbers are characters */
+static void values_are_lines(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_xml_element *r =
+        parse(arena, "<r a=\"x&#10;y&#13;z&#x9;\n!\" b=\"&#xb5;&#955;&#x1F600;\"/>");
+    assert_string_equal(r->attribute[0].value, "x y z  !");
+    assert_int_equal(r->attribute[0].exact, 0);
+    assert_string_equal(r->attribute[1].value, "\xc2\xb5\xce\xbb\xf0\x9f\x98\x80");
+    fw_arena_free(arena);
+}
+
 static void memory_runs_out(void **state) {
     (void)state;
     const char *text = "<r a='1' b='2'>x<c d='3'/>y</r>";
@@ -151,6 +163,7 @@ int main(void) {
         cmocka_unit_test(a_mark_and_line_ends),
         cmocka_unit_test(many_lines),
         cmocka_unit_test(many_elements_keep_their_places),
+        cmocka_unit_test(values_are_lines),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
