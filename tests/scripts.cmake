@@ -149,7 +149,7 @@ include(ccx/ccx.cmake)
 include(web/web.cmake)
 # the functions behind the page without a server
 add_executable(live live/live.c)
-target_link_libraries(live PRIVATE fw_plan)
+target_link_libraries(live PRIVATE fw_study)
 fw_first_part_of(live.memory COMMAND live memory FIRST 3000 WHOLE 10000)
 
 add_executable(fault_memory faults/memory.c faults/sites.c)

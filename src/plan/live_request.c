@@ -81,7 +81,7 @@ fw_status fw_plan_live_real(fw_plan_live_request *r, const json_t *object, const
 
 /* ---- the design of a request ---- */
 
-static fw_status read_options(fw_plan_live_request *r, fw_design_options *o, bool *full) {
+fw_status fw_plan_live_options(fw_plan_live_request *r, fw_design_options *o, bool *full) {
     static const char *const keys[] = {"scene",    "method",  "integrator",  "stabilise", "rtol",
                                        "accuracy", "effects", "hinge_model", "samples",   "corners",
                                        "flow",     "detail",  NULL};
@@ -134,7 +134,7 @@ fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *r,
     *design = NULL;
     options.data_directory = live->settings.data_directory;
     options.memory_cap = live->settings.memory_cap;
-    FW_TRY(read_options(r, &options, &r->full));
+    FW_TRY(fw_plan_live_options(r, &options, &r->full));
     FW_NEED(*design = fw_design_new(&options));
     fw_plan_design_cancel_with(*design, live->settings.cancel);
     fw_verdict_options *judge = &fw_plan_design_plan(*design)->options.verdict;

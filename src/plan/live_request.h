@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Requests of the page, read and checked. Private to live*.c. */
+/* Requests of the page, read and checked. Private to live*.c and to what study/ answers in the same way. */
 #ifndef FW_PLAN_LIVE_REQUEST_H
 #define FW_PLAN_LIVE_REQUEST_H
 #include "device/edit.h"
@@ -21,6 +21,9 @@ struct fw_plan_live {
     fw_plan_live_settings settings;
     fw_arena *answer;                 /* of the last one, NULL: none */
     struct fw_plan_live_posed *posed; /* the mechanism that was last posed, NULL: none */
+    /* what a room below keeps from one request to the next, and how it is freed; NULL: nothing */
+    void *kept;
+    void (*kept_free)(void *kept);
 };
 
 typedef struct fw_plan_live_request {
@@ -35,6 +38,9 @@ typedef struct fw_plan_live_request {
 
 /* what is wrong: FW_USAGE */
 fw_status fw_plan_live_wrong(fw_plan_live_request *request, const char *what, const char *key);
+/* the request's options into those of a design; strings belong to the request. *full: options.detail */
+fw_status fw_plan_live_options(fw_plan_live_request *request, fw_design_options *options,
+                               bool *full);
 /* a design with the options and sets of the request, not read yet */
 fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *request,
                               fw_design **design);

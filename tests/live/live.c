@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The four functions behind the page, without a server:
-     live KIND <REQUEST          the answer to one request (table, preview, pose, edit)
+/* The functions behind the page, without a server:
+     live KIND <REQUEST          the answer to one request (table, preview, pose, edit, explore)
      live memory [COUNT]         10 000 requests in one process: what it holds must not grow
      live speed FILE NAME FROM TO UNIT [N]
                                  previews with a parameter moved like a slider; percentiles of CPU
  */
 #include "plan/live.h"
+#include "study/study.h"
 #include <jansson.h>
 #include <malloc.h>
 #include <stdio.h>
@@ -38,6 +39,7 @@ static function named(const char *kind) {
            : strcmp(kind, "preview") == 0 ? fw_plan_live_preview
            : strcmp(kind, "pose") == 0    ? fw_plan_live_pose
            : strcmp(kind, "edit") == 0    ? fw_plan_live_edit
+           : strcmp(kind, "explore") == 0 ? fw_study_explore
                                           : NULL;
 }
 

@@ -28,7 +28,7 @@ export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { 
 
 /** Names of events: "text" (editor's text changed), "change" (ask for a preview), "options" (how it is
  *  computed), "preview" (a good answer), "answer" (any answer), "belong" (what is shown was marked anew), "working"
- *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "theme". */
+ *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "view" (a tab was chosen), "time" (of the motion, by hand), "theme". */
 export function lookAt(hinge) {
     state.hinge = state.hinge === hinge ? null : hinge;
     emit("hinge", state.hinge);
