@@ -33,7 +33,8 @@ export function startAddress(parts) {
         if (parts.tabs.current !== "motion") q.set("view", parts.tabs.current);
         if (parts.editTabs.current !== "form") q.set("text", parts.editTabs.current);
         for (const name of OPTIONS) if (state.options[name] !== undefined) q.set(name, state.options[name]);
-        if (!parts.motion.playing && parts.motion.seen) q.set("t", Number(parts.motion.time.toPrecision(4)));
+        if (wanted !== null) q.set("t", wanted);
+        else if (parts.motion.seen) q.set("t", Number(parts.motion.time.toPrecision(4)));
         const text = q.toString();
         return text ? `#${text}` : "";
     };
@@ -68,7 +69,7 @@ export function startAddress(parts) {
     }
 
     if (location.hash) read();
-    on("preview", () => setTimeout(seek)); // behind the view itself
+    for (const event of ["preview", "view"]) on(event, () => setTimeout(seek)); // behind the view itself
     for (const event of ["options", "view", "time"]) on(event, write);
     addEventListener("hashchange", read);
 }

@@ -138,13 +138,26 @@ export class Verdict {
         this.banner.replaceChildren(
             h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", "data-of": full ? "check" : "preview", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),
-            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "");
+            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "",
+            lines.length ? this.#more() : "");
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v);
         this.#flows(v);
         this.#effects();
         this.#cost();
+    }
+
+    /** On a phone the decision leaves room for the picture, until somebody wants all of it. */
+    #more() {
+        const opened = () => this.banner.classList.contains("opened");
+        const words = () => (opened() ? "Less" : "All of it");
+        const more = h("button", { type: "button", class: "small banner-more", "aria-expanded": String(opened()), onclick: () => {
+            this.banner.classList.toggle("opened");
+            more.textContent = words();
+            more.setAttribute("aria-expanded", String(opened()));
+        } }, words());
+        return more;
     }
 
     /** Requirements with their values, and what the probes of the other scenes say at most. */

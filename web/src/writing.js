@@ -113,7 +113,7 @@ function valuesOf(a, form) {
     if (!root) return [];
     if (a.refers_to) return all([...idsOf(root, (n, p) => form.row(n, p), a.refers_to), ...(a.ground ? ["ground"] : [])], a.refers_to);
     const parameters = root.children.filter((e) => e.name === "parameter").map((e) => e.attributes.get("name")?.value).filter(Boolean);
-    return ["expression", "in-time", "name"].includes(a.type) ? all(parameters, "parameter") : [];
+    return ["number", "expression", "in-time", "name"].includes(a.type) ? all(parameters, "parameter") : [];
 }
 
 const helpOf = (element, a) => h("div", { class: "cm-help" }, h("div", {}, h("b", {}, element ? `<${element}> ${a.name}` : a.name), " ", h("span", { class: "cm-facts" }, facts(a))), h("div", {}, a.sentence ?? ""));
