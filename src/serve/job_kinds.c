@@ -113,6 +113,17 @@ static fw_status value_text(command *c, const char *name, const json_t *value, c
     return FW_OK;
 }
 
+/* "a.xml,b.xml", all of them files of the request? */
+static bool are_files(const command *c, const char *text) {
+    for (const char *at = text;; at++) {
+        size_t n = strcspn(at, ",");
+        const char *name = fw_arena_strndup(c->arena, at, n);
+        if (!name || !json_object_get(c->files, name)) return false;
+        at += n;
+        if (!*at) return true;
+    }
+}
+
 static fw_status one_option(command *c, unsigned kind, const char *name, const json_t *value) {
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
         if (strcmp(options[i].name, name) != 0) continue;
@@ -122,8 +133,8 @@ static fw_status one_option(command *c, unsigned kind, const char *name, const j
             return push(c, fw_arena_printf(c->arena, "--%s", options[i].option));
         const char *text;
         FW_TRY(value_text(c, name, value, &text));
-        if ((options[i].kinds & OF_FILE) && !json_object_get(c->files, text))
-            return wrong(c, name, "has to name one of the request's files");
+        if ((options[i].kinds & OF_FILE) && !are_files(c, text))
+            return wrong(c, name, "has to name files of the request, commas between");
         return push(c, fw_arena_printf(c->arena, "--%s=%s", options[i].option, text));
     }
     return wrong(c, name, "is not an option of a job");

@@ -198,6 +198,7 @@ static fw_status open_points(const fw_plan_live *live, fw_plan_live_request *r, 
     FW_TRY(fw_plan_live_options(r, &o.design, &full));
     FW_TRY(ask_inputs(e));
     FW_TRY(sets_of(r, e, &o));
+    FW_TRY(fw_plan_live_lab(r, e->arena, &o.lab_text, &o.nlab_text));
     return fw_study_open_points(&o, &e->asked, &e->study);
 }
 
@@ -313,7 +314,7 @@ static fw_status explore(fw_plan_live *live, fw_plan_live_request *r, fw_text *o
 }
 
 fw_plan_live_answer fw_study_explore(fw_plan_live *live, const char *request, size_t n) {
-    static const char *const keys[] = {"text",   "set",    "options", "inputs",
-                                       "values", "points", NULL};
+    static const char *const keys[] = {"text",   "set",    "options", "lab",
+                                       "inputs", "values", "points",  NULL};
     return fw_plan_live_call(live, request, n, keys, explore);
 }

@@ -23,6 +23,8 @@ typedef struct fw_study_options {
     fw_design_options design; /* of every device */
     const fw_device_set *set; /* (nset) of every device, before the study's own */
     int nset;
+    const fw_plan_lab_text *lab_text; /* (nlab_text) laboratory packs beside those of `design` */
+    int nlab_text;
     const char *file; /* device or study file */
     const char
         *text; /* (length) of the device, where it is no file; NULL: it is read from `file` */

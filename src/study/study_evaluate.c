@@ -49,6 +49,8 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
     *status = FW_STATUS_NOMEM;
     if (!design) return NULL;
     fw_plan_design_cancel_with(design, cancel);
+    fw_plan_design_plan(design)->options.lab_text = study->options.lab_text;
+    fw_plan_design_plan(design)->options.nlab_text = study->options.nlab_text;
     *status = FW_STATUS_OK;
     for (int i = 0; *status == FW_STATUS_OK && i < study->options.nset; i++)
         *status = fw_design_set(design, study->options.set[i].path, study->options.set[i].value);

@@ -4,7 +4,7 @@
 // shown belongs to the exact input, as everything does (belong.js).
 import { post } from "./api.js";
 import { begin, inputKey, mayChange, Shown } from "./belong.js";
-import { edit, isPresent } from "./design.js";
+import { edit, isPresent, lab } from "./design.js";
 import { announce, button, h, select, setOptions } from "./dom.js";
 import { CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, POINTS, rounds, stretches, textOf, unitSizes } from "./exploring.js";
 import { ExplorePlot, legendOf, WORDS } from "./exploreplot.js";
@@ -232,7 +232,7 @@ export class Explore {
         const set = Object.fromEntries(Object.entries(state.set).filter(([path]) => !spec.inputs.some((x) => x.what === path || `device/${x.what}` === path)));
         const { number: n } = spec;
         const values = [...n.value, ...n.low, ...n.high];
-        const body = { text: state.text, set, options: this.#options(), inputs: spec.inputs.map((x) => x.what), values };
+        const body = { text: state.text, set, ...lab(), options: this.#options(), inputs: spec.inputs.map((x) => x.what), values };
         for (let i = 0; i < texts.length; ) {
             const some = texts.slice(i, i + (this.chunk ?? FIRST));
             const since = performance.now();

@@ -16,6 +16,7 @@ import { Explore } from "./explore.js";
 import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
 import { heard } from "./jobs.js";
+import { restorePacks } from "./laboratory.js";
 import { Masks } from "./masks.js";
 import { Modes } from "./modes.js";
 import { Motion } from "./motion.js";
@@ -188,6 +189,7 @@ async function start() {
     parts.draw.start(state.table);
     parts.explore.start(state.table, parts.form);
     parts.open.hidden = state.session.file !== null;
+    restorePacks();
     await startFile(parts.editor);
     startAddress(parts);
     headerState();

@@ -185,6 +185,10 @@ export class Verdict {
 
     /** What the banner speaks of. */
     #basis(full) {
+        return `${this.#judgedAs(full)}${Object.keys(state.lab).length ? "; with your laboratory's numbers" : ""}`;
+    }
+
+    #judgedAs(full) {
         if (full) return full.flows.some((f) => f.as_fabricated) ? "as it will be made" : "as drawn";
         const p = state.preview;
         if (!p.provisional) return "as drawn";

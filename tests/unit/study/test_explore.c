@@ -110,6 +110,37 @@ static void a_device_that_cannot_be_is_told(void **state) {
     fw_plan_live_free(live);
 }
 
+#define PACK(id)                                                                                   \
+    "\"lab\":{\"mine.xml\":\"<process xmlns='urn:flexwright:process:1' "                           \
+    "flow='al-masked-rie'><source "                                                                \
+    "id='s' kind='measured'>x</source><q id='" id                                                  \
+    "' value='0.97' u='0.001' unit='1' status='measured' src='s'/></process>\"},"
+#define MADE                                                                                       \
+    "\"inputs\":[\"flexure[C]/"                                                                    \
+    "@width\"],\"values\":[\"governing.utilisation\"],\"options\":{\"corners\":"                   \
+    "\"auto\"},\"points\":[[\"7 um\"]]"
+
+/* a laboratory pack in memory counts as its file does, and what is wrong with it is said of its name */
+static void a_pack_of_the_laboratory_counts(void **state) {
+    (void)state;
+    static const char thick[] = PACK("rie.A") MADE;
+    static const char wrong[] = PACK("rie.nobody") MADE;
+    fw_plan_live *live = live_new();
+    json_t *with = explore(live, thick);
+    json_t *without = explore(live, MADE);
+    assert_string_equal(text_at(with, "status"), "ok");
+    assert_false(json_equal(json_object_get(with, "points"), json_object_get(without, "points")));
+    json_t *bad = explore(live, wrong);
+    assert_string_equal(text_at(bad, "status"), "invalid");
+    const json_t *said = json_array_get(json_object_get(bad, "diagnostics"), 0);
+    assert_string_equal(text_at(said, "file"), "mine.xml");
+    json_t *preview =
+        ask_file(live, fw_plan_live_preview, SIX_BAR, PACK("rie.nobody") "\"set\":{}");
+    assert_string_equal(text_at(preview, "status"), "invalid");
+    json_decref(with), json_decref(without), json_decref(bad), json_decref(preview);
+    fw_plan_live_free(live);
+}
+
 static void what_is_no_request_is_refused(void **state) {
     (void)state;
     static const char *const wrong[] = {
@@ -159,6 +190,7 @@ int main(void) {
         cmocka_unit_test(a_point_is_what_check_says),
         cmocka_unit_test(what_was_asked_before_does_not_matter),
         cmocka_unit_test(a_device_that_cannot_be_is_told),
+        cmocka_unit_test(a_pack_of_the_laboratory_counts),
         cmocka_unit_test(what_is_no_request_is_refused),
         cmocka_unit_test(a_request_that_was_stopped_leaves_nothing),
     };
