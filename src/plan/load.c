@@ -255,35 +255,6 @@ static fw_status check_layers(fw_plan *plan) {
 
 /* ---- the description and its flows ---- */
 
-fw_plan_options fw_plan_options_default(void) {
-    return (fw_plan_options){
-        .verdict = {.motion = {.accuracy = 1e-3, .samples = 1001}, .with_advice = true}};
-}
-
-fw_plan *fw_plan_new(const fw_plan_options *options) {
-    fw_arena *arena = fw_arena_new(options->memory_cap);
-    if (!arena) return NULL;
-    fw_plan *plan = fw_arena_one(arena, fw_plan);
-    if (!plan) {
-        fw_arena_free(arena);
-        return NULL;
-    }
-    *plan = (fw_plan){.arena = arena, .options = *options, .diags = fw_diags_new(arena)};
-    return plan;
-}
-
-void fw_plan_free_steps(fw_plan *plan) {
-    for (int i = 0; i < plan->nstep; i++)
-        if (plan->step[i]) fw_arena_free(plan->step[i]->arena); /* steps have none of their own */
-    plan->nstep = 0;
-}
-
-void fw_plan_free(fw_plan *plan) {
-    if (!plan) return;
-    fw_plan_free_steps(plan);
-    fw_arena_free(plan->arena);
-}
-
 /* a file below the data directory; its name in messages and the manifest is the relative one */
 static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char **data,
                            size_t *n) {
