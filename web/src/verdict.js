@@ -31,11 +31,12 @@ export class Verdict {
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
+        this.left = h("div", { class: "left-out" });
         const full = h("div", { class: "full-check" });
         const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
         const cards = [use, this.required, card("flows", "Flows", this.flows)];
-        const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost)];
+        const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
         this.compare = new Compare(() => this.judged);
         holder.append(this.old, this.banner, this.problems, this.compare.card, ...cards, card("full", "As fabricated", full), ...last, this.notes);
         this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
@@ -285,6 +286,8 @@ export class Verdict {
             ["constraints", number(stats.max_constraint_norm, 2)],
         ];
         this.cost.replaceChildren(...rows.flatMap(([k, x]) => [h("dt", {}, k), h("dd", {}, x)]));
+        const left = [...(p.left_out ?? []).map((x) => `${x.sentence}${x.could_reject ? " It could reject." : ""}`), ...(p.not_drawn ?? []).map((x) => `${x}: acts, and no picture shows it.`)];
+        this.left.replaceChildren(left.length ? h("details", {}, h("summary", {}, `${left.length} ${left.length === 1 ? "thing was" : "things were"} left out of the live answer`), h("ul", {}, left.map((x) => h("li", {}, x)))) : "");
     }
 
     #fabricated(v, into) {
