@@ -231,7 +231,7 @@ export class Explore {
     async #ask(spec, texts, key, signal, take) {
         const set = Object.fromEntries(Object.entries(state.set).filter(([path]) => !spec.inputs.some((x) => x.what === path || `device/${x.what}` === path)));
         const { number: n } = spec;
-        const values = [...n.value, ...n.low, ...n.high];
+        const values = [...n.value, ...n.low, ...n.high, "governing.utilisation"]; // the last one: that it is judged
         const body = { text: state.text, set, ...lab(), options: this.#options(), inputs: spec.inputs.map((x) => x.what), values };
         for (let i = 0; i < texts.length; ) {
             const some = texts.slice(i, i + (this.chunk ?? FIRST));
@@ -414,7 +414,7 @@ function point(p, n) {
     const v = p.values.map((x) => (x === null ? NaN : x * n.factor));
     const first = (list) => list.find(Number.isFinite) ?? NaN;
     const [a, b] = [n.value.length, n.value.length + n.low.length];
-    return { state: p.state, why: p.why, used: p.limit_used, value: first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b)) };
+    return { state: p.state, why: p.why, used: p.limit_used, value: first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b, b + n.high.length)) };
 }
 
 function group(list) {

@@ -14,6 +14,7 @@ const SIGNS = { // of about 6 pixels
 };
 const MOST_SIGNS = 60;
 const PAD = 0.06;
+const FLAT = 1e-6; // relative: less is no change
 
 export class ExplorePlot {
     /** onlook(x) or onlook([x, y]): somebody points at it, in the units of the inputs */
@@ -65,9 +66,10 @@ export class ExplorePlot {
         let [low, high] = all.length ? [Math.min(...all), Math.max(...all)] : [0, 1];
         const most = limits.length ? 4 * Math.max(...limits.map(Math.abs)) : Infinity; // a share far beyond its limit is as bad as any other
         if (high > most && low < most) high = most;
-        const pad = (high - low || Math.abs(high) || 1) * PAD;
+        const flat = high - low < FLAT * Math.max(Math.abs(low), Math.abs(high)); // a number that this input does nothing to
+        const pad = (flat ? Math.abs(high) || 1 : high - low) * PAD;
         if (unit === "%" && low >= 0) low = Math.min(0, low);
-        const { out, px, py, right, bottom } = this.#axes(w, height, x, { from: unit === "%" ? low : low - pad, to: high + pad }, this.what.ylabel);
+        const { out, px, py, right, bottom } = this.#axes(w, height, x, { from: unit === "%" && !flat ? low : low - pad, to: high + pad }, this.what.ylabel);
         const area = s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT, y: TOP, width: right - LEFT, height: bottom - TOP }));
         const inside = s("g", { "clip-path": "url(#explore-area)" });
         const banded = good.filter((p) => Number.isFinite(p.low) && Number.isFinite(p.high));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What can be explored of a text, and at which points: inputs with their present values and usual ranges, numbers of the
 // verdict that can be looked at, and the order in which points are asked for, coarse ones first.
-import { splitQuantity } from "./format.js";
+import { prefixOf, splitQuantity } from "./format.js";
 import { evaluate, kindOf } from "./quantities.js";
 
 const USUAL = 0.3; // of its value either way, where a range is not stated
@@ -98,7 +98,8 @@ export function numbersToLookAt(v, made) {
         if (seen.has(words) || /[\]]/.test(words)) continue;
         seen.add(words);
         const path = (key) => [...(made ? [`requirements[${words}].as_fabricated.${key}`] : []), `requirements[${words}].${key}`];
-        out.push({ id: `require ${words}`, label: `${r.probe} (${[r.measure ?? r.kind, r.scene].filter(Boolean).join(", ")})`, unit: r.unit, factor: 1, limits: [r.min, r.max].filter((x) => x !== null), value: path("value"), low: path("band[0]"), high: path("band[1]") });
+        const [prefix, size] = prefixOf(Math.max(...[r.min, r.max, r.value].map((x) => Math.abs(x ?? 0))));
+        out.push({ id: `require ${words}`, label: `${r.probe} (${[r.measure ?? r.kind, r.scene].filter(Boolean).join(", ")})`, unit: `${prefix}${r.unit}`, factor: 1 / size, limits: [r.min, r.max].filter((x) => x !== null), value: path("value"), low: path("band[0]"), high: path("band[1]") });
     }
     out.push({ id: "frequency", label: "Lowest natural frequency, at rest", unit: "Hz", factor: 1, limits: [], value: ["modes:modes[0].f_Hz"], low: [], high: [] });
     return out;

@@ -20,6 +20,7 @@ export function ticks(low, high, n) {
     const power = 10 ** Math.floor(Math.log10(raw));
     const step = [1, 2, 5, 10].map((f) => f * power).find((f) => f >= raw);
     const out = [];
+    if (!(step > 1e-12 * Math.max(Math.abs(low), Math.abs(high)))) return [low]; // too near each other to be told apart
     for (let v = Math.ceil(low / step) * step; v <= high + step * 1e-9; v += step) out.push(Math.abs(v) < step * 1e-9 ? 0 : v);
     return out;
 }
