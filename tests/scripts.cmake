@@ -149,7 +149,7 @@ include(ccx/ccx.cmake)
 include(web/web.cmake)
 # the functions behind the page without a server
 add_executable(live live/live.c)
-target_link_libraries(live PRIVATE fw_plan)
+target_link_libraries(live PRIVATE fw_study)
 fw_first_part_of(live.memory COMMAND live memory FIRST 3000 WHOLE 10000)
 fw_first_part_of(live.designs COMMAND live designs FIRST 30 WHOLE 1000)
 # files and descriptions that are mostly right, by seed; tests/build/fuzz.sh has the same with coverage, under the sanitizers

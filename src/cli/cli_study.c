@@ -25,6 +25,15 @@ static void progress(void *context, long done, long all, double seconds) {
     fflush(stderr);
 }
 
+/* the same for a program that reads: a line of -v twice a second, as of every stage */
+static void progress_lines(void *context, long done, long all, double seconds) {
+    double *last = context;
+    if (done < all && seconds - *last < 0.5) return;
+    *last = seconds;
+    fprintf(stderr, "flexwright: %ld of %ld devices\n", done, all);
+    fflush(stderr);
+}
+
 static fw_status print(fw_study *study, fw_status (*compose)(const fw_study *study, fw_text *out)) {
     fw_text text = fw_text_new(study->arena);
     FW_TRY(compose(study, &text));
@@ -114,7 +123,7 @@ static fw_status run(fw_study *study, const fw_cli_options *options) {
     fw_status status = is_verb(options, "merge")
                            ? fw_study_merge(study, options->more, options->nmore)
                            : fw_study_run(study);
-    if (study->options.progress) fputs("\r\033[K", stderr);
+    if (study->options.progress == progress) fputs("\r\033[K", stderr);
     FW_TRY(status);
     if (options->shards > 0) {
         if (!options->quiet)
@@ -199,6 +208,8 @@ int fw_cli_command_study(fw_cli_options *options) {
                           .waits = waits};
     if (!options->no_progress && !options->quiet && isatty(2))
         o.progress = progress, o.progress_context = &last;
+    else if (options->verbose && !options->quiet)
+        o.progress = progress_lines, o.progress_context = &last;
     fw_study *study;
     fw_status status = is_verb(options, "merge") ? fw_study_open_merge(&o, options->more[0], &study)
                                                  : fw_study_open(&o, &study);

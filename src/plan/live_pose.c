@@ -318,6 +318,8 @@ static fw_status key_of(fw_plan_live_request *r, char key[65]) {
     if (r->set) copied(&json, NULL, r->set);
     fw_json_null(&json, NULL);
     if (r->options) copied(&json, NULL, r->options);
+    fw_json_null(&json, NULL);
+    if (r->lab) copied(&json, NULL, r->lab);
     fw_json_end(&json);
     fw_status status = fw_json_finish(&json, "");
     if (status == FW_INTERNAL) return fw_plan_live_wrong(r, "nested too deeply:", "set or options");
@@ -527,7 +529,7 @@ static fw_status pose(fw_plan_live *live, fw_plan_live_request *r, fw_text *text
 }
 
 fw_plan_live_answer fw_plan_live_pose(fw_plan_live *live, const char *request, size_t n) {
-    static const char *const keys[] = {"text", "set",      "options", "flow",
+    static const char *const keys[] = {"text", "set",      "options", "lab", "flow",
                                        "body", "platform", "q",       NULL};
     return fw_plan_live_call(live, request, n, keys, pose);
 }

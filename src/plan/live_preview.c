@@ -232,6 +232,6 @@ static fw_status preview(fw_plan_live *live, fw_plan_live_request *request, fw_t
 }
 
 fw_plan_live_answer fw_plan_live_preview(fw_plan_live *live, const char *request, size_t n) {
-    static const char *const keys[] = {"text", "set", "options", NULL};
+    static const char *const keys[] = {"text", "set", "options", "lab", NULL};
     return fw_plan_live_call(live, request, n, keys, preview);
 }

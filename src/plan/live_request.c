@@ -53,6 +53,7 @@ static fw_status read_request(fw_arena *arena, const char *json, size_t n, const
     r->text = json_string_value(text);
     r->length = json_string_length(text);
     FW_TRY(object_of(r, "set", &r->set));
+    FW_TRY(object_of(r, "lab", &r->lab));
     return object_of(r, "options", &r->options);
 }
 
@@ -81,7 +82,7 @@ fw_status fw_plan_live_real(fw_plan_live_request *r, const json_t *object, const
 
 /* ---- the design of a request ---- */
 
-static fw_status read_options(fw_plan_live_request *r, fw_design_options *o, bool *full) {
+fw_status fw_plan_live_options(fw_plan_live_request *r, fw_design_options *o, bool *full) {
     static const char *const keys[] = {"scene",    "method",  "integrator",  "stabilise", "rtol",
                                        "accuracy", "effects", "hinge_model", "samples",   "corners",
                                        "flow",     "detail",  NULL};
@@ -128,13 +129,33 @@ static fw_status apply_sets(fw_plan_live_request *r, fw_design *design) {
     return FW_OK;
 }
 
+fw_status fw_plan_live_lab(fw_plan_live_request *r, fw_arena *arena, const fw_plan_lab_text **lab,
+                           int *n) {
+    const char *name;
+    json_t *text;
+    size_t count = json_object_size(r->lab);
+    *lab = NULL, *n = 0;
+    if (count == 0) return FW_OK;
+    if (count > FW_LIVE_LABS_MOST)
+        return fw_plan_live_wrong(r, "lab holds more than 4 packs, the most of one request", NULL);
+    fw_plan_lab_text *item = fw_arena_array(arena, fw_plan_lab_text, count);
+    FW_NEED(item);
+    json_object_foreach(r->lab, name, text) {
+        if (!json_is_string(text) || !name[0])
+            return fw_plan_live_wrong(r, "the text of a laboratory pack is needed for", name);
+        item[(*n)++] = (fw_plan_lab_text){name, json_string_value(text), json_string_length(text)};
+    }
+    *lab = item;
+    return FW_OK;
+}
+
 fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *r,
                               fw_design **design) {
     fw_design_options options = fw_design_options_default();
     *design = NULL;
     options.data_directory = live->settings.data_directory;
     options.memory_cap = live->settings.memory_cap;
-    FW_TRY(read_options(r, &options, &r->full));
+    FW_TRY(fw_plan_live_options(r, &options, &r->full));
     FW_NEED(*design = fw_design_new(&options));
     fw_plan_design_cancel_with(*design, live->settings.cancel);
     fw_verdict_options *judge = &fw_plan_design_plan(*design)->options.verdict;
@@ -142,7 +163,10 @@ fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *r,
     fw_plan_design_plan(*design)->options.measurements = FW_MEASUREMENTS_NONE;
     judge->at_a_glance = !r->full;
     judge->motion.energies = !r->full; /* then its motion is the one that is shown */
-    fw_status status = r->set ? apply_sets(r, *design) : FW_OK;
+    fw_plan_options *o = &fw_plan_design_plan(*design)->options;
+    fw_status status =
+        fw_plan_live_lab(r, fw_plan_design_plan(*design)->arena, &o->lab_text, &o->nlab_text);
+    if (status == FW_OK && r->set) status = apply_sets(r, *design);
     if (status == FW_OK) return FW_OK;
     fw_design_free(*design);
     *design = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Requests of the page, read and checked. Private to live*.c. */
+/* Requests of the page, read and checked. Private to live*.c and to what study/ answers in the same way. */
 #ifndef FW_PLAN_LIVE_REQUEST_H
 #define FW_PLAN_LIVE_REQUEST_H
 #include "device/edit.h"
@@ -12,6 +12,7 @@ enum {
     FW_LIVE_REQUEST_MOST = 16 * 1024 * 1024, /* bytes */
     FW_LIVE_SETS_MOST = 256,
     FW_LIVE_CHANGES_MOST = 256,
+    FW_LIVE_LABS_MOST = 4,
     FW_LIVE_SAMPLES = 401, /* rows of a motion where nothing is asked for */
     FW_LIVE_SAMPLES_MOST = 2001
 };
@@ -21,6 +22,9 @@ struct fw_plan_live {
     fw_plan_live_settings settings;
     fw_arena *answer;                 /* of the last one, NULL: none */
     struct fw_plan_live_posed *posed; /* the mechanism that was last posed, NULL: none */
+    /* what a room below keeps from one request to the next, and how it is freed; NULL: nothing */
+    void *kept;
+    void (*kept_free)(void *kept);
 };
 
 typedef struct fw_plan_live_request {
@@ -28,14 +32,20 @@ typedef struct fw_plan_live_request {
     json_t *root;    /* strings below belong to it */
     const char *text;
     size_t length;
-    json_t *set, *options; /* objects or NULL */
-    bool full;             /* options.detail, after fw_plan_live_design */
-    const char *wrong;     /* a sentence; NULL: nothing is */
+    json_t *set, *options, *lab; /* objects or NULL; lab: laboratory packs by name */
+    bool full;                   /* options.detail, after fw_plan_live_design */
+    const char *wrong;           /* a sentence; NULL: nothing is */
 } fw_plan_live_request;
 
 /* what is wrong: FW_USAGE */
 fw_status fw_plan_live_wrong(fw_plan_live_request *request, const char *what, const char *key);
-/* a design with the options and sets of the request, not read yet */
+/* the request's options into those of a design; strings belong to the request. *full: options.detail */
+fw_status fw_plan_live_options(fw_plan_live_request *request, fw_design_options *options,
+                               bool *full);
+/* the laboratory packs of the request; texts belong to it */
+fw_status fw_plan_live_lab(fw_plan_live_request *request, fw_arena *arena,
+                           const fw_plan_lab_text **lab, int *n);
+/* a design with the options, sets and packs of the request, not read yet */
 fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *request,
                               fw_design **design);
 /* optional members of an object: absent leaves *value alone */

@@ -148,24 +148,43 @@ fw_status fw_plan_device_again(fw_plan *plan, fw_arena *arena, const fw_device_s
     return settle_cells(plan, arena, *device, diags);
 }
 
+/* NULL: there are too many, and that is said */
+static fw_plan_lab_pack *next_pack(fw_plan *plan) {
+    if (plan->nlab < MOST_PACKS) return &plan->lab[plan->nlab];
+    fw_diag_error(&plan->diags, 211, (fw_place){0}, "more than %d laboratory packs", MOST_PACKS);
+    return NULL;
+}
+
+static fw_status add_pack(fw_plan *plan, fw_plan_lab_pack *pack) {
+    const char *slash = strrchr(pack->file, '/');
+    plan->nlab++;
+    return remember_input(plan, slash ? slash + 1 : pack->file, pack->xml, pack->n);
+}
+
+static bool has_packs(const fw_plan *plan) {
+    return plan->options.laboratory || plan->options.nlab_text > 0;
+}
+
 static fw_status read_packs(fw_plan *plan) {
-    const char *at = plan->options.laboratory;
+    const char *at = plan->options.laboratory ? plan->options.laboratory : "";
+    fw_plan_lab_pack *pack;
     FW_NEED(plan->lab = fw_arena_array(plan->arena, fw_plan_lab_pack, MOST_PACKS));
     while (*at) {
         size_t n = strcspn(at, ",");
-        fw_plan_lab_pack *pack = &plan->lab[plan->nlab];
         char *xml;
-        if (plan->nlab == MOST_PACKS)
-            return fw_diag_error(&plan->diags, 211, (fw_place){0}, "more than %d laboratory packs",
-                                 MOST_PACKS);
+        if (!(pack = next_pack(plan))) return FW_INPUT;
         FW_NEED(pack->file = fw_arena_strndup(plan->arena, at, n));
         FW_TRY(
             fw_input_read(plan->arena, pack->file, MOST_PACK_BYTES, &plan->diags, &xml, &pack->n));
         pack->xml = xml;
-        const char *slash = strrchr(pack->file, '/');
-        FW_TRY(remember_input(plan, slash ? slash + 1 : pack->file, xml, pack->n));
-        plan->nlab++;
+        FW_TRY(add_pack(plan, pack));
         at += n + (at[n] == ',');
+    }
+    for (int i = 0; i < plan->options.nlab_text; i++) {
+        const fw_plan_lab_text *text = &plan->options.lab_text[i];
+        if (!(pack = next_pack(plan))) return FW_INPUT;
+        *pack = (fw_plan_lab_pack){.file = text->name, .xml = text->text, .n = text->n};
+        FW_TRY(add_pack(plan, pack));
     }
     return FW_OK;
 }
@@ -173,7 +192,7 @@ static fw_status read_packs(fw_plan *plan) {
 /* other ways of doing steps of this flow that the laboratory packs choose */
 static fw_status choices_of_packs(fw_plan *plan, const char *flow, fw_process_choice **choice,
                                   int *n) {
-    if (!plan->options.laboratory) return FW_OK;
+    if (!has_packs(plan)) return FW_OK;
     if (!plan->lab) FW_TRY(read_packs(plan));
     for (int i = 0; i < plan->nlab; i++) {
         fw_plan_lab_pack *pack = &plan->lab[i];
@@ -187,7 +206,7 @@ static fw_status choices_of_packs(fw_plan *plan, const char *flow, fw_process_ch
 
 /* the laboratory packs of the options, into one flow */
 static fw_status apply_packs(fw_plan *plan, fw_process_flow *flow) {
-    if (!plan->options.laboratory) return FW_OK;
+    if (!has_packs(plan)) return FW_OK;
     if (!plan->lab) FW_TRY(read_packs(plan));
     for (int i = 0; i < plan->nlab; i++) {
         fw_plan_lab_pack *pack = &plan->lab[i];
@@ -235,35 +254,6 @@ static fw_status check_layers(fw_plan *plan) {
 }
 
 /* ---- the description and its flows ---- */
-
-fw_plan_options fw_plan_options_default(void) {
-    return (fw_plan_options){
-        .verdict = {.motion = {.accuracy = 1e-3, .samples = 1001}, .with_advice = true}};
-}
-
-fw_plan *fw_plan_new(const fw_plan_options *options) {
-    fw_arena *arena = fw_arena_new(options->memory_cap);
-    if (!arena) return NULL;
-    fw_plan *plan = fw_arena_one(arena, fw_plan);
-    if (!plan) {
-        fw_arena_free(arena);
-        return NULL;
-    }
-    *plan = (fw_plan){.arena = arena, .options = *options, .diags = fw_diags_new(arena)};
-    return plan;
-}
-
-void fw_plan_free_steps(fw_plan *plan) {
-    for (int i = 0; i < plan->nstep; i++)
-        if (plan->step[i]) fw_arena_free(plan->step[i]->arena); /* steps have none of their own */
-    plan->nstep = 0;
-}
-
-void fw_plan_free(fw_plan *plan) {
-    if (!plan) return;
-    fw_plan_free_steps(plan);
-    fw_arena_free(plan->arena);
-}
 
 /* a file below the data directory; its name in messages and the manifest is the relative one */
 static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char **data,

@@ -1,7 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The description of a loaded plan read again with other settings; what was read of packs stays. */
+/* A plan from its beginning to its end; and the description of a loaded one read again with other settings, where what
+   was read of packs stays. */
 #include "plan/stages.h"
 #include <string.h>
+
+fw_plan_options fw_plan_options_default(void) {
+    return (fw_plan_options){
+        .verdict = {.motion = {.accuracy = 1e-3, .samples = 1001}, .with_advice = true}};
+}
+
+fw_plan *fw_plan_new(const fw_plan_options *options) {
+    fw_arena *arena = fw_arena_new(options->memory_cap);
+    if (!arena) return NULL;
+    fw_plan *plan = fw_arena_one(arena, fw_plan);
+    if (!plan) {
+        fw_arena_free(arena);
+        return NULL;
+    }
+    *plan = (fw_plan){.arena = arena, .options = *options, .diags = fw_diags_new(arena)};
+    return plan;
+}
+
+void fw_plan_free_steps(fw_plan *plan) {
+    for (int i = 0; i < plan->nstep; i++)
+        if (plan->step[i]) fw_arena_free(plan->step[i]->arena); /* steps have none of their own */
+    plan->nstep = 0;
+}
+
+void fw_plan_free(fw_plan *plan) {
+    if (!plan) return;
+    fw_plan_free_steps(plan);
+    fw_arena_free(plan->arena);
+}
+
+/* ---- once more, with other settings ---- */
 
 /* a plan of its own for messages and memory, over the packs of this one */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,

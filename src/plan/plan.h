@@ -23,6 +23,11 @@ typedef enum fw_plan_measurements {
     FW_MEASUREMENTS_NONE
 } fw_plan_measurements;
 
+typedef struct fw_plan_lab_text { /* a laboratory pack in memory; messages name it so */
+    const char *name, *text;
+    size_t n;
+} fw_plan_lab_text;
+
 typedef struct fw_plan_options {
     const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
     const char *flow;           /* only this flow; NULL: all of the device */
@@ -40,7 +45,9 @@ typedef struct fw_plan_options {
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
     const char *independent, *rates, *accelerations;
-    const char *laboratory;       /* files of laboratory packs, commas between; NULL: none */
+    const char *laboratory;           /* files of laboratory packs, commas between; NULL: none */
+    const fw_plan_lab_text *lab_text; /* (nlab_text) packs that are no files, behind those */
+    int nlab_text;
     fw_schedule_options schedule; /* wafers, operators, working day */
     size_t memory_cap;            /* 0: 512 MiB */
     const char *cut; /* of the sections: "x1,y1,x2,y2" or "flexure:ID"; NULL: the narrowest gap */

@@ -57,7 +57,7 @@ void fw_serve_scratch_drop_page(fw_serve_scratch *scratch); /* it has served */
 void fw_serve_scratch_remove(fw_serve_scratch *scratch, const char *name);
 
 /* ---- processes that wait for work of milliseconds ----
-   Preview, pose, edit, table. They were started beforehand, have limits, and are started anew after a
+   Preview, pose, edit, table, points that are explored. They were started beforehand, have limits, and are started anew after a
    crash or a limit; the server itself never reads a description.
 
    Over a socket, native bytes: request {uint32 kind, uint32 n} and n bytes; answer {uint32 HTTP
@@ -72,7 +72,8 @@ typedef enum fw_serve_compute {
     FW_COMPUTE_TABLE,
     FW_COMPUTE_PREVIEW,
     FW_COMPUTE_POSE,
-    FW_COMPUTE_EDIT
+    FW_COMPUTE_EDIT,
+    FW_COMPUTE_EXPLORE
 } fw_serve_compute;
 
 typedef struct fw_serve_worker_head {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which commands a page may start, and with which options: what is not in these tables cannot be
-   said. No option here names a file. */
+   said. No option here names a file but one that came with the request. */
 #include "serve/jobs.h"
 #include <jansson.h>
 #include <string.h>
@@ -17,8 +17,11 @@ enum { /* bit per kind */
        RECIPE = 256,
        MASK = 512,
        SIMULATE = 1024,
-       ALL = 2047,
-       MADE = PLAN | RECIPE | MASK
+       STUDY = 2048,
+       CALIBRATE = 4096,
+       ALL = 4095, /* that are about a description alone */
+       MADE = PLAN | RECIPE | MASK,
+       OF_FILE = 65536 /* no kind: the value names one of the request's files */
 };
 
 typedef struct kind_row {
@@ -26,9 +29,10 @@ typedef struct kind_row {
     unsigned bit;
 } kind_row;
 static const kind_row kinds[] = {
-    {"plan", PLAN},       {"check", CHECK},       {"workspace", WORKSPACE}, {"modes", MODES},
-    {"statics", STATICS}, {"assemble", ASSEMBLE}, {"tradeoff", TRADEOFF},   {"hinge", HINGE},
-    {"recipe", RECIPE},   {"mask", MASK},         {"simulate", SIMULATE},
+    {"plan", PLAN},           {"check", CHECK},       {"workspace", WORKSPACE}, {"modes", MODES},
+    {"statics", STATICS},     {"assemble", ASSEMBLE}, {"tradeoff", TRADEOFF},   {"hinge", HINGE},
+    {"recipe", RECIPE},       {"mask", MASK},         {"simulate", SIMULATE},   {"study", STUDY},
+    {"calibrate", CALIBRATE},
 };
 
 typedef struct option_row {
@@ -36,10 +40,11 @@ typedef struct option_row {
     unsigned kinds;
 } option_row;
 static const option_row options[] = {
-    {"flow", "flow", ALL},
+    {"flow", "flow", ALL | CALIBRATE},
     {"accuracy", "accuracy", ALL},
     {"effects", "effects", ALL},
     {"corners", "corners", ALL},
+    {"lab", "lab", ALL | OF_FILE},
     {"advice", "advice", CHECK | MADE},
     {"measurements", "measurements", CHECK | MADE},
     {"hinge_model", "hinge-model", ALL},
@@ -66,12 +71,14 @@ static const option_row options[] = {
     {"level", "level", HINGE},
     {"budget", "budget", TRADEOFF},
     {"no_time", "no-time", TRADEOFF},
+    {"study", "study", STUDY},
 };
 
 enum { MOST_ARGUMENTS = 128, MOST_TEXT = 2000 };
 
 typedef struct command {
     fw_arena *arena;
+    const json_t *files; /* names and texts that came with the request */
     const char **argv;
     size_t n;
     const char *why;
@@ -106,6 +113,17 @@ static fw_status value_text(command *c, const char *name, const json_t *value, c
     return FW_OK;
 }
 
+/* "a.xml,b.xml", all of them files of the request? */
+static bool are_files(const command *c, const char *text) {
+    for (const char *at = text;; at++) {
+        size_t n = strcspn(at, ",");
+        const char *name = fw_arena_strndup(c->arena, at, n);
+        if (!name || !json_object_get(c->files, name)) return false;
+        at += n;
+        if (!*at) return true;
+    }
+}
+
 static fw_status one_option(command *c, unsigned kind, const char *name, const json_t *value) {
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
         if (strcmp(options[i].name, name) != 0) continue;
@@ -115,6 +133,8 @@ static fw_status one_option(command *c, unsigned kind, const char *name, const j
             return push(c, fw_arena_printf(c->arena, "--%s", options[i].option));
         const char *text;
         FW_TRY(value_text(c, name, value, &text));
+        if ((options[i].kinds & OF_FILE) && !are_files(c, text))
+            return wrong(c, name, "has to name files of the request, commas between");
         return push(c, fw_arena_printf(c->arena, "--%s=%s", options[i].option, text));
     }
     return wrong(c, name, "is not an option of a job");
@@ -135,8 +155,37 @@ static fw_status all(command *c, unsigned kind, const json_t *request) {
     json_t *set = json_object_get(request, "set"), *option = json_object_get(request, "options");
     if ((set && !json_is_object(set)) || (option && !json_is_object(option)))
         return wrong(c, "\"set\" and \"options\"", "must be objects");
-    json_object_foreach(set, name, value) FW_TRY(one_set(c, name, value));
+    if (kind & ALL) json_object_foreach(set, name, value) FW_TRY(one_set(c, name, value));
     json_object_foreach(option, name, value) FW_TRY(one_option(c, kind, name, value));
+    return FW_OK;
+}
+
+/* letters, digits, '-' and one '.' inside: no path, no option, and none of the names that a job uses itself */
+static bool is_file_name(const char *name, const char *device) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyz0123456789-";
+    size_t stem = strspn(name, plain), n = strlen(name);
+    if (stem == 0 || name[0] == '-' || name[stem] != '.' || n > 60) return false;
+    size_t end = strspn(name + stem + 1, plain);
+    return end > 0 && stem + 1 + end == n && strcmp(name, device) != 0 &&
+           strncmp(name, "archive.", 8) != 0;
+}
+
+enum { MOST_FILES = 4 };
+
+static fw_status check_files(command *c, const json_t *files, const char *device) {
+    const char *name;
+    json_t *text;
+    if (!files || json_is_null(files)) return FW_OK;
+    if (!json_is_object(files) || json_object_size(files) > MOST_FILES)
+        return wrong(c, "\"files\"", "must be an object of at most 4 names and texts");
+    json_object_foreach((json_t *)files, name, text) {
+        if (!is_file_name(name, device))
+            return wrong(c, name,
+                         "cannot be the name of a file: small letters, digits and '-', one '.' "
+                         "inside, and not a name that the job uses itself");
+        if (!json_is_string(text)) return wrong(c, name, "needs its text");
+    }
+    c->files = files;
     return FW_OK;
 }
 
@@ -157,22 +206,35 @@ static fw_status no_such_kind(fw_arena *arena, const char **why) {
     return FW_INPUT;
 }
 
+/* behind what the request asks for, before the file */
+static const struct {
+    const char *word;
+    unsigned kinds;
+} last[] = {
+    {"--output=out", ALL},
+    {"--output=out/laboratory.xml", CALIBRATE},
+    {"--json", ALL},
+    {"--verbose", ALL | CALIBRATE},
+    {"--color=never", ALL | CALIBRATE},
+    {"--", ALL | CALIBRATE},
+};
+
 fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
                                const char **kind, const char *const **argv, const char **why) {
-    command c = {.arena = arena, .argv = fw_arena_array(arena, const char *, MOST_ARGUMENTS + 8)};
+    command c = {.arena = arena, .argv = fw_arena_array(arena, const char *, MOST_ARGUMENTS + 10)};
     FW_NEED(c.argv);
     const kind_row *row = kind_named(json_string_value(json_object_get(json, "kind")));
     if (!row) return no_such_kind(arena, why);
     *kind = row->name;
     c.argv[c.n++] = "flexwright";
     c.argv[c.n++] = row->name;
-    fw_status status = all(&c, row->bit, json);
+    if (row->bit == STUDY && json_object_get(json, "resume")) c.argv[c.n++] = "--resume";
+    fw_status status = check_files(&c, json_object_get(json, "files"), file);
+    if (status == FW_OK) status = all(&c, row->bit, json);
     *why = c.why;
     if (status != FW_OK) return status;
-    static const char *const last[] = {"--output=out", "--json", "--verbose", "--color=never",
-                                       "--"};
     for (size_t i = 0; i < sizeof last / sizeof last[0]; i++)
-        c.argv[c.n++] = last[i];
+        if (last[i].kinds & row->bit) c.argv[c.n++] = last[i].word;
     c.argv[c.n++] = file;
     c.argv[c.n] = NULL;
     *argv = c.argv;

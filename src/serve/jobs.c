@@ -207,8 +207,8 @@ static void tell(const fw_serve_jobs *jobs, fw_serve_job *job) {
 
 /* ---- start ---- */
 
-static bool write_device(const fw_serve_job *job, const char *text, size_t n) {
-    int fd = openat(job->fd, job->name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+static bool write_file(const fw_serve_job *job, const char *name, const char *text, size_t n) {
+    int fd = openat(job->fd, name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (fd < 0) return false;
     while (n > 0) {
         ssize_t done = write(fd, text, n);
@@ -220,15 +220,36 @@ static bool write_device(const fw_serve_job *job, const char *text, size_t n) {
     return close(fd) == 0 && n == 0;
 }
 
+/* what came with the description; their names were looked at with the request */
+static bool write_files(const fw_serve_job *job, json_t *files) {
+    const char *name;
+    json_t *text;
+    json_object_foreach(files, name, text) if (!write_file(job, name, json_string_value(text),
+                                                           json_string_length(text))) return false;
+    return true;
+}
+
+/* the samples of a study that was stopped become those of this one */
+static fw_status take_over(fw_serve_jobs *jobs, fw_serve_job *job, fw_serve_job *from) {
+    if (renameat(from->fd, "out", job->fd, "out") != 0 && errno != ENOENT) return FW_IO;
+    fw_serve_job_forget(jobs, from);
+    return FW_OK;
+}
+
 /* its directory with the description in it; FW_IO when that cannot be */
-static fw_status prepare(fw_serve_jobs *jobs, fw_serve_job *job, const char *text, size_t n) {
+static fw_status prepare(fw_serve_jobs *jobs, fw_serve_job *job, const fw_serve_job_order *order,
+                         fw_serve_job *from) {
     job->directory = fw_arena_printf(job->arena, "job-%u", job->id);
     job->message = fw_arena_array(job->arena, const char *, FW_JOB_MOST_LINES);
     FW_NEED(job->message);
     FW_NEED(job->directory);
     FW_NEED(job->path = fw_serve_scratch_path(job->arena, jobs->scratch, job->directory));
     job->fd = fw_serve_scratch_make(jobs->scratch, job->directory);
-    if (job->fd < 0 || !write_device(job, text, n)) return FW_IO;
+    if (job->fd < 0 || !write_file(job, job->name, order->text, order->n) ||
+        !write_files(job, json_object_get(order->request, "files")))
+        return FW_IO;
+    if (strcmp(job->kind, "calibrate") == 0 && mkdirat(job->fd, "out", 0700) != 0) return FW_IO;
+    if (from) FW_TRY(take_over(jobs, job, from));
     tell(jobs, job);
     return FW_OK;
 }
@@ -409,9 +430,11 @@ void fw_serve_job_cancel(fw_serve_jobs *jobs, fw_serve_job *job) {
     if (job->err >= 0) close(job->err);
     job->pid = 0;
     job->err = -1;
-    if (job->fd >= 0) close(job->fd);
-    job->fd = -1;
-    fw_serve_scratch_remove(jobs->scratch, job->directory);
+    if (!job->keeps) {
+        if (job->fd >= 0) close(job->fd);
+        job->fd = -1;
+        fw_serve_scratch_remove(jobs->scratch, job->directory);
+    }
     if (job->began_ms) job->ended_ms = fw_serve_now_ms();
     job->state = FW_JOB_CANCELLED;
     tell(jobs, job);
@@ -451,8 +474,8 @@ fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id) {
     return NULL;
 }
 
-/* a free slot; of those that are finished the oldest makes room. NULL: too many wait */
-static fw_serve_job *slot(fw_serve_jobs *jobs) {
+/* a free slot; of those that are finished, but for one, the oldest makes room. NULL: too many wait */
+static fw_serve_job *slot(fw_serve_jobs *jobs, const fw_serve_job *but) {
     fw_serve_job *oldest = NULL, *empty = NULL;
     int waiting = 0;
     for (int i = 0; i < FW_JOBS_KEPT; i++) {
@@ -461,7 +484,7 @@ static fw_serve_job *slot(fw_serve_jobs *jobs) {
             empty = job;
         else if (job->state == FW_JOB_QUEUED)
             waiting++;
-        else if (job->state != FW_JOB_RUNNING && (!oldest || job->id < oldest->id))
+        else if (job != but && job->state != FW_JOB_RUNNING && (!oldest || job->id < oldest->id))
             oldest = job;
     }
     if (waiting >= FW_JOBS_QUEUED) return NULL;
@@ -470,9 +493,26 @@ static fw_serve_job *slot(fw_serve_jobs *jobs) {
     return oldest;
 }
 
+/* the study that is to be gone on with; NULL: none is asked for. FW_INPUT: it cannot be */
+static fw_status resumed(fw_serve_jobs *jobs, fw_serve_job_order *order, fw_serve_job **from) {
+    const json_t *id = json_object_get(order->request, "resume");
+    *from = NULL;
+    if (!id || json_is_null(id)) return FW_OK;
+    json_int_t number = json_is_integer(id) ? json_integer_value(id) : 0;
+    if (number > 0 && number < 1000000000) *from = fw_serve_jobs_find(jobs, (unsigned)number);
+    if (*from && (*from)->keeps && (*from)->fd >= 0 && (*from)->state != FW_JOB_QUEUED &&
+        (*from)->state != FW_JOB_RUNNING)
+        return FW_OK;
+    snprintf(order->why, sizeof order->why,
+             "\"resume\" has to be the number of a study that was stopped, or has ended");
+    return FW_INPUT;
+}
+
 fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
                             const fw_serve_job **out) {
-    fw_serve_job *job = slot(jobs);
+    fw_serve_job *from;
+    FW_TRY(resumed(jobs, order, &from));
+    fw_serve_job *job = slot(jobs, from);
     const char *why = "";
     if (!job) return FW_LIMIT;
     *job = (fw_serve_job){.id = jobs->last_id + 1, .fd = -1, .err = -1, .exit_status = -1};
@@ -483,7 +523,8 @@ fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
                                  : FW_NOMEM;
     if (status == FW_OK) {
         jobs->last_id++;
-        status = prepare(jobs, job, order->text, order->n);
+        job->keeps = strcmp(job->kind, "study") == 0;
+        status = prepare(jobs, job, order, from);
     }
     if (status == FW_INPUT) snprintf(order->why, sizeof order->why, "%s", why);
     if (status != FW_OK) fw_serve_job_forget(jobs, job);

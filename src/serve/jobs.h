@@ -35,6 +35,7 @@ typedef struct fw_serve_job {
     unsigned id; /* 0: the slot is free */
     fw_arena *arena;
     const char *kind, *name;
+    bool keeps;                   /* a study: what it has done stays when it is cancelled */
     const char *directory, *path; /* below the scratch; from the root */
     const char *const *argv;
     fw_serve_job_state state;
@@ -64,7 +65,7 @@ void fw_serve_jobs_run(fw_serve_jobs *jobs);
 bool fw_serve_jobs_busy(const fw_serve_jobs *jobs);
 size_t fw_serve_jobs_poll(const fw_serve_jobs *jobs, struct pollfd *poll, size_t most);
 typedef struct fw_serve_job_order { /* what is asked for */
-    const json_t *request;          /* {"kind", "set", "options"} */
+    const json_t *request;          /* {"kind", "set", "options", "files", "resume"} */
     const char *file, *text;        /* name and (n) bytes of the description */
     size_t n;
     char why[240]; /* what is wrong with it; "": nothing */
@@ -75,7 +76,8 @@ fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
                             const fw_serve_job **job);
 fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id);
 
-/* one that waits or runs: its process and files go, what it said stays */
+/* one that waits or runs: its process and files go, what it said stays. Of a study the samples stay, too, until it is
+   forgotten or gone on with. */
 void fw_serve_job_cancel(fw_serve_jobs *jobs, fw_serve_job *job);
 /* in any state; its files go */
 void fw_serve_job_forget(fw_serve_jobs *jobs, fw_serve_job *job);
@@ -88,7 +90,7 @@ void fw_serve_job_archive(fw_serve_job *job, fw_serve_request *request);
 void fw_serve_jobs_forget(fw_serve_request *request);
 
 /* ---- job_kinds.c: from the request to a command line ---- */
-/* argv of the program for {"kind", "set", "options"}; FW_INPUT: *why says what is wrong */
+/* argv of the program for {"kind", "set", "options", "files", "resume"}; FW_INPUT: *why says what is wrong */
 fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
                                const char **kind, const char *const **argv, const char **why);
 

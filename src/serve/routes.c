@@ -172,6 +172,8 @@ static void get_events(fw_serve_request *r) {
 
 static void begin(fw_serve_request *r, const json_t *request, const json_t *text) {
     const char *name = fw_serve_file_watch_name(r->server->watch);
+    const char *kind = json_string_value(json_object_get(request, "kind"));
+    if (kind && strcmp(kind, "calibrate") == 0) name = "measured.csv"; /* no description */
     fw_serve_job_order order = {.request = request,
                                 .file = name ? name : "device.xml",
                                 .text = json_string_value(text),
@@ -334,6 +336,7 @@ static const fw_serve_route table[] = {
     {.method = "POST", .path = "/api/preview", .handle = compute, .compute = FW_COMPUTE_PREVIEW},
     {.method = "POST", .path = "/api/pose", .handle = compute, .compute = FW_COMPUTE_POSE},
     {.method = "POST", .path = "/api/edit", .handle = compute, .compute = FW_COMPUTE_EDIT},
+    {.method = "POST", .path = "/api/explore", .handle = compute, .compute = FW_COMPUTE_EXPLORE},
     {.method = "POST", .path = "/api/jobs", .handle = post_job},
     {.method = "GET", .path = "/api/jobs/*", .handle = get_job},
     {.method = "DELETE", .path = "/api/jobs/*", .handle = delete_job},

@@ -5,6 +5,7 @@
 #include "serve/child.h"
 #include "serve/request.h"
 #include "serve/serve.h"
+#include "study/study.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -204,10 +205,11 @@ static void give(fw_serve_worker *w, fw_serve_request *r) {
     w->asked_ms = fw_serve_now_ms();
 }
 
-/* a worker remembers the mechanism that it posed last, so that poses go to the same one; previews
-   go to the other while it is free */
+/* a worker remembers the mechanism that it posed last, and the study whose points it judged, so that these go to the
+   same one; previews go to the other while it is free */
 static fw_serve_worker *free_worker(fw_serve_pool *pool, unsigned what) {
-    int first = what == FW_COMPUTE_POSE ? FW_SERVE_WORKERS - 1 : 0;
+    bool kept = what == FW_COMPUTE_POSE || what == FW_COMPUTE_EXPLORE;
+    int first = kept ? FW_SERVE_WORKERS - 1 : 0;
     for (int i = 0; i < FW_SERVE_WORKERS; i++) {
         fw_serve_worker *w = &pool->worker[(first + i) % FW_SERVE_WORKERS];
         if (w->pid && !w->busy) return w;
@@ -353,6 +355,9 @@ static bool compute(fw_plan_live *live, uint32_t what, const char *request, size
         break;
     case FW_COMPUTE_EDIT:
         a = fw_plan_live_edit(live, request, n);
+        break;
+    case FW_COMPUTE_EXPLORE:
+        a = fw_study_explore(live, request, n);
         break;
     }
     if (!a.text) return false; /* the parent asks for what this child does not know */

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fw_design_study of the public library: a study with the options and settings of a design. */
-#include "plan/design.h"
-#include "study/study_store.h"
-#include "study/study.h"
+/* Studies as others ask for them: fw_design_study of the public library, with the options and settings of a
+   design; and the points that a page looks at while somebody chooses them. */
+#include "base/json.h"
+#include "plan/live_request.h"
+#include "report/report.h"
+#include "study/study_parts.h"
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct asked {
@@ -78,4 +82,239 @@ int fw_design_study(fw_design *design, const char *file, const fw_study_settings
     if (status == FW_STATUS_OK && json) *json = a.json;
     if (status == FW_STATUS_OK && length) *length = a.length;
     return status;
+}
+
+/* ---- POST /api/explore ---- */
+
+enum { INPUTS_MOST = 8, VALUES_MOST = 64, POINTS_MOST = 512 };
+
+typedef struct explored { /* the study of the last request */
+    fw_arena *arena;      /* holds this */
+    json_t *root;         /* of that request, without its points: strings belong to it */
+    fw_device_study asked;
+    fw_study *study;
+    fw_status status; /* of opening it: FW_OK, or FW_INPUT with its diagnostics */
+} explored;
+
+static void explored_free(void *kept) {
+    explored *e = kept;
+    if (!e) return;
+    fw_study_free(e->study);
+    json_decref(e->root);
+    fw_arena_free(e->arena);
+}
+
+static void forget(fw_plan_live *live) {
+    if (live->kept) live->kept_free(live->kept);
+    live->kept = NULL;
+}
+
+/* a list of texts, at most so many, none of them longer than a setting of a study */
+static fw_status texts_of(fw_plan_live_request *r, const json_t *list, const char *key,
+                          size_t most) {
+    const json_t *item;
+    size_t i;
+    if (!json_is_array(list) || json_array_size(list) == 0)
+        return fw_plan_live_wrong(r, "a list that is not empty is needed for", key);
+    if (json_array_size(list) > most)
+        return fw_plan_live_wrong(r, "more than a request may ask for in", key);
+    json_array_foreach((json_t *)list, i, item) {
+        if (!json_is_string(item)) return fw_plan_live_wrong(r, "texts are needed in", key);
+        size_t n = json_string_length(item);
+        if (n == 0 || n >= FW_STUDY_TEXT || strlen(json_string_value(item)) != n)
+            return fw_plan_live_wrong(r, "texts of 1 to 95 bytes, without a NUL, are needed in",
+                                      key);
+    }
+    return FW_OK;
+}
+
+static fw_status points_of(fw_plan_live_request *r, size_t inputs, const json_t **points) {
+    const json_t *point;
+    size_t i;
+    *points = json_object_get(r->root, "points");
+    if (!json_is_array(*points) || json_array_size(*points) == 0 ||
+        json_array_size(*points) > POINTS_MOST)
+        return fw_plan_live_wrong(r, "a list of 1 to 512 points is needed for", "points");
+    json_array_foreach((json_t *)*points, i, point) {
+        FW_TRY(texts_of(r, point, "points", inputs));
+        if (json_array_size(point) != inputs)
+            return fw_plan_live_wrong(r, "every point has a value for each of", "inputs");
+    }
+    return FW_OK;
+}
+
+static fw_status ask_inputs(explored *e) {
+    const json_t *inputs = json_object_get(e->root, "inputs");
+    const json_t *values = json_object_get(e->root, "values");
+    fw_device_study *a = &e->asked;
+    *a = (fw_device_study){.name = "explore",
+                           .kind = FW_STUDY_IS_sweep,
+                           .judge = FW_JUDGE_MADE, /* options.corners says of what */
+                           .nvary = (int)json_array_size(inputs),
+                           .nrespond = (int)json_array_size(values)};
+    FW_NEED(a->vary = fw_arena_array(e->arena, fw_device_vary, (size_t)a->nvary));
+    FW_NEED(a->respond = fw_arena_array(e->arena, fw_device_respond, (size_t)a->nrespond));
+    for (int i = 0; i < a->nvary; i++)
+        a->vary[i] = (fw_device_vary){.what = json_string_value(json_array_get(inputs, (size_t)i)),
+                                      .unit = "",
+                                      .from = (double)NAN,
+                                      .to = (double)NAN};
+    for (int i = 0; i < a->nrespond; i++) {
+        const char *value = json_string_value(json_array_get(values, (size_t)i));
+        a->respond[i] = (fw_device_respond){
+            .name = value, .value = value, .min = (double)NAN, .max = (double)NAN};
+    }
+    return FW_OK;
+}
+
+/* what is set beside the inputs; strings belong to `root` */
+static fw_status sets_of(fw_plan_live_request *r, explored *e, fw_study_options *o) {
+    json_t *set = json_object_get(e->root, "set"), *value;
+    const char *path;
+    size_t n = json_object_size(set);
+    if (n > FW_LIVE_SETS_MOST)
+        return fw_plan_live_wrong(r, "set holds more than 256 values, the most of one request",
+                                  NULL);
+    fw_device_set *item = fw_arena_array(e->arena, fw_device_set, n);
+    FW_NEED(item);
+    json_object_foreach(set, path, value) {
+        if (!json_is_string(value) || !path[0])
+            return fw_plan_live_wrong(r, "a string is needed for", path);
+        item[o->nset++] = (fw_device_set){path, json_string_value(value)};
+    }
+    o->set = item;
+    return FW_OK;
+}
+
+static fw_status open_points(const fw_plan_live *live, fw_plan_live_request *r, explored *e) {
+    bool full;
+    fw_study_options o = {.design = fw_design_options_default(),
+                          .file = "device.xml",
+                          .text = r->text,
+                          .length = r->length,
+                          .cancel = live->settings.cancel};
+    o.design.data_directory = live->settings.data_directory;
+    o.design.memory_cap = live->settings.memory_cap;
+    FW_TRY(fw_plan_live_options(r, &o.design, &full));
+    FW_TRY(ask_inputs(e));
+    FW_TRY(sets_of(r, e, &o));
+    FW_TRY(fw_plan_live_lab(r, e->arena, &o.lab_text, &o.nlab_text));
+    return fw_study_open_points(&o, &e->asked, &e->study);
+}
+
+/* live->kept holds the study of this request; FW_INPUT: the description is wrong, its study says how */
+static fw_status prepare(fw_plan_live *live, fw_plan_live_request *r, explored **out) {
+    json_t *root = json_copy(r->root);
+    FW_NEED(root);
+    json_object_del(root, "points");
+    explored *e = live->kept;
+    *out = e;
+    if (e && json_equal(e->root, root)) {
+        json_decref(root);
+        return e->status;
+    }
+    forget(live);
+    fw_arena *arena = fw_arena_new(0);
+    if (!arena || !(e = fw_arena_one(arena, explored))) {
+        json_decref(root);
+        fw_arena_free(arena);
+        return FW_NOMEM;
+    }
+    *e = (explored){.arena = arena, .root = root};
+    live->kept = *out = e;
+    live->kept_free = explored_free;
+    e->status = open_points(live, r, e);
+    const char *wrong = e->study && e->study->design ? e->study->design->wrong_option : NULL;
+    return e->status == FW_USAGE && wrong ? fw_plan_live_wrong(r, wrong, NULL) : e->status;
+}
+
+typedef struct looking {
+    const json_t *points;
+    fw_study_sample *sample; /* (points) */
+    const fw_study *study;
+} looking;
+
+static fw_status fill(void *context, long k, fw_study_sample *sample, bool *wanted) {
+    const looking *l = context;
+    const json_t *point = json_array_get(l->points, (size_t)k);
+    sample->i = k;
+    *wanted = true;
+    for (int v = 0; v < l->study->ninput; v++) {
+        sample->value[v] = (double)NAN;
+        snprintf(sample->text[v], FW_STUDY_TEXT, "%s",
+                 json_string_value(json_array_get(point, (size_t)v)));
+    }
+    return FW_OK;
+}
+
+static fw_status take(void *context, const fw_study_sample *sample) {
+    const looking *l = context;
+    fw_study_sample_copy(l->study, sample, &l->sample[sample->i]);
+    return FW_OK;
+}
+
+static void point_json(const fw_study *study, const fw_study_sample *s, fw_json *out) {
+    fw_json_line(out, 0);
+    fw_json_object(out, NULL);
+    fw_json_text(out, "state", fw_study_state_text(s->run, s->decision));
+    fw_json_text(out, "why", s->run ? NULL : s->why);
+    fw_json_real(out, "limit_used", s->used);
+    fw_json_list(out, "values");
+    for (int k = 0; k < study->nresponse; k++)
+        fw_json_real(out, NULL, s->response[k]);
+    fw_json_end(out);
+    fw_json_end(out);
+}
+
+static fw_status explore_json(const explored *e, const looking *l, size_t n, fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_study *study = e->study;
+    fw_json_object(out, NULL);
+    fw_json_text(out, "schema", "flexwright.explore/1");
+    fw_json_text(out, "status", l ? "ok" : "invalid");
+    fw_json_line(out, 0);
+    fw_report_preview_diagnostics(&study->diags, study->options.file, out);
+    fw_json_line(out, 0);
+    fw_json_list(out, "units");
+    for (int k = 0; l && k < study->nresponse; k++)
+        fw_json_text(out, NULL, study->response[k].unit);
+    fw_json_end(out);
+    fw_json_list(out, "points");
+    for (size_t i = 0; l && i < n; i++)
+        point_json(study, &l->sample[i], out);
+    fw_json_end(out);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
+}
+
+static fw_status look(fw_plan_live_request *r, explored *e, const json_t *points, fw_text *out) {
+    size_t n = json_array_size(points);
+    looking l = {.points = points, .study = e->study};
+    FW_NEED(l.sample = fw_arena_array(r->arena, fw_study_sample, n));
+    for (size_t i = 0; i < n; i++)
+        FW_TRY(fw_study_sample_new(r->arena, e->study, &l.sample[i]));
+    const fw_study_work work = {.n = (long)n, .fill = fill, .take = take, .context = &l};
+    FW_TRY(fw_study_pool_run(e->study, &work));
+    return explore_json(e, &l, n, out);
+}
+
+static fw_status explore(fw_plan_live *live, fw_plan_live_request *r, fw_text *out) {
+    const json_t *inputs = json_object_get(r->root, "inputs"), *points;
+    explored *e;
+    FW_TRY(texts_of(r, inputs, "inputs", INPUTS_MOST));
+    FW_TRY(texts_of(r, json_object_get(r->root, "values"), "values", VALUES_MOST));
+    FW_TRY(points_of(r, json_array_size(inputs), &points));
+    fw_status status = prepare(live, r, &e);
+    if (status == FW_OK)
+        status = look(r, e, points, out);
+    else if (status == FW_INPUT && e->study)
+        return explore_json(e, NULL, 0, out); /* the same request has the same mistakes */
+    if (status != FW_OK) forget(live);        /* what was stopped half way is not gone on with */
+    return status;
+}
+
+fw_plan_live_answer fw_study_explore(fw_plan_live *live, const char *request, size_t n) {
+    static const char *const keys[] = {"text",   "set",    "options", "lab",
+                                       "inputs", "values", "points",  NULL};
+    return fw_plan_live_call(live, request, n, keys, explore);
 }

@@ -447,6 +447,21 @@ fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
     return open_all(*study);
 }
 
+fw_status fw_study_open_points(const fw_study_options *options, const fw_device_study *asked,
+                               fw_study **out) {
+    fw_study *study = new_study(options);
+    *out = study;
+    FW_NEED(study);
+    study->asked = asked;
+    study->device_path = options->file;
+    FW_TRY(fw_study_engines_open(study));
+    FW_TRY(open_device(study));
+    settle_options(study);
+    FW_TRY(take_inputs(study));
+    FW_TRY(take_responses(study));
+    return study->diags.errors > 0 ? FW_INPUT : FW_OK;
+}
+
 void fw_study_free(fw_study *study) {
     if (!study) return;
     fw_study_store_close(study->store);

@@ -23,7 +23,12 @@ typedef struct fw_study_options {
     fw_design_options design; /* of every device */
     const fw_device_set *set; /* (nset) of every device, before the study's own */
     int nset;
-    const char *file;   /* device or study file */
+    const fw_plan_lab_text *lab_text; /* (nlab_text) laboratory packs beside those of `design` */
+    int nlab_text;
+    const char *file; /* device or study file */
+    const char
+        *text; /* (length) of the device, where it is no file; NULL: it is read from `file` */
+    size_t length;
     const char *study;  /* which of a device file; NULL: the only one */
     const char *output; /* directory of the store and of the results */
     int jobs;           /* threads; 0: as many as there are processors */
@@ -114,6 +119,23 @@ long fw_study_count(const fw_study *study);
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out);
 /* 1 where nothing was found that holds every limit (of a size), else 0 */
 int fw_study_decision(const fw_study *study);
+
+/* ---- points that somebody chooses while looking ----
+   A study without a store and without an end: inputs and responses are settled once, points come as they are wanted. */
+
+/* As fw_study_open, of the device options.text, for the inputs (vary, without values) and responses of `asked`, which
+   has to live as long. Nothing is run: a response that is not there has no value (NaN). Cost: that of reading it. */
+fw_status fw_study_open_points(const fw_study_options *options, const fw_device_study *asked,
+                               fw_study **study);
+
+struct fw_plan_live;
+struct fw_plan_live_answer;
+/* {"text", "set", "options", "inputs": [PATH], "values": [RESPONSE], "points": [[TEXT]]}: what `check` says of the
+   device with these inputs, a point each: flexwright.explore/1 (docs/reference/json.md). The study is kept until
+   a request for another one comes. Cost: of a new one that of reading the device twice, of a point that of a sample of
+   a study, in as many threads as there are processors. Test: tests/unit/study/test_explore.c */
+struct fw_plan_live_answer fw_study_explore(struct fw_plan_live *live, const char *request,
+                                            size_t n);
 
 /* ---- shards ----
    Run apart without a word between them, and put together. */

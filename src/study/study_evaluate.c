@@ -49,12 +49,18 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
     *status = FW_STATUS_NOMEM;
     if (!design) return NULL;
     fw_plan_design_cancel_with(design, cancel);
+    fw_plan_design_plan(design)->options.lab_text = study->options.lab_text;
+    fw_plan_design_plan(design)->options.nlab_text = study->options.nlab_text;
     *status = FW_STATUS_OK;
     for (int i = 0; *status == FW_STATUS_OK && i < study->options.nset; i++)
         *status = fw_design_set(design, study->options.set[i].path, study->options.set[i].value);
     for (int i = 0; text && *status == FW_STATUS_OK && i < study->ninput; i++)
         if (text[i][0]) *status = fw_design_set(design, study->input[i].what, text[i]);
-    if (*status == FW_STATUS_OK) *status = fw_design_read(design, study->device_path);
+    if (*status == FW_STATUS_OK && study->options.text)
+        *status = fw_design_read_memory(design, study->device_path, study->options.text,
+                                        study->options.length);
+    else if (*status == FW_STATUS_OK)
+        *status = fw_design_read(design, study->device_path);
     return design;
 }
 

@@ -165,6 +165,8 @@ LIVE = (
     ("pose", {"text": (ROOT / COMB).read_text(), "body": "stage", "platform": {"x_m": 1e-6, "phi_rad": 0.0}}),
     ("edit", {"text": text, "changes": [{"path": "arc", "value": "1 deg"}, {"add": "", "element": "flow", "attributes": {}},
                                         {"remove": "flow[3]"}]}),
+    ("explore", {"text": text, "set": {"link": "130 um"}, "options": {"detail": "quick"}, "inputs": ["arc"], "values": ["governing.utilisation"],
+                 "points": [["230 deg"], ["-1 deg"]]}),
 )
 for kind, request in LIVE:
     done = subprocess.run([live, kind], cwd=ROOT, input=json.dumps(request), capture_output=True, text=True, timeout=60)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The four functions behind the page, without a server:
-     live KIND <REQUEST          the answer to one request (table, preview, pose, edit)
+/* The functions behind the page, without a server:
+     live KIND <REQUEST          the answer to one request (table, preview, pose, edit, explore)
      live memory [COUNT]         10 000 requests in one process: what it holds must not grow
      live designs [COUNT]        1000 designs, one after the other, as a user of the library makes them: what the process
                                  holds (memory, files) must not grow
@@ -8,6 +8,7 @@
                                  previews with a parameter moved like a slider; percentiles of CPU
  */
 #include "plan/live.h"
+#include "study/study.h"
 #include <dirent.h>
 #include <flexwright.h>
 #include <jansson.h>
@@ -42,6 +43,7 @@ static function named(const char *kind) {
            : strcmp(kind, "preview") == 0 ? fw_plan_live_preview
            : strcmp(kind, "pose") == 0    ? fw_plan_live_pose
            : strcmp(kind, "edit") == 0    ? fw_plan_live_edit
+           : strcmp(kind, "explore") == 0 ? fw_study_explore
                                           : NULL;
 }
 

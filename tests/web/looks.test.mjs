@@ -72,7 +72,7 @@ describe("rules and looks", () => {
             await page.waitForFunction((t) => document.documentElement.dataset.theme === t, theme);
             await page.evaluate(axeSource);
             const found = [];
-            for (const id of ["motion", "draw", "workspace", "modes", "assembly", "masks", "recipe", "accuracy", "xml", "about"]) {
+            for (const id of ["motion", "draw", "workspace", "modes", "assembly", "masks", "recipe", "explore", "accuracy", "xml", "about"]) {
                 if (id === "xml") await page.click("#tab-xml");
                 else if (id === "about") await page.click("#about");
                 else await view(page, id);

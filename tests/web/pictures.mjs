@@ -52,6 +52,22 @@ await save(drawing, "page-draw.png");
 await close(drawing);
 await gripper.stop();
 
+const bar = await serve("leaf-four-bar");
+const exploring = await open(bar, size);
+await exploring.waitForSelector("#banner:has-text('as it will be made')", { timeout: 60000 });
+await view(exploring, "explore");
+await exploring.selectOption('select[aria-label="Vary"]', "scene[push]/force/@fx");
+for (const [end, value] of [["from", "0.05 mN"], ["to", "2.5 mN"]]) {
+    await exploring.fill(`[aria-label="First input, ${end}"]`, value);
+    await exploring.press(`[aria-label="First input, ${end}"]`, "Tab");
+}
+await exploring.waitForFunction(() => globalThis.flexwright.parts.explore.whole, null, { timeout: 120000 });
+await exploring.locator(".explore-plot").click({ position: { x: 300, y: 100 } });
+await exploring.waitForTimeout(300);
+await save(exploring, "page-explore.png");
+await close(exploring);
+await bar.stop();
+
 const costs = await serve("reference-six-bar");
 const accuracy = await open(costs, size);
 await view(accuracy, "accuracy");

@@ -24,4 +24,4 @@ case "${3:-}" in
 *.test.mjs) exec "$node" --test "$here/$3" ;;
 *) exec "$node" "$here/$3" ;;
 esac
-exec "$node" --test "$here"/page.test.mjs "$here"/draw.test.mjs "$here"/compare.test.mjs "$here"/file.test.mjs "$here"/looks.test.mjs "$here"/attached.test.mjs "$here"/probes.test.mjs "$here"/marked.test.mjs "$here"/true.test.mjs "$here"/drive.test.mjs
+exec "$node" --test "$here"/page.test.mjs "$here"/draw.test.mjs "$here"/compare.test.mjs "$here"/explore.test.mjs "$here"/write.test.mjs "$here"/touch.test.mjs "$here"/laboratory.test.mjs "$here"/cards.test.mjs "$here"/file.test.mjs "$here"/looks.test.mjs "$here"/attached.test.mjs "$here"/probes.test.mjs "$here"/marked.test.mjs "$here"/true.test.mjs "$here"/drive.test.mjs

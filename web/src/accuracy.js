@@ -6,6 +6,7 @@ import { announce, button, h, icon, select, setOptions } from "./dom.js";
 import { number, percent, si } from "./format.js";
 import { fileOf, hasFile, JobView } from "./jobs.js";
 import { ACCURACIES } from "./motion.js";
+import { Ladder } from "./statics.js";
 import { on, state } from "./store.js";
 
 /** What the model is off by at most, of floor_what. */
@@ -27,6 +28,7 @@ export class Accuracy {
             intro: "Runs this scene with every method, integrator and tolerance and compares each with a reference that shares nothing with them: error of the peak hinge deflection against work. Takes about half a minute.",
             accept: (job) => Array.isArray(job.result?.points), render: (job, into) => this.#show(job, into),
         });
+        this.ladder = new Ladder(box);
     }
 
     shown(yes) {

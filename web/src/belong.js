@@ -25,7 +25,7 @@ function numberOf(text) {
 }
 
 /** The present input, or of which parts of the state a result depends: with other options, of a job. */
-export const inputKey = (options = state.options) => JSON.stringify([numberOf(state.text), ordered(state.set), ordered(options)]);
+export const inputKey = (options = state.options) => JSON.stringify([numberOf(state.text), ordered(state.set), ordered(options), ...Object.entries(state.lab).map(([name, text]) => [name, numberOf(text)])]);
 
 const left = new Map(); // key -> when it stopped being the present one
 const all = new Set();

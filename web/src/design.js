@@ -87,8 +87,11 @@ export const setOption = (name, value) => setOptionsTogether({ [name]: value });
 export function request() {
     const options = { ...state.options };
     for (const name of OPTIONS_AS_NUMBERS) if (options[name] !== undefined) options[name] = Number(options[name]);
-    return { text: state.text, set: { ...state.set }, options };
+    return { text: state.text, set: { ...state.set }, options, ...lab() };
 }
+
+/** Laboratory packs that are in use, as requests have them. */
+export const lab = () => (Object.keys(state.lab).length ? { lab: { ...state.lab } } : {});
 
 const OPTIONS_AS_NUMBERS = ["rtol", "accuracy"];
 

@@ -2,6 +2,7 @@
 // The XML text: the only state of the design. Its history is undo and redo for the form and the
 // sliders too. It lives in a shadow root, where its style sheets are adopted ones, which a strict
 // content security policy allows.
+import { autocompletion } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, isolateHistory, redo, redoDepth, undo, undoDepth } from "@codemirror/commands";
 import { xml } from "@codemirror/lang-xml";
 import { bracketMatching, foldGutter, foldKeymap, HighlightStyle, indentOnInput, syntaxHighlighting } from "@codemirror/language";
@@ -10,6 +11,7 @@ import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/sea
 import { EditorState, Transaction } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
+import { completions, hover } from "./writing.js";
 
 const colours = HighlightStyle.define([
     { tag: tags.tagName, color: "var(--code-tag)" },
@@ -41,6 +43,12 @@ const look = EditorView.theme({
     ".cm-lint-marker-warning": { backgroundColor: "var(--warn)", borderRadius: "2px" },
     ".cm-lint-marker-info": { backgroundColor: "var(--muted)" },
     ".cm-tooltip": { backgroundColor: "var(--raised)", color: "var(--ink)", border: "1px solid var(--line)", borderRadius: "6px", maxWidth: "34rem" },
+    ".cm-help": { padding: "5px 9px", maxWidth: "30rem", font: "12.5px/1.4 var(--sans)", whiteSpace: "normal" },
+    ".cm-facts": { color: "var(--muted)" },
+    ".cm-tooltip.cm-tooltip-autocomplete > ul": { fontFamily: "var(--mono)", maxHeight: "16em" },
+    ".cm-tooltip.cm-tooltip-autocomplete > ul > li[aria-selected]": { background: "var(--select)", color: "var(--ink)" },
+    ".cm-completionDetail": { color: "var(--muted)", fontStyle: "normal" },
+    ".cm-completionInfo": { padding: "0" },
     ".cm-diagnostic": { borderLeftWidth: "4px", padding: "6px 10px" },
     ".cm-diagnostic-error": { borderLeftColor: "var(--bad)" },
     ".cm-diagnostic-warning": { borderLeftColor: "var(--warn)" },
@@ -58,7 +66,7 @@ export class Editor {
         this.extensions = [
             lineNumbers(), foldGutter(), highlightActiveLineGutter(), history(), drawSelection(), indentOnInput(),
             bracketMatching(), EditorView.lineWrapping, highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), lintGutter(),
-            xml({ autoCloseTags: true }), syntaxHighlighting(colours), look, EditorState.tabSize.of(2),
+            autocompletion({ override: [completions(() => this.words)], icons: false }), hover(() => this.words), xml({ autoCloseTags: true }), syntaxHighlighting(colours), look, EditorState.tabSize.of(2),
             EditorView.contentAttributes.of({ "aria-label": "XML text of the device" }),
             keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...foldKeymap]), // Tab leaves the editor, as everywhere; Ctrl ] and Ctrl [ indent
             EditorView.updateListener.of((update) => {
@@ -69,6 +77,11 @@ export class Editor {
         this.view.scrollDOM.tabIndex = 0; // it scrolls; keys must reach it
         this.view.scrollDOM.setAttribute("role", "group");
         this.view.scrollDOM.setAttribute("aria-label", "XML text, scrolled by arrow keys");
+    }
+
+    /** The table of elements and the form, for help while somebody writes. */
+    help(table, form) {
+        this.words = { elements: table.elements, form };
     }
 
     #fresh(doc) {

@@ -2,6 +2,7 @@
 // Puts the page together: session, file, editor, form, views, verdict.
 import { about } from "./about.js";
 import { Accuracy } from "./accuracy.js";
+import { startAddress } from "./address.js";
 import { get, onConnection, openSession } from "./api.js";
 import { download } from "./archive.js";
 import { Assembly } from "./assembly.js";
@@ -11,9 +12,11 @@ import { startPreviews, useEditor } from "./design.js";
 import { $, button, h, s } from "./dom.js";
 import { Draw } from "./draw.js";
 import { Editor } from "./editor.js";
+import { Explore } from "./explore.js";
 import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
 import { heard } from "./jobs.js";
+import { restorePacks } from "./laboratory.js";
 import { Masks } from "./masks.js";
 import { Modes } from "./modes.js";
 import { Motion } from "./motion.js";
@@ -74,7 +77,10 @@ function editArea() {
     const list = h("div", { class: "xml-problems" });
     xml.append(editor, list);
     parts.editTabs = makeTabs("Description", [{ id: "form", label: "Form", panel: form }, { id: "xml", label: "XML", panel: xml }],
-        { onselect: (id) => document.body.classList.toggle("text-shown", id === "xml") });
+        { onselect: (id) => {
+            document.body.classList.toggle("text-shown", id === "xml");
+            emit("view", id);
+        } });
     $("edit").append(parts.editTabs.bar, form, xml);
     parts.editor = new Editor(editor, {
         onchange: (text) => {
@@ -93,11 +99,12 @@ function editArea() {
 
 function views() {
     const names = [["motion", "Motion", Motion], ["draw", "Draw", Draw], ["workspace", "Workspace", Workspace], ["modes", "Modes", Modes], ["assembly", "Assembly", Assembly],
-        ["masks", "Masks", Masks], ["recipe", "Recipe", Recipe], ["accuracy", "Accuracy", Accuracy]];
+        ["masks", "Masks", Masks], ["recipe", "Recipe", Recipe], ["explore", "Explore", Explore], ["accuracy", "Accuracy", Accuracy]];
     const panels = names.map(([id, label]) => ({ id, label, panel: h("div", { class: `view view-${id}` }) }));
     const tabs = makeTabs("Views", panels, {
         onselect: (id) => {
             for (const [name] of names) parts[name]?.shown?.(name === id);
+            emit("view", id);
         },
     });
     $("centre").append(tabs.bar, ...panels.map((p) => p.panel));
@@ -177,10 +184,14 @@ async function start() {
     state.session = await openSession();
     state.table = await get("/api/table");
     parts.form.start(state.table);
+    parts.editor.help(state.table, parts.form);
     parts.motion.start(state.table);
     parts.draw.start(state.table);
+    parts.explore.start(state.table, parts.form);
     parts.open.hidden = state.session.file !== null;
+    restorePacks();
     await startFile(parts.editor);
+    startAddress(parts);
     headerState();
     listen();
     document.body.dataset.ready = "yes";

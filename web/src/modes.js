@@ -4,6 +4,7 @@ import { button, h, select } from "./dom.js";
 import { number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
 import { Split } from "./split.js";
+import { Statics } from "./statics.js";
 import { state } from "./store.js";
 
 const PERIOD_S = 1.6;
@@ -20,6 +21,7 @@ export class Modes extends Split {
             intro: "Natural frequencies, damping and shapes of small motions.", render: (job, into) => this.#list(job, into),
         });
         this.view.also(this.stage);
+        this.statics = new Statics(this.card.parentElement);
         this.chosen = 0;
         this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     }

@@ -9,7 +9,7 @@ import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
 import { moved } from "./outline.js";
 import { Plot } from "./plots.js";
-import { lookAt, on, state } from "./store.js";
+import { emit, lookAt, on, state } from "./store.js";
 
 const SECONDS = 4; // that a whole scene takes at speed 1
 const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // what explicit integrators take
@@ -268,6 +268,10 @@ export class Motion {
         if (stop) this.toggle(false);
         this.time = Math.min(Math.max(t, 0), this.#end());
         this.paint();
+        if (stop) {
+            this.seen = true; // somebody has chosen it
+            emit("time", this.time);
+        }
     }
 
     /** Everything that goes with time. */

@@ -8,18 +8,19 @@ const [W, H, LEFT, RIGHT, TOP, BOTTOM] = [760, 420, 78, 16, 40, 64];
 
 const quoted = (x) => (/[",\n]/.test(x) ? `"${x.replaceAll('"', '""')}"` : x);
 
-/** A row for each time; unit: of the values. */
-export function csvOf({ t, series }, unit) {
-    const head = ["t_ms", ...series.map((x) => `${x.name}${unit ? ` (${unit})` : ""}`)].map(quoted).join(",");
+/** A row for each x; unit: of the values; head: of the first column. */
+export function csvOf({ t, series }, unit, x = "t_ms") {
+    const head = [x, ...series.map((x) => `${x.name}${unit ? ` (${unit})` : ""}`)].map(quoted).join(",");
     return `${[head, ...t.map((v, i) => [v, ...series.map((x) => x.values[i] ?? "")].join(","))].join("\n")}\n`;
 }
 
 /** About n round numbers from low to high. */
-function ticks(low, high, n) {
+export function ticks(low, high, n) {
     const raw = (high - low) / n || 1;
     const power = 10 ** Math.floor(Math.log10(raw));
     const step = [1, 2, 5, 10].map((f) => f * power).find((f) => f >= raw);
     const out = [];
+    if (!(step > 1e-12 * Math.max(Math.abs(low), Math.abs(high)))) return [low]; // too near each other to be told apart
     for (let v = Math.ceil(low / step) * step; v <= high + step * 1e-9; v += step) out.push(Math.abs(v) < step * 1e-9 ? 0 : v);
     return out;
 }

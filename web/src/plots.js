@@ -20,11 +20,17 @@ export class Plot {
         holder.append(this.root);
         new ResizeObserver(() => this.#resize()).observe(this.box);
         on("theme", () => (this.shape = null)); // whoever shows it shows it again
-        this.box.addEventListener("pointerdown", (e) => this.#seek(e));
-        this.box.addEventListener("pointermove", (e) => {
-            if (e.buttons & 1) this.#seek(e);
-            this.#under(e);
+        this.fingers = new Map();
+        this.box.addEventListener("pointerdown", (e) => {
+            this.fingers.set(e.pointerId, e.clientX);
+            if (this.fingers.size === 1) this.#seek(e);
         });
+        this.box.addEventListener("pointermove", (e) => {
+            if (this.fingers.size > 1) return this.#pinch(e);
+            if (e.buttons & 1) this.#seek(e);
+            return this.#under(e);
+        });
+        for (const end of ["pointerup", "pointercancel", "pointerleave"]) this.box.addEventListener(end, (e) => this.fingers.delete(e.pointerId));
         this.box.addEventListener("pointerleave", () => (this.look.hidden = true));
         this.box.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
         this.box.addEventListener("dblclick", () => this.onwindow?.(null));
@@ -97,6 +103,16 @@ export class Plot {
         if (!this.plot || !this.onwindow || (matchMedia("(max-width: 900px)").matches && !event.ctrlKey)) return; // there it scrolls the page
         event.preventDefault();
         this.zoom(Math.exp(event.deltaY * (event.deltaMode === 1 ? 16 : 1) * 0.0016), this.#time(event));
+    }
+
+    /** Two fingers: zoom about the time between them. */
+    #pinch(event) {
+        if (!this.fingers.has(event.pointerId)) return;
+        const width = () => Math.abs([...this.fingers.values()].slice(0, 2).reduce((a, b) => a - b));
+        const before = width();
+        this.fingers.set(event.pointerId, event.clientX);
+        const [a, b] = [...this.fingers.values()];
+        if (before > 4 && width() > 4 && this.onwindow) this.zoom(before / width(), this.#time({ clientX: (a + b) / 2 }));
     }
 
     /** The sample nearest to the pointer, of the nearest curves. */

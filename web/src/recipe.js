@@ -3,6 +3,7 @@
 import { get, request as fetchText } from "./api.js";
 import { h, icon, select, setOptions } from "./dom.js";
 import { duration, number, percent } from "./format.js";
+import { Laboratory } from "./laboratory.js";
 import { fileOf, forceTick, hasFile, JobView, REJECTED, rejection } from "./jobs.js";
 
 export class Recipe {
@@ -10,7 +11,10 @@ export class Recipe {
         this.flow = select("Flow", [], "", () => this.#draw());
         this.body = h("div", { class: "recipe-body" });
         const head = h("div", { class: "recipe-head" }, h("label", { class: "option" }, h("span", {}, "flow"), this.flow));
-        this.scroll = h("div", { class: "recipe" }, head, this.body);
+        this.own = h("div", {});
+        this.scroll = h("div", { class: "recipe" }, head, this.own, this.body);
+        this.laboratory = new Laboratory(this.own);
+        this.laboratory.offer(null, []);
         holder.append(this.scroll);
         const force = forceTick(() => this.job);
         this.job = new JobView(head, {
@@ -36,6 +40,7 @@ export class Recipe {
     /** Nothing was made, and why. */
     #none(job) {
         setOptions(this.flow, [], "");
+        this.laboratory.offer(null, []);
         const why = job.exit_status === REJECTED ? `No recipe: the design is rejected. ${rejection()}` : `No recipe. ${(job.messages ?? []).join(" ")}`;
         this.body.replaceChildren(h("p", { class: "empty" }, why));
     }
@@ -51,6 +56,7 @@ export class Recipe {
             hasFile(job, `${base}.measurements.json`) ? get(fileOf(job, `${base}.measurements.json`)).catch(() => null) : null,
         ]);
         if (job !== this.done) return;
+        this.laboratory.offer(r.flow, numbersOf(r, worth?.measurements));
         const link = (path, text) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), target: "_blank", rel: "noopener" }, icon("open"), text) : null);
         const save = (path, text) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), download: path.split("/").at(-1) }, icon("download"), text) : null);
         const missing = r.steps.filter((x) => x.not_computable?.length);
@@ -69,6 +75,20 @@ export class Recipe {
             folded("The wafer after every step, in space", picture(job, `${base}.stack.svg`, "The wafer after every step", `The wafer after every step of ${r.flow}, in space`)),
             h("ol", { class: "steps" }, r.steps.map((x) => step(x, sectionOf(sheet, x.id)))));
     }
+}
+
+/** The numbers that a laboratory may state of a recipe: those that are missing first. */
+function numbersOf(r, m) {
+    const out = new Map((m?.ranked ?? []).filter((q) => q.id).map((q) => [q.id, { id: q.id, name: q.name, unit: q.unit, missing: "", value: q.value }]));
+    for (const step of r.steps) {
+        for (const words of step.not_computable ?? []) {
+            const [, name, id] = /^(.*) \(([^()]+)\)$/.exec(words) ?? [];
+            if (!id) continue;
+            const unit = out.get(id)?.unit ?? step.quantities?.find((q) => q.name === name)?.unit;
+            if (unit) out.set(id, { id, name, unit, value: null, missing: [out.get(id)?.missing, step.id].filter(Boolean).join(", ") });
+        }
+    }
+    return [...out.values()].sort((a, b) => (b.missing !== "") - (a.missing !== ""));
 }
 
 /** What each input would be worth if it were measured alone: the first in a sentence, all of them in a table. */

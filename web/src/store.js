@@ -9,6 +9,8 @@ export const state = {
     file: null, // {name, version, text (as on disk, but for line ends), eol, writable, gone: why it cannot be read}
     base: "", // without a file: the text that was opened or downloaded last
     set: {}, // values of sliders that are held: not in the text yet
+    lab: {}, // laboratory packs that are in use: name -> text
+    labRows: {}, // what is entered of them: flow -> id -> {value, u, status}
     options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
     preview: null, // last good flexwright.preview/1
     previewOf: null, // its input (belong.js)
@@ -28,7 +30,7 @@ export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { 
 
 /** Names of events: "text" (editor's text changed), "change" (ask for a preview), "options" (how it is
  *  computed), "preview" (a good answer), "answer" (any answer), "belong" (what is shown was marked anew), "working"
- *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "theme". */
+ *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "view" (a tab was chosen), "time" (of the motion, by hand), "lab" (packs in use), "theme". */
 export function lookAt(hinge) {
     state.hinge = state.hinge === hinge ? null : hinge;
     emit("hinge", state.hinge);

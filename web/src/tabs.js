@@ -39,5 +39,5 @@ export function makeTabs(label, tabs, { onselect } = {}) {
         });
         onselect?.(id);
     }
-    return { bar, select, get current() { return current; } };
+    return { bar, select, has: (id) => tabs.some((t) => t.id === id), get current() { return current; } };
 }

@@ -31,11 +31,12 @@ export class Verdict {
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
+        this.left = h("div", { class: "left-out" });
         const full = h("div", { class: "full-check" });
         const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
         const cards = [use, this.required, card("flows", "Flows", this.flows)];
-        const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost)];
+        const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
         this.compare = new Compare(() => this.judged);
         holder.append(this.old, this.banner, this.problems, this.compare.card, ...cards, card("full", "As fabricated", full), ...last, this.notes);
         this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
@@ -138,13 +139,26 @@ export class Verdict {
         this.banner.replaceChildren(
             h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", "data-of": full ? "check" : "preview", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),
-            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "");
+            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "",
+            lines.length ? this.#more() : "");
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v);
         this.#flows(v);
         this.#effects();
         this.#cost();
+    }
+
+    /** On a phone the decision leaves room for the picture, until somebody wants all of it. */
+    #more() {
+        const opened = () => this.banner.classList.contains("opened");
+        const words = () => (opened() ? "Less" : "All of it");
+        const more = h("button", { type: "button", class: "small banner-more", "aria-expanded": String(opened()), onclick: () => {
+            this.banner.classList.toggle("opened");
+            more.textContent = words();
+            more.setAttribute("aria-expanded", String(opened()));
+        } }, words());
+        return more;
     }
 
     /** Requirements with their values, and what the probes of the other scenes say at most. */
@@ -172,6 +186,10 @@ export class Verdict {
 
     /** What the banner speaks of. */
     #basis(full) {
+        return `${this.#judgedAs(full)}${Object.keys(state.lab).length ? "; with your laboratory's numbers" : ""}`;
+    }
+
+    #judgedAs(full) {
         if (full) return full.flows.some((f) => f.as_fabricated) ? "as it will be made" : "as drawn";
         const p = state.preview;
         if (!p.provisional) return "as drawn";
@@ -268,6 +286,8 @@ export class Verdict {
             ["constraints", number(stats.max_constraint_norm, 2)],
         ];
         this.cost.replaceChildren(...rows.flatMap(([k, x]) => [h("dt", {}, k), h("dd", {}, x)]));
+        const left = [...(p.left_out ?? []).map((x) => `${x.sentence}${x.could_reject ? " It could reject." : ""}`), ...(p.not_drawn ?? []).map((x) => `${x}: acts, and no picture shows it.`)];
+        this.left.replaceChildren(left.length ? h("details", {}, h("summary", {}, `${left.length} ${left.length === 1 ? "thing was" : "things were"} left out of the live answer`), h("ul", {}, left.map((x) => h("li", {}, x)))) : "");
     }
 
     #fabricated(v, into) {

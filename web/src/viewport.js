@@ -5,6 +5,8 @@ import { s } from "./dom.js";
 
 const LEAST_PIXELS = 40; // of the whole picture: nobody loses it by zooming out
 const MOST_SCALE = 400; // pixels per micrometre
+const TAPS_MS = 350; // between two taps that are one gesture
+const TAPS_APART = 30; // pixels
 
 export class Viewport {
     /** box: [x0, y0, x1, y1] in um; onview: called when scale or place have changed */
@@ -24,6 +26,8 @@ export class Viewport {
         this.onview = onview ?? (() => {});
         this.pan = pan;
         this.fitted = true;
+        this.fingers = new Map(); // pointers that are down -> where
+        this.tapped = null;
         new ResizeObserver(() => this.#resized()).observe(svg);
         svg.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
         svg.addEventListener("pointerdown", (e) => this.#down(e));
@@ -44,6 +48,7 @@ export class Viewport {
     fit() {
         this.fitTo(this.box, 0.04);
         this.fitted = true;
+        this.svg.classList.remove("zoomed");
     }
 
     /** Shows [x0, y0, x1, y1] with a share of the picture as margin. */
@@ -90,6 +95,7 @@ export class Viewport {
 
     #apply() {
         this.world.setAttribute("transform", `matrix(${this.k} 0 0 ${-this.k} ${this.x} ${this.y})`);
+        this.svg.classList.toggle("zoomed", !this.fitted); // then one finger moves it; else it scrolls the page
         this.onview(this);
     }
 
@@ -106,24 +112,52 @@ export class Viewport {
         this.zoom(Math.exp(-step * 0.0016), [event.clientX - r.left, event.clientY - r.top]);
     }
 
+    /** One finger or the mouse moves the picture, two zoom about the point between them. */
     #down(event) {
-        if (event.defaultPrevented || event.button > 1 || !this.pan) return;
+        if (event.defaultPrevented || event.button > 1 || !this.pan || this.fingers.size > 1) return;
+        if (!this.fingers.size) {
+            this.svg.addEventListener("pointermove", this.#moved);
+            for (const end of ["pointerup", "pointercancel"]) this.svg.addEventListener(end, this.#up);
+        }
+        this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
         this.svg.setPointerCapture(event.pointerId);
-        let last = [event.clientX, event.clientY];
-        const moved = (e) => {
-            this.move(e.clientX - last[0], e.clientY - last[1]);
-            last = [e.clientX, e.clientY];
-            this.svg.classList.add("panning");
-        };
-        const up = () => {
-            this.svg.removeEventListener("pointermove", moved);
-            this.svg.removeEventListener("pointerup", up);
-            this.svg.removeEventListener("pointercancel", up);
-            this.svg.classList.remove("panning");
-        };
-        this.svg.addEventListener("pointermove", moved);
-        this.svg.addEventListener("pointerup", up);
-        this.svg.addEventListener("pointercancel", up);
+        if (event.pointerType === "touch" && this.fingers.size === 1) this.#tapped(event);
+    }
+
+    #moved = (event) => {
+        if (!this.fingers.has(event.pointerId)) return;
+        const before = [...this.fingers.values()];
+        this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
+        const now = [...this.fingers.values()];
+        const middle = (list) => [0, 1].map((k) => list.reduce((sum, p) => sum + p[k], 0) / list.length);
+        const apart = ([p, q]) => Math.hypot(p[0] - q[0], p[1] - q[1]);
+        const [a, b] = [middle(before), middle(now)];
+        this.move(b[0] - a[0], b[1] - a[1]);
+        if (now.length === 2 && apart(before) > 0 && apart(now) > 0) {
+            const r = this.svg.getBoundingClientRect();
+            this.zoom(apart(now) / apart(before), [b[0] - r.left, b[1] - r.top]);
+        }
+        this.tapped = null;
+        this.svg.classList.add("panning");
+    };
+
+    #up = (event) => {
+        this.fingers.delete(event.pointerId);
+        if (this.fingers.size) return;
+        this.svg.removeEventListener("pointermove", this.#moved);
+        for (const end of ["pointerup", "pointercancel"]) this.svg.removeEventListener(end, this.#up);
+        this.svg.classList.remove("panning");
+    };
+
+    /** Two taps at one place: closer, or the whole again. */
+    #tapped(event) {
+        const { tapped } = this;
+        this.tapped = { time: event.timeStamp, x: event.clientX, y: event.clientY };
+        if (!tapped || event.timeStamp - tapped.time > TAPS_MS || Math.hypot(event.clientX - tapped.x, event.clientY - tapped.y) > TAPS_APART) return;
+        this.tapped = null;
+        const r = this.svg.getBoundingClientRect();
+        if (this.fitted) this.zoom(2.5, [event.clientX - r.left, event.clientY - r.top]);
+        else this.fit();
     }
 
     #key(event) {

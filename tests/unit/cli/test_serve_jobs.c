@@ -7,7 +7,7 @@
 
 static const char *const kinds[] = {"plan",    "check",    "workspace", "modes",
                                     "statics", "assemble", "tradeoff",  "hinge",
-                                    "recipe",  "mask",     "simulate"};
+                                    "recipe",  "mask",     "simulate",  "study"};
 
 /* a good value for each, and one kind that takes it */
 static const struct {
@@ -42,6 +42,8 @@ static const struct {
     {"level", "\"auto\"", "hinge"},
     {"budget", "30", "tradeoff"},
     {"no_time", "true", "tradeoff"},
+    {"study", "\"widths\"", "study"},
+    {"lab", "\"lab.xml\"", "recipe"},
 };
 enum { NKINDS = sizeof kinds / sizeof kinds[0], NOPTIONS = sizeof options / sizeof options[0] };
 
@@ -89,7 +91,8 @@ static void every_kind_with_all_options(void **state) {
         const char *const *argv;
         const char *request = fw_arena_printf(
             arena,
-            "{\"kind\": \"%s\", \"set\": {\"arc\": \"250 deg\", \"n\": 3}, \"options\": {%s}}",
+            "{\"kind\": \"%s\", \"set\": {\"arc\": \"250 deg\", \"n\": 3}, \"files\": "
+            "{\"lab.xml\": \"\"}, \"options\": {%s}}",
             kinds[k], all.data);
         assert_int_equal(build(arena, request, &argv), FW_OK);
         fw_cli_options parsed = {.design = fw_design_options_default()};
@@ -109,9 +112,10 @@ static void each_option_arrives(void **state) {
     fw_arena *arena = fw_arena_new(0);
     for (int i = 0; i < NOPTIONS; i++) {
         const char *const *argv;
-        const char *request =
-            fw_arena_printf(arena, "{\"kind\": \"%s\", \"options\": {\"%s\": %s}}", options[i].kind,
-                            options[i].name, options[i].value);
+        const char *request = fw_arena_printf(arena,
+                                              "{\"kind\": \"%s\", \"files\": {\"lab.xml\": \"\"}, "
+                                              "\"options\": {\"%s\": %s}}",
+                                              options[i].kind, options[i].name, options[i].value);
         assert_int_equal(build(arena, request, &argv), FW_OK);
         char *option = fw_arena_printf(arena, "--%s", options[i].name);
         for (char *c = option; *c; c++)
@@ -130,6 +134,15 @@ static void what_is_not_in_the_table_cannot_be_said(void **state) {
         "{\"kind\": \"log\"}",
         "{\"kind\": 7}",
         "{\"kind\": \"check\", \"options\": {\"lab\": \"x\"}}",
+        "{\"kind\": \"check\", \"files\": {\"lab.xml\": \"\"}, \"options\": {\"lab\": "
+        "\"/etc/passwd\"}}",
+        "{\"kind\": \"check\", \"files\": {\"../lab.xml\": \"\"}}",
+        "{\"kind\": \"check\", \"files\": {\"d.xml\": \"\"}}",
+        "{\"kind\": \"check\", \"files\": {\"-o.xml\": \"\"}}",
+        "{\"kind\": \"check\", \"files\": {\"printed\": \"\"}}",
+        "{\"kind\": \"check\", \"files\": {\"archive.zip\": \"\"}}",
+        "{\"kind\": \"check\", \"files\": {\"lab.xml\": 3}}",
+        "{\"kind\": \"check\", \"files\": [\"lab.xml\"]}",
         "{\"kind\": \"check\", \"options\": {\"output\": \"x\"}}",
         "{\"kind\": \"check\", \"options\": {\"svg\": \"x\"}}",
         "{\"kind\": \"hinge\", \"options\": {\"deck\": \"x\"}}",

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Explore: every point is what `check` says of that device, what is shown is of the present input, a study is run, stopped,
+// gone on with, and its best device put into the text by one step of the history.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { after, before, describe, test } from "node:test";
+import { answered, axeSource, close, finish, open, program, serve, setText, source, text, view } from "./helper.mjs";
+
+after(finish);
+
+const LONG = 120000; // of a machine that others use, too
+const whole = (page) => page.waitForFunction(() => globalThis.flexwright.parts.explore.whole && globalThis.flexwright.parts.explore.showing.element.dataset.of === "present", null, { timeout: LONG });
+const points = (page) => page.evaluate(() => [...globalThis.flexwright.parts.explore.done.values()]);
+const check = (file, ...options) => JSON.parse(spawnSync(program, ["check", file, "--json", ...options], { cwd: source }).stdout);
+const setRange = async (page, which, from, to) => {
+    await page.fill(`[aria-label="${which} input, from"]`, from);
+    await page.press(`[aria-label="${which} input, from"]`, "Tab");
+    await page.fill(`[aria-label="${which} input, to"]`, to);
+    await page.press(`[aria-label="${which} input, to"]`, "Tab");
+};
+
+describe("a range", () => {
+    let server, page;
+    before(async () => {
+        server = await serve("leaf-four-bar");
+        page = await open(server);
+        await view(page, "explore");
+        await whole(page);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("begins with the first parameter over its own range, and today's value among the points", async () => {
+        assert.equal(await page.inputValue('[aria-label="First input, from"]'), "6 um");
+        assert.equal(await page.inputValue('[aria-label="First input, to"]'), "16 um");
+        const list = await points(page);
+        assert.ok(list.length >= 201, String(list.length));
+        assert.ok(list.some((p) => p.x === 8) && list.some((p) => p.x === 6) && list.some((p) => p.x === 16));
+        assert.match(await page.textContent(".explore-summary"), /^[A-Z].* from 6 to .* um/);
+    });
+
+    test("points are what check says of these devices", async () => {
+        const list = (await points(page)).sort((a, b) => a.x - b.x);
+        for (const p of [list[0], list[Math.floor(list.length / 3)], list.at(-1)]) {
+            const told = check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `width=${p.x} um`);
+            assert.equal(p.state, told.verdict);
+            assert.equal(p.value, told.governing.utilisation * 100);
+            assert.deepEqual([p.low, p.high], told.governing.utilisation_band.map((v) => v * 100));
+        }
+    });
+
+    test("where the decision changes is found to a thousandth of the range", async () => {
+        await page.selectOption('select[aria-label="Vary"]', "scene[push]/force/@fx");
+        await setRange(page, "First", "0.1 mN", "0.5 mN");
+        await whole(page);
+        const list = (await points(page)).sort((a, b) => a.x - b.x);
+        const states = new Set(list.map((p) => p.state));
+        assert.ok(states.has("accept") && states.has("reject"), [...states].join());
+        const jumps = list.slice(1).flatMap((p, i) => (p.state !== list[i].state ? [p.x - list[i].x] : []));
+        assert.ok(jumps.length && jumps.every((d) => d < 4e-4), String(jumps));
+        const edge = list.find((p, i) => p.state === "accept" && list[i + 1].state !== "accept");
+        const next = list[list.indexOf(edge) + 1];
+        for (const p of [edge, next]) assert.equal(check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `scene[push]/force/@fx=${p.x} mN`).verdict, p.state);
+        await page.selectOption('select[aria-label="Vary"]', "width");
+        await whole(page);
+    });
+
+    test("a place that is looked at is told, and used by one step of the history", async () => {
+        const before = await text(page);
+        await page.locator('[aria-label="Look at"]').focus();
+        for (let i = 0; i < 3; i++) await page.keyboard.press("PageUp");
+        const said = await page.textContent(".explore-readout");
+        const value = /width (\S+ um): (accepted|rejected|inconclusive), \S+ % \(/.exec(said)?.[1];
+        assert.ok(value, said);
+        await answered(page, () => page.click("#explore-use"));
+        assert.equal(await text(page), before.replace('name="width" value="8 um"', `name="width" value="${value}"`));
+        await answered(page, () => page.click("#undo"));
+        assert.equal(await text(page), before);
+    });
+
+    test("another text makes it old at once, and new by itself; a held slider, too", async () => {
+        await whole(page);
+        await setText(page, ['safety-factor="2"', 'safety-factor="3"']);
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.explore.showing.element.dataset.of), "former");
+        await whole(page);
+        const p = (await points(page))[0];
+        assert.ok(p.x === 8);
+        await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
+        await whole(page);
+        const q = (await points(page))[0];
+        assert.notEqual(q.value, p.value);
+        const slider = page.locator('input[data-parameter="leaf"]');
+        await slider.evaluate((e) => {
+            e.value = 500;
+            e.dispatchEvent(new Event("input"));
+        });
+        await whole(page);
+        const held = (await points(page))[0];
+        const leaf = await page.evaluate(() => globalThis.flexwright.state.set.leaf);
+        assert.equal(held.value, check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `leaf=${leaf}`).governing.utilisation * 100);
+        await answered(page, () => slider.evaluate((e) => e.dispatchEvent(new Event("change"))));
+        await page.click("#undo");
+        await whole(page);
+    });
+
+    test("Cancel stops it: what is there stays, and Compute begins anew", async () => {
+        await setText(page, ['safety-factor="2"', 'safety-factor="2.5"']);
+        await page.waitForFunction(() => globalThis.flexwright.parts.explore.control && globalThis.flexwright.parts.explore.asked > 0, null, { timeout: LONG });
+        await page.click("#panel-explore .job-bar .cancel");
+        await page.waitForFunction(() => !globalThis.flexwright.parts.explore.control);
+        await page.waitForTimeout(700); // it does not begin by itself again
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.explore.whole), false);
+        assert.match(await page.textContent("#panel-explore .job-message"), /not all of it: stopped|former input/);
+        await page.click("#explore-start");
+        await whole(page);
+        await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
+        await whole(page);
+    });
+
+    test("what cannot be made is said, and a range that is none", async () => {
+        await setRange(page, "First", "-2 um", "16 um");
+        await whole(page);
+        assert.ok((await points(page)).some((p) => p.state === "failed" && p.why));
+        await page.fill('[aria-label="First input, to"]', "-9 um");
+        await page.press('[aria-label="First input, to"]', "Tab");
+        assert.match(await page.textContent("#panel-explore .job-message"), /needs two numbers in um, the smaller one first/);
+        assert.ok(await page.isDisabled("#explore-start"));
+        await setRange(page, "First", "6 um", "16 um");
+        await whole(page);
+    });
+
+    test("a number that the input does nothing to is a flat line", async () => {
+        await page.selectOption('select[aria-label="Vary"]', "scene[push]/force/@fx");
+        await page.selectOption('select[aria-label="Number"]', "frequency");
+        await page.waitForFunction(() => globalThis.flexwright.parts.explore.spec.number.id === "frequency" && globalThis.flexwright.parts.explore.done.size > 9, null, { timeout: LONG });
+        const list = await points(page);
+        assert.ok(list.every((p) => Math.abs(p.value / list[0].value - 1) < 1e-6 && p.value > 0 && p.state !== "run"), JSON.stringify(list[0]));
+        assert.equal(await page.textContent("#panel-explore .job-errors"), "");
+        await page.selectOption('select[aria-label="Number"]', "governing");
+        await page.selectOption('select[aria-label="Vary"]', "width");
+        await whole(page);
+    });
+
+    test("saved as CSV and SVG: every point, and a picture that is drawn by itself", async () => {
+        const [csv] = await Promise.all([page.waitForEvent("download"), page.click('.explore-body button:has-text("Save as CSV")')]);
+        const rows = readFileSync(await csv.path(), "utf8").trim().split("\n");
+        assert.equal(rows.length - 1, (await points(page)).length);
+        assert.match(rows[0], /^width \(um\),.*low,high,decision$/);
+        const [svg] = await Promise.all([page.waitForEvent("download"), page.click("#explore-svg")]);
+        assert.match(readFileSync(await svg.path(), "utf8"), /^<svg [^]*Share of the limit that governs[^]*<\/svg>\n$/);
+    });
+
+    test("two inputs are a map, each cell what check says; no serious finding of axe", async () => {
+        await page.selectOption('select[aria-label="and vary"]', "leaf");
+        await page.waitForFunction(() => globalThis.flexwright.parts.explore.spec?.inputs.length === 2 && globalThis.flexwright.parts.explore.done.size > 100, null, { timeout: LONG });
+        const cells = await points(page);
+        for (const c of [cells[0], cells[cells.length - 1]]) {
+            const told = check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `width=${c.x} um`, "--set", `leaf=${c.y} um`);
+            assert.equal(c.state, told.verdict);
+            assert.equal(c.value, told.governing.utilisation * 100);
+        }
+        await page.evaluate(axeSource);
+        const found = await page.evaluate(() => globalThis.axe.run("#panel-explore", { resultTypes: ["violations"] }));
+        assert.deepEqual(found.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes.map((n) => n.html)]), []);
+        await page.selectOption('select[aria-label="and vary"]', "");
+    });
+});
+
+describe("studies", () => {
+    let server, page;
+    const card = '.study[data-name="size"]';
+    before(async () => {
+        server = await serve("reference-six-bar");
+        page = await open(server);
+        await view(page, "explore");
+        await page.selectOption('select[aria-label="Vary"]', "flexure[C]/@width");
+        await setRange(page, "First", "7 um", "12 um");
+        await page.click("#study-add");
+        await page.waitForSelector(`${card} [data-act="run"]:not([disabled])`);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("a new one is written into the text, and read by the program", async () => {
+        assert.match(await text(page), /<study name="size" kind="size" as="drawn">\s*<vary what="flexure\[C\]\/@width" from="7 um" to="12 um"\/>\s*<respond name="used" value="governing.utilisation" goal="minimise"\/>\s*<\/study>/);
+    });
+
+    test("run, stopped, gone on with: nothing that was judged is judged again", async () => {
+        await page.click(`${card} [data-act="run"]`);
+        await page.waitForFunction((c) => /(\d+) of \d+ devices/.exec(document.querySelector(`${c} .study-said`).textContent)?.[1] > 2, card, { timeout: LONG });
+        await page.click(`${card} [data-act="stop"]`);
+        await page.waitForSelector(`${card} [data-act="resume"]`);
+        assert.match(await page.textContent(`${card} .study-said`), /^stopped/);
+        await page.click(`${card} [data-act="resume"]`);
+        await page.waitForSelector(`${card} [data-act="apply"]`, { timeout: LONG });
+        assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present");
+        const result = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result);
+        assert.equal(result.found.length, 1);
+        const directory = `${server.directory}/by-itself`;
+        const saved = `${server.directory}/with-study.xml`;
+        (await import("node:fs")).writeFileSync(saved, await text(page));
+        const same = JSON.parse(execFileSync(program, ["study", saved, "-o", directory, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
+        assert.deepEqual(result.found, same.found); // to the last bit what the command finds in one run
+        assert.equal(result.samples.run, same.samples.run);
+    });
+
+    test("its best device becomes the text by one step of the history, and is accepted", async () => {
+        const before = await text(page);
+        const { path, value } = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found[0].set[0]);
+        assert.equal(path, "flexure[C]/@width");
+        await answered(page, () => page.click(`${card} [data-act="apply"]`));
+        assert.equal(await text(page), before.replace('id="C" kind="csfh" length="200 um" angle="arc" width="8 um"', `id="C" kind="csfh" length="200 um" angle="arc" width="${value}"`));
+        assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "former");
+        assert.match(await page.textContent(`${card} .study-said`), /of the former input/);
+        await answered(page, () => page.click("#undo"));
+        assert.equal(await text(page), before);
+        assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present");
+    });
+
+    test("its page opens, its pictures are shown, its files are saved", async () => {
+        const href = await page.locator(`${card} a:has-text("Study page")`).getAttribute("href");
+        const answer = await page.request.get(new URL(href, page.url()).href);
+        assert.ok(answer.ok() && (await answer.text()).includes("<svg"));
+        assert.ok((await page.locator(`${card} .study-pictures img`).count()) > 0);
+        const seen = await page.locator(`${card} .study-pictures img`).evaluateAll((list) => Promise.all(list.map((i) => i.decode().then(() => i.naturalWidth > 0, () => false))));
+        assert.ok(seen.every(Boolean));
+        const [zip] = await Promise.all([page.waitForEvent("download"), page.click(`${card} a:has-text("All files")`)]);
+        assert.equal(readFileSync(await zip.path()).subarray(0, 2).toString(), "PK");
+    });
+});

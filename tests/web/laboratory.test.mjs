@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers of the laboratory: entered where a recipe cannot be computed, they are a pack, as `--lab` takes it, and all that
+// is shown is then what the commands say with it; a pack is opened, refused in the program's words, and made of coupons.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { after, before, describe, test } from "node:test";
+import { axeSource, close, computed, finish, open, program, ready, serve, setText, source, verdict, view } from "./helper.mjs";
+
+after(finish);
+
+const FLOW = "al-masked-rie";
+const COUPONS = `coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit
+cd-lines,line,10,7.9,0.2,um,,,
+cd-lines,space,10,12.05,0.2,um,,,
+undercut-ladder,width,16,13.10,0.08,um,50.5,0.3,um
+undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
+`;
+
+describe("numbers of the laboratory", () => {
+    let server, page, pack;
+    before(async () => {
+        server = await serve("leaf-four-bar");
+        page = await open(server);
+        await view(page, "recipe");
+        await computed(page, "recipe", 60000);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+    const row = (id) => page.locator(`.lab-table tr[data-id="${id}"]`);
+    const anew = async (act) => {
+        const before = await page.evaluate(() => globalThis.flexwright.parts.recipe.done?.id);
+        await act();
+        await page.waitForFunction((id) => globalThis.flexwright.parts.recipe.done?.id !== id && globalThis.flexwright.parts.recipe.body.dataset.of === "present", before, { timeout: 60000 });
+    };
+    const recipe = () => page.evaluate((f) => (globalThis.flexwright.parts.recipe.recipes ?? []).find((r) => r.flow === f), FLOW);
+    const missing = async () => (await recipe()).steps.flatMap((s) => s.not_computable);
+
+    test("every number that is missing has a row with its unit", async () => {
+        const ids = (await missing()).map((x) => /\(([^()]+)\)$/.exec(x)[1]);
+        assert.ok(ids.length >= 3, ids.join());
+        for (const id of ids) assert.equal(await row(id).count(), 1, id);
+        assert.match(await row("al.R").textContent(), /sputter rate.*needed for S03.*nm\/min/);
+        assert.ok(await page.evaluate(() => document.querySelector("details.laboratory").open));
+    });
+
+    test("what is no number is not taken", async () => {
+        await row("al.R").locator("input").first().fill("fast");
+        await page.click("#lab-use");
+        assert.match(await page.textContent(".laboratory .messages"), /al\.R: a number is needed, not "fast"/);
+        await row("al.R").locator("input").first().fill("38.5");
+        await page.click("#lab-use");
+        assert.match(await page.textContent(".laboratory .messages"), /al\.R: its standard uncertainty is needed, too/);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.lab), {});
+    });
+
+    test("entered, they are a pack: the recipe is that of the command with --lab, the verdict says so", async () => {
+        for (const [id, value, u] of [["al.R", "38.5", "1.5"], ["al.power", "200", "2"], ["expose.D", "210", "10"], ["resist.type", "1", "0"]]) {
+            await row(id).locator("input").nth(0).fill(value);
+            await row(id).locator("input").nth(1).fill(u);
+        }
+        await row("resist.type").locator("select").selectOption("assumed");
+        await page.fill(".lab-source", "our notebook <7>");
+        await anew(() => page.click("#lab-use"));
+        const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#lab-save")]);
+        assert.equal(saved.suggestedFilename(), `laboratory-${FLOW}.xml`);
+        pack = `${server.directory}/lab.xml`;
+        writeFileSync(pack, readFileSync(await saved.path()));
+        const told = JSON.parse(execFileSync(program, ["recipe", server.file, "--json", "--flow", FLOW, "--lab", pack, "--advice", "none", "-o", `${server.directory}/out`], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
+        const mine = await recipe();
+        assert.deepEqual(mine.steps.map((s) => [s.id, s.time_s, s.not_computable]), told.steps.map((s) => [s.id, s.time_s, s.not_computable]));
+        assert.equal(mine.total_s, told.total_s);
+        assert.ok(mine.steps.find((s) => s.id === "S03").time_s !== null);
+        await page.waitForFunction(() => /with your laboratory's numbers/.test(document.querySelector(".as-drawn").textContent));
+    });
+
+    test("the live verdict and what is explored are of the pack, too", async () => {
+        const text = readFileSync(pack, "utf8").replace("</process>", '  <q id="si.d" value="44" u="0.2" unit="um" status="measured" src="laboratory"/>\n</process>');
+        // a device that takes the thickness from its flow
+        const change = [' thickness="50 um"', ""];
+        const plain = `${server.directory}/plain.xml`;
+        writeFileSync(plain, readFileSync(server.file, "utf8").replace(...change));
+        await anew(() => setText(page, change));
+        const before = await page.evaluate(() => globalThis.flexwright.state.preview.verdict.hinges.map((x) => x.utilisation));
+        const thick = `${server.directory}/thick.xml`;
+        writeFileSync(thick, text);
+        await page.locator('.laboratory input[type="file"]').first().setInputFiles(thick);
+        await page.waitForFunction(() => globalThis.flexwright.state.lab["thick.xml"] && globalThis.flexwright.parts.recipe.body.dataset.of === "present", null, { timeout: 60000 });
+        await page.click("#lab-clear");
+        await page.locator('.laboratory input[type="file"]').first().setInputFiles(thick);
+        await page.waitForFunction(() => Object.keys(globalThis.flexwright.state.lab).join() === "thick.xml");
+        await page.waitForFunction(() => document.querySelector(".banner").dataset.of === "present" && /with your laboratory's numbers/.test(document.querySelector(".as-drawn").textContent), null, { timeout: 60000 });
+        const first = await page.evaluate(() => globalThis.flexwright.state.preview.verdict.hinges.map((x) => [x.id, x.utilisation]));
+        const told = JSON.parse(spawnSync(program, ["check", plain, "--lab", thick, "--corners", "none", "--hinge-model", "revolute", "--json"], { cwd: source }).stdout);
+        assert.deepEqual(first, told.hinges.map((x) => [x.id, x.utilisation]));
+        assert.notDeepEqual(first.map((x) => x[1]), before);
+        await view(page, "explore");
+        await page.waitForFunction(() => globalThis.flexwright.parts.explore.done.has(8) && globalThis.flexwright.parts.explore.body.dataset.of === "present", null, { timeout: 60000 });
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.explore.done.get(8).value), told.governing.utilisation * 100);
+        await view(page, "recipe");
+        await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
+    });
+
+    test("a pack that is wrong is refused in the words of the program, and left again", async () => {
+        const wrong = `${server.directory}/wrong.xml`;
+        writeFileSync(wrong, readFileSync(pack, "utf8").replace('id="al.R"', 'id="al.nobody"'));
+        await page.click("#lab-clear");
+        await page.locator('.laboratory input[type="file"]').first().setInputFiles(wrong);
+        await page.waitForFunction(() => /wrong\.xml:\d+: .*al\.nobody.* \[FW-D\d+\]/.test(document.querySelector(".laboratory .messages").textContent), null, { timeout: 60000 });
+        const said = spawnSync(program, ["check", server.file, "--lab", wrong], { cwd: source, encoding: "utf8" });
+        assert.equal(said.status, 3);
+        const message = await page.evaluate(() => globalThis.flexwright.state.diagnostics.find((d) => d.severity === "error").message);
+        assert.ok(said.stderr.includes(message), message);
+        await anew(() => page.click("#lab-clear"));
+        await verdict(page, "accept");
+        assert.ok((await missing()).length >= 3);
+    });
+
+    test("a reload keeps what is entered and in use", async () => {
+        await anew(() => page.click("#lab-use"));
+        await page.reload();
+        await ready(page);
+        assert.match(await page.evaluate(() => Object.values(globalThis.flexwright.state.lab)[0]), /al\.R" value="38.5" u="1.5" unit="nm\/min"/);
+        await view(page, "recipe");
+        await page.waitForFunction(() => globalThis.flexwright.parts.recipe.body.dataset.of === "present", null, { timeout: 60000 });
+        assert.equal((await recipe()).steps.find((s) => s.id === "S03").not_computable.length, 0);
+    });
+
+    test("coupons that were measured become a pack by the command's fit; what it refuses is said", async () => {
+        const csv = `${server.directory}/lot.csv`;
+        writeFileSync(csv, "coupon,feature\nnobody,here\n");
+        await page.evaluate(() => (document.querySelector("details.laboratory").open = true));
+        await page.click("#lab-clear");
+        await page.locator('.laboratory input[type="file"]').nth(1).setInputFiles(csv);
+        await page.waitForFunction(() => /measured\.csv:\d+/.test(document.querySelector(".laboratory .messages").textContent), null, { timeout: 60000 });
+        writeFileSync(csv, COUPONS);
+        await page.locator('.laboratory input[type="file"]').nth(1).setInputFiles(csv);
+        await page.waitForFunction((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW, { timeout: 60000 });
+        const own = `${server.directory}/own.xml`;
+        writeFileSync(`${server.directory}/measured.csv`, COUPONS);
+        execFileSync(program, ["calibrate", `${server.directory}/measured.csv`, "--flow", FLOW, "-o", own, "-q"], { cwd: source });
+        assert.equal(await page.evaluate((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW), readFileSync(own, "utf8"));
+    });
+
+    test("no serious finding of axe", async () => {
+        await page.evaluate(axeSource);
+        const found = await page.evaluate(() => globalThis.axe.run("#panel-recipe", { resultTypes: ["violations"] }));
+        assert.deepEqual(found.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes.map((n) => n.html)]), []);
+    });
+});

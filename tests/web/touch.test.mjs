@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A phone: the decision and the picture are what one sees first, nothing is wider than the screen, one finger scrolls, two
+// zoom the picture about the point between them, and one moves it then.
+import assert from "node:assert/strict";
+import { after, before, describe, test } from "node:test";
+import { close, finish, open, serve, verdict, view } from "./helper.mjs";
+
+after(finish);
+
+describe("on a phone", () => {
+    let server, page, touch;
+    before(async () => {
+        server = await serve("reference-six-bar");
+        page = await open(server, { width: 390, height: 844, hasTouch: true, isMobile: true });
+        await verdict(page, "accept");
+        const session = await page.context().newCDPSession(page);
+        touch = (type, points) => session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+    const place = () => page.evaluate(() => {
+        const { view: v } = globalThis.flexwright.parts.motion.mechanism;
+        return { k: v.k, x: v.x, y: v.y, fitted: v.fitted };
+    });
+    const middle = async () => {
+        const b = await page.locator("#panel-motion .stage > svg").boundingBox();
+        return [b.x + b.width / 2, b.y + b.height / 2];
+    };
+    /** Both fingers from a to b, each its own way, in steps. */
+    const gesture = async (from, to) => {
+        await touch("touchStart", [from[0]]);
+        if (from.length > 1) await touch("touchStart", from);
+        for (let i = 1; i <= 8; i++) await touch("touchMove", from.map((p, n) => p.map((v, k) => v + ((to[n][k] - v) * i) / 8)));
+        await touch("touchEnd", []);
+        await page.waitForTimeout(50);
+    };
+
+    test("decision and picture first, whole, and nothing wider than the screen in any view", async () => {
+        const banner = await page.locator("#banner").boundingBox();
+        const stage = await page.locator("#panel-motion .stage").boundingBox();
+        assert.ok(banner.y >= 0 && banner.y < 120, JSON.stringify(banner));
+        assert.ok(stage.y > banner.y && stage.y + stage.height <= 700, JSON.stringify(stage));
+        for (const id of ["draw", "workspace", "modes", "assembly", "masks", "recipe", "explore", "accuracy", "motion"]) {
+            await view(page, id);
+            assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, id);
+        }
+    });
+
+    test("all of the decision is one tap away", async () => {
+        const lines = page.locator("#banner .top-line:visible");
+        const before = await lines.count();
+        await page.click(".banner-more");
+        assert.ok((await lines.count()) > before);
+        assert.equal(await page.getAttribute(".banner-more", "aria-expanded"), "true");
+        await page.click(".banner-more");
+        assert.equal(await lines.count(), before);
+    });
+
+    test("one finger up the whole picture scrolls the page and leaves the picture", async () => {
+        const [x, y] = await middle();
+        const was = await place();
+        await gesture([[x, y + 60]], [[x, y - 160]]);
+        await page.waitForFunction(() => scrollY > 60);
+        assert.equal((await place()).k, was.k);
+        await page.evaluate(() => scrollTo(0, 0));
+    });
+
+    test("two fingers zoom about the point between them; one moves it then; two taps show the whole", async () => {
+        const [x, y] = await middle();
+        const before = await place();
+        const r = await page.locator("#panel-motion .stage > svg").boundingBox();
+        const world = (v) => [(x - r.x - v.x) / v.k, (v.y - (y - r.y)) / v.k];
+        const there = world(before);
+        await gesture([[x - 30, y], [x + 30, y]], [[x - 90, y], [x + 90, y]]);
+        const after = await place();
+        assert.ok(Math.abs(after.k / before.k - 3) < 0.4, String(after.k / before.k));
+        const now = world(after);
+        assert.ok(Math.hypot(now[0] - there[0], now[1] - there[1]) * after.k < 14, `${there} ${now}`);
+        assert.equal(await page.evaluate(() => scrollY), 0);
+        await gesture([[x, y]], [[x + 40, y - 50]]);
+        const moved = await place();
+        assert.equal(moved.k, after.k);
+        assert.ok(Math.abs(moved.x - after.x - 40) < 12 && Math.abs(moved.y - after.y + 50) < 14, JSON.stringify([after, moved]));
+        for (let i = 0; i < 2; i++) {
+            await touch("touchStart", [[x, y]]);
+            await touch("touchEnd", []);
+        }
+        await page.waitForFunction(() => globalThis.flexwright.parts.motion.mechanism.view.fitted);
+    });
+
+    test("two fingers on a plot zoom its time", async () => {
+        const box = page.locator("#panel-motion .plot-box").first();
+        await box.scrollIntoViewIfNeeded();
+        const b = await box.boundingBox();
+        const [x, y] = [b.x + b.width / 2, b.y + b.height / 2];
+        await gesture([[x - 20, y], [x + 20, y]], [[x - 80, y], [x + 80, y]]);
+        const [from, to] = await page.evaluate(() => globalThis.flexwright.parts.motion.angles.window);
+        assert.ok(to - from < 6 && from > 0 && to < 10, `${from} ${to}`);
+    });
+});

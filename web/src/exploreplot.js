@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pictures of what was explored: a number over one input with its band and limits, or the map of it over two. What is
+// decided is told by colour, by the sign of a point and by a strip below: nothing by colour alone.
+import { scale } from "./colours.js";
+import { h, s } from "./dom.js";
+import { number } from "./format.js";
+import { stretches } from "./exploring.js";
+import { ticks } from "./plotfile.js";
+
+const [LEFT, RIGHT, TOP, STRIP, BELOW] = [58, 14, 12, 12, 40];
+export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "cannot be made" };
+const SIGNS = { // of about 6 pixels
+    accept: "M-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0", reject: "M-3-3L3 3M3-3L-3 3", inconclusive: "M-2.6-2.6h5.2v5.2h-5.2z", run: "M-3 0h6", failed: "M-3-3L3 3M3-3L-3 3M0-4V4",
+};
+const MOST_SIGNS = 60;
+const PAD = 0.06;
+const FLAT = 1e-6; // relative: less is no change
+
+export class ExplorePlot {
+    /** onlook(x) or onlook([x, y]): somebody points at it, in the units of the inputs */
+    constructor(holder, onlook) {
+        this.svg = s("svg", { class: "explore-plot", role: "img", "aria-label": "Nothing is explored yet." });
+        this.onlook = onlook;
+        holder.append(this.svg);
+        new ResizeObserver(() => this.what && this.draw()).observe(this.svg);
+        const look = (e) => {
+            if (!this.from) return;
+            const r = this.svg.getBoundingClientRect();
+            this.onlook(this.from(e.clientX - r.left, e.clientY - r.top));
+        };
+        this.svg.addEventListener("pointerdown", (e) => e.button === 0 && look(e));
+        this.svg.addEventListener("pointermove", (e) => e.buttons & 1 && look(e));
+    }
+
+    /** what: {kind: "line", x: {label, unit, from, to, now}, points: [{x, state, value, low, high}] sorted, limits, unit} or
+     *  {kind: "map", x, y, cells: [{x, y, w, h, state, value}], limit, unit}; at: what is looked at */
+    show(what) {
+        this.what = what;
+        this.draw();
+    }
+
+    draw() {
+        const [w, height] = [this.svg.clientWidth, this.svg.clientHeight];
+        if (!w || !height) return;
+        this.svg.setAttribute("viewBox", `0 0 ${w} ${height}`);
+        this.svg.replaceChildren(...(this.what.kind === "line" ? this.#line(w, height) : this.#map(w, height)));
+    }
+
+    #axes(w, height, x, y, ylabel) {
+        const [right, bottom] = [w - RIGHT, height - BELOW];
+        const px = (v) => LEFT + ((v - x.from) / (x.to - x.from)) * (right - LEFT);
+        const py = (v) => bottom - ((v - y.from) / (y.to - y.from)) * (bottom - TOP);
+        this.from = null;
+        const out = [s("rect", { class: "explore-ground", x: LEFT, y: TOP, width: Math.max(right - LEFT, 0), height: Math.max(bottom - TOP, 0) })];
+        for (const v of ticks(x.from, x.to, Math.max(Math.floor(w / 110), 2))) out.push(s("path", { class: "explore-grid", d: `M${px(v)} ${TOP}V${bottom}` }), s("text", { class: "explore-tick", x: px(v), y: height - 24, "text-anchor": "middle" }, number(v, 4)));
+        for (const v of ticks(y.from, y.to, Math.max(Math.floor(height / 60), 2))) out.push(s("path", { class: "explore-grid", d: `M${LEFT} ${py(v)}H${right}` }), s("text", { class: "explore-tick", x: LEFT - 6, y: py(v) + 4, "text-anchor": "end" }, number(v, 4)));
+        out.push(s("text", { class: "explore-label", x: (LEFT + right) / 2, y: height - 6, "text-anchor": "middle" }, `${x.label}${x.unit ? ` (${x.unit})` : ""}`));
+        out.push(s("text", { class: "explore-label", transform: `translate(13 ${(TOP + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, ylabel));
+        return { out, px, py, right, bottom };
+    }
+
+    #line(w, height) {
+        const { x, points, limits, unit, at } = this.what;
+        const good = points.filter((p) => Number.isFinite(p.value));
+        const all = [...good.flatMap((p) => [p.value, p.low, p.high]), ...limits].filter(Number.isFinite);
+        let [low, high] = all.length ? [Math.min(...all), Math.max(...all)] : [0, 1];
+        const most = limits.length ? 4 * Math.max(...limits.map(Math.abs)) : Infinity; // a share far beyond its limit is as bad as any other
+        if (high > most && low < most) high = most;
+        const flat = high - low < FLAT * Math.max(Math.abs(low), Math.abs(high)); // a number that this input does nothing to
+        const pad = (flat ? Math.abs(high) || 1 : high - low) * PAD;
+        if (unit === "%" && low >= 0) low = Math.min(0, low);
+        const { out, px, py, right, bottom } = this.#axes(w, height, x, { from: unit === "%" && !flat ? low : low - pad, to: high + pad }, this.what.ylabel);
+        const area = s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT, y: TOP, width: right - LEFT, height: bottom - TOP }));
+        const inside = s("g", { "clip-path": "url(#explore-area)" });
+        const banded = good.filter((p) => Number.isFinite(p.low) && Number.isFinite(p.high));
+        for (const run of runs(points, (p) => banded.includes(p))) inside.append(s("path", { class: "explore-band", d: `M${run.map((p) => `${px(p.x)} ${py(p.high)}`).join("L")}L${[...run].reverse().map((p) => `${px(p.x)} ${py(p.low)}`).join("L")}Z` }));
+        for (const v of limits) inside.append(s("path", { class: "explore-limit", d: `M${LEFT} ${py(v)}H${right}` }));
+        for (const run of runs(points, (p) => Number.isFinite(p.value))) inside.append(s("path", { class: "explore-line", d: `M${run.map((p) => `${px(p.x)} ${py(p.value)}`).join("L")}` }));
+        const step = Math.max(1, Math.ceil(points.length / MOST_SIGNS));
+        points.forEach((p, i) => {
+            const edge = points[i - 1]?.state !== p.state || points[i + 1]?.state !== p.state;
+            if (i % step && !edge) return;
+            inside.append(s("path", { class: `explore-sign ${p.state}`, d: SIGNS[p.state], transform: `translate(${px(p.x)} ${Number.isFinite(p.value) ? py(Math.min(p.value, high)) : bottom - 8})` }));
+        });
+        if (Number.isFinite(x.now) && x.now >= x.from && x.now <= x.to) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}` }), s("text", { class: "explore-word", x: px(x.now) + (px(x.now) > right - 50 ? -5 : 5), y: bottom - 6, "text-anchor": px(x.now) > right - 50 ? "end" : "start" }, "now"));
+        if (at !== null && at !== undefined) inside.append(s("path", { class: "explore-at", d: `M${px(at)} ${TOP}V${bottom}` }));
+        out.push(area, inside);
+        limits.forEach((v) => py(v) >= TOP && out.push(s("text", { class: "explore-word limit", x: right - 4, y: py(v) - 5, "text-anchor": "end" }, "limit")));
+        for (const r of stretches(points)) {
+            const [a, b] = [px(r.from), px(r.to)];
+            out.push(s("rect", { class: `explore-strip ${r.state}`, x: a, y: bottom + 1, width: Math.max(b - a, 1), height: STRIP - 4 }, s("title", {}, WORDS[r.state])));
+        }
+        this.from = (ex) => Math.min(Math.max(x.from + ((ex - LEFT) / (right - LEFT)) * (x.to - x.from), x.from), x.to);
+        return out;
+    }
+
+    #map(w, height) {
+        const { x, y, cells, limit, at } = this.what;
+        const { out, px, py, right, bottom } = this.#axes(w, height, x, y, `${y.label}${y.unit ? ` (${y.unit})` : ""}`);
+        const values = cells.map((c) => c.value).filter(Number.isFinite);
+        const [low, high] = limit !== null ? [0, limit] : values.length ? [Math.min(...values), Math.max(...values)] : [0, 1];
+        const inside = s("g", { "clip-path": "url(#explore-area)" });
+        out.push(s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT, y: TOP, width: right - LEFT, height: bottom - TOP })));
+        for (const c of cells) { // coarse ones first, finer ones over them
+            const [a, b, e, f] = [px(c.x - c.w / 2), px(c.x + c.w / 2), py(c.y + c.h / 2), py(c.y - c.h / 2)];
+            const fill = Number.isFinite(c.value) ? scale((c.value - low) / (high - low || 1)) : "transparent";
+            inside.append(s("rect", { x: a, y: e, width: b - a + 0.4, height: f - e + 0.4, fill, class: "explore-cell" }));
+            if (c.state !== "accept") inside.append(s("rect", { x: a, y: e, width: b - a + 0.4, height: f - e + 0.4, class: `explore-veil ${c.state}` }));
+            if (c.state === "reject" || c.state === "failed") inside.append(s("path", { class: "explore-veil-line", d: `M${a} ${f}L${b} ${e}${c.state === "failed" ? `M${a} ${e}L${b} ${f}` : ""}` }));
+            if (c.state === "inconclusive") inside.append(s("path", { class: "explore-veil-line", d: `M${(a + b) / 2 - 1.5} ${(e + f) / 2}h3` }));
+        }
+        if (Number.isFinite(x.now) && Number.isFinite(y.now)) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}M${LEFT} ${py(y.now)}H${right}` }));
+        if (at) inside.append(s("circle", { class: "explore-at", cx: px(at[0]), cy: py(at[1]), r: 7 }));
+        out.push(inside);
+        this.from = (ex, ey) => [
+            Math.min(Math.max(x.from + ((ex - LEFT) / (right - LEFT)) * (x.to - x.from), x.from), x.to),
+            Math.min(Math.max(y.from + ((bottom - ey) / (bottom - TOP)) * (y.to - y.from), y.from), y.to),
+        ];
+        return out;
+    }
+}
+
+/** Runs of neighbours that all have it. */
+function runs(points, has) {
+    const out = [];
+    let run = [];
+    for (const p of [...points, null]) {
+        if (p && has(p)) run.push(p);
+        else {
+            if (run.length > 1) out.push(run);
+            run = [];
+        }
+    }
+    return out;
+}
+
+/** What colours and signs of a picture mean. */
+export function legendOf(kind) {
+    const sign = (state) => h("span", { class: "explore-key" }, s("svg", { viewBox: "-5 -5 10 10", class: "explore-key-sign", "aria-hidden": "true" }, s("path", { class: `explore-sign ${state}`, d: SIGNS[state] })), WORDS[state]);
+    if (kind === "map") return [h("span", { class: "explore-key" }, "dark is little, yellow is the limit; hatched: rejected, a dash: inconclusive, crossed: cannot be made; lines: now")];
+    return [sign("accept"), sign("inconclusive"), sign("reject"), h("span", { class: "explore-key" }, h("i", { class: "explore-band-key" }), "error band"), h("span", { class: "explore-key" }, h("i", { class: "explore-now-key" }), "as it is now")];
+}

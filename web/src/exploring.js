@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What can be explored of a text, and at which points: inputs with their present values and usual ranges, numbers of the
+// verdict that can be looked at, and the order in which points are asked for, coarse ones first.
+import { prefixOf, splitQuantity } from "./format.js";
+import { evaluate, kindOf } from "./quantities.js";
+
+const USUAL = 0.3; // of its value either way, where a range is not stated
+const LEFT_OUT = new Set(["parameter", "study", "vary", "uncertain", "trend", "respond", "sweep", "order"]);
+const ROUND = 4; // digits of an end that was not stated
+export const POINTS = 200; // intervals of a range
+export const CELLS = 32; // of each of two
+const STRIDES = [25, 5, 1];
+const MAP_STRIDES = [8, 4, 2, 1];
+
+export const unitSizes = (table) => Object.fromEntries(table.units.map((u, i) => [u, table.unit_factors[i]]));
+
+/** A number in a unit as a text that the program reads back to the same nine digits. */
+export const textOf = (x, unit) => `${Number(x.toPrecision(9))}${unit ? ` ${unit}` : ""}`;
+
+const rounded = (x) => Number(x.toPrecision(ROUND));
+
+/** {from, to} in the unit of the value. */
+function usualRange(value) {
+    if (value === 0) return { from: -1, to: 1 };
+    const [a, b] = [rounded(value * (1 - USUAL)), rounded(value * (1 + USUAL))];
+    return { from: Math.min(a, b), to: Math.max(a, b) };
+}
+
+/**
+ * Everything of a description that is a number: [{what (as --set takes it), label, group, unit, now (in the unit), from,
+ * to, formula}]. root, row: of the form; parameters: of the last answer.
+ */
+export function inputsOf(root, row, table, parameters = []) {
+    const units = unitSizes(table);
+    const known = new Map(parameters.map((p) => [p.name, p]));
+    const valueOf = (name) => known.get(name)?.value_SI ?? NaN;
+    const out = [];
+    for (const e of root.children.filter((c) => c.name === "parameter")) {
+        const name = e.attributes.get("name")?.value;
+        const p = known.get(name);
+        if (!name || !p || !Number.isFinite(p.value)) continue;
+        const unit = p.unit ?? "";
+        const stated = Number.isFinite(p.minimum ?? NaN) && Number.isFinite(p.maximum ?? NaN) && p.maximum > p.minimum;
+        out.push({ what: name, label: name, group: "Parameters", unit, now: p.value, ...(stated ? { from: p.minimum, to: p.maximum } : usualRange(p.value)), bounds: stated ? [p.minimum, p.maximum] : null });
+    }
+    for (const e of inner(root)) {
+        const attributes = row(e.name, e.parent).attributes ?? [];
+        for (const a of attributes) {
+            const text = e.attributes.get(a.name)?.value;
+            if (text === undefined || !["number", "expression"].includes(a.type) || a.whole) continue;
+            const kind = kindOf(text, units, (n) => known.has(n));
+            const si = evaluate(text, units, valueOf);
+            if (!Number.isFinite(si)) continue;
+            const unit = kind.kind === "number" ? kind.unit : (a.unit ?? "");
+            const now = Number((si / (units[unit] ?? 1)).toPrecision(9));
+            const path = `${e.path}/@${a.name}`.replace(/^[^/]+\//, "");
+            out.push({ what: path, label: path.replaceAll("/@", " ").replaceAll("/", " › "), group: e.name, unit, now, ...usualRange(now), formula: kind.kind === "number" ? null : text });
+        }
+    }
+    return out;
+}
+
+function* inner(element) {
+    for (const child of element.children) {
+        if (LEFT_OUT.has(child.name)) continue;
+        child.parent = element.name;
+        yield child;
+        yield* inner(child);
+    }
+}
+
+/** An end of a range as somebody types it: in the unit of the input, or NaN. */
+export function endOf(text, unit, units) {
+    const q = splitQuantity(text);
+    if (!q) return NaN;
+    if (q.unit === "" || q.unit === unit) return q.value;
+    return units[q.unit] && units[unit] ? (q.value * units[q.unit]) / units[unit] : NaN;
+}
+
+// ---- numbers to look at ----
+
+const SHARE = { unit: "%", factor: 100, limits: [1] };
+
+/**
+ * [{id, label, unit, factor (from SI), value, low, high: paths of the documents, also: of a hinge as made, limits (SI)}] of
+ * a verdict; made: as the flows make it.
+ */
+export function numbersToLookAt(v, made) {
+    const out = [{ id: "governing", label: "Share of the limit that governs", ...SHARE, value: ["governing.utilisation"], low: ["governing.utilisation_band[0]"], high: ["governing.utilisation_band[1]"] }];
+    for (const x of v?.hinges ?? []) {
+        const paths = (key) => [...(made ? [`hinges[${x.id}].as_fabricated.${key}`] : []), `hinges[${x.id}].${key}`];
+        if (/[\],]/.test(x.id)) continue; // no path could name it
+        out.push({ id: `hinge ${x.id}`, label: `Hinge ${x.id}, share of its limit`, ...SHARE, value: paths("utilisation"), low: paths("utilisation_band[0]"), high: paths("utilisation_band[1]") });
+    }
+    const seen = new Set();
+    for (const r of v?.requirements ?? []) {
+        const words = [r.probe, r.scene, r.flow].filter(Boolean).join(",");
+        if (seen.has(words) || /[\]]/.test(words)) continue;
+        seen.add(words);
+        const path = (key) => [...(made ? [`requirements[${words}].as_fabricated.${key}`] : []), `requirements[${words}].${key}`];
+        const [prefix, size] = prefixOf(Math.max(...[r.min, r.max, r.value].map((x) => Math.abs(x ?? 0))));
+        out.push({ id: `require ${words}`, label: `${r.probe} (${[r.measure ?? r.kind, r.scene].filter(Boolean).join(", ")})`, unit: `${prefix}${r.unit}`, factor: 1 / size, limits: [r.min, r.max].filter((x) => x !== null), value: path("value"), low: path("band[0]"), high: path("band[1]") });
+    }
+    out.push({ id: "frequency", label: "Lowest natural frequency, at rest", unit: "Hz", factor: 1, limits: [], value: ["modes:modes[0].f_Hz"], low: [], high: [] });
+    return out;
+}
+
+// ---- points ----
+
+/** Indices 0..POINTS in the order in which they are asked for, in rounds. */
+export function rounds() {
+    const done = new Set();
+    return STRIDES.map((stride) => {
+        const list = [];
+        for (let i = 0; i <= POINTS; i += stride) if (!done.has(i)) list.push(i);
+        for (const i of list) done.add(i);
+        return { stride, list };
+    });
+}
+
+/** Likewise of a map: pairs of indices 0..CELLS. */
+export function mapRounds() {
+    const done = new Set();
+    return MAP_STRIDES.map((stride) => {
+        const list = [];
+        for (let j = 0; j <= CELLS; j += stride) for (let i = 0; i <= CELLS; i += stride) if (!done.has(`${i} ${j}`)) list.push([i, j]);
+        for (const p of list) done.add(p.join(" "));
+        return { stride, list };
+    });
+}
+
+/** Ranges of one decision, between points sorted by x: [{state, from, to}], the ends in the middle between two points. */
+export function stretches(points) {
+    const out = [];
+    for (const p of points) {
+        const last = out.at(-1);
+        if (last?.state === p.state) last.to = p.x;
+        else {
+            if (last) last.to = (last.to + p.x) / 2;
+            out.push({ state: p.state, from: last ? last.to : p.x, to: p.x });
+        }
+    }
+    return out;
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers of the laboratory: what a recipe cannot compute without is entered here and becomes a laboratory pack, as
+// `--lab` takes it. A pack belongs to the input of everything that is computed (state.lab); it can be saved, and one that
+// somebody has can be opened, or made of what was measured on the coupons (`flexwright calibrate`).
+import { announce, button, h, select } from "./dom.js";
+import { run } from "./jobs.js";
+import { saveAs } from "./plotfile.js";
+import { emit, on, state } from "./store.js";
+
+const NAMESPACE = "urn:flexwright:process:1";
+const KEPT = "laboratory"; // of the browser's store of this tab: a reload keeps them
+const STATUS = [["measured", "measured"], ["stated", "stated by the maker"], ["typical", "typical"], ["assumed", "assumed"]];
+const MOST_BYTES = 200000;
+
+const escaped = (x) => String(x).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
+const nameOf = (flow) => `entered-${flow}.xml`;
+const isNumber = (x) => /^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*$/.test(x);
+
+/** The pack of these rows: [{id, value, u, unit, status}], numbers as somebody has written them. */
+export function packOf(flow, rows, source) {
+    const values = rows.map((r) => `  <q id="${escaped(r.id)}" value="${escaped(r.value.trim())}"${r.u?.trim() ? ` u="${escaped(r.u.trim())}"` : ""} unit="${escaped(r.unit)}" status="${r.status}" src="laboratory"/>`);
+    const kind = rows.every((r) => r.status === "measured") ? "measured" : "assumed";
+    return `<?xml version="1.0" encoding="UTF-8"?>\n<process xmlns="${NAMESPACE}" id="laboratory" version="1" title="numbers of the laboratory" flow="${escaped(flow)}">\n  <source id="laboratory" kind="${kind}">${escaped(source || "entered on the page")}</source>\n${values.join("\n")}\n</process>\n`;
+}
+
+/** Packs of an earlier visit of this tab. */
+export function restorePacks() {
+    try {
+        const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}");
+        state.labRows = kept.rows ?? {};
+        state.lab = kept.lab ?? {};
+    } catch {
+        // a store that is closed keeps nothing
+    }
+}
+
+function changed(words) {
+    try {
+        sessionStorage.setItem(KEPT, JSON.stringify({ lab: state.lab, rows: state.labRows }));
+    } catch {
+        // likewise
+    }
+    emit("change");
+    emit("lab");
+    announce(words);
+}
+
+export class Laboratory {
+    constructor(holder) {
+        this.flow = null;
+        this.known = [];
+        this.rows = h("tbody", {});
+        this.other = select("Another number", [["", "another number…"]], "", (id) => this.#addRow(id));
+        this.source = h("input", { "aria-label": "Where these numbers are from", placeholder: "where they are from", class: "lab-source" });
+        this.said = h("p", { class: "doc", role: "status" });
+        this.wrong = h("ul", { class: "messages warn-text" });
+        this.table = h("table", { class: "plain lab-table" }, h("thead", {}, h("tr", {}, ["number", "value", "± (standard uncertainty)", "unit", "how it is known"].map((x) => h("th", { scope: "col" }, x)))), this.rows);
+        const file = (label, accept, take) => {
+            const input = h("input", { type: "file", accept, hidden: true, "aria-label": label, onchange: async () => {
+                const [f] = input.files;
+                input.value = "";
+                if (f) take(f);
+            } });
+            return [button(label, { icon: "open", class: "small" }, () => input.click()), input];
+        };
+        this.save = button("Save as a pack", { icon: "download", class: "small", id: "lab-save" }, () => this.#save());
+        this.clear = button("Without them", { icon: "close", class: "small", id: "lab-clear" }, () => this.#clear());
+        this.box = h("details", { class: "reasons laboratory" }, h("summary", {}, "Numbers of your laboratory"),
+            h("p", { class: "doc" }, "What is entered stands for the value of the process pack in all that this page computes, as ", h("code", {}, "--lab"), " does on the command line."),
+            this.table, h("div", { class: "row" }, this.other, this.source, button("Use these numbers", { icon: "check", class: "small primary", id: "lab-use" }, () => this.#use()), this.save, this.clear),
+            h("div", { class: "row" }, file("Open a pack…", ".xml", (f) => this.#open(f)), file("From measured coupons…", ".csv,.txt,.log", (f) => this.#calibrate(f))), this.wrong, this.said);
+        holder.append(this.box);
+        on("lab", () => this.#say());
+        on("answer", () => this.#diagnostics());
+        this.#say();
+    }
+
+    /** flow: whose numbers; known: [{id, name, unit, missing (for what, or ""), value}] */
+    offer(flow, known) {
+        const before = this.flow;
+        this.flow = flow;
+        this.known = known;
+        this.box.hidden = flow === null;
+        if (flow === null) return;
+        const rows = (state.labRows[flow] ??= {});
+        for (const q of known) if (q.missing && !rows[q.id]) rows[q.id] = { value: "", u: "", status: "measured" };
+        const rest = known.filter((q) => !rows[q.id]);
+        this.other.replaceChildren(h("option", { value: "" }, "another number…"), ...rest.map((q) => h("option", { value: q.id }, `${q.name} (${q.id})`)));
+        const key = JSON.stringify([flow, Object.keys(rows)]);
+        if (this.shape !== key) {
+            this.shape = key;
+            this.rows.replaceChildren(...Object.keys(rows).map((id) => this.#row(id)));
+        }
+        if (before !== flow && Object.values(rows).some((r) => !r.value) && known.some((q) => q.missing)) this.box.open = true;
+        this.#say();
+    }
+
+    #row(id) {
+        const row = state.labRows[this.flow][id];
+        const q = this.known.find((x) => x.id === id) ?? { id, name: id, unit: row.unit ?? "1", missing: "" };
+        row.unit = q.unit;
+        const words = `${q.name} (${q.id})`;
+        const field = (name, label) => h("input", { value: row[name], inputmode: "decimal", autocomplete: "off", "aria-label": `${words}: ${label}`, oninput: (e) => (row[name] = e.target.value), onkeydown: (e) => e.key === "Enter" && this.#use() });
+        return h("tr", { "data-id": id }, h("th", { scope: "row" }, q.name, " ", h("span", { class: "code" }, id), q.missing ? h("span", { class: "doc" }, ` needed for ${q.missing}`) : ""),
+            h("td", {}, field("value", "value")), h("td", {}, field("u", "standard uncertainty")), h("td", {}, q.unit === "1" ? "–" : q.unit), h("td", {}, select(`${words}: how it is known`, STATUS, row.status, (v) => (row.status = v))));
+    }
+
+    #addRow(id) {
+        if (!id) return;
+        state.labRows[this.flow][id] = { value: "", u: "", status: "measured" };
+        this.offer(this.flow, this.known);
+        this.rows.querySelector(`[data-id="${CSS.escape(id)}"] input`)?.focus();
+    }
+
+    #filled() {
+        return Object.entries(state.labRows[this.flow] ?? {}).map(([id, r]) => ({ id, ...r })).filter((r) => r.value.trim());
+    }
+
+    #use() {
+        const rows = this.#filled();
+        const bad = rows.filter((r) => !isNumber(r.value) || !isNumber(r.u));
+        if (bad.length) return this.#refuse(bad.map((r) => (isNumber(r.value) && !r.u.trim() ? `${r.id}: its standard uncertainty is needed, too; 0 says that it is exact` : `${r.id}: a number is needed, not "${isNumber(r.value) ? r.u : r.value}"`)));
+        if (!rows.length) return this.#refuse(["No value is entered yet."]);
+        this.#refuse([]);
+        state.lab[nameOf(this.flow)] = packOf(this.flow, rows, this.source.value);
+        changed(`${rows.length} numbers of the laboratory are used`);
+    }
+
+    #clear() {
+        state.lab = {};
+        this.#refuse([]);
+        changed("without numbers of the laboratory");
+    }
+
+    #save() {
+        const text = state.lab[nameOf(this.flow)] ?? (this.#filled().length ? packOf(this.flow, this.#filled(), this.source.value) : Object.values(state.lab)[0]);
+        if (!text) return this.#refuse(["There is nothing to save yet."]);
+        saveAs(`laboratory-${this.flow}.xml`, text, "application/xml");
+    }
+
+    async #open(file) {
+        if (file.size > MOST_BYTES) return this.#refuse([`${file.name} is larger than a laboratory pack may be here (200 kB)`]);
+        const text = await file.text();
+        const name = `${file.name.toLowerCase().replace(/\.xml$/, "").replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "").slice(0, 40) || "pack"}.xml`;
+        this.#refuse([]);
+        state.lab[name === "archive.xml" ? "pack.xml" : name] = text;
+        changed(`${file.name} is used`);
+    }
+
+    /** What was measured on the coupons becomes a pack, by the command's own fit. */
+    async #calibrate(file) {
+        if (file.size > MOST_BYTES) return this.#refuse([`${file.name} is larger than a table may be here (200 kB)`]);
+        this.said.textContent = `Fitting the numbers of ${this.flow} to ${file.name}…`;
+        try {
+            const text = await file.text();
+            const job = await run("calibrate", { text, options: { flow: this.flow } });
+            if (job.state !== "done" || !job.files?.length) return this.#refuse((job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)));
+            const pack = await (await fetch(`/api/jobs/${job.id}/files/laboratory.xml`, { credentials: "same-origin" })).text();
+            this.#refuse([]);
+            state.lab[`calibrated-${this.flow}.xml`] = pack;
+            changed(`numbers of ${file.name} are used`);
+        } catch (error) {
+            this.#refuse([error.message]);
+        }
+        return this.#say();
+    }
+
+    #refuse(list) {
+        this.wrong.replaceChildren(...list.map((m) => h("li", {}, m)));
+        if (list.length) announce(list[0]);
+        this.#say();
+    }
+
+    /** What the program says of the packs, where they are used. */
+    #diagnostics() {
+        const names = Object.keys(state.lab);
+        const said = state.diagnostics.filter((d) => names.some((n) => (d.file ?? "").endsWith(n)) && d.severity !== "note");
+        if (said.length || this.byProgram) this.wrong.replaceChildren(...said.map((d) => h("li", {}, `${d.file}:${d.line}: ${d.message}${d.code ? ` [${d.code}]` : ""}`)));
+        this.byProgram = said.length > 0;
+        if (said.length) this.box.open = true;
+    }
+
+    #say() {
+        const names = Object.keys(state.lab);
+        this.clear.disabled = names.length === 0;
+        this.said.textContent = names.length ? `In use: ${names.map((n) => `${n} (${(state.lab[n].match(/<q /g) ?? []).length} numbers)`).join(", ")}.` : "None are in use.";
+    }
+}

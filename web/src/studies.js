@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The studies of the description: run, stopped, gone on with, looked at; and the best device of one put into the text. A
+// study is a job of the server, the command `flexwright study`; what it has judged stays when it is stopped.
+import { begin, inputKey, mayChange, Shown } from "./belong.js";
+import { edit, isPresent } from "./design.js";
+import { announce, button, h, icon, select } from "./dom.js";
+import { duration, number, percent, si } from "./format.js";
+import { fileOf, forget, hasFile, run } from "./jobs.js";
+import { emit, on, state } from "./store.js";
+
+const KINDS = { // what a new one is made of: rows beside its inputs
+    sweep: { words: "a map: every combination", vary: { steps: "9" }, respond: [{ name: "used", value: "governing.utilisation", max: "1" }] },
+    sensitivity: { words: "which number matters", vary: {}, respond: [{ name: "used", value: "governing.utilisation" }] },
+    size: { words: "the device that uses least of its limits", vary: {}, respond: [{ name: "used", value: "governing.utilisation", goal: "minimise" }] },
+    "worst-case": { words: "the worst within the ranges", vary: {}, respond: [{ name: "used", value: "governing.utilisation" }] },
+    yield: { words: "how many dies hold every limit", vary: null, respond: [] },
+};
+const PICTURES_MOST = 8;
+
+export class Studies {
+    /** chosen(): the inputs that are explored at the moment, with their ranges as texts: [{what, from, to}] */
+    constructor(holder, chosen) {
+        this.chosen = chosen;
+        this.kept = new Map(); // name -> {job, of: key of its input, control, stage, why, done}
+        this.list = h("div", { class: "study-list" });
+        this.kind = select("Kind of study", Object.entries(KINDS).map(([k, x]) => [k, `${k}: ${x.words}`]), "size", () => {});
+        this.add = button("Add to the description", { icon: "plus", id: "study-add" }, () => this.#add());
+        holder.append(h("section", { class: "studies", "aria-labelledby": "h-studies" }, h("h2", { id: "h-studies" }, "Studies"),
+            h("p", { class: "doc" }, "A study judges many devices of this description, in files of its own: stopped, it goes on where it was. One stands in the text as <study>."),
+            this.list, h("div", { class: "row" }, this.kind, this.add), h("p", { class: "doc" }, "A new one varies what is chosen above, over the ranges that stand there.")));
+        for (const event of ["text", "options", "change", "preview"]) on(event, () => this.visible && this.#show());
+        mayChange(() => [...this.kept.values()].some((x) => x.control), { job: true });
+    }
+
+    shown(yes) {
+        this.visible = yes;
+        if (yes) this.#show();
+    }
+
+    /** Names and kinds as the text has them. */
+    get #here() {
+        return (this.form?.root?.children ?? []).filter((e) => e.name === "study").map((e) => ({ name: e.attributes.get("name")?.value ?? "", kind: e.attributes.get("kind")?.value ?? "", element: e }));
+    }
+
+    #options(name) {
+        const { accuracy, effects, hinge_model } = state.options;
+        return { study: name, ...Object.fromEntries(Object.entries({ accuracy, effects, hinge_model }).filter(([, v]) => v !== undefined)) };
+    }
+
+    #key(name) {
+        return inputKey(this.#options(name));
+    }
+
+    // ---- a new one ----
+
+    async #add() {
+        const kind = this.kind.value;
+        const { vary, respond } = KINDS[kind];
+        const inputs = vary ? this.chosen() : [];
+        if (vary && !inputs.length) return emit("notice", { kind: "warn", text: "Choose above what is to be varied, and over which range." });
+        const names = this.#here.map((x) => x.name);
+        let name = kind;
+        for (let n = 2; names.includes(name); n++) name = `${kind}-${n}`;
+        const root = this.form.root.name;
+        const at = `${root}/study[${name}]`;
+        await edit([
+            { add: root, element: "study", attributes: { name, kind, ...(kind === "yield" ? { samples: "200" } : { as: "drawn" }) } },
+            ...inputs.map((x) => ({ add: at, element: "vary", attributes: { what: x.what, from: x.from, to: x.to, ...vary } })),
+            ...respond.map((attributes) => ({ add: at, element: "respond", attributes })),
+        ], `study ${name} added`);
+        return this.#show();
+    }
+
+    // ---- running ----
+
+    async #run(name, resume) {
+        const key = this.#key(name);
+        const before = this.kept.get(name);
+        if (!resume && before?.job) forget(before.job);
+        const control = new AbortController();
+        const mine = { control, of: key, stage: "waiting", job: null };
+        this.kept.set(name, mine);
+        this.#show();
+        const end = begin({ words: `Study ${name}`, cancel: () => control.abort() });
+        const begun = performance.now();
+        try {
+            const job = await run("study", { options: this.#options(name), resume, signal: control.signal, onprogress: (j) => {
+                mine.stage = `${j.stage ?? j.state} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`;
+                mine.job = j;
+                this.#show();
+            } });
+            mine.job = job;
+            if (job.state === "done" && job.result) mine.done = true;
+            else if (job.state === "cancelled") mine.stopped = true;
+            else mine.why = (job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)).join(" ") || `ended with status ${job.exit_status ?? "?"}`;
+            announce(`Study ${name}: ${mine.done ? `done in ${duration(job.seconds)}` : mine.stopped ? "stopped" : mine.why}`);
+        } catch (error) {
+            mine.why = error.message;
+        } finally {
+            mine.control = null;
+            end();
+            this.#show();
+        }
+    }
+
+    // ---- what is shown ----
+
+    #show() {
+        const here = this.#here;
+        for (const name of this.kept.keys()) if (!here.some((x) => x.name === name) && !this.kept.get(name).control) {
+            forget(this.kept.get(name).job);
+            this.kept.delete(name);
+        }
+        const open = new Set([...this.list.querySelectorAll(".study")].map((e) => e.dataset.name));
+        if (!here.length) {
+            this.list.replaceChildren(h("p", { class: "empty" }, "There is none in this description yet."));
+            return;
+        }
+        if (open.size !== here.length || here.some((x) => !open.has(x.name))) this.list.replaceChildren(...here.map((x) => this.#card(x.name)));
+        for (const x of here) this.#fill(x);
+    }
+
+    #card(name) {
+        const head = h("div", { class: "study-head" });
+        const body = h("div", { class: "study-body job-content" });
+        const card = h("section", { class: "study card", "data-name": name, "aria-label": `Study ${name}` }, head, body);
+        Object.assign(card, { head, body, result: new Shown(body, () => this.#key(name)) });
+        return card;
+    }
+
+    #fill({ name, kind, element }) {
+        const card = [...this.list.children].find((e) => e.dataset.name === name);
+        const mine = this.kept.get(name);
+        const present = mine?.of === this.#key(name);
+        const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
+        const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
+        const part = mine?.control && /(\d+) of (\d+) devices/.exec(mine.stage);
+        const key = JSON.stringify([kind, inputs, said, Boolean(mine?.control), mine?.job?.id, isPresent(), present]);
+        if (card.dataset.key === key) return;
+        card.dataset.key = key;
+        card.head.replaceChildren(
+            h("strong", {}, name), h("span", { class: "doc" }, `${kind}${inputs.length ? ` over ${inputs.join(", ")}` : ""}`), h("span", { class: "space" }),
+            ...(mine?.control ? [h("progress", { "aria-label": `Study ${name}: progress`, max: part ? Number(part[2]) : null, value: part ? Number(part[1]) : null }), button("Stop", { icon: "close", class: "small", "data-act": "stop" }, () => mine.control?.abort())] : [
+                mine?.stopped && present && mine.job ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume" }, () => this.#run(name, mine.job.id)) : null,
+                button(mine ? "Run anew" : "Run", { icon: "target", class: `small${mine ? "" : " primary"}`, "data-act": "run", disabled: !isPresent() }, () => this.#run(name)),
+            ]).filter(Boolean),
+            h("p", { class: mine?.why ? "job-errors study-said" : "job-message study-said", role: "status" }, said));
+        if (!mine?.done) {
+            card.body.replaceChildren();
+            card.result.take(null);
+            return;
+        }
+        if (card.body.dataset.job !== String(mine.job.id)) {
+            card.body.dataset.job = String(mine.job.id);
+            card.body.replaceChildren(...this.#result(mine.job));
+        }
+        card.result.take(mine.of);
+    }
+
+    #result(job) {
+        const r = job.result;
+        const link = (path, words) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), target: "_blank", rel: "noopener" }, icon("open"), words) : null);
+        const save = (path, words) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), download: `${r.device}-${r.study}-${path}` }, icon("download"), words) : null);
+        const n = r.samples;
+        const parts = [`${n.accepted} accepted`, `${n.rejected} rejected`, `${n.inconclusive} inconclusive`, ...(n.failed ? [`${n.failed} could not be made`] : [])];
+        return [
+            h("p", {}, `${n.run + n.failed} devices: ${parts.join(", ")}.`),
+            ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
+            ...(r.found ?? []).map((f, i) => this.#device(r.found.length > 1 ? `Device ${i + 1} of the front` : "Best device", f)),
+            r.kind === "size" && !r.found?.length && r.nearest ? this.#device("No device holds every limit; the nearest", r.nearest) : null,
+            ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}: ${x.unit ? si(w.value, x.unit) : number(w.value, 4)}`, w))),
+            ...(r.responses ?? []).filter((x) => x.by).map((x) => effects(x)),
+            r.how ? h("p", { class: "doc" }, r.how) : null,
+            h("div", { class: "study-pictures" }, (job.files ?? []).filter((f) => /^pictures\/.*\.svg$/.test(f.path)).slice(0, PICTURES_MOST).map((f) => h("a", { href: fileOf(job, f.path), target: "_blank", rel: "noopener" }, h("img", { src: fileOf(job, f.path), alt: f.path.replace(/^pictures\/|\.svg$/g, "").replaceAll("-", " ") })))),
+            h("div", { class: "row" }, link("study.html", "Study page"), save("study.csv", "CSV"), save("study.sqlite", "SQLite"), h("a", { class: "button", href: `/api/jobs/${job.id}/archive`, download: `${r.device}-${r.study}.zip` }, icon("download"), "All files")),
+        ].filter(Boolean);
+    }
+
+    /** A device of the results: what it is, and the button that puts it into the text. */
+    #device(words, f) {
+        const set = f.set.map((x) => `${x.path} ${x.value}`).join(", ");
+        const values = (f.responses ?? []).map((x) => `${x.name} ${number(x.value, 4)}`).join(", ");
+        return h("p", { class: "study-device" }, `${words}: ${set}${values ? ` (${values})` : ""}${f.verdict ? `, ${f.verdict}` : ""} `,
+            button("Apply", { class: "small", "data-act": "apply" }, () => edit(f.set.map((x) => ({ path: x.path, value: x.value })), set)));
+    }
+}
+
+/** What each input does to a response, the largest first. */
+function effects(x) {
+    const rows = [...x.by].sort((a, b) => Math.abs(b.half_range_effect ?? 0) - Math.abs(a.half_range_effect ?? 0));
+    return h("table", { class: "plain" }, h("thead", {}, h("tr", {}, [x.name, "half its range changes it by", "share of the variance alone", "with all others"].map((t) => h("th", {}, t)))),
+        h("tbody", {}, rows.map((b) => h("tr", {}, h("td", {}, b.what), h("td", { class: "n" }, number(b.half_range_effect, 3)), h("td", { class: "n" }, b.first === null || b.first === undefined ? "–" : percent(b.first, 2)), h("td", { class: "n" }, b.total === null || b.total === undefined ? "–" : percent(b.total, 2))))));
+}
