@@ -99,7 +99,7 @@ typedef struct fw_flexure_path_point {
     double soft_per_Nm; /* rotation by a moment, per part of the length: L/EI */
 } fw_flexure_path_point;
 
-enum { FW_STRIP_PLACES = 33 * FW_STRIP_MOST };
+enum { FW_STRIP_PLACES = 33 * FW_STRIP_MOST, FW_STRIP_ROWS = 7 };
 
 typedef struct fw_flexure_path_strain {
     fw_flexure_path_point *point; /* (n) along the strip, roots first and last */
@@ -109,6 +109,9 @@ typedef struct fw_flexure_path_strain {
     double narrows[2];            /* (w(0)/w(rho))^2 of either end, at least 1 */
     double stretched; /* of what pulls along, the share that the blocks' give may take */
     double W_m[2];    /* true centre of compliance */
+    double
+        *row; /* (FW_STRIP_ROWS x wide) the points once more, a number after the other; NULL: not */
+    int wide; /* n, rounded up to whole vectors of 4 */
 } fw_flexure_path_strain;
 
 /* stress over N/(t h) at a root in tension */

@@ -547,8 +547,8 @@ void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, do
 }
 
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
-                               double fx_N, double fy_N, double turned_rad) {
-    double c = cos(turned_rad), s = sin(turned_rad);
+                               double fx_N, double fy_N, const fw_verdict_turn *turn) {
+    double c = turn->cosine, s = turn->sine;
     double x = c * fx_N + s * fy_N, y = c * fy_N - s * fx_N, m = moment_Nm;
     const double *g = arm->give;
     return (g[0] * m * m + 2 * m * (g[1] * x + g[2] * y) + g[3] * x * x + 2 * g[4] * x * y +
