@@ -122,6 +122,8 @@ fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in
 
 /* of a strip all of whose stiffness is `by` times as large: strains per force and moment are less */
 void fw_flexure_path_strain_scale(fw_flexure_path_strain *strip, double by);
+/* of one whose sections are strained by a moment `by` times as much, and by forces as before */
+void fw_flexure_path_strain_bend(fw_flexure_path_strain *strip, double by);
 
 typedef struct fw_flexure_strip_load {
     double rotation_rad;

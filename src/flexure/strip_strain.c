@@ -154,6 +154,12 @@ void fw_flexure_path_strain_scale(fw_flexure_path_strain *s, double by) {
     fill_rows(s);
 }
 
+void fw_flexure_path_strain_bend(fw_flexure_path_strain *s, double by) {
+    for (int i = 0; i < s->n; i++)
+        s->point[i].strain_per_Nm *= by;
+    fill_rows(s);
+}
+
 /* ---- the load ---- */
 
 void fw_flexure_strip_load_of(const fw_flexure_path_strain *s, const fw_flexure_hinge_law *law,

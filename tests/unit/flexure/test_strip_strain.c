@@ -78,6 +78,7 @@ static void pins_four_at_a_time(void **state) {
         law.stiffness_Nm_per_rad = c.stiffness_Nm_per_rad;
         assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &s), FW_OK);
         if (i % 5 == 0) fw_flexure_path_strain_scale(&s, 1.3);
+        if (i % 6 == 0) fw_flexure_path_strain_bend(&s, 1.2);
         const double th = 0.4 * (share(i, 0) - 0.5), size = i % 2 ? 1e-3 : 1e-6;
         const double force[2] = {size * (share(i, 1) - 0.5), size * (share(i, 2) - 0.5)};
         fw_flexure_strip_load load;
