@@ -21,6 +21,31 @@ fw_json fw_json_new(fw_text *out, fw_json_style style) {
     return (fw_json){.out = out, .style = style};
 }
 
+void fw_json_only(fw_json *json, const char *const *key) {
+    json->only = key;
+    json->unheard = fw_text_new(json->out->arena);
+}
+
+static bool is_left_out(const fw_json *json, const char *key) {
+    for (const char *const *wanted = json->only; key && *wanted; wanted++)
+        if (strcmp(*wanted, key) == 0) return false;
+    return key != NULL;
+}
+
+/* is what comes next left out, or in something that is? */
+static bool is_unheard(fw_json *json, const char *key) {
+    if (!json->only || json->depth == 0) return false;
+    if (json->depth == 1) json->left_out = is_left_out(json, key);
+    return json->left_out;
+}
+
+/* the end of something that is left out */
+static bool ends_unheard(fw_json *json) {
+    if (!json->only || json->depth < 2 || !json->left_out) return false;
+    json->depth--;
+    return true;
+}
+
 fw_status fw_json_finish(fw_json *json, const char *behind) {
     fw_text_add(json->out, behind);
     FW_TRY(fw_text_end(json->out));
@@ -106,8 +131,10 @@ static void next(fw_json *json, const char *key) {
 }
 
 static void open(fw_json *json, const char *key, bool object) {
-    next(json, key);
-    fw_text_bytes(json->out, object ? "{" : "[", 1);
+    if (!is_unheard(json, key)) {
+        next(json, key);
+        fw_text_bytes(json->out, object ? "{" : "[", 1);
+    }
     if (json->depth + 1 >= FW_JSON_DEPTH) {
         json->wrong = true;
         return;
@@ -135,6 +162,7 @@ static void close_level(fw_json *json) {
 }
 
 void fw_json_end(fw_json *json) {
+    if (ends_unheard(json)) return;
     int indent = form[json->style].indent;
     if (indent && json->filled & level(json)) new_line(json, indent * (json->depth - 1));
     close_level(json);
@@ -154,26 +182,32 @@ void fw_json_end_line(fw_json *json, int blanks) {
 /* ---- values ---- */
 
 fw_text *fw_json_value(fw_json *json, const char *key) {
+    json->unheard.length = 0;
+    if (is_unheard(json, key)) return &json->unheard;
     next(json, key);
     return json->out;
 }
 
 void fw_json_null(fw_json *json, const char *key) {
+    if (is_unheard(json, key)) return;
     next(json, key);
     fw_text_bytes(json->out, "null", 4);
 }
 
 void fw_json_truth(fw_json *json, const char *key, bool value) {
+    if (is_unheard(json, key)) return;
     next(json, key);
     fw_text_add(json->out, value ? "true" : "false");
 }
 
 void fw_json_whole(fw_json *json, const char *key, long long value) {
+    if (is_unheard(json, key)) return;
     next(json, key);
     fw_text_printf(json->out, "%lld", value);
 }
 
 void fw_json_text(fw_json *json, const char *key, const char *value) {
+    if (is_unheard(json, key)) return;
     if (!value) {
         fw_json_null(json, key);
         return;
@@ -185,6 +219,7 @@ void fw_json_text(fw_json *json, const char *key, const char *value) {
 void fw_json_textf(fw_json *json, const char *key, const char *format, ...) {
     char *text = NULL;
     va_list arguments;
+    if (is_unheard(json, key)) return;
     va_start(arguments, format);
     int n = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
@@ -200,6 +235,7 @@ void fw_json_textf(fw_json *json, const char *key, const char *format, ...) {
 }
 
 void fw_json_number(fw_json *json, const char *key, double value, int digits) {
+    if (is_unheard(json, key)) return;
     if (isfinite(value))
         fw_text_number(fw_json_value(json, key), value, digits);
     else
@@ -207,6 +243,7 @@ void fw_json_number(fw_json *json, const char *key, double value, int digits) {
 }
 
 void fw_json_fixed(fw_json *json, const char *key, double value, int decimals) {
+    if (is_unheard(json, key)) return;
     if (isfinite(value))
         fw_text_fixed(fw_json_value(json, key), value, decimals);
     else
@@ -216,6 +253,7 @@ void fw_json_fixed(fw_json *json, const char *key, double value, int decimals) {
 /* "1.0", "0.10000000000000001", "1e-6": an exponent without plus sign and leading zeros */
 void fw_json_real(fw_json *json, const char *key, double value) {
     char text[64];
+    if (is_unheard(json, key)) return;
     if (!isfinite(value)) {
         fw_json_null(json, key);
         return;

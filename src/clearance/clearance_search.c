@@ -166,10 +166,12 @@ static void narrow(search *s, int p, const fw_clearance_region *region) {
     fw_clearance_pose middle[2];
     double slack;
     s->moved_m[p] = s->domain->moved(s->domain->context, pair, region);
-    look(s, p, region, 0);
-    look(s, p, region, 1);
-    look(s, p, region, 0.5);
     s->narrowed[p] = true;
+    if (!isfinite(s->wish->enough_m)) { /* the least is looked for */
+        look(s, p, region, 0);
+        look(s, p, region, 1);
+        look(s, p, region, 0.5);
+    }
     if (!s->domain->bound(s->domain->context, pair, region, middle, &slack)) return;
     double near = s->wish->enough_m; /* left */
     if (s->least->known) near = fmin(near, s->least->left_m);

@@ -187,6 +187,8 @@ typedef struct piece { /* of an edge, from the root of the body on */
     double from_m, to_m, share; /* share: psi/th in its middle */
     int start;                  /* first piece of the same edge */
     fw_geometry_box box;
+    fw_geometry_vec2 middle;
+    double half_m; /* no place of it is farther from there */
     double bent_m; /* what it goes by against the body, at most */
 } piece;
 
@@ -201,6 +203,7 @@ typedef struct seen { /* a strip from one of its bodies */
 typedef struct close { /* a piece that an edge may meet */
     int piece;
     const fw_clearance_edge *edge;
+    double until; /* the rotation up to which what was last seen of it keeps them apart */
 } close;
 
 /* ---- as seen from one body ---- */
@@ -251,6 +254,8 @@ static void add_pieces(seen *v, const fw_clearance_strip_part *p, bool upper, in
         q->share = 0.5 * v->bend->root_share + (1 - v->bend->root_share) * c;
         q->start = start;
         q->box = fw_segment_box(&q->segment);
+        q->middle = fw_geometry_segment_point(&q->segment, 0.5);
+        q->half_m = 0.5 * fw_geometry_segment_length(&q->segment);
         q->bent_m = fw_clearance_bend_at(v->bend, q->to_m);
     }
 }
@@ -324,28 +329,54 @@ static void bend_all(const seen *v, double turn, fw_geometry_segment *now) {
     }
 }
 
+/* how much further the hinge may turn before the pair may meet */
+static double lasts(const seen *v, const close *pair, double turn, const fw_geometry_segment *now) {
+    const piece *p = &v->piece[pair->piece];
+    fw_geometry_vec2 at, there;
+    double d = fw_geometry_segment_distance(&now[pair->piece], &pair->edge->segment, &at, &there);
+    double speed = p->to_m * (p->share + p->to_m / v->strip->length_m);
+    return (room(d, v->wall_m) - forced(v, p, turn)) / speed;
+}
+
+/* The pair that may meet first, the first of those alike. A pair whose last distance lasts beyond the least
+   found so far is not looked at again: it would last longer still. That which was the first one before
+   begins. */
+static double least_of(const seen *v, close *pair, int count, int before, double turn,
+                       const fw_geometry_segment *now, int *worst) {
+    const double rounding = 1e-12;
+    double least = lasts(v, &pair[before], turn, now);
+    *worst = before;
+    for (int i = 0; i < count; i++) {
+        if (i == before || pair[i].until - turn > least + rounding) continue;
+        const double left = lasts(v, &pair[i], turn, now);
+        pair[i].until = turn + left;
+        if (left < least || (left == least && i < *worst)) least = left, *worst = i;
+    }
+    pair[before].until = turn; /* it is looked at the next time */
+    return least;
+}
+
 /* steps of the rotation, one way; the pair that is not proved to stay apart, or NULL */
-static const close *step_through(const seen *v, const close *pair, int count, double most,
+static const close *step_through(const seen *v, close *pair, int count, double most,
                                  fw_geometry_segment *now) {
     double turn = 0, sign = most < 0 ? -1 : 1;
+    int worst = 0;
+    for (int i = 0; i < count; i++)
+        pair[i].until = 0;
     for (int steps = 0; steps < MOST_STEPS; steps++) {
-        double lasts = HUGE_VAL;
-        const close *worst = NULL;
         bend_all(v, sign * turn, now);
-        for (int i = 0; i < count; i++) {
-            const piece *p = &v->piece[pair[i].piece];
-            fw_geometry_vec2 at, there;
-            double d = fw_geometry_segment_distance(&now[pair[i].piece], &pair[i].edge->segment,
-                                                    &at, &there);
-            double speed = p->to_m * (p->share + p->to_m / v->strip->length_m);
-            double left = (room(d, v->wall_m) - forced(v, p, turn)) / speed;
-            if (left < lasts) lasts = left, worst = &pair[i];
-        }
-        if (lasts <= 1e-3 * fabs(most)) return worst;
-        turn += lasts;
+        const double least = least_of(v, pair, count, worst, turn, now, &worst);
+        if (least <= 1e-3 * fabs(most)) return &pair[worst];
+        turn += least;
         if (turn >= fabs(most)) return NULL;
     }
     return pair;
+}
+
+/* the same from the distance of the middle, which costs a tenth */
+static bool is_far(const seen *v, const piece *p, const fw_geometry_segment *edge) {
+    const double d = fw_geometry_segment_nearest(edge, p->middle, NULL, NULL) - p->half_m;
+    return room(d, v->wall_m) > p->bent_m;
 }
 
 /* pieces that an edge may meet go to the list; false: it folds onto its own root there */
@@ -354,9 +385,9 @@ static bool list_pairs(const seen *v, const fw_clearance_edge *edge, close *pair
     for (int i = 0; i < v->count; i++) {
         const piece *p = &v->piece[i];
         if (fw_box_gap(box, p->box) > p->bent_m + v->wall_m) continue;
-        if (kept_off(v, p, 0, 1, 0, &edge->segment)) continue;
+        if (is_far(v, p, &edge->segment) || kept_off(v, p, 0, 1, 0, &edge->segment)) continue;
         if (p->from_m <= fw_root_m) return false;
-        pair[(*count)++] = (close){i, edge};
+        pair[(*count)++] = (close){i, edge, 0};
     }
     return true;
 }

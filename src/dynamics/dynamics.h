@@ -74,6 +74,7 @@ typedef struct fw_dynamics_motion_options {
     fw_dynamics_observer observe; /* NULL: nobody looks */
     fw_dynamics_glance glance;    /* of the same context; NULL: all instants are wanted */
     fw_dynamics_tracer trace;     /* NULL: nobody wants the pieces */
+    bool trace_both;              /* those of the looser run, too, where that is looked at */
     bool whole; /* instants have velocities and forces of joints and drivers, too */
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:

@@ -192,11 +192,18 @@ static fw_dynamics_observer observer(const fw_dynamics_recorder *record, void **
     return record->full || *context ? record->problem->options->observe : NULL;
 }
 
+/* who wants its pieces, NULL: nobody */
+static fw_dynamics_tracer tracer(const fw_dynamics_recorder *record, void **context) {
+    const fw_dynamics_motion_options *o = record->problem->options;
+    return observer(record, context) && (record->full || o->trace_both) ? o->trace : NULL;
+}
+
 static void show_start(fw_dynamics_recorder *record) {
     void *context;
     fw_dynamics_observer see = observer(record, &context);
     if (see) see(context, NULL);
-    if (see && record->problem->options->trace) record->problem->options->trace(context, NULL);
+    fw_dynamics_tracer trace = tracer(record, &context);
+    if (trace) trace(context, NULL);
 }
 
 /* The dense output of a step as polynomials: interpolated exactly by as many values as its degree
@@ -208,7 +215,8 @@ static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double
     size_t n = (size_t)problem->model->nq;
     int parts = row->dense_parts > 0 ? row->dense_parts : 1;
     int nodes = row->dense_order_u > 5 ? FW_PIECE_NODES : 6; /* quintics at most */
-    if (!observer(record, &context) || !problem->options->trace) return;
+    fw_dynamics_tracer trace = tracer(record, &context);
+    if (!trace) return;
     for (int k = 0; k < parts; k++) {
         double from = (double)k / parts, to = fmin(theta_end, (k + 1.0) / parts);
         if (!(to > from)) return;
@@ -223,7 +231,7 @@ static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double
                                          .to_s = (s->t_old + to * s->h) * unit,
                                          .nodes = nodes,
                                          .q = record->seen_piece};
-        problem->options->trace(context, &piece);
+        trace(context, &piece);
     }
 }
 

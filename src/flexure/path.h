@@ -99,7 +99,7 @@ typedef struct fw_flexure_path_point {
     double soft_per_Nm; /* rotation by a moment, per part of the length: L/EI */
 } fw_flexure_path_point;
 
-enum { FW_STRIP_PLACES = 33 * FW_STRIP_MOST };
+enum { FW_STRIP_PLACES = 33 * FW_STRIP_MOST, FW_STRIP_ROWS = 7 };
 
 typedef struct fw_flexure_path_strain {
     fw_flexure_path_point *point; /* (n) along the strip, roots first and last */
@@ -109,6 +109,9 @@ typedef struct fw_flexure_path_strain {
     double narrows[2];            /* (w(0)/w(rho))^2 of either end, at least 1 */
     double stretched; /* of what pulls along, the share that the blocks' give may take */
     double W_m[2];    /* true centre of compliance */
+    double
+        *row; /* (FW_STRIP_ROWS x wide) the points once more, a number after the other; NULL: not */
+    int wide; /* n, rounded up to whole vectors of 4 */
 } fw_flexure_path_strain;
 
 /* stress over N/(t h) at a root in tension */
@@ -119,6 +122,8 @@ fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in
 
 /* of a strip all of whose stiffness is `by` times as large: strains per force and moment are less */
 void fw_flexure_path_strain_scale(fw_flexure_path_strain *strip, double by);
+/* of one whose sections are strained by a moment `by` times as much, and by forces as before */
+void fw_flexure_path_strain_bend(fw_flexure_path_strain *strip, double by);
 
 typedef struct fw_flexure_strip_load {
     double rotation_rad;

@@ -23,6 +23,7 @@
 #include "base/constants.h"
 #include "flexure/section.h"
 #include <math.h>
+#include <stdint.h>
 
 double fw_flexure_tension_concentration(double width_m, double fillet_m) {
     if (!(fillet_m > 0)) return 1;
@@ -108,6 +109,26 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
     return FW_OK;
 }
 
+/* x, y, part, cosine, sine; strain per moment and per force, which roots have not: they are looked at by themselves */
+enum { X_ROW, Y_ROW, PART_ROW, COSINE_ROW, SINE_ROW, BENT_ROW, DRAWN_ROW };
+
+static void fill_rows(fw_flexure_path_strain *s) {
+    const int w = s->wide;
+    for (int i = 0; s->row && i < s->n; i++) {
+        const fw_flexure_path_point *p = &s->point[i];
+        const bool root = i == 0 || i == s->n - 1;
+        const double of[FW_STRIP_ROWS] = {p->x_m,
+                                          p->y_m,
+                                          p->part,
+                                          p->cosine,
+                                          p->sine,
+                                          root ? 0 : p->strain_per_Nm,
+                                          root ? 0 : p->strain_per_N};
+        for (int k = 0; k < FW_STRIP_ROWS; k++)
+            s->row[k * w + i] = of[k];
+    }
+}
+
 fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in,
                                      const fw_flexure_result *closed_form,
                                      fw_flexure_path_strain *out) {
@@ -118,14 +139,25 @@ fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in
         .narrows = {1, 1},
         .stretched = give / (in->length_m + give),
         .W_m = {closed_form->centre_m + closed_form->offset_m[0], closed_form->offset_m[1]}};
-    return fw_flexure_input_varies(in) ? varying_places(arena, in, closed_form->ends_stiffer, out)
-                                       : even_places(arena, in, closed_form, out);
+    FW_TRY(fw_flexure_input_varies(in) ? varying_places(arena, in, closed_form->ends_stiffer, out)
+                                       : even_places(arena, in, closed_form, out));
+    out->wide = (out->n + 3) / 4 * 4;
+    FW_NEED(out->row = fw_arena_array(arena, double, FW_STRIP_ROWS *(size_t)out->wide));
+    fill_rows(out);
+    return FW_OK;
 }
 
 void fw_flexure_path_strain_scale(fw_flexure_path_strain *s, double by) {
     for (int i = 0; i < s->n; i++)
         s->point[i].strain_per_Nm /= by, s->point[i].strain_per_N /= by,
             s->point[i].soft_per_Nm /= by;
+    fill_rows(s);
+}
+
+void fw_flexure_path_strain_bend(fw_flexure_path_strain *s, double by) {
+    for (int i = 0; i < s->n; i++)
+        s->point[i].strain_per_Nm *= by;
+    fill_rows(s);
 }
 
 /* ---- the load ---- */
@@ -365,19 +397,98 @@ static void ends_of(const fw_flexure_path_strain *s, const double *M, const doub
     out->least = fmin(larger(least, (1 - s->stretched) * between), out->peak);
 }
 
+/* largest between the roots: strain, and what a crest of the moment there may come to */
+typedef struct inside {
+    double strain, crest;
+} inside;
+
+/* a crest is above its middle by a quarter of the rise at most */
+static inside inside_of(const fw_flexure_path_strain *s, const double *M, const double *N) {
+    inside most = {0, HUGE_VAL};
+    for (int i = 1; i < s->n - 1; i++)
+        most.strain = larger(most.strain, strain_between(&s->point[i], M[i], N[i]));
+    return most;
+}
+
+/* The pin's strip, four places at a time: section forces, and the largest strain between the roots. Each place has
+   what it has by itself, to the last bit, whatever the width of the processor's vectors. M has room for three
+   numbers more on either side, N behind. */
+static inline __attribute__((always_inline)) inside pin_places(const fw_flexure_path_strain *s,
+                                                               const arms *f, double mean,
+                                                               double half, double *M, double *N) {
+    typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef long long mask __attribute__((vector_size(32), aligned(8), may_alias));
+    const int w = s->wide;
+    const mask size = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX};
+    four strain = {0}, crest = {0};
+    inside most = {0, 0};
+    for (int i = 0; i < w; i += 4) {
+#define ROW(k) (*(const four *)(const void *)(s->row + (k)*w + i))
+        const four part = ROW(PART_ROW);
+        const four bent =
+            ROW(Y_ROW) * f->X - ROW(X_ROW) * f->Y - (1 - part) * f->first - part * f->last;
+        const four m = mean + half * (2 * part - 1) + bent;
+        const four n = f->X * ROW(COSINE_ROW) + f->Y * ROW(SINE_ROW);
+        const four both =
+            (four)((mask)(ROW(BENT_ROW) * m) & size) + (four)((mask)(ROW(DRAWN_ROW) * n) & size);
+        const mask more = both > strain;
+        strain = (four)((more & (mask)both) | (~more & (mask)strain));
+        *(four *)(void *)(M + i) = m, *(four *)(void *)(N + i) = n;
+    }
+    for (int i = 0; i < w; i += 4) {
+        const four m = *(const four *)(const void *)(M + i);
+        const four rise =
+            *(const four *)(const void *)(M + i + 1) - *(const four *)(const void *)(M + i - 1);
+        const four tall =
+            ROW(BENT_ROW) * ((four)((mask)m & size) + 0.26 * (four)((mask)rise & size));
+#undef ROW
+        const mask more = tall > crest;
+        crest = (four)((more & (mask)tall) | (~more & (mask)crest));
+    }
+    for (int k = 0; k < 4; k++) {
+        most.strain = larger(most.strain, strain[k]);
+        most.crest = larger(most.crest, crest[k]);
+    }
+    return most;
+}
+
+static void pin_places_plain(const fw_flexure_path_strain *s, const arms *f, double mean,
+                             double half, double *M, double *N, inside *out) {
+    *out = pin_places(s, f, mean, half, M, N);
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) static void pin_places_avx2(const fw_flexure_path_strain *s,
+                                                            const arms *f, double mean, double half,
+                                                            double *M, double *N, inside *out) {
+    *out = pin_places(s, f, mean, half, M, N);
+}
+#endif
+
+static inside inside_of_pin(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
+                            const arms *f, double *M, double *N) {
+    const double mean = 0.5 * (load->root_Nm[0] + load->root_Nm[1]),
+                 half = 0.5 * (load->root_Nm[1] - load->root_Nm[0]);
+    inside out;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2"))
+        pin_places_avx2(s, f, mean, half, M, N, &out);
+    else
+#endif
+        pin_places_plain(s, f, mean, half, M, N, &out);
+    return out;
+}
+
 /* peak, and what is needed of the roots, of section forces at all places */
 static void strains_of(const fw_flexure_path_strain *s, const double *M, const double *N,
-                       fw_flexure_strip_strains *out) {
+                       inside within, fw_flexure_strip_strains *out) {
     const int last = s->n - 1;
-    double between = 0;
-    for (int i = 1; i < last; i++)
-        between = larger(between, strain_between(&s->point[i], M[i], N[i]));
+    const double between = within.strain;
     root_faces(&s->point[0], M[0], N[0], out->root[0]);
     root_faces(&s->point[last], M[last], N[last], out->root[1]);
     double most = larger(between, strain_at(&s->point[0], M[0], N[0]));
     most = larger(most, strain_at(&s->point[last], M[last], N[last]));
-    for (int i = 1; i < last;
-         i++) /* a crest is above its middle by a quarter of the rise at most */
+    for (int i = 1; within.crest > most && i < last; i++)
         if (s->point[i].strain_per_Nm * (fabs(M[i]) + 0.26 * fabs(M[i + 1] - M[i - 1])) > most)
             most = larger(most, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
     out->peak = most;
@@ -391,34 +502,45 @@ static inline double axial(const fw_flexure_path_point *p, const double force[2]
     return along + less * along + sine * (force[1] * p->cosine - force[0] * p->sine);
 }
 
-void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
-                             fw_flexure_strip_strains *out) {
-    const fw_flexure_path_point *first = &s->point[0], *last = &s->point[s->n - 1];
-    double X = load->force_N[0], Y = load->force_N[1], M[FW_STRIP_PLACES], turn[FW_STRIP_PLACES];
-    double N[FW_STRIP_PLACES], c, n;
-    const arms f = {X, Y, first->y_m * X - first->x_m * Y, last->y_m * X - last->x_m * Y};
+/* between the roots of a strip that is not a pin's, or of one without forces */
+static inside section_forces(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
+                             const arms *f, double *M, double *N) {
+    double X = f->X, Y = f->Y, turn[FW_STRIP_PLACES], c, n;
     const bool bends = (X != 0 || Y != 0) && !load->drawn;
     if (X != 0 || Y != 0) {
         if (load->pull < fw_pressed)
-            pressed(s, load, &f, M);
+            pressed(s, load, f, M);
         else
-            column(s, load, &f, M);
+            column(s, load, f, M);
     } else
         for (int i = 0; i < s->n; i++)
             M[i] = load->root_Nm[0];
     turn[0] = 0;
-    if (bends) bend_once(s, load, &f, M, turn);
+    if (bends) bend_once(s, load, f, M, turn);
     for (int i = 1; !bends && i < s->n - 1; i++)
         N[i] = X * s->point[i].cosine + Y * s->point[i].sine;
     for (int i = 1; bends && i < s->n - 1; i++) {
         small_turn(turn[i], &c, &n);
         N[i] = axial(&s->point[i], load->force_N, c, n);
     }
+    return inside_of(s, M, N);
+}
+
+void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
+                             fw_flexure_strip_strains *out) {
+    const fw_flexure_path_point *first = &s->point[0], *last = &s->point[s->n - 1];
+    double X = load->force_N[0], Y = load->force_N[1], c, n;
+    double room[FW_STRIP_PLACES + 8], *M = room + 4, N[FW_STRIP_PLACES + 4];
+    const arms f = {X, Y, first->y_m * X - first->x_m * Y, last->y_m * X - last->x_m * Y};
+    const bool pin = (X != 0 || Y != 0) && load->drawn && load->pull == 0 && s->row;
+    if (pin) M[-1] = M[s->wide] = 0;
+    const inside within =
+        pin ? inside_of_pin(s, load, &f, M, N) : section_forces(s, load, &f, M, N);
     /* the sections at the roots turn with the bodies */
     c = cos(0.5 * load->rotation_rad) - 1, n = sin(0.5 * load->rotation_rad);
     N[0] = axial(first, load->force_N, c, -n);
     N[s->n - 1] = axial(last, load->force_N, c, n);
-    strains_of(s, M, N, out);
+    strains_of(s, M, N, within, out);
 }
 
 void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_elastica *beam,
@@ -427,5 +549,5 @@ void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_e
     for (int i = 0; i < s->n; i++)
         part[i] = s->point[i].part, M[i] = N[i] = 0;
     fw_flexure_elastica_along(beam, s->n, part, M, N);
-    strains_of(s, M, N, out);
+    strains_of(s, M, N, inside_of(s, M, N), out);
 }

@@ -278,8 +278,7 @@ static fw_status varying(const fw_mechanism_builder *b, const fw_device_flexure 
                          fw_mechanism_hinge *hinge) {
     const fw_flexure_path_way *way;
     FW_TRY(fw_flexure_path_law(b->arena, &hinge->input, &hinge->closed_form, &hinge->law));
-    for (int i = 0; i < hinge->section.n; i++)
-        hinge->section.point[i].strain_per_Nm *= flared;
+    fw_flexure_path_strain_bend(&hinge->section, flared);
     FW_TRY(fw_flexure_path_way_new(b->arena, &hinge->input, &way));
     report_left_out(b, f, joint, way, hinge->closed_form.limit_angle_rad);
     return FW_OK;

@@ -33,9 +33,9 @@ static fw_status restated(void *plan, fw_arena *arena, const fw_device_set *set,
 /* how tethers are broken, and which of them stand in the way of their own bodies */
 static fw_status find_tethers(fw_plan *plan, const fw_verdict_variant_verdict *v,
                               const fw_statics_tethers **out) {
-    if (!v->mechanism) return FW_OK;
+    if (!v->mechanism || plan->options.verdict.bounded) return FW_OK; /* nobody reads them */
     FW_TRY(fw_statics_tethers_find(plan->arena, v->mechanism, out));
-    const bool watched = *out && v->motion && !plan->options.verdict.bounded;
+    const bool watched = *out && v->motion;
     for (int k = 0; watched && k < plan->device->nscene; k++) {
         const fw_dynamics_motion *x = v->motion[k];
         if (!x || !x->q) continue;
@@ -195,6 +195,7 @@ static fw_status watch_probes(fw_plan *plan, const fw_mechanism *m, const fw_dev
         FW_TRY(fw_probe_monitor_new(plan->arena, m, scene, NULL, &both[i]));
     options->observe = fw_probe_monitor_record;
     options->trace = fw_probe_monitor_trace;
+    options->trace_both = true;
     options->whole = true;
     options->context = &both[0], options->other = &both[1];
     return FW_OK;

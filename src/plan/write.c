@@ -33,7 +33,8 @@ fw_report_input fw_plan_report_input(fw_plan *plan) {
                              .version = FW_VERSION,
                              .assumption = plan->assumption,
                              .nassumption = plan->nassumption,
-                             .diags = &plan->diags};
+                             .diags = &plan->diags,
+                             .members = plan->options.members};
 }
 
 fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out) {

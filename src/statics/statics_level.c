@@ -222,10 +222,14 @@ static fw_status sizes(fw_arena *arena, const fw_mechanism *m, const fw_dynamics
     size[0] = size[1] = 0;
     for (int k = 0; k < m->nhinge; k++)
         size[0] = fmax(size[0], fabs(x->peak[m->hinge[k].pin].angle_rad));
+    const double rounding = 1e-12;
     for (int i = 0; i < x->nsample; i++) {
         fw_dynamics_motion_pose(x, i, q);
-        for (int b = 0; b < m->nbody; b++)
-            size[1] = fmax(size[1], hypot(q[3 * b] - rest[3 * b], q[3 * b + 1] - rest[3 * b + 1]));
+        for (int b = 0; b < m->nbody; b++) {
+            const double dx = q[3 * b] - rest[3 * b], dy = q[3 * b + 1] - rest[3 * b + 1];
+            if (!(dx * dx + dy * dy < (1 - rounding) * size[1] * size[1]))
+                size[1] = fmax(size[1], hypot(dx, dy));
+        }
     }
     return FW_OK;
 }

@@ -80,6 +80,21 @@ static bool may_be_bounded(const engine *e) {
     return plan->options.verdict.corners == FW_CORNERS_NONE && asks_for_no_clearance(e->study);
 }
 
+/* the members of the verdict's JSON that responses begin with */
+static fw_status members(engine *e, const char *const **out) {
+    const fw_study *study = e->study;
+    const char **key;
+    int n = 0;
+    FW_NEED(key = fw_arena_array(e->arena, const char *, (size_t)study->nresponse + 1));
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *r = &study->response[k];
+        if (fw_study_documents[r->document].document != FW_DOCUMENT_VERDICT_JSON) continue;
+        FW_NEED(key[n++] = fw_arena_strndup(e->arena, r->path, strcspn(r->path, ".[")));
+    }
+    *out = key;
+    return FW_OK;
+}
+
 /* of the description as it stands; *changed: its files are others by now */
 static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engine *e,
                             bool *changed) {
@@ -94,7 +109,9 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
         *changed = true;
         return FW_INPUT;
     }
-    fw_plan_design_plan(e->design)->options.verdict.motion.late_rows = true;
+    fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
+    options->verdict.motion.late_rows = true;
+    FW_TRY(members(e, &options->members));
     return fw_plan_keep(e->design, &e->kept);
 }
 

@@ -198,6 +198,22 @@ static void from_edges(double *f, int n, int step) {
         f[i * step] = (double)(i - before) * (i - before);
 }
 
+/* Of one row. From a cell of the material the nearest edge is not beyond where the material of its row ends, since
+   an edge is there. */
+static void measure_row(grid *g, int j, double *copy, int *on, double *until) {
+    enum { BEYOND = 3 };
+    const bool *inside = g->inside + j * g->nx;
+    int first = 0, last = g->nx - 1;
+    while (first <= last && !inside[first])
+        first++;
+    while (last > first && !inside[last])
+        last--;
+    if (first > last) return;
+    first = first > BEYOND ? first - BEYOND : 0;
+    last = last + BEYOND < g->nx ? last + BEYOND : g->nx - 1;
+    envelope(g->away + j * g->nx + first, last + 1 - first, 1, copy, on, until);
+}
+
 static fw_status measure(grid *g) {
     int n = g->nx > g->ny ? g->nx : g->ny;
     double *copy = fw_arena_array(g->arena, double, (size_t)n),
@@ -217,7 +233,7 @@ static fw_status measure(grid *g) {
     for (int i = 0; i < g->nx; i++)
         from_edges(g->away + i, g->ny, g->nx);
     for (int j = 0; j < g->ny; j++)
-        envelope(g->away + j * g->nx, g->nx, 1, copy, on, until);
+        measure_row(g, j, copy, on, until);
     for (int i = 0; i < g->nx * g->ny; i++) {
         if (!g->inside[i]) continue;
         double cells = sqrt(g->away[i]), w = fw_greater(cells, 0.5);
@@ -233,10 +249,11 @@ static fw_status lay(grid *g, double cell) {
     g->ny = 1 + (int)((g->box.y1 - g->box.y0) / cell);
     size_t n = (size_t)g->nx * (size_t)g->ny;
     FW_NEED(g->inside = fw_arena_array(g->arena, bool, n));
-    FW_NEED(g->away = fw_arena_array(g->arena, double, n));
-    FW_NEED(g->stiff = fw_arena_array(g->arena, double, n));
-    FW_NEED(g->cost = fw_arena_array(g->arena, double, n));
-    FW_NEED(g->from = fw_arena_array(g->arena, int, n));
+    FW_NEED(g->away = fw_arena_raw(g->arena, n * sizeof(double)));
+    FW_NEED(g->stiff =
+                fw_arena_raw(g->arena, n * sizeof(double))); /* of cells inside, as the rest */
+    FW_NEED(g->cost = fw_arena_raw(g->arena, n * sizeof(double)));
+    FW_NEED(g->from = fw_arena_raw(g->arena, n * sizeof(int)));
     FW_TRY(fill(g));
     return measure(g);
 }
@@ -547,8 +564,8 @@ void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, do
 }
 
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
-                               double fx_N, double fy_N, double turned_rad) {
-    double c = cos(turned_rad), s = sin(turned_rad);
+                               double fx_N, double fy_N, const fw_verdict_turn *turn) {
+    double c = turn->cosine, s = turn->sine;
     double x = c * fx_N + s * fy_N, y = c * fy_N - s * fx_N, m = moment_Nm;
     const double *g = arm->give;
     return (g[0] * m * m + 2 * m * (g[1] * x + g[2] * y) + g[3] * x * x + 2 * g[4] * x * y +

@@ -28,7 +28,7 @@ typedef struct fw_verdict_arm {
 
 /* arm: (2 nhinge) of hinge k in body a, in body b. In: outlines of the layout in the drawn pose. Range:
    any outline; unknown where nothing is drawn or the way is narrower than a cell of the grid, a 400th of the body.
-   Error: an upper bound as far as a strip of inscribed circles is a beam. Cost: some 1e5 operations for a body.
+   Error: an upper bound as far as a strip of inscribed circles is a beam. Cost: some 1e6 operations for a body.
    Test: test_body_arms.c */
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_layout *layout, fw_verdict_arm **arm);
@@ -36,9 +36,12 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
    above: of torsion 1/J <= 3/0.42 (1/(w h^3) + 1/(h w^3)) */
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c);
-/* J of a wrench that a hinge puts on the body, turned back to the drawn pose by turned_rad */
+typedef struct fw_verdict_turn { /* of a body since it was drawn */
+    double rad, cosine, sine;
+} fw_verdict_turn;
+/* J of a wrench that a hinge puts on the body, turned back to the drawn pose */
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
-                               double fx_N, double fy_N, double turned_rad);
+                               double fx_N, double fy_N, const fw_verdict_turn *turn);
 
 /* ---- strains of a hinge ---- */
 
@@ -93,6 +96,7 @@ typedef struct fw_verdict_bending {
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
     double turning_J;          /* and of the hinges' rotations alone */
     double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
+    fw_verdict_turn *turn;     /* (nbody) of the instant */
     double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
     double *
         hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest

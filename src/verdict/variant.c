@@ -257,7 +257,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, seen));
         monitor[i].probe = seen[0], other[i].probe = seen[1];
         monitor[i].trial = other[i].trial = options->decision_only && !options->values;
-        motion.whole = seen[0] != NULL;
+        motion.whole = motion.trace_both = seen[0] != NULL;
         motion.like = v->like ? v->like[i] : NULL;
         motion.effects.like = motion.like ? &motion.like->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));

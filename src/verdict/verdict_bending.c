@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-static double turned(const fw_mechanism *m, const fw_dynamics_instant *now, int body) {
-    return body == FW_GROUND ? 0 : now->q[3 * body + 2] - m->drawn[body].phi_rad;
+static double turned(const fw_verdict_bending *b, int body) {
+    return body == FW_GROUND ? 0 : b->turn[body].rad;
 }
 
 /* by its rotation, and by the forces along and across its axis */
@@ -56,22 +56,24 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         return;
     }
     double hinges = 0, bodies = 0, turning = 0, *each = b->body_J + m->nbody;
-    for (int i = 0; i < m->nbody; i++)
+    for (int i = 0; i < m->nbody; i++) {
+        const double by = now->q[3 * i + 2] - m->drawn[i].phi_rad;
         each[i] = 0;
+        b->turn[i] = (fw_verdict_turn){by, cos(by), sin(by)};
+    }
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *h = &m->hinge[k];
         const fw_mechanism_pin *pin = &m->pin[h->pin];
         const double angle = now->angle_rad[h->pin], *force = now->reaction_N + 2 * h->pin;
         const int body[2] = {pin->body_a, pin->body_b};
-        double turn[2] = {turned(m, now, body[0]), turned(m, now, body[1])};
-        hinges += of_hinge(h, pin, angle, force, 0.5 * (turn[0] + turn[1]));
+        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])));
         turning += 0.5 * pin->stiffness_Nm_per_rad * angle * angle;
         for (int side = 0; side < 2; side++) {
             const fw_verdict_arm *arm = &b->arm[2 * k + side];
             if (!arm->known) continue;
             double one =
                 fw_verdict_arm_energy_J(arm, b->stiff_N, -pin->stiffness_Nm_per_rad * angle,
-                                        force[0], force[1], turn[side]);
+                                        force[0], force[1], &b->turn[body[side]]);
             bodies += one;
             each[body[side]] += one;
         }
@@ -91,6 +93,7 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     *bending =
         (fw_verdict_bending){.arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m};
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
+    FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
     FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
     return FW_OK;
 }

@@ -121,16 +121,19 @@ fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *m, int k, con
                                                double angle_rad, const double force_N[2],
                                                fw_effects_hinge_model level) {
     const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
+    fw_verdict_hinge_load load = {.angle_rad = angle_rad,
+                                  .fx_N = force_N[0],
+                                  .fy_N = force_N[1],
+                                  .frame_rad =
+                                      0.5 * (turned(m, q, pin->body_a) + turned(m, q, pin->body_b)),
+                                  .pinned = level == FW_HINGE_REVOLUTE,
+                                  .apart_m = {(double)NAN, (double)NAN}};
     double a[2], b[2];
+    if (load.pinned) return load; /* a pin holds both at one place */
     pin_on(q, pin->body_a, pin->ax_m, pin->ay_m, a);
     pin_on(q, pin->body_b, pin->bx_m, pin->by_m, b);
-    return (fw_verdict_hinge_load){
-        .angle_rad = angle_rad,
-        .fx_N = force_N[0],
-        .fy_N = force_N[1],
-        .frame_rad = 0.5 * (turned(m, q, pin->body_a) + turned(m, q, pin->body_b)),
-        .pinned = level == FW_HINGE_REVOLUTE,
-        .apart_m = {b[0] - a[0], b[1] - a[1]}};
+    load.apart_m[0] = b[0] - a[0], load.apart_m[1] = b[1] - a[1];
+    return load;
 }
 
 static void strains(const fw_mechanism *m, fw_effects_hinge_model level,
@@ -149,10 +152,11 @@ static void strains(const fw_mechanism *m, fw_effects_hinge_model level,
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
                                    const fw_statics_level_step *step) {
     if (!step || step->why_not || !m->device || m->device->nflexure == 0) return FW_OK;
+    const bool exact = step->used == FW_HINGE_ELASTICA || step->next == FW_HINGE_ELASTICA;
     fw_mark mark = fw_arena_mark(arena);
     fw_flexure_elastica **beam = fw_arena_alloc(arena, (size_t)m->nhinge, sizeof *beam);
     FW_NEED(beam);
-    for (int k = 0; k < m->nhinge; k++)
+    for (int k = 0; exact && k < m->nhinge; k++)
         FW_TRY(fw_verdict_hinge_beam(arena, &m->hinge[k], &beam[k]));
     strains(m, step->used, beam, &step->at);
     strains(m, step->next, beam, &step->up);

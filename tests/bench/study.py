@@ -3,11 +3,13 @@
 """What a device of a study costs beside `check` of the same device, and how far one machine is from a million of them.
 
     tests/bench/study.py build/flexwright [--designs 1000] [--checks 30] [--rounds 3] [--jobs N]
+    tests/bench/study.py build/flexwright --instructions 10
 
 The reference six-bar as drawn, the width and the arc of every hinge at random, a step load, accuracy 1e-3, the
 verdict of every hinge. Rounds take turns, so that all meet the same noise; times are of the processor, user and
 system, of whole commands, less those of a study of two devices where it says "each". The median of the rounds is
-told, and all of them."""
+told, and all of them. --instructions counts those of so many devices by valgrind, which no noise changes, and what
+of them is spent where."""
 import argparse
 import os
 import pathlib
@@ -47,17 +49,55 @@ def run(*command):
     return cpu, time.monotonic() - began, after.ru_maxrss * 1024
 
 
+STAGES = {"motions": "fw_statics_move_scene", "of that, integrated and looked at": "fw_dynamics_simulate_compiled",
+          "drawing": "fw_layout_build", "what bodies give": "fw_verdict_body_arms",
+          "clearances": "fw_verdict_clearance_judge", "strips": "fw_verdict_clearance_strips",
+          "out of the plane": "fw_verdict_out_of_plane_judge", "stability": "fw_statics_stability_find",
+          "mechanism": "fw_mechanism_build", "description": "fw_plan_kept_again",
+          "documents": "fw_study_responses_take"}
+
+
+def count(program, place, designs):
+    """instructions of a study, and of those below each of STAGES"""
+    (place / "count.xml").write_text(study(designs))
+    out = place / f"callgrind-{designs}"
+    subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", str(program), "study",
+                    str(place / "count.xml"), "-o", str(place / f"count-{designs}"), "--jobs", "1"], check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    text = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(out)], check=True,
+                          capture_output=True, text=True).stdout
+    spent = {}
+    for line in text.splitlines():
+        found = re.match(r"\s*([\d,]+) .*?:(\w+)(?:'\d+)?(?: \[|$)", line)
+        if found:
+            spent.setdefault(found[2], int(found[1].replace(",", "")))
+    # files are looked at once a second of the clock, which valgrind makes a hundred times slower
+    total = int(re.search(r"([\d,]+) .*PROGRAM TOTALS", text)[1].replace(",", "")) - spent["fw_study_design"]
+    return total, {what: spent.get(name, 0) for what, name in STAGES.items()}
+
+
+def instructions(program, place, designs):
+    few, many = count(program, place, 2), count(program, place, designs + 2)
+    print(f"{'a device of a study':38} {(many[0] - few[0]) / designs / 1e6:9.2f} million instructions")
+    for what in STAGES:
+        print(f"  {what:36} {(many[1][what] - few[1][what]) / designs / 1e6:9.2f}")
+
+
 def main():
     ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ask.add_argument("program", type=pathlib.Path)
     for name, usual in (("designs", 1000), ("checks", 30), ("rounds", 3), ("jobs", 1)):
         ask.add_argument(f"--{name}", type=int, default=usual)
+    ask.add_argument("--instructions", type=int, default=0, metavar="DESIGNS")
     given = ask.parse_args()
     program = given.program.resolve()
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     with tempfile.TemporaryDirectory(prefix="fw-bench-") as name:
         place = pathlib.Path(name)
         (place / "device.xml").write_text(device())
+        if given.instructions:
+            instructions(program, place, given.instructions)
+            return
         for n in (2, given.designs):
             (place / f"study-{n}.xml").write_text(study(n))
         each, checks, walls, memory = [], [], [], 0

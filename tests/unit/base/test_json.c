@@ -33,6 +33,56 @@ static void commas_are_written_where_they_are_due(void **state) {
     fw_arena_free(arena);
 }
 
+static void write_all(fw_json *json) {
+    fw_json_object(json, NULL);
+    fw_json_text(json, "a", "x");
+    fw_json_list(json, "b");
+    fw_json_object(json, NULL);
+    fw_json_real(json, "a", 1.5);
+    fw_json_end(json);
+    fw_json_whole(json, NULL, 3);
+    fw_json_end(json);
+    fw_json_number(json, "c", 0.1, 3);
+    fw_text_add(fw_json_value(json, "d"), "[7]");
+    fw_json_textf(json, "e", "%d", 8);
+    fw_json_object(json, "f");
+    fw_json_null(json, "a");
+    fw_json_truth(json, "b", true);
+    fw_json_fixed(json, "c", 2.5, 1);
+    fw_json_end(json);
+    fw_json_end(json);
+}
+
+/* what is left out leaves no trace: every choice of members is what another library makes of all of them */
+static void members_that_nobody_wants_are_left_out(void **state) {
+    (void)state;
+    static const char *const name[] = {"a", "b", "c", "d", "e", "f"};
+    fw_arena *arena = fw_arena_new(0);
+    fw_text all = fw_text_new(arena);
+    fw_json json = fw_json_new(&all, FW_JSON_INDENTED);
+    write_all(&json);
+    assert_int_equal(fw_json_finish(&json, ""), FW_OK);
+    for (int chosen = 0; chosen < 64; chosen++) {
+        const char *wanted[8] = {NULL};
+        json_t *expected = json_loadb(all.data, all.length, 0, NULL);
+        for (int k = 0, n = 0; k < 6; k++) {
+            if (chosen >> k & 1)
+                wanted[n++] = name[k];
+            else
+                json_object_del(expected, name[k]);
+        }
+        fw_text some = fw_text_new(arena);
+        json = fw_json_new(&some, FW_JSON_INDENTED);
+        fw_json_only(&json, wanted);
+        write_all(&json);
+        assert_int_equal(fw_json_finish(&json, ""), FW_OK);
+        json_t *read = json_loadb(some.data, some.length, 0, NULL);
+        assert_true(read && json_equal(read, expected));
+        json_decref(read), json_decref(expected);
+    }
+    fw_arena_free(arena);
+}
+
 static void lines_are_broken_where_they_are_asked_for(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -196,6 +246,7 @@ static void random_documents_are_those_of_another_library(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(commas_are_written_where_they_are_due),
+        cmocka_unit_test(members_that_nobody_wants_are_left_out),
         cmocka_unit_test(lines_are_broken_where_they_are_asked_for),
         cmocka_unit_test(numbers_that_are_none_are_null),
         cmocka_unit_test(what_is_no_utf8_is_marked),

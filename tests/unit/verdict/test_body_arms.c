@@ -13,6 +13,8 @@ typedef struct scene {
     fw_verdict_arm *arm;
 } scene;
 
+static const fw_verdict_turn still = {0, 1, 0};
+
 /* one body, an outline of n corners (mm) turned by turn_rad; edges whose bit is set are where a flexure
    is joined. Its two hinges begin in the middle of the first two of these. */
 static scene body(int n, const double corner[][2], unsigned joints, double turn_rad) {
@@ -70,9 +72,9 @@ static void a_bar_is_a_beam(void **state) {
             /* energies of a moment, of a force across the bar at its end and along it, on E h = 1 N, of
                what half a bar has */
             const double of[3] = {
-                fw_verdict_arm_energy_J(arm, 1, 1, 0, 0, 0) / moment,
-                fw_verdict_arm_energy_J(arm, 1, 0, -sin(turn), cos(turn), 0) / across,
-                fw_verdict_arm_energy_J(arm, 1, 0, cos(turn), sin(turn), 0) / (half / w)};
+                fw_verdict_arm_energy_J(arm, 1, 1, 0, 0, &still) / moment,
+                fw_verdict_arm_energy_J(arm, 1, 0, -sin(turn), cos(turn), &still) / across,
+                fw_verdict_arm_energy_J(arm, 1, 0, cos(turn), sin(turn), &still) / (half / w)};
             assert_true(arm->known && !s.arm[2 * k].known);
             for (int j = 0; j < 3; j++) {
                 assert_true(2 * of[j] > 0.8 && 2 * of[j] < 1.25);
@@ -93,9 +95,10 @@ static void forces_turn_with_the_body(void **state) {
     const double corner[4][2] = {{0, 0}, {1, 0}, {1, 0.1}, {0, 0.1}};
     scene s = body(4, corner, 1u << 1 | 1u << 3, 0);
     const double turn = 0.4, fx = 2, fy = -3;
+    const fw_verdict_turn turned = {turn, cos(turn), sin(turn)};
     assert_relative(fw_verdict_arm_energy_J(&s.arm[1], 5, 1e-4, fx * cos(turn) - fy * sin(turn),
-                                            fx * sin(turn) + fy * cos(turn), turn),
-                    fw_verdict_arm_energy_J(&s.arm[1], 5, 1e-4, fx, fy, 0), 1e-12);
+                                            fx * sin(turn) + fy * cos(turn), &turned),
+                    fw_verdict_arm_energy_J(&s.arm[1], 5, 1e-4, fx, fy, &still), 1e-12);
     fw_arena_free(s.arena);
 }
 
@@ -151,8 +154,8 @@ static void a_hole_counts_and_its_cut_does_not(void **state) {
     assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &s.arm), FW_OK);
     double whole = 0, holed = 0;
     for (int k = 0; k < 2; k++) {
-        whole += fw_verdict_arm_energy_J(&bar.arm[2 * k + 1], 1, 1, 0, 0, 0);
-        holed += fw_verdict_arm_energy_J(&s.arm[2 * k + 1], 1, 1, 0, 0, 0);
+        whole += fw_verdict_arm_energy_J(&bar.arm[2 * k + 1], 1, 1, 0, 0, &still);
+        holed += fw_verdict_arm_energy_J(&s.arm[2 * k + 1], 1, 1, 0, 0, &still);
         assert_relative(s.arm[2 * k + 1].narrow_m, k == 0 ? 0.12e-3 : 0.04e-3, 0.05);
     }
     const double full = 0.12e-3, hole = 0.04e-3;

@@ -76,6 +76,7 @@ static void count_moments(fw_mechanism_hinge *h) {
     for (int i = 0; i < h->section.n; i++)
         h->section.point[i].strain_per_Nm = 1, h->section.point[i].strain_per_N = 0,
         h->section.point[i].face[0] = h->section.point[i].face[1] = 1;
+    fw_flexure_path_strain_bend(&h->section, 1); /* what stands beside the points follows them */
 }
 
 static fw_verdict_hinge_strains strain_of(const fw_mechanism_hinge *h, double angle, double fx,
