@@ -32,7 +32,8 @@ static const char *const profiles[] = {"isotropic", "anisotropic", NULL};
 static const char *const faces[] = {"top", "middle", "bottom", NULL};
 static const char *const shapes[] = {"slot", "cylinder", "linear", NULL};
 static const char *const finishes[] = {"rinse", "dry", "cool", "vent", NULL};
-static const char *const dryings[] = {"spin", "nitrogen", "oven", "vapour", "critical-point", NULL};
+static const char *const dryings[] = {"spin",   "nitrogen",       "oven",        "air",
+                                      "vapour", "critical-point", "sublimation", NULL};
 static const char *const leavings[] = {"wafers", "dies", NULL};
 static const char *const there[] = {"present", "absent", NULL};
 static const char *const states[] = {
@@ -200,8 +201,9 @@ static const fw_xml_attribute_row step_rows[] = {
     {"mask", TEXT, .sentence = "Layer of the mask that it exposes."},
     {"batch", COUNT, .fallback = "1", .sentence = "Wafers at once."},
     {"leaves", WORD(leavings), .fallback = "wafers",
-     .sentence = "dies: the step parts the wafer, and from the next one on the sheet is of the dies "
-                 "of each wafer, in a box of their own."},
+     .sentence =
+         "dies: the step parts the wafer, and from the next one on the sheet is of the dies "
+         "of each wafer, in a box of their own."},
     {"second-signature", WORD(yes_no), .fallback = "no", .sentence = "Two people sign."},
     {"attended", AMOUNT, .fallback = "0", .sentence = "How many minutes somebody must be there."},
 };
@@ -280,6 +282,14 @@ static const fw_xml_attribute_row finish_rows[] = {
     {"kind", WORD(finishes), REQUIRED, .sentence = "What is done."},
     {"with", TO(HAZARD), .sentence = "rinse: in which chemical; without: in deionised water."},
     {"by", WORD(dryings), .sentence = "dry: how."},
+    {"tension", TO(QUANTITY),
+     .sentence = "dry: surface tension of the liquid whose meniscus passes over the wafer; of "
+                 "devices that are free the "
+                 "verdict then says whether they bear it. Without: that of the alcohol with "
+                 "vapour, none at the critical "
+                 "point and by sublimation."},
+    {"angle", TO(QUANTITY),
+     .sentence = "dry: its contact angle, as a range; without: dry.angle of the pack."},
     {"q", TO(QUANTITY), .sentence = "How long; without: within the time of the step."},
 };
 static const fw_xml_attribute_row requires_rows[] = {
