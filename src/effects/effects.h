@@ -428,4 +428,18 @@ double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const doubl
 /* how much of C the fringe fields would add at most, relative (Palmer's edge formula) */
 double fw_effects_comb_fringe(const fw_effects_comb_element *c);
 
+/* ---- adhesion.c: surfaces that have met ---- */
+
+typedef struct fw_effects_adhered {
+    bool
+        known; /* the conjugate surfaces of a hinge that is drawn, of a flow that knows their adhesion */
+    double holds_N,
+        opens_N; /* at most, by adhesion; what the flexure alone gives back where they touch */
+} fw_effects_adhered;
+fw_effects_adhered fw_effects_adhesion_of(const fw_effect_case *effect_case,
+                                          const fw_device_contact_use *use,
+                                          double adhesion_J_per_m2);
+double fw_effects_adhesion_holds(double youngs_Pa, double poisson, double depth_m, double radius_m,
+                                 double gap_m, double adhesion_J_per_m2);
+
 #endif

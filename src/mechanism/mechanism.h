@@ -20,6 +20,25 @@ typedef struct fw_mechanism_below { /* what is below a device that the flow has 
     const char *words; /* "2 um of buried silicon dioxide taken away"; never NULL where known */
 } fw_mechanism_below;
 
+/* How a device that is free is dried, and how its surfaces hold each other: what the flow says */
+typedef enum fw_mechanism_dried {
+    FW_DRIED_UNKNOWN, /* no flow says so */
+    FW_DRIED_NEVER,   /* nothing wets it once it is free */
+    FW_DRIED_CALM,    /* without a meniscus */
+    FW_DRIED_PULLED   /* a meniscus passes over it */
+} fw_mechanism_dried;
+typedef struct fw_mechanism_drying {
+    fw_mechanism_dried how;
+    const char
+        *words; /* "from isopropyl alcohol in the oven, step C27"; never NULL where it is known */
+    double tension_N_per_m, tension_low, tension_high; /* of what a meniscus is of */
+    double cos_low, cos_high;                          /* of its contact angle */
+    double water_N_per_m, alcohol_N_per_m;             /* to compare with; NaN: the pack has none */
+    double adhesion_J_per_m2, adhesion_low,
+        adhesion_high;          /* of surfaces that touch; NaN: not known */
+    const char *adhesion_words; /* status and source; NULL: not known */
+} fw_mechanism_drying;
+
 typedef struct fw_mechanism_variant { /* what the device is made of, in one flow */
     const char *flow;                 /* flow id or NULL */
     fw_device_material material;
@@ -28,7 +47,8 @@ typedef struct fw_mechanism_variant { /* what the device is made of, in one flow
     double thickness_m;
     double orientation_rad; /* of [100] of a crystal from +x */
     double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;
-    fw_mechanism_below below; /* {.known = false}: no flow says so */
+    fw_mechanism_below below;   /* {.known = false}: no flow says so */
+    fw_mechanism_drying drying; /* zeroed: no flow says so */
 } fw_mechanism_variant;
 
 typedef struct fw_mechanism_mass { /* per body */

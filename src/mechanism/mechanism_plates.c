@@ -353,7 +353,8 @@ fw_mechanism_plates_reach fw_mechanism_plates_reached(const fw_mechanism_plates 
 /* ---- stiffness beside that in the plane ---- */
 
 /* the same bodies and flexures in the plane, (x, y, turn) a body, lengths of turns in `unit_m` */
-static fw_status in_plane(const fw_mechanism_plates *p, double unit_m, double *stiffness) {
+fw_status fw_mechanism_plates_in_plane(const fw_mechanism_plates *p, const double *give,
+                                       double unit_m, double *stiffness) {
     const fw_mechanism *m = p->mechanism;
     size_t n = (size_t)p->n;
     for (int k = 0; k < m->nhinge; k++) {
@@ -362,6 +363,8 @@ static fw_status in_plane(const fw_mechanism_plates *p, double unit_m, double *s
         const int body[2] = {pin->body_a, pin->body_b};
         double turned[3][3], own[3][3];
         turn(h->axis_rad, h->closed_form.compliance, 1 / h->scale, turned); /* of (turn, x, y) */
+        for (int i = 0; give && i < 9; i++)
+            turned[i / 3][i % 3] += give[9 * k + i];
         if (!invert((const double(*)[3])turned, own)) return FW_SOLVER;
         double b[2][3][3] = {0};
         for (int s = 0; s < 2; s++) {
@@ -405,7 +408,8 @@ fw_status fw_mechanism_plates_stiffness(fw_arena *arena, const fw_mechanism_plat
     }
     out->across_N_per_m = 1 / most;
     const fw_mechanism_mass *of = &p->mechanism->body[out->body];
-    fw_status status = in_plane(p, sqrt(of->inertia_kg_m2 / of->mass_kg), a);
+    fw_status status =
+        fw_mechanism_plates_in_plane(p, NULL, sqrt(of->inertia_kg_m2 / of->mass_kg), a);
     if (status == FW_OK && fw_maths_lu_factor(p->n, a, pivot)) {
         for (int k = 0; k < 2; k++) {
             memset(x, 0, n * sizeof *x);

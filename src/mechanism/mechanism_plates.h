@@ -46,6 +46,18 @@ int fw_mechanism_plates_nth(int n, fw_device_plane plane, fw_mechanism_frequenci
 /* body that has most of a mode's energy; *tilts: more of it in its turns */
 int fw_mechanism_plates_mover(const fw_mechanism_plates *plates, int mode, bool *tilts);
 
+/* compliance (n x n) of all coordinates: across the plane, of (z, turns about x, y) a body; and in it, of (x, y, turn),
+   without drivers, stops and what is no flexure, give (9 nhinge) or NULL added about each pin, of (turn, x, y). false in
+   *known: the device is not held in the plane */
+fw_status fw_mechanism_plates_across(fw_arena *arena, const fw_mechanism_plates *plates,
+                                     double **compliance);
+fw_status fw_mechanism_plates_beside(fw_arena *arena, const fw_mechanism_plates *plates,
+                                     const double *give, double **compliance, bool *known);
+
+/* adds the stiffness (n x n) in the plane, of x, y and unit_m times the turn */
+fw_status fw_mechanism_plates_in_plane(const fw_mechanism_plates *plates, const double *give,
+                                       double unit_m, double *stiffness);
+
 /* x (n) of generalised forces f (n): N, N m about the centres of mass */
 void fw_mechanism_plates_answer(const fw_mechanism_plates *plates, const double *f, double *x);
 /* z of a point of a body, drawn place in the world */
@@ -93,6 +105,47 @@ typedef struct fw_mechanism_plates_pressed {
 fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plates *plates,
                                        const fw_mechanism_plates_pressed *by, double *factor,
                                        int *hinge);
+
+/* ---- mechanism_pull.c: what pulls faces together that stand opposite each other across a gap ---- */
+
+typedef struct fw_mechanism_face {
+    int body[2];     /* FW_GROUND: what stands */
+    double by[2][3]; /* by how much the gap closes by their three coordinates */
+    double area_m2, gap_m;
+    bool strip;  /* a flexure's own, where the gap differs along it */
+    double more; /* share by which lines of liquid along its edges may pull beyond the pressure */
+    fw_geometry_vec2 at, normal; /* world; normal 0: it faces the carrier */
+    int piece[2];                /* of the layout; FW_NONE: not drawn, or the carrier */
+} fw_mechanism_face;
+
+typedef enum fw_mechanism_pull {
+    FW_PULL_EACH, /* each face is pulled by s (1 + more)/its own gap: at least as much as a liquid does */
+    FW_PULL_WIDEST /* plates alone, by s/the widest gap of each: what is left when the meniscus has come to its edge */
+} fw_mechanism_pull;
+
+/* N/m: the largest s that leaves an equilibrium that is stable and where nothing touches, to 0.5 %, below it for EACH and
+   above it for WIDEST; compliance (n x n) of the bodies' coordinates. HUGE_VAL: no gap closes. Where a bound shows that
+   it is above enough_N_per_m the bound is the answer. *first: the face that is nearest to its touch, or FW_NONE */
+fw_status fw_mechanism_pull_in(fw_arena *arena, const double *compliance, int n,
+                               const fw_mechanism_face *face, int nface, fw_mechanism_pull law,
+                               double enough_N_per_m, double *tension, int *first);
+
+/* undersides of all that moves over the carrier, cells of what is drawn; bodies in one row each where nothing is */
+fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *plates, double gap_m,
+                                   fw_mechanism_face **face, int *nface);
+/* Walls that stand opposite each other, seen along the normals of what moves: bodies (one face for each two walls), and
+   strips of flexures. As fabricated where the layout says so. */
+typedef struct fw_mechanism_strip_beside { /* of hinge k */
+    double gap_m; /* the least of the middle half of its strip; HUGE_VAL: nothing is beside it */
+    fw_geometry_vec2 at;
+    int piece;
+} fw_mechanism_strip_beside;
+fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *mechanism,
+                                    fw_mechanism_face **face, int *nface,
+                                    fw_mechanism_strip_beside *strip);
+/* A strip clamped at both ends, s (1 + more)/(gap that is left) over its width: the largest s */
+double fw_mechanism_strip_pull_in(double bend_Nm2, double length_m, double width_m, double gap_m,
+                                  double more);
 
 /* what a scene asks of the plates: an acceleration across the plane that changes in time (az), that or weight (gz) or a
    stress gradient, and the curvature such a gradient gives a free plate, g (1 - nu)/E; 0 where E is not known */

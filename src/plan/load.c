@@ -355,6 +355,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
         v->material = *fw_device_material_find(&plan->materials, use->material);
     stand_on_substrate(plan, use, v);
     FW_TRY(fw_plan_find_below(plan, pf, &v->below));
+    FW_TRY(fw_plan_find_drying(plan, pf, &v->drying));
     if (isnan(v->thickness_m))
         return fw_diag_error(&plan->diags, 226, place,
                              "the thickness of the device layer is not known: give thickness on "

@@ -3,6 +3,7 @@
    over its hollow wherever it goes? Page: docs/theory/plates.md; test: test_hollows.c. */
 #include "geometry/segment.h"
 #include "plan/stages.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
 
@@ -334,5 +335,58 @@ fw_status fw_plan_find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism
                 hollow ? fw_arena_printf(plan->arena, "a hollow of %s um in its carrier", um)
                        : fw_arena_printf(plan->arena, "%s um, where %s was", um,
                                          fw_process_flow_material_name(pf->flow, material)));
+    return FW_OK;
+}
+
+/* ---- how it is dried, and what holds it where it has touched ---- */
+
+static double known(const fw_process_flow *flow, const char *id) {
+    const fw_quantity *q = fw_process_flow_quantity(flow, id);
+    return q && !q->unknown ? q->value : (double)NAN;
+}
+
+/* a meniscus of which nothing is said: of any angle, and as strong as that of water */
+static void put_meniscus(const fw_process_drying *of, fw_mechanism_drying *to) {
+    const fw_quantity *t = of->tension, *a = of->angle;
+    double low, high;
+    to->tension_N_per_m = to->tension_high = to->water_N_per_m;
+    to->cos_high = 1;
+    if (t && !t->unknown) {
+        to->tension_N_per_m = t->value;
+        fw_process_quantity_range(t, &to->tension_low, &to->tension_high);
+    }
+    if (!a || a->unknown) return;
+    fw_process_quantity_range(a, &low, &high);
+    to->cos_low = cos(fmin(fmax(high, 0.0), FW_PI)), to->cos_high = cos(fmax(low, 0.0));
+}
+
+static fw_status put_adhesion(fw_arena *arena, const fw_process_flow *flow,
+                              fw_mechanism_drying *to) {
+    const fw_quantity *q = fw_process_flow_quantity(flow, "surface.adhesion");
+    to->adhesion_J_per_m2 = to->adhesion_low = to->adhesion_high = (double)NAN;
+    if (!q || q->unknown) return FW_OK;
+    to->adhesion_J_per_m2 = q->value;
+    fw_process_quantity_range(q, &to->adhesion_low, &to->adhesion_high);
+    to->adhesion_low = fmax(to->adhesion_low, 0.0);
+    FW_NEED(to->adhesion_words = fw_arena_printf(
+                arena, "%s; %s", fw_quantity_value_status_text(q->status), q->source));
+    return FW_OK;
+}
+
+fw_status fw_plan_find_drying(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_drying *drying) {
+    *drying = (fw_mechanism_drying){.how = FW_DRIED_UNKNOWN};
+    if (!pf->flow) return FW_OK;
+    const fw_process_drying of = fw_process_flow_drying(pf->flow);
+    drying->how = of.how;
+    drying->water_N_per_m = known(pf->flow, "water.tension");
+    drying->alcohol_N_per_m = known(pf->flow, "isopropanol.tension");
+    FW_TRY(put_adhesion(plan->arena, pf->flow, drying));
+    if (of.how == FW_DRIED_PULLED) put_meniscus(&of, drying);
+    if (of.how == FW_DRIED_NEVER) drying->words = "it never gets wet once it is free";
+    if (!of.finish) return FW_OK;
+    const char *how = fw_recipe_finish_words(plan->arena, of.finish);
+    FW_NEED(how && (drying->words = fw_arena_printf(plan->arena, "step %s (%s)", of.step->id, how))
+                ? how
+                : NULL);
     return FW_OK;
 }

@@ -117,23 +117,24 @@ fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out) {
 }
 
 fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf) {
-    return (fw_recipe_header){.device = plan->device->name,
-                              .flow_sha256 = pf->flow_sha256,
-                              .mask_sha256 = pf->mask_sha256,
-                              .program_version = FW_VERSION,
-                              .rejected = plan->verdict.decision == FW_REJECT,
-                              .tethers = pf->tethers,
-                              .mechanism = plan->verdict.variant
-                                               ? plan->verdict.variant[pf - plan->flow].mechanism
-                                               : NULL,
-                              .because = plan->because,
-                              .nbecause = plan->nbecause,
-                              .schedule = pf->schedule,
-                              .mask = pf->mask,
-                              .cut = pf->cut,
-                              .measuring = pf->measuring,
-                              .release = pf->release_svg.length ? &pf->release_svg : NULL,
-                              .wiring = pf->wiring};
+    return (fw_recipe_header){
+        .device = plan->device->name,
+        .flow_sha256 = pf->flow_sha256,
+        .mask_sha256 = pf->mask_sha256,
+        .program_version = FW_VERSION,
+        .rejected = plan->verdict.decision == FW_REJECT,
+        .tethers = pf->tethers,
+        .mechanism =
+            plan->verdict.variant ? plan->verdict.variant[pf - plan->flow].mechanism : NULL,
+        .verdict = plan->verdict.variant ? &plan->verdict.variant[pf - plan->flow] : NULL,
+        .because = plan->because,
+        .nbecause = plan->nbecause,
+        .schedule = pf->schedule,
+        .mask = pf->mask,
+        .cut = pf->cut,
+        .measuring = pf->measuring,
+        .release = pf->release_svg.length ? &pf->release_svg : NULL,
+        .wiring = pf->wiring};
 }
 
 /* of a rejected device */
@@ -485,8 +486,7 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
     return FW_OK;
 }
 
-/* SCENE.csv and SCENE.svg; where a scene runs in several flows: SCENE.FLOW.csv for the later
-   ones */
+/* SCENE.csv and SCENE.svg; where a scene runs in several flows: SCENE.FLOW.csv for the later ones */
 static fw_status write_motions(writer *w) {
     fw_plan *plan = w->plan;
     for (int s = 0; s < plan->device->nscene; s++) {

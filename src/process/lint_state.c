@@ -81,16 +81,20 @@ static void lint_residue(fw_process_pack *pack, const fw_process_step *s,
     }
 }
 
+/* where the pack says of which liquid, the verdict of each device says whether it bears that */
 static void lint_meniscus(fw_process_pack *pack, const fw_process_step *s,
                           const fw_process_wafer *after) {
-    static const char *const pulls[] = {"spin", "nitrogen", "oven"};
-    for (int i = 0; i < s->nfinish && after->released; i++)
-        for (size_t k = 0; k < sizeof pulls / sizeof *pulls; k++)
-            if (s->finish[i].kind == FW_FINISH_DRY && strcmp(s->finish[i].by, pulls[k]) == 0)
-                fw_diag_error(pack->diags, 337, s->finish[i].place,
-                              "step %s dries released devices by %s: the meniscus pulls flexures "
-                              "down for good; dry them by=\"critical-point\" or by=\"vapour\"",
-                              s->id, pulls[k]);
+    for (int i = 0; i < s->nfinish && after->released; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        if (f->kind != FW_FINISH_DRY || f->tension || !fw_process_drying_pulls(f->by) ||
+            strcmp(f->by, "vapour") == 0)
+            continue;
+        fw_diag_error(pack->diags, 337, f->place,
+                      "step %s dries released devices by %s: the meniscus pulls flexures "
+                      "down for good; dry them by=\"critical-point\" or by=\"vapour\", or say from "
+                      "what they dry (tension=\"...\"), so that each device is judged by it",
+                      s->id, f->by);
+    }
 }
 
 /* a hot wafer goes from bake to bake; elsewhere it is cool: resist dries as it is spun on, liquids boil, it breaks */

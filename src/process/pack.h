@@ -180,6 +180,8 @@ bool fw_process_step_in_liquid(const fw_process_step *step);
 /* may a wet wafer come to the step? */
 bool fw_process_step_takes_wet(const fw_process_step *step);
 /* "wet with phosphoric acid bath (h.pan)" */
+/* does a meniscus pass over what is dried this way? */
+bool fw_process_drying_pulls(const char *by);
 const char *fw_process_wafer_words(fw_arena *arena, const fw_process_flow *flow,
                                    const fw_process_wafer *wafer, fw_process_state state);
 const char *fw_process_state_why(fw_process_state state);

@@ -171,10 +171,11 @@ typedef enum fw_process_finish_kind {
 
 typedef struct fw_process_finish {
     fw_process_finish_kind kind;
-    const fw_process_hazard *with; /* rinse: in what; NULL: deionised water */
-    const char *by;                /* dry: "spin", "nitrogen", "critical-point" ...; "" */
-    const fw_quantity *time;       /* NULL: within the step's own time */
-    const char *text;              /* "" */
+    const fw_process_hazard *with;      /* rinse: in what; NULL: deionised water */
+    const char *by;                     /* dry: "spin", "nitrogen", "critical-point" ...; "" */
+    const fw_quantity *tension, *angle; /* dry: of the meniscus, N/m and rad; NULL: not said */
+    const fw_quantity *time;            /* NULL: within the step's own time */
+    const char *text;                   /* "" */
     fw_place place;
 } fw_process_finish;
 
@@ -471,6 +472,16 @@ const fw_quantity *fw_process_flow_hollow(const fw_process_flow *flow, const cha
    *hollow, *material: which of both. Test: test_below.c */
 const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, bool *hollow,
                                        const char **material);
+/* How devices that are free are dried: the finish that pulls hardest, or the last one that does not pull. FW_DRIED_NEVER:
+   nothing wets them any more; UNKNOWN: the flow frees nothing. tension and angle of a meniscus, which may be NULL.
+   Test: test_wafer_state.c */
+typedef struct fw_process_drying {
+    fw_mechanism_dried how;
+    const fw_process_step *step;
+    const fw_process_finish *finish;
+    const fw_quantity *tension, *angle;
+} fw_process_drying;
+fw_process_drying fw_process_flow_drying(const fw_process_flow *flow);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);

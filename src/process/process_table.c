@@ -34,7 +34,8 @@ static const char *const profiles[] = {"isotropic", "anisotropic", NULL};
 static const char *const faces[] = {"top", "middle", "bottom", NULL};
 static const char *const shapes[] = {"slot", "cylinder", "linear", NULL};
 static const char *const finishes[] = {"rinse", "dry", "cool", "vent", NULL};
-static const char *const dryings[] = {"spin", "nitrogen", "oven", "vapour", "critical-point", NULL};
+static const char *const dryings[] = {"spin",   "nitrogen",       "oven",        "air",
+                                      "vapour", "critical-point", "sublimation", NULL};
 static const char *const leavings[] = {"wafers", "dies", NULL};
 static const char *const there[] = {"present", "absent", NULL};
 static const char *const states[] = {
@@ -283,6 +284,14 @@ static const fw_xml_attribute_row finish_rows[] = {
     {"kind", WORD(finishes), REQUIRED, .sentence = "What is done."},
     {"with", TO(HAZARD), .sentence = "rinse: in which chemical; without: in deionised water."},
     {"by", WORD(dryings), .sentence = "dry: how."},
+    {"tension", TO(QUANTITY),
+     .sentence = "dry: surface tension of the liquid whose meniscus passes over the wafer; of "
+                 "devices that are free the "
+                 "verdict then says whether they bear it. Without: that of the alcohol with "
+                 "vapour, none at the critical "
+                 "point and by sublimation."},
+    {"angle", TO(QUANTITY),
+     .sentence = "dry: its contact angle, as a range; without: dry.angle of the pack."},
     {"q", TO(QUANTITY), .sentence = "How long; without: within the time of the step."},
 };
 static const fw_xml_attribute_row requires_rows[] = {

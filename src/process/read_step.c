@@ -304,10 +304,34 @@ static bool finish_kind(const char *word, fw_process_finish_kind *kind) {
     return false;
 }
 
+/* a surface tension and an angle, of what dries */
+static void check_meniscus(fw_process_pack *pack, const fw_xml_record *e,
+                           const fw_process_finish *f) {
+    static const fw_quantity_dimension tension = {.kg = 1, .s = -2}, angle = {.rad = 1};
+    const struct {
+        const char *name;
+        const fw_quantity *q;
+        fw_quantity_dimension is;
+        const char *words;
+    } of[] = {{"tension", f->tension, tension, "surface tension; write it in mN/m"},
+              {"angle", f->angle, angle, "angle; write it in deg"}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const fw_xml_attribute *a = fw_process_pack_get(e, of[i].name);
+        if (!of[i].q) continue;
+        if (f->kind != FW_FINISH_DRY)
+            fw_diag_error(pack->diags, 343, a->place,
+                          "%s is of a meniscus: it belongs to kind=\"dry\" only", of[i].name);
+        if (!fw_quantity_dimension_equal(of[i].q->dimension, of[i].is))
+            fw_diag_error(pack->diags, 343, a->place, "'%s' is no %s", a->value, of[i].words);
+    }
+}
+
 static void read_finish(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_xml_attribute *with = fw_process_pack_get(e, "with"),
                            *by = fw_process_pack_get(e, "by"), *q = fw_process_pack_get(e, "q");
     fw_process_finish f = {.by = by ? by->value : "",
+                           .tension = fw_process_pack_quantity(pack, e, "tension"),
+                           .angle = fw_process_pack_quantity(pack, e, "angle"),
                            .time = fw_process_pack_quantity(pack, e, "q"),
                            .text = e->element->text,
                            .place = e->element->place};
@@ -326,6 +350,7 @@ static void read_finish(fw_process_pack *pack, const fw_xml_record *e, fw_proces
                       by ? "by is how a wafer is dried: it belongs to kind=\"dry\" only"
                          : "<finish kind=\"dry\"> needs by: a meniscus pulls compliant parts down, "
                            "so that it matters how they are dried");
+    check_meniscus(pack, e, &f);
     if (f.time &&
         !fw_quantity_dimension_equal(f.time->dimension, (fw_quantity_dimension)FW_DIM_TIME))
         fw_diag_error(pack->diags, 169, q->place, "'%s' is not a time; write it in s or min",

@@ -91,6 +91,43 @@ static void wet(const fw_process_step *s, int step, fw_process_wafer *w) {
     }
 }
 
+/* ---- how devices that are free are dried ---- */
+
+bool fw_process_drying_pulls(const char *by) {
+    static const char *const pulls[] = {"spin", "nitrogen", "oven", "air", "vapour"};
+    for (size_t i = 0; i < sizeof pulls / sizeof *pulls; i++)
+        if (strcmp(pulls[i], by) == 0) return true;
+    return false;
+}
+
+static bool pulls_more(const fw_quantity *a, const fw_quantity *b) {
+    return !b || (a && a->value > b->value);
+}
+
+fw_process_drying fw_process_flow_drying(const fw_process_flow *flow) {
+    fw_process_wafer w = {.released = false};
+    fw_process_drying d = {.how = FW_DRIED_UNKNOWN};
+    const fw_quantity *alcohol = fw_process_flow_quantity(flow, "isopropanol.tension"),
+                      *angle = fw_process_flow_quantity(flow, "dry.angle");
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        fw_process_wafer_pass(flow, i, &w);
+        if (w.released && d.how == FW_DRIED_UNKNOWN) d.how = FW_DRIED_NEVER;
+        for (int k = 0; k < s->nfinish && w.released; k++) {
+            const fw_process_finish *f = &s->finish[k];
+            if (f->kind != FW_FINISH_DRY) continue;
+            bool pulls = fw_process_drying_pulls(f->by);
+            const fw_quantity *tension = f->tension ? f->tension : pulls ? alcohol : NULL;
+            if (!pulls && d.how != FW_DRIED_PULLED)
+                d = (fw_process_drying){FW_DRIED_CALM, s, f, NULL, NULL};
+            else if (pulls && (d.how != FW_DRIED_PULLED || pulls_more(tension, d.tension)))
+                d = (fw_process_drying){FW_DRIED_PULLED, s, f, tension,
+                                        f->angle ? f->angle : angle};
+        }
+    }
+    return d;
+}
+
 static bool finished_by(const fw_process_step *s, fw_process_finish_kind kind) {
     for (int i = 0; i < s->nfinish; i++)
         if (s->finish[i].kind == kind) return true;

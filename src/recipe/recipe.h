@@ -8,6 +8,7 @@
 #include "process/process.h"
 #include "schedule/schedule.h"
 #include "statics/statics.h"
+#include "verdict/verdict.h"
 
 typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of it is shown */
     fw_geometry_cut_line line; /* shown from 0 to length_m along it */
@@ -27,7 +28,8 @@ typedef struct fw_recipe_header {
     const fw_statics_tethers *tethers; /* NULL: there are none; then no mechanism is needed */
     const fw_mechanism *mechanism;     /* that they hold */
     const fw_text *release;            /* the picture of the release as a fragment; NULL: none */
-    const fw_wiring *wiring;           /* nets and their contacts; NULL: nothing is drawn */
+    const fw_verdict_variant_verdict *verdict; /* of this flow, for what drying it bears; NULL */
+    const fw_wiring *wiring;                   /* nets and their contacts; NULL: nothing is drawn */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,

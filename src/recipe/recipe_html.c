@@ -267,6 +267,10 @@ static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw
     labelled("Release window", words, out);
     if (fw_process_hold_words(out->arena, flow, &words) != FW_OK) out->failed = true;
     labelled("What holds meanwhile", words, out);
+    words = NULL;
+    if (h->verdict && fw_verdict_drying_words(out->arena, h->verdict, &words) != FW_OK)
+        out->failed = true;
+    labelled("Drying", words, out);
     if (!h->release || out->failed) return;
     fw_text_add(out, "<div class=\"release\">");
     fw_text_bytes(out, h->release->data, h->release->length);

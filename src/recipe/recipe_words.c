@@ -117,7 +117,9 @@ const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *f) 
     } drying[] = {{"spin", "by spinning"},
                   {"nitrogen", "with nitrogen"},
                   {"oven", "in the oven"},
+                  {"air", "in air"},
                   {"vapour", "in alcohol vapour"},
+                  {"sublimation", "by sublimation"},
                   {"critical-point", "at the critical point"}};
     switch (f->kind) {
     case FW_FINISH_RINSE:

@@ -47,6 +47,8 @@ void fw_report_json_clearances(fw_json *json, const fw_verdict *verdict);
 
 /* "out_of_plane" of every flow */
 void fw_report_json_out_of_plane(fw_json *json, const fw_verdict *verdict);
+/* "stiction" of every flow that dries it */
+fw_status fw_report_json_stiction(fw_arena *arena, fw_json *json, const fw_verdict *verdict);
 
 /* ---- the preview: lengths are in um with y up, to 1 nm; keys as in base/json.h ---- */
 

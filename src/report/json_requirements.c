@@ -186,3 +186,82 @@ void fw_report_json_out_of_plane(fw_json *json, const fw_verdict *v) {
     }
     fw_json_end(json);
 }
+
+/* ---- stiction ---- */
+
+static double or_nothing(double value) {
+    return isfinite(value) ? value : (double)NAN;
+}
+
+static void pull(fw_json *json, const char *key, const fw_verdict_pull *p) {
+    fw_json_object(json, key);
+    fw_json_truth(json, "known", p->known);
+    fw_report_json_pair(json, "number", or_nothing(p->number[0]), or_nothing(p->number[1]));
+    fw_report_json_pair(json, "bears_N_per_m", or_nothing(p->tension_N_per_m[0]),
+                        or_nothing(p->tension_N_per_m[1]));
+    fw_json_text(json, "a", p->a);
+    fw_json_text(json, "b", p->b);
+    fw_json_real(json, "gap_m", p->known && p->gap_m > 0 ? p->gap_m : (double)NAN);
+    fw_json_real(json, "stiffness_N_per_m", p->stiffness_N_per_m);
+    fw_json_end(json);
+}
+
+static void drying(fw_json *json, const fw_mechanism_drying *d) {
+    static const char *const how[] = {[FW_DRIED_UNKNOWN] = "not known",
+                                      [FW_DRIED_NEVER] = "never wet",
+                                      [FW_DRIED_CALM] = "without a meniscus",
+                                      [FW_DRIED_PULLED] = "with a meniscus"};
+    bool pulled = d->how == FW_DRIED_PULLED;
+    fw_json_object(json, "drying");
+    fw_json_text(json, "how", how[d->how]);
+    fw_json_text(json, "words", d->words);
+    fw_json_real(json, "tension_N_per_m", pulled ? d->tension_N_per_m : (double)NAN);
+    fw_report_json_pair(json, "pulls_N_per_m", pulled ? d->tension_low * d->cos_low : (double)NAN,
+                        pulled ? d->tension_high * d->cos_high : (double)NAN);
+    fw_json_end(json);
+    fw_json_object(json, "adhesion");
+    fw_json_real(json, "J_per_m2", d->adhesion_J_per_m2);
+    fw_report_json_pair(json, "band_J_per_m2", d->adhesion_low, d->adhesion_high);
+    fw_json_text(json, "source", d->adhesion_words);
+    fw_json_end(json);
+}
+
+static void stuck(fw_json *json, const fw_verdict_stiction *s) {
+    fw_json_list(json, "contacts");
+    for (int k = 0; k < s->nstuck; k++) {
+        fw_json_object(json, NULL);
+        fw_json_text(json, "scene", s->stuck[k].scene);
+        fw_json_text(json, "hinge", s->stuck[k].hinge);
+        fw_json_real(json, "holds_N", s->stuck[k].holds_N);
+        fw_json_real(json, "opens_N", s->stuck[k].opens_N);
+        fw_json_text(json, "verdict", fw_verdict_decision_text(s->stuck[k].decision));
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}
+
+fw_status fw_report_json_stiction(fw_arena *arena, fw_json *json, const fw_verdict *v) {
+    fw_json_list(json, "stiction");
+    for (int i = 0; i < v->nvariant; i++) {
+        const fw_verdict_stiction *s = v->variant[i].stiction;
+        const char *words;
+        if (!s) continue;
+        FW_TRY(fw_verdict_drying_words(arena, &v->variant[i], &words));
+        fw_json_object(json, NULL);
+        fw_json_text(json, "flow", v->variant[i].variant->flow);
+        fw_json_text(json, "verdict", fw_verdict_decision_text(s->decision));
+        fw_json_text(json, "needs", words);
+        fw_json_text(json, "why", s->why);
+        drying(json, &v->variant[i].variant->drying);
+        pull(json, "below", &s->below);
+        pull(json, "beside", &s->beside);
+        fw_report_json_pair(json, "peel", or_nothing(s->peel[0]), or_nothing(s->peel[1]));
+        fw_json_text(json, "peeled", s->peeled);
+        fw_json_real(json, "peels_up_to_J_per_m2", or_nothing(s->adhesion_J_per_m2));
+        fw_json_truth(json, "tethered", s->tethered);
+        stuck(json, s);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    return FW_OK;
+}

@@ -496,6 +496,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     not_drawn(&json, input->layout);
     fw_report_json_clearances(&json, v);
     fw_report_json_out_of_plane(&json, v);
+    FW_TRY(fw_report_json_stiction(out->arena, &json, v));
     accuracy(&json, v);
     advice(&json, v);
     fw_json_text(&json, "advice_note", v->advice_note);

@@ -222,6 +222,7 @@ static const struct {
     {"hinges", "Hinges", fw_report_section_hinges, NULL},
     {"clearance", "Clearance", fw_report_section_clearance, NULL},
     {"across", "Out of the plane", fw_report_section_out_of_plane, fw_report_has_out_of_plane},
+    {"drying", "Drying", fw_report_section_stiction, fw_report_has_stiction},
     {"made", "As fabricated", fw_report_section_fabricated, NULL},
     {"measurements", "Measurements", fw_report_section_measurements, fw_report_has_measurements},
     {"requirements", "Requirements", fw_report_section_requirements, fw_report_has_requirements},

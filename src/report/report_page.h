@@ -185,7 +185,9 @@ fw_status fw_report_section_device(fw_report_page *page);
 fw_status fw_report_section_hinges(fw_report_page *page);
 fw_status fw_report_section_clearance(fw_report_page *page);
 fw_status fw_report_section_out_of_plane(fw_report_page *page);
-bool fw_report_has_out_of_plane(const fw_report_page *page); /* report_requirements.c */
+bool fw_report_has_out_of_plane(const fw_report_page *page);
+fw_status fw_report_section_stiction(fw_report_page *page);
+bool fw_report_has_stiction(const fw_report_page *page); /* report_requirements.c */
 fw_status fw_report_section_fabricated(fw_report_page *page);
 fw_status fw_report_section_measurements(fw_report_page *page); /* banner.c */
 bool fw_report_has_measurements(const fw_report_page *page);

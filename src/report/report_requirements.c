@@ -454,3 +454,52 @@ fw_status fw_report_section_out_of_plane(fw_report_page *page) {
     fw_markup(page->out, "</tbody></table>\n");
     return fw_text_end(page->out);
 }
+
+/* ---- drying and sticking ---- */
+
+bool fw_report_has_stiction(const fw_report_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].stiction) return true;
+    return false;
+}
+
+/* bounds of a number; one that is infinite is left out */
+static void number_cell(fw_text *out, bool known, const double number[2]) {
+    if (!known || !isfinite(number[0]))
+        fw_markup(out, "<td></td>");
+    else if (!isfinite(number[1]))
+        fw_markup(out, "<td>{n} at least</td>", number[0]);
+    else
+        fw_markup(out, "<td>{n} to {n}</td>", number[0], number[1]);
+}
+
+static fw_status stiction_row(fw_text *out, const fw_verdict_variant_verdict *v) {
+    const fw_verdict_stiction *s = v->stiction;
+    const char *needs;
+    FW_TRY(fw_verdict_drying_words(out->arena, v, &needs));
+    fw_markup(out, "<tr><td>{s}</td><td>{s}</td><td>{s}</td>",
+              v->variant->flow ? v->variant->flow : "",
+              v->variant->drying.words ? v->variant->drying.words : "", needs ? needs : "");
+    number_cell(out, s->below.known, s->below.number);
+    number_cell(out, s->beside.known, s->beside.number);
+    number_cell(out, isfinite(s->adhesion_J_per_m2), s->peel);
+    fw_markup(out, "<td>{s}</td></tr>\n", fw_verdict_decision_text(s->decision));
+    return FW_OK;
+}
+
+fw_status fw_report_section_stiction(fw_report_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    fw_markup(
+        page->out,
+        "<table><caption>What the liquid that it is dried from does to the device, and "
+        "adhesion to what has touched. Elastocapillary numbers: to the carrier, and from wall "
+        "to wall; at 1 a stable equilibrium is lost. Peel number: above 1 what has touched "
+        "comes free.</caption>\n<thead><tr><th>Flow</th><th>Drying</th><th>What the device "
+        "needs</th><th>To the carrier</th><th>Wall to wall</th><th>Peel number</th>"
+        "<th>Verdict</th></tr></thead><tbody>\n");
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].stiction) FW_TRY(stiction_row(page->out, &v->variant[i]));
+    fw_markup(page->out, "</tbody></table>\n");
+    return fw_text_end(page->out);
+}

@@ -246,6 +246,19 @@ static void out_of_plane(fw_text *out, const fw_verdict *v) {
     }
 }
 
+/* a line a flow: how it is dried, and what the device needs */
+static fw_status stiction(fw_text *out, const fw_verdict *v) {
+    for (int i = 0; i < v->nvariant; i++) {
+        const fw_verdict_variant_verdict *of = &v->variant[i];
+        const char *needs, *flow = of->variant->flow;
+        FW_TRY(fw_verdict_drying_words(out->arena, of, &needs));
+        if (!needs || of->variant->drying.how == FW_DRIED_NEVER) continue;
+        fw_text_printf(out, "\ndrying%s%s: %s; %s\n", flow ? ", " : "", flow ? flow : "",
+                       of->variant->drying.words, needs);
+    }
+    return FW_OK;
+}
+
 /* those alone that accept are among the proposals */
 static void parameters(fw_text *out, const fw_verdict *v) {
     int said = 0;
@@ -293,6 +306,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     if (style.detail >= 0) requirements(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) out_of_plane(out, v);
+    if (style.detail >= 0) FW_TRY(stiction(out, v));
     if (style.detail >= 0) fw_report_fabricated_text(out, v);
     fw_report_measurements_text(out, input);
     advice(out, v);

@@ -36,6 +36,10 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
    above: of torsion 1/J <= 3/0.42 (1/(w h^3) + 1/(h w^3)) */
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c);
+/* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */
+struct fw_mechanism_plates;
+fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
 typedef struct fw_verdict_turn { /* of a body since it was drawn */
     double rad, cosine, sine;
 } fw_verdict_turn;

@@ -231,7 +231,10 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
-                     (size_t)device->nrevolute + 3; /* strips; out of reach, as made, riders */
+                     (size_t)device->nrevolute +
+                     6; /* strips; out of reach, as made, riders; stiction */
+    for (size_t i = 0; i < n; i++)
+        reasons += (size_t)m->device->scene[i].ncontact;
     reasons += (size_t)fw_verdict_missing_most(device);
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
@@ -392,6 +395,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_bending_begin(arena, layout, m, v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, is_brief(options, v) || v->corner, v));
+    FW_TRY(fw_verdict_stiction_judge(arena, m, is_brief(options, v) || v->corner, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,

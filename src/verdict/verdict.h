@@ -96,6 +96,43 @@ typedef struct fw_verdict_out_of_plane {
     int nscene;
 } fw_verdict_out_of_plane;
 
+/* Whether a liquid pulls it to its carrier, or one wall to another, as it dries, and whether it then lets go
+   (verdict_stiction.c). Numbers are shares: 1 is the limit, above it nothing touches, or what touches comes free. */
+typedef struct fw_verdict_pull {
+    bool known;
+    double tension_N_per_m
+        [2]; /* of a liquid that wets (angle 0): the least that may pull it in, and the least that
+                                  surely does; HUGE_VAL: none does */
+    double number
+        [2]; /* elastocapillary, of the flow's own drying: low, high; HUGE_VAL: nothing pulls */
+    const char *a, *b; /* what meets; b NULL: the carrier */
+    double gap_m,
+        stiffness_N_per_m; /* stiffness: of a's centre of mass across the plane; NaN: beside */
+} fw_verdict_pull;
+
+typedef struct fw_verdict_stuck { /* conjugate surfaces that a scene closes */
+    const char *scene, *hinge;
+    double holds_N, opens_N; /* by adhesion at most; what the flexure gives back where they touch */
+    fw_verdict_decision decision;
+} fw_verdict_stuck;
+
+typedef struct fw_verdict_stiction {
+    const char *why; /* it is not known; NULL */
+    fw_verdict_pull below, beside;
+    double peel[2],
+        adhesion_J_per_m2; /* number: low, high; and the adhesion at which it is 1, NaN: not known */
+    const char *peeled;    /* the body that holds worst against it */
+    bool tethered;         /* tethers hold bodies while it dries: less may touch than is said */
+    fw_verdict_stuck *stuck; /* (nstuck) */
+    int nstuck;
+    fw_verdict_decision decision;
+} fw_verdict_stiction;
+
+struct fw_verdict_variant_verdict;
+/* what the drying step of a recipe is told of this device: which liquids it bears; NULL: nobody asked */
+fw_status fw_verdict_drying_words(fw_arena *arena, const struct fw_verdict_variant_verdict *verdict,
+                                  const char **words);
+
 typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the bands of its hinges */
     const char *scene, *flow;
     int number; /* FW-Dnnn */
@@ -211,6 +248,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */
     const struct fw_verdict_arm *arm;
     const fw_verdict_out_of_plane *out_of_plane; /* NULL: nobody asked, as of a trial */
+    const fw_verdict_stiction *stiction;         /* NULL: no flow dries it, or nobody asked */
     const fw_clearance_things *things;           /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;             /* (nclearance) none of what is not drawn */
     int nclearance;

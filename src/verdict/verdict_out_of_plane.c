@@ -31,8 +31,8 @@ static bool somebody_asks(const fw_mechanism *m) {
 
 /* ---- modes ---- */
 
-static fw_status find_soft(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                           both *to) {
+fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                 fw_mechanism_plates *soft) {
     const fw_device_material *of = &m->variant->material;
     const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
     double *give;
@@ -41,7 +41,7 @@ static fw_status find_soft(fw_arena *arena, const fw_mechanism *m, const fw_verd
         if (arm && arm[k].known)
             fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
                                         give + 9 * (k / 2));
-    return fw_mechanism_plates_new(arena, m, give, &to->soft);
+    return fw_mechanism_plates_new(arena, m, give, soft);
 }
 
 static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_plane *out) {
@@ -216,7 +216,7 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
     FW_TRY(fw_mechanism_plates_new(arena, m, NULL, &to->rigid));
     if (to->rigid.why) return FW_OK;
     size_t n = (size_t)to->rigid.n;
-    FW_TRY(find_soft(arena, m, arm, to));
+    FW_TRY(fw_verdict_soft_plates(arena, m, arm, &to->soft));
     FW_NEED(to->x = fw_arena_array(arena, double, n));
     FW_NEED(to->f = fw_arena_array(arena, double, 2 * n));
     FW_NEED(to->ring = fw_arena_array(arena, double, n));

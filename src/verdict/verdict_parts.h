@@ -56,6 +56,12 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
                                                   const fw_device_probe *probe,
                                                   const fw_statics_modes *modes, int *in_plane);
 
+/* ---- verdict_stiction.c: what a liquid pulls, and what adhesion holds ---- */
+
+/* after the scenes were run: v->stiction, and reasons of v. brief: only where a meniscus passes over it */
+fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
+                                    fw_verdict_variant_verdict *v);
+
 /* ---- verdict_scene.c: what the motion has and the masks lack ---- */
 
 int fw_verdict_missing_most(const fw_device *device); /* reasons of one flow */

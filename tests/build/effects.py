@@ -91,6 +91,7 @@ COSTS = [
     ("temperature", "stated", "growing", ["--pins"], "ground that grows with a law, per hinge"),
     ("residual-stress", "stated", "stressed", ["--pins"], "lengths at the start: nothing"),
     ("out-of-plane", "stated", "stressed", ["--pins"], "judged beside the motion: nothing"),
+    ("adhesion", "giving", "touching", [], "judged beside the motion: nothing"),
     ("air", "stated", "slide", ["--pins"], "body on a film"),
     ("air", "stated", "squeeze", ["--pins"], "film between walls"),
     ("air", "stated", "drag", ["--pins"], "body in open air"),

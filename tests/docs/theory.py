@@ -39,7 +39,7 @@ NO_EFFECT = {"costs", "envelope"}  # pages of that folder about all effects toge
 LONGEST = 120
 UNITS = {"": 1, "1": 1, "%": 1e-2, "m": 1, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "rad": 1, "deg": 0.017453292519943295, "kg": 1,
          "g": 1e-3, "ug": 1e-9, "s": 1, "ms": 1e-3, "min": 60, "h": 3600, "Hz": 1, "kHz": 1e3, "N": 1, "mN": 1e-3, "uN": 1e-6,
-         "Pa": 1, "MPa": 1e6, "GPa": 1e9, "A": 1, "mA": 1e-3, "C": 1, "cm": 1e-2, "mol": 1, "mg": 1e-6, "V": 1, "K": 1}
+         "Pa": 1, "MPa": 1e6, "GPa": 1e9, "A": 1, "mA": 1e-3, "C": 1, "cm": 1e-2, "mol": 1, "mg": 1e-6, "V": 1, "K": 1, "mJ": 1e-3}
 LINE = re.compile(r"^(given|found|program)\s+(\w+)\s*=\s*(\S+)([^#]*?)(\s*#.*)?$")
 problems = []
 

@@ -299,6 +299,13 @@ def effect_out_of_plane_program(run, _):
     return {"k": run("check", PLATE, "--json")["out_of_plane"][0]["stiffness_N_per_m"]}
 
 
+def effect_adhesion(g):
+    modulus, relative = g["E"] / (2 * (1 - g["nu"] ** 2)), g["R"] * (g["R"] + g["gap"]) / g["gap"]
+    a = (2 * g["W"] * relative**2 / (pi * modulus)) ** (1 / 3)
+    return {"Rr": relative, "a": a, "opens": g["k"] * g["gap"],
+            "P": g["h"] * (sqrt(2 * pi * modulus * a * g["W"]) - pi * modulus * a**2 / (4 * relative))}
+
+
 def effect_air(g):
     mu = 1.458e-6 * g["T"] ** 1.5 / (g["T"] + 110.4)
     path = mu / g["p"] * sqrt(pi * 287.05 * g["T"] / 2)

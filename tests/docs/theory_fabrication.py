@@ -201,6 +201,44 @@ def plates(g):
             "least": g["d"] + overlay}
 
 
+def lost(cantilever):
+    """largest q of w'''' = q/(1 - w) over all deflections, shot from the tip, or from the middle of a clamped strip"""
+    def end(w, x):
+        y = [w, x[0], 0.0, 0.0] if cantilever else [w, 0.0, x[0], 0.0]
+        steps = 200
+        h = (1 if cantilever else 0.5) / steps
+
+        def slope(y):
+            return y[1], y[2], y[3], x[1] / (1 - y[0])
+        for _ in range(steps):
+            a = slope(y)
+            b = slope([p + h / 2 * q for p, q in zip(y, a)])
+            c = slope([p + h / 2 * q for p, q in zip(y, b)])
+            d = slope([p + h * q for p, q in zip(y, c)])
+            y = [p + h / 6 * (i + 2 * j + 2 * k + m) for p, i, j, k, m in zip(y, a, b, c, d)]
+        return y[0], y[1]
+
+    x, most = [-0.13, 0.8] if cantilever else [-1.6, 38.0], 0.0
+    for i in range(10, 70):
+        for _ in range(8):
+            r, e = end(i / 100, x), [1e-6 * max(1, abs(x[0])), 1e-6 * x[1]]
+            p, q = end(i / 100, [x[0] + e[0], x[1]]), end(i / 100, [x[0], x[1] + e[1]])
+            j = [[(p[0] - r[0]) / e[0], (q[0] - r[0]) / e[1]], [(p[1] - r[1]) / e[0], (q[1] - r[1]) / e[1]]]
+            det = j[0][0] * j[1][1] - j[0][1] * j[1][0]
+            x = [x[0] - (r[0] * j[1][1] - r[1] * j[0][1]) / det, x[1] - (r[1] * j[0][0] - r[0] * j[1][0]) / det]
+        most = max(most, x[1])
+    return most
+
+
+def stiction(g):
+    stiff, held = g["E"] * g["t"] ** 3 * g["g"] ** 2 / g["L"] ** 4, lost(False)
+    more = 1 + g["t"] / g["w"]
+    return {"held": held, "free": lost(True), "mine": held * stiff / 12 / more / (2 * g["gamma"]),
+            "theirs": 128 / 15 * stiff / g["gamma"] / more, "tip": 2 / 9 * stiff / g["gamma"] / more,
+            "peel": 128 / 5 * stiff / g["W"], "peeltip": 3 / 8 * stiff / g["W"],
+            "plate": g["k"] * g["g"] ** 2 / (8 * g["A"])}
+
+
 def wiring(g):
     """Paschen's law with p d in Torr m; A, B per m and Torr"""
     A, B, torr = 15e2, 365e2, 760.0

@@ -68,6 +68,15 @@ static void mistakes(void **state) {
         {SILICON, "    <finish kind=\"rinse\" q=\"al-rinse.t\"/>\n", "", 347, "'h.pan'"},
         {SILICON, "<finish kind=\"dry\" by=\"critical-point\"/>",
          "<finish kind=\"dry\" by=\"nitrogen\"/>", 337, "meniscus"},
+        {SILICON, "<finish kind=\"dry\" by=\"critical-point\"/>",
+         "<finish kind=\"dry\" by=\"air\"/>", 337, "say from what they dry"},
+        {SILICON, "<finish kind=\"dry\" by=\"critical-point\"/>",
+         "<finish kind=\"dry\" by=\"air\" tension=\"pan.T\"/>", 343, "no surface tension"},
+        {SILICON, "<finish kind=\"dry\" by=\"critical-point\"/>",
+         "<finish kind=\"dry\" by=\"air\" tension=\"water.tension\" angle=\"water.tension\"/>", 343,
+         "no angle"},
+        {SILICON, "<finish kind=\"vent\"/>", "<finish kind=\"vent\" tension=\"water.tension\"/>",
+         343, "of a meniscus"},
         {COPPER, "<change kind=\"remove\" material=\"resist\" where=\"structure\"/>", "", 340,
          "plates 'copper-plated' on 'resist'"},
         {SILICON, "<finished material=\"carrier\" is=\"absent\"/>",
@@ -99,6 +108,41 @@ static void mistakes(void **state) {
                      d ? d->message : diags.item[0].message);
         assert_true(d->place.line > 0 && d->place.column > 0);
         assert_string_equal(d->place.file, "flow.xml");
+    }
+}
+
+/* how each flow dries what it has set free, and what a meniscus is of */
+static void dries(void **state) {
+    (void)state;
+    static const char calm[] = "<finish kind=\"dry\" by=\"critical-point\"/>";
+    static const struct {
+        const char *flow, *to, *step;
+        fw_mechanism_dried how;
+        const char *tension; /* id; NULL: none */
+    } as[] = {
+        {SILICON, calm, "S22", FW_DRIED_CALM, NULL},
+        {COPPER, calm, "C27", FW_DRIED_CALM, NULL},
+        {SILICON, "<finish kind=\"dry\" by=\"sublimation\"/>", "S22", FW_DRIED_CALM, NULL},
+        {SILICON, "<finish kind=\"dry\" by=\"air\" tension=\"water.tension\"/>", "S22",
+         FW_DRIED_PULLED, "water.tension"},
+        {SILICON, "<finish kind=\"dry\" by=\"vapour\"/>", "S22", FW_DRIED_PULLED,
+         "isopropanol.tension"},
+        {SILICON,
+         "<finish kind=\"dry\" by=\"oven\" tension=\"isopropanol.tension\"/><finish "
+         "kind=\"rinse\"/>"
+         "<finish kind=\"dry\" by=\"oven\" tension=\"water.tension\"/>",
+         "S22", FW_DRIED_PULLED, "water.tension"},
+    };
+    for (size_t i = 0; i < sizeof as / sizeof as[0]; i++) {
+        diags = fw_diags_new(arena);
+        fw_process_flow *f = read_pack(arena, as[i].flow, calm, as[i].to, &diags);
+        assert_non_null(f);
+        const fw_process_drying d = fw_process_flow_drying(f);
+        assert_int_equal(d.how, as[i].how);
+        if (as[i].tension) assert_string_equal(d.tension->id, as[i].tension);
+        if (!as[i].tension) assert_null(d.tension);
+        assert_string_equal(d.step->id, as[i].step);
+        if (as[i].how == FW_DRIED_PULLED) assert_string_equal(d.angle->id, "dry.angle");
     }
 }
 
@@ -149,6 +193,7 @@ static void a_laboratory_meets_the_same_checks(void **state) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
     const struct CMUnitTest tests[] = {TEST(a_bath_leaves_wafers_wet_until_it_is_finished),
-                                       TEST(mistakes), TEST(a_laboratory_meets_the_same_checks)};
+                                       TEST(mistakes), TEST(dries),
+                                       TEST(a_laboratory_meets_the_same_checks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,466 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Does the liquid that a device is dried from pull it down to its carrier, or one wall to another, and does it come free
+   again? Bodies are plates that are rigid; with what they may give at most (body_arms.c) the lower ends of the numbers
+   hold. Theory: docs/theory/stiction.md. Test: test_stiction.py */
+#include "base/constants.h"
+#include "effects/effects.h"
+#include "geometry/segment.h"
+#include "maths/dense.h"
+#include "mechanism/mechanism_plates.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <string.h>
+
+typedef struct device {
+    fw_arena *arena;
+    const fw_mechanism *m;
+    const fw_mechanism_drying *drying;
+    fw_mechanism_plates rigid, soft;
+    double *across[2], *beside; /* compliances: rigid, soft; in the plane, soft */
+    bool held;                  /* in the plane */
+} device;
+
+/* of walls: a tension of which nothing is known any closer, 20 times that of water */
+static const double wall_enough_N_per_m = 3;
+/* a crystal along other directions than the closed form's, shear: a strip beside a wall is known to */
+static const double strip_error = 0.2;
+
+static const char *body_name(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? "what stands" : fw_text_name(m->body[body].id);
+}
+
+static fw_mechanism_plates *soft_of(device *d) {
+    return d->soft.why ? &d->rigid : &d->soft;
+}
+
+/* ---- to the carrier ---- */
+
+static void keep_lower(fw_verdict_pull *to, double tension, const char *a, const char *b) {
+    if (tension >= to->tension_N_per_m[0]) return;
+    to->tension_N_per_m[0] = tension;
+    to->a = a, to->b = b;
+}
+
+/* strips between their ends, clamped */
+static void strips_below(const device *d, double gap_m, fw_verdict_pull *to) {
+    const fw_mechanism *m = d->m;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_plate_hinge *h = &d->rigid.hinge[k];
+        double w = m->hinge[k].input.width_m, more = fmax(gap_m, m->variant->thickness_m) / w;
+        double s =
+            fw_mechanism_strip_pull_in(h->bend_Nm2, h->length_m, w, gap_m, more) / (1 + h->error);
+        keep_lower(to, 0.5 * s, m->pin[m->hinge[k].pin].id, NULL);
+    }
+}
+
+static fw_status pull_below(device *d, fw_verdict_pull *to) {
+    const fw_mechanism_below *below = &d->m->variant->below;
+    fw_mechanism_face *face;
+    int n, first;
+    double s, more = 1 + d->rigid.error;
+    if (!below->known || below->open) return FW_OK;
+    to->known = true;
+    to->gap_m = below->m;
+    double low = fmax(below->low_m, 1e-9);
+    FW_TRY(fw_mechanism_faces_below(d->arena, soft_of(d), low, &face, &n));
+    FW_TRY(fw_mechanism_pull_in(d->arena, d->across[1], d->rigid.n, face, n, FW_PULL_EACH, HUGE_VAL,
+                                &s, &first));
+    const int body = first == FW_NONE ? FW_GROUND : face[first].body[0];
+    keep_lower(to, 0.5 * s / more, body_name(d->m, body), NULL);
+    strips_below(d, low, to);
+    for (int i = 0; i < n; i++)
+        face[i].gap_m = below->high_m;
+    FW_TRY(fw_mechanism_pull_in(d->arena, d->across[0], d->rigid.n, face, n, FW_PULL_WIDEST,
+                                HUGE_VAL, &s, &first));
+    to->tension_N_per_m[1] = fmax(0.5 * s * more, to->tension_N_per_m[0]);
+    if (body != FW_GROUND)
+        to->stiffness_N_per_m =
+            1 / d->across[0][(size_t)(3 * body) * (size_t)d->rigid.n + (size_t)(3 * body)];
+    return FW_OK;
+}
+
+/* ---- wall to wall ---- */
+
+enum { WAYS = 8 };
+
+/* what is wet on one side of a body alone pulls it there: all that it faces in one half of all directions */
+static int on_one_side(const fw_mechanism_face *face, int n, int body, int way,
+                       fw_mechanism_face *out) {
+    double angle = way * FW_TURN / WAYS, c = cos(angle), s = sin(angle);
+    int found = 0;
+    for (int i = 0; i < n; i++) {
+        int side = face[i].body[0] == body ? 0 : face[i].body[1] == body ? 1 : FW_NONE;
+        double towards = c * face[i].normal.x + s * face[i].normal.y;
+        if (side == FW_NONE || !((side ? -towards : towards) > 1e-9)) continue;
+        out[found++] = face[i];
+    }
+    return found;
+}
+
+static fw_status pull_body(device *d, const fw_mechanism_face *face, int n, int body,
+                           fw_mechanism_face *room, fw_verdict_pull *to) {
+    for (int way = 0; way < WAYS; way++) {
+        double s;
+        int first, found = on_one_side(face, n, body, way, room);
+        if (found == 0) continue;
+        double enough = fmin(2 * wall_enough_N_per_m, 2 * to->tension_N_per_m[0]);
+        FW_TRY(fw_mechanism_pull_in(d->arena, d->beside, d->rigid.n, room, found, FW_PULL_EACH,
+                                    enough, &s, &first));
+        const fw_mechanism_face *at = first == FW_NONE ? NULL : &room[first];
+        if (!(0.5 * s < to->tension_N_per_m[0]) || !at) continue;
+        keep_lower(to, 0.5 * s, body_name(d->m, at->body[0]), body_name(d->m, at->body[1]));
+        to->gap_m = at->gap_m;
+    }
+    return FW_OK;
+}
+
+static void strips_beside(const device *d, const fw_mechanism_strip_beside *strip,
+                          fw_verdict_pull *to) {
+    const fw_mechanism *m = d->m;
+    const double depth = m->variant->thickness_m, E = m->variant->material.youngs.value;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_strip_beside *s = &strip[k];
+        double w = m->hinge[k].input.width_m, bend = E * depth * w * w * w / 12;
+        if (!isfinite(s->gap_m) || !(w > 0)) continue;
+        double tension = 0.5 *
+                         fw_mechanism_strip_pull_in(bend, d->rigid.hinge[k].length_m, depth,
+                                                    s->gap_m, s->gap_m / depth) /
+                         (1 + strip_error);
+        if (tension < to->tension_N_per_m[0]) to->gap_m = s->gap_m;
+        keep_lower(to, tension, m->pin[m->hinge[k].pin].id,
+                   s->piece == FW_NONE ? "a wall" : m->layout->piece[s->piece].label);
+    }
+}
+
+static fw_status pull_beside(device *d, fw_verdict_pull *to) {
+    const fw_mechanism *m = d->m;
+    fw_mechanism_face *face, *room;
+    fw_mechanism_strip_beside *strip;
+    int n;
+    if (!d->held || !m->layout || !m->layout->drawn) return FW_OK;
+    FW_NEED(strip = fw_arena_array(d->arena, fw_mechanism_strip_beside, (size_t)m->nhinge));
+    FW_TRY(fw_mechanism_faces_beside(d->arena, m, &face, &n, strip));
+    FW_NEED(room = fw_arena_array(d->arena, fw_mechanism_face, (size_t)n));
+    to->known = true;
+    strips_beside(d, strip, to);
+    for (int b = 0; b < m->nbody; b++)
+        FW_TRY(pull_body(d, face, n, b, room, to));
+    return FW_OK;
+}
+
+/* ---- does it come free? ---- */
+
+static bool invert3(const double *c, int n, int body, double k[3][3]) {
+    double a[3][3], det;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            a[i][j] = c[(size_t)(3 * body + i) * (size_t)n + (size_t)(3 * body + j)];
+            k[i][j] = i == j;
+        }
+    return fw_maths_solve3((const double(*)[3])a, 3, k, &det);
+}
+
+/* J: the least that is stored where any corner of the boxes of a body touches */
+static double corner_energy(const device *d, const double *c, int body, double gap_m) {
+    const fw_mechanism *m = d->m;
+    const size_t n = (size_t)d->rigid.n, at = 3 * (size_t)body;
+    double most = c[at * n + at];
+    for (int i = 0; m->layout && i < m->layout->npiece; i++) {
+        const fw_layout_piece *p = &m->layout->piece[i];
+        if (p->body != body || !fw_layout_is_wall(p)) continue;
+        fw_geometry_box box = fw_geometry_contour_box(&p->contour);
+        for (int q = 0; q < 4; q++) {
+            const double b[3] = {1, (q / 2 ? box.y1 : box.y0) - m->drawn[body].y_m,
+                                 m->drawn[body].x_m - (q % 2 ? box.x1 : box.x0)};
+            double give = 0;
+            for (size_t k = 0; k < 9; k++)
+                give += b[k / 3] * c[(at + k / 3) * n + at + k % 3] * b[k % 3];
+            most = fmax(most, give);
+        }
+    }
+    return 0.5 * gap_m * gap_m / most;
+}
+
+/* Peel numbers: the least of all bodies. Low: what the softest corner stores where it alone touches, over the largest
+   adhesion of all that moves; high: what the stiffest plates store where one lies flat, over the least adhesion of
+   it. Strips clamped at both ends have 307.2 EI g^2/(w W L^4), after Mastrangelo and Hsu. */
+static void peel(const device *d, fw_verdict_stiction *to) {
+    const fw_mechanism *m = d->m;
+    const fw_mechanism_below *below = &m->variant->below;
+    double all = 0, more = 1 + d->rigid.error;
+    to->peel[0] = to->peel[1] = HUGE_VAL;
+    for (int b = 0; b < m->nbody; b++)
+        all += m->shape[b].area_m2;
+    for (int b = 0; b < m->nbody; b++) {
+        double k[3][3], area = m->shape[b].area_m2;
+        if (!invert3(d->across[0], d->rigid.n, b, k)) continue;
+        double flat = 0.5 * k[0][0] * below->m * below->m / area;
+        double most = flat * more * below->high_m * below->high_m / (below->m * below->m);
+        double least = corner_energy(d, d->across[1], b, fmax(below->low_m, 0)) / (more * all);
+        if (!(flat >= to->adhesion_J_per_m2))
+            to->adhesion_J_per_m2 = flat, to->peeled = body_name(m, b);
+        to->peel[0] = fmin(to->peel[0], least / d->drying->adhesion_high);
+        to->peel[1] = fmin(to->peel[1], most / d->drying->adhesion_low);
+    }
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_plate_hinge *h = &d->rigid.hinge[k];
+        double w = m->hinge[k].input.width_m, l2 = h->length_m * h->length_m;
+        double strip = 307.2 * h->bend_Nm2 * below->low_m * below->low_m / (w * l2 * l2);
+        to->peel[0] = fmin(to->peel[0], strip / (1 + h->error) / d->drying->adhesion_high);
+    }
+}
+
+/* ---- surfaces that a scene closes ---- */
+
+static bool closes(const fw_dynamics_motion *motion) {
+    for (int i = 0; motion && i < motion->ledger.count; i++)
+        if (strcmp(motion->ledger.item[i].id, "contact") == 0) return motion->ledger.item[i].active;
+    return false;
+}
+
+static fw_status say(const fw_mechanism *m, const char *scene, int number,
+                     fw_verdict_decision decision, const char *text,
+                     fw_verdict_variant_verdict *v) {
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
+                                                  .flow = m->variant->flow,
+                                                  .number = number,
+                                                  .decision = decision,
+                                                  .keep = 0.5,
+                                                  .not_by_loads = true,
+                                                  .text = text};
+    return FW_OK;
+}
+
+static fw_status judge_stuck(fw_arena *arena, const fw_mechanism *m, const fw_verdict_stuck *s,
+                             fw_verdict_variant_verdict *v) {
+    char holds[32], opens[32];
+    if (s->decision == FW_ACCEPT) return FW_OK;
+    return say(
+        m, s->scene, 586, s->decision,
+        fw_arena_printf(
+            arena,
+            "the surfaces of hinge %s may meet in scene %s and stay closed: adhesion may hold "
+            "them with up to %s uN, and the flexure opens them with %s uN; a wider gap, a "
+            "stiffer flexure or surfaces that hold less (surface.adhesion of the flow) let "
+            "them go",
+            s->hinge, s->scene, fw_number_text(holds, sizeof holds, 1e6 * s->holds_N, 3),
+            fw_number_text(opens, sizeof opens, 1e6 * s->opens_N, 3)),
+        v);
+}
+
+static fw_status stuck(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
+                       fw_verdict_variant_verdict *v) {
+    size_t n = 0;
+    for (int i = 0; i < m->device->nscene; i++)
+        n += (size_t)m->device->scene[i].ncontact;
+    FW_NEED(to->stuck = fw_arena_array(arena, fw_verdict_stuck, n));
+    for (int i = 0; i < m->device->nscene; i++) {
+        const fw_device_scene *s = &m->device->scene[i];
+        const fw_effect_case of = {.arena = arena, .mechanism = m, .scene = s};
+        for (int k = 0; v->motion && closes(v->motion[i]) && k < s->ncontact; k++) {
+            const fw_effects_adhered a =
+                fw_effects_adhesion_of(&of, &s->contact[k], m->variant->drying.adhesion_high);
+            if (!a.known) continue;
+            fw_verdict_stuck *one = &to->stuck[to->nstuck++];
+            *one = (fw_verdict_stuck){s->name, m->pin[s->contact[k].joint].id, a.holds_N, a.opens_N,
+                                      a.holds_N > a.opens_N ? FW_INCONCLUSIVE : FW_ACCEPT};
+            FW_TRY(judge_stuck(arena, m, one, v));
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- all of it ---- */
+
+static fw_status prepare(device *d, const fw_verdict_arm *arm) {
+    const fw_mechanism *m = d->m;
+    const double stiff = m->variant->material.youngs.value * m->variant->thickness_m;
+    double *give;
+    FW_TRY(fw_mechanism_plates_new(d->arena, m, NULL, &d->rigid));
+    if (d->rigid.why) return FW_OK;
+    FW_TRY(fw_verdict_soft_plates(d->arena, m, arm, &d->soft));
+    FW_TRY(fw_mechanism_plates_across(d->arena, &d->rigid, &d->across[0]));
+    FW_TRY(fw_mechanism_plates_across(d->arena, soft_of(d), &d->across[1]));
+    FW_NEED(give = fw_arena_array(d->arena, double, 9 * (size_t)m->nhinge));
+    for (int k = 0; k < 2 * m->nhinge; k++) {
+        static const int at[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+        for (int i = 0; arm && arm[k].known && i < 9; i++)
+            give[9 * (k / 2) + i] += arm[k].give[at[i]] / stiff;
+    }
+    return fw_mechanism_plates_beside(d->arena, &d->rigid, give, &d->beside, &d->held);
+}
+
+static void put_number(const fw_mechanism_drying *drying, fw_verdict_pull *to) {
+    bool pulled = drying->how == FW_DRIED_PULLED;
+    double most = drying->tension_high * drying->cos_high,
+           least = drying->tension_low * drying->cos_low;
+    to->number[0] = pulled && most > 0 ? to->tension_N_per_m[0] / most : HUGE_VAL;
+    to->number[1] = pulled && least > 0 ? to->tension_N_per_m[1] / least : HUGE_VAL;
+}
+
+static const char *range_words(fw_arena *arena, const double number[2]) {
+    char low[32], high[32];
+    fw_number_text(low, sizeof low, number[0], 3);
+    fw_number_text(high, sizeof high, number[1], 3);
+    return isfinite(number[1]) ? fw_arena_printf(arena, "%s to %s", low, high)
+                               : fw_arena_printf(arena, "%s at least", low);
+}
+
+static const char *remedy(fw_arena *arena, const fw_verdict_pull *p) {
+    char most[32], by[32];
+    return fw_arena_printf(
+        arena,
+        "dry it at the critical point, by sublimation or from a liquid of at most %s mN/m, or make "
+        "what holds it shorter than %s of its length or thicker",
+        fw_number_text(most, sizeof most, 1e3 * p->tension_N_per_m[0], 3),
+        fw_number_text(by, sizeof by, pow(fmin(p->number[0], 1), 0.25), 2));
+}
+
+static fw_status judge_below(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
+                             fw_verdict_variant_verdict *v) {
+    const fw_verdict_pull *p = &to->below;
+    const bool unknown = !m->variant->drying.adhesion_words;
+    if (!(p->number[0] < 1) || (!unknown && to->peel[0] > 1)) return FW_OK;
+    bool sure = p->number[1] < 1 && !unknown && to->peel[1] < 1 && !to->tethered;
+    const char *number = range_words(arena, p->number), *peeled = range_words(arena, to->peel),
+               *help = remedy(arena, p);
+    char gap[32];
+    FW_NEED(number && peeled && help ? number : NULL);
+    to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
+    return say(m, "as it dries", 583, to->decision,
+               fw_arena_printf(arena,
+                               "the liquid of %s pulls %s down to the carrier across %s um "
+                               "(elastocapillary number %s, at least 1 "
+                               "is wanted), where it %s (peel number %s); %s",
+                               m->variant->drying.words, p->a ? p->a : "it",
+                               fw_number_text(gap, sizeof gap, 1e6 * p->gap_m, 3), number,
+                               sure ? "stays" : "may stay", unknown ? "not known" : peeled, help),
+               v);
+}
+
+/* which walls are wet on one side alone is chance: a row of walls that dries evenly may stand */
+static fw_status judge_beside(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
+                              fw_verdict_variant_verdict *v) {
+    const fw_verdict_pull *p = &to->beside;
+    if (!(p->number[0] < 1)) return FW_OK;
+    const char *help = remedy(arena, p);
+    char low[32], gap[32];
+    FW_NEED(help);
+    to->decision = fw_verdict_worse(to->decision, FW_INCONCLUSIVE);
+    return say(m, "as it dries", 584, FW_INCONCLUSIVE,
+               fw_arena_printf(
+                   arena,
+                   "the liquid of %s may pull %s and %s together across the gap of %s um between "
+                   "them, where one "
+                   "side of it stays wet longer (elastocapillary number %s at least, 1 is wanted); "
+                   "%s",
+                   m->variant->drying.words, p->a, p->b,
+                   fw_number_text(gap, sizeof gap, 1e6 * p->gap_m, 3),
+                   fw_number_text(low, sizeof low, p->number[0], 3), help),
+               v);
+}
+
+static fw_status judge_unknown(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
+                               fw_verdict_variant_verdict *v) {
+    const char *missing = to->why;
+    if (!missing && !m->variant->below.known) missing = "no flow says how far its carrier is away";
+    if (!missing || m->variant->drying.how != FW_DRIED_PULLED) return FW_OK;
+    to->decision = FW_INCONCLUSIVE;
+    return say(m, "as it dries", 585, FW_INCONCLUSIVE,
+               fw_arena_printf(arena,
+                               "%s: a meniscus passes over the device, and what that does to it is "
+                               "not known: %s; dry it without one",
+                               m->variant->drying.words, missing),
+               v);
+}
+
+static fw_status judge_pulls(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
+                             fw_verdict_variant_verdict *v) {
+    device d = {.arena = arena, .m = m, .drying = &m->variant->drying};
+    to->tethered = m->layout && m->layout->ntether > 0;
+    FW_TRY(prepare(&d, v->arm));
+    to->why = d.rigid.why;
+    FW_TRY(judge_unknown(arena, m, to, v));
+    if (to->why) return FW_OK;
+    FW_TRY(pull_below(&d, &to->below));
+    FW_TRY(pull_beside(&d, &to->beside));
+    if (to->below.known && d.drying->adhesion_words) peel(&d, to);
+    put_number(d.drying, &to->below);
+    put_number(d.drying, &to->beside);
+    FW_TRY(judge_below(arena, m, to, v));
+    return judge_beside(arena, m, to, v);
+}
+
+fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *m, bool brief,
+                                    fw_verdict_variant_verdict *v) {
+    const fw_mechanism_drying *drying = &m->variant->drying;
+    fw_verdict_stiction *to;
+    v->stiction = NULL;
+    bool dried = drying->how == FW_DRIED_PULLED || (drying->how == FW_DRIED_CALM && !brief);
+    if (!m->device || drying->how == FW_DRIED_UNKNOWN) return FW_OK;
+    FW_NEED(to = fw_arena_one(arena, fw_verdict_stiction));
+    v->stiction = to;
+    const fw_verdict_pull nothing = {.tension_N_per_m = {HUGE_VAL, HUGE_VAL},
+                                     .number = {HUGE_VAL, HUGE_VAL},
+                                     .stiffness_N_per_m = (double)NAN};
+    *to = (fw_verdict_stiction){.below = nothing,
+                                .beside = nothing,
+                                .peel = {(double)NAN, (double)NAN},
+                                .adhesion_J_per_m2 = (double)NAN,
+                                .decision = FW_ACCEPT};
+    if (dried && m->layout) FW_TRY(judge_pulls(arena, m, to, v));
+    FW_TRY(stuck(arena, m, to, v));
+    for (int i = 0; i < to->nstuck; i++)
+        to->decision = fw_verdict_worse(to->decision, to->stuck[i].decision);
+    return FW_OK;
+}
+
+/* ---- what a recipe is told ---- */
+
+/* of which liquids the device bears the meniscus */
+static const char *borne(fw_arena *arena, const fw_mechanism_drying *d, double tension) {
+    char most[32];
+    fw_number_text(most, sizeof most, 1e3 * tension, 3);
+    if (tension > d->water_N_per_m)
+        return fw_arena_printf(
+            arena, "it may be dried from any liquid, from water too (up to %s mN/m)", most);
+    if (tension > d->alcohol_N_per_m)
+        return fw_arena_printf(
+            arena,
+            "it may be dried from isopropyl alcohol, and not from water (liquids "
+            "of up to %s mN/m)",
+            most);
+    return fw_arena_printf(arena,
+                           "it needs drying without a meniscus, at the critical point or by "
+                           "sublimation: it surely bears liquids of up to %s mN/m alone",
+                           most);
+}
+
+fw_status fw_verdict_drying_words(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                  const char **words) {
+    const fw_verdict_stiction *s = v->stiction;
+    *words = NULL;
+    if (!s) return FW_OK;
+    const fw_verdict_pull *p =
+        s->beside.tension_N_per_m[0] < s->below.tension_N_per_m[0] ? &s->beside : &s->below;
+    const fw_mechanism_drying *d = &v->variant->drying;
+    if (d->how == FW_DRIED_NEVER) {
+        *words = d->words;
+        return FW_OK;
+    }
+    if (s->why || (!s->below.known && !s->beside.known)) {
+        FW_NEED(*words = fw_arena_printf(arena, "what it needs is not known: %s",
+                                         s->why ? s->why : "nothing is drawn"));
+        return FW_OK;
+    }
+    FW_NEED(*words = borne(arena, d, p->tension_N_per_m[0]));
+    if (p->a)
+        FW_NEED(*words = fw_arena_printf(arena, "%s; the first to give way is %s, towards %s",
+                                         *words, p->a, p->b ? p->b : "the carrier"));
+    if (!v->variant->below.known)
+        FW_NEED(*words = fw_arena_printf(
+                    arena, "from wall to wall %s; how far the carrier is away is not known",
+                    *words));
+    return FW_OK;
+}

@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Faces that a liquid pulls together: plates on springs by hand, beams by shooting their equation, walls that stand
+   opposite each other. */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
+#include "test.h"
+
+static const double LOOSE = 6e-3; /* of the bisection */
+
+static double tension(fw_arena *arena, const double *c, int n, const fw_mechanism_face *face,
+                      int nface, fw_mechanism_pull law) {
+    double s;
+    int first;
+    assert_int_equal(fw_mechanism_pull_in(arena, c, n, face, nface, law, HUGE_VAL, &s, &first),
+                     FW_OK);
+    return s;
+}
+
+/* k u = s A/(g - u) has a solution up to s = k g^2/(4 A), whichever law, and more pulls that much more */
+static void plate_on_a_spring(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double k = 2, g = 3e-6, A = 1e-7;
+    const double c[9] = {1 / k, 0, 0, 0, 1e6, 0, 0, 0, 1e6};
+    fw_mechanism_face face[2] = {
+        {.body = {0, FW_GROUND}, .by = {{-1, 0, 1e-4}}, .area_m2 = 0.5 * A, .gap_m = g},
+        {.body = {0, FW_GROUND}, .by = {{-1, 0, -1e-4}}, .area_m2 = 0.5 * A, .gap_m = g}};
+    double exact = k * g * g / (4 * A);
+    assert_relative(tension(arena, c, 3, face, 2, FW_PULL_EACH), exact, LOOSE);
+    assert_relative(tension(arena, c, 3, face, 2, FW_PULL_WIDEST), exact, LOOSE);
+    assert_true(tension(arena, c, 3, face, 2, FW_PULL_EACH) <= exact);
+    assert_true(tension(arena, c, 3, face, 2, FW_PULL_WIDEST) >= exact);
+    face[0].more = face[1].more = 0.25;
+    assert_relative(tension(arena, c, 3, face, 2, FW_PULL_EACH), exact / 1.25, LOOSE);
+    assert_relative(tension(arena, c, 3, face, 2, FW_PULL_WIDEST), exact, LOOSE);
+    /* one side alone wet, free to turn by c: s A/2 (1/k + c b^2) at its place */
+    face[0].more = 0;
+    double give = 1 / k + 1e6 * 1e-8;
+    assert_relative(tension(arena, c, 3, face, 1, FW_PULL_EACH), g * g / (4 * 0.5 * A * give),
+                    LOOSE);
+    /* nothing is never lost; between two bodies both give */
+    assert_true(isinf(tension(arena, c, 3, face, 0, FW_PULL_EACH)));
+    double two[36] = {0};
+    for (int i = 0; i < 6; i++)
+        two[7 * i] = 1 / k;
+    const fw_mechanism_face both = {
+        .body = {0, 1}, .by = {{1, 0, 0}, {-1, 0, 0}}, .area_m2 = A, .gap_m = g};
+    assert_relative(tension(arena, two, 6, &both, 1, FW_PULL_EACH), 0.5 * exact, LOOSE);
+    fw_arena_free(arena);
+}
+
+/* where a bound suffices it is the answer, and it is one */
+static void enough(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double c[9] = {1, 0, 0, 0, 1e6, 0, 0, 0, 1e6};
+    const fw_mechanism_face face = {
+        .body = {0, FW_GROUND}, .by = {{-1, 0, 0}}, .area_m2 = 1e-8, .gap_m = 1e-5};
+    double s;
+    int first;
+    assert_int_equal(fw_mechanism_pull_in(arena, c, 3, &face, 1, FW_PULL_EACH, 1e-4, &s, &first),
+                     FW_OK);
+    assert_true(s >= 1e-4 && s <= 1e-10 / 4e-8);
+    assert_int_equal(first, FW_NONE);
+    fw_arena_free(arena);
+}
+
+/* ---- beams: w'''' = q/(1 - w), shot from where its slope and its third derivative are known ---- */
+
+typedef struct shot {
+    double y[4];
+} shot;
+
+static shot slope(const shot *y, double q) {
+    return (shot){{y->y[1], y->y[2], y->y[3], q / (1 - y->y[0])}};
+}
+
+static shot after(const shot *y, const shot *k, double h) {
+    shot out;
+    for (int i = 0; i < 4; i++)
+        out.y[i] = y->y[i] + h * k->y[i];
+    return out;
+}
+
+static shot integrate(shot y, double q, double length) {
+    enum { STEPS = 400 };
+    double h = length / STEPS;
+    for (int i = 0; i < STEPS; i++) {
+        shot a = slope(&y, q), m = after(&y, &a, h / 2), b = slope(&m, q);
+        m = after(&y, &b, h / 2);
+        shot c = slope(&m, q);
+        m = after(&y, &c, h);
+        shot d = slope(&m, q);
+        for (int k = 0; k < 4; k++)
+            y.y[k] += h / 6 * (a.y[k] + 2 * b.y[k] + 2 * c.y[k] + d.y[k]);
+    }
+    return y;
+}
+
+static shot from(bool cantilever, double w, const double x[2]) {
+    shot y = {{w, cantilever ? x[0] : 0, cantilever ? 0 : x[0], 0}};
+    return integrate(y, x[1], cantilever ? 1 : 0.5);
+}
+
+/* largest load over all deflections at the tip, or in the middle: where the equilibrium is lost */
+static double lost_at(bool cantilever) {
+    double x[2] = {cantilever ? -0.13 : -1.6, cantilever ? 0.8 : 38}, most = 0;
+    for (int i = 10; i < 70; i++) {
+        double w = 0.01 * i;
+        for (int round = 0; round < 30; round++) {
+            double e[2] = {1e-6 * fmax(1, fabs(x[0])), 1e-6 * x[1]}, j[2][2];
+            shot r = from(cantilever, w, x);
+            for (int k = 0; k < 2; k++) {
+                double z[2] = {x[0], x[1]};
+                z[k] += e[k];
+                shot s = from(cantilever, w, z);
+                j[0][k] = (s.y[0] - r.y[0]) / e[k], j[1][k] = (s.y[1] - r.y[1]) / e[k];
+            }
+            double det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+            x[0] -= (r.y[0] * j[1][1] - r.y[1] * j[0][1]) / det;
+            x[1] -= (r.y[1] * j[0][0] - r.y[0] * j[1][0]) / det;
+        }
+        most = fmax(most, x[1]);
+    }
+    return most;
+}
+
+static void strips(void **state) {
+    (void)state;
+    double clamped = lost_at(false), free_end = lost_at(true);
+    const double EI = 3e-12, L = 400e-6, b = 20e-6, g = 5e-6;
+    assert_relative(fw_mechanism_strip_pull_in(EI, L, b, g, 0),
+                    clamped * EI * g * g / (b * L * L * L * L), 1e-4);
+    /* Mastrangelo and Hsu: N = 128 E g^2 t^3/(15 gamma L^4) and 2/9 of the same, where no side is wet; q = 2 gamma b/g.
+       Theirs lie between what is lost for certain, an even pull that reaches the ground, and this law */
+    double clamped_MH = 24 * 128.0 / 15, free_MH = 24 * 2.0 / 9;
+    assert_true(clamped < clamped_MH && clamped_MH < 384);
+    assert_true(free_end < free_MH && free_MH < 8);
+}
+
+/* ---- a device: a plate between two leaves, and a cantilever ---- */
+
+typedef struct rig {
+    fw_arena *arena;
+    fw_mechanism m;
+    fw_mechanism_variant variant;
+    fw_mechanism_mass body;
+    fw_mechanism_shape shape;
+    fw_mechanism_pin pin[2];
+    fw_mechanism_hinge hinge[2];
+} rig;
+
+static const double L = 200e-6, W = 8e-6, H = 6e-6, E = 100e9;
+
+static void rig_new(rig *r, double x, double a, double b) {
+    memset(r, 0, sizeof *r);
+    r->arena = fw_arena_new(0);
+    r->variant.thickness_m = H;
+    r->body = (fw_mechanism_mass){
+        .id = "B", .mass_kg = 1e-9, .x_m = x, .inertia_kg_m2 = 1e-9 * (a * a + b * b) / 12};
+    r->shape = (fw_mechanism_shape){.area_m2 = a * b,
+                                    .polar_m4 = a * b * (a * a + b * b) / 12,
+                                    .spread_m4 = {a * b * (a * a - b * b) / 12, 0}};
+    r->m = (fw_mechanism){.variant = &r->variant,
+                          .body = &r->body,
+                          .drawn = &r->body,
+                          .shape = &r->shape,
+                          .pin = r->pin,
+                          .hinge = r->hinge,
+                          .nbody = 1};
+}
+
+/* a leaf with ideal ends along x about (x, 0); the body is at its right, or at its left */
+static void add_leaf(rig *r, double x, bool left) {
+    int k = r->m.nhinge++;
+    fw_mechanism_hinge *h = &r->hinge[k];
+    *h = (fw_mechanism_hinge){.pin = k, .scale = 1, .axis_rad = 0.5 * FW_PI};
+    h->input = (fw_flexure_input){.kind = FW_FLEXURE_LEAF,
+                                  .length_m = L,
+                                  .width_m = W,
+                                  .fillet_m = -1,
+                                  .depth_m = H,
+                                  .youngs_Pa = E,
+                                  .poisson = 0.3,
+                                  .strength_Pa = 1e9,
+                                  .safety_factor = 1,
+                                  .ends = true};
+    fw_flexure_closed_form(&h->input, &h->closed_form);
+    r->pin[r->m.npin++] = (fw_mechanism_pin){.id = "A",
+                                             .body_a = left ? 0 : FW_GROUND,
+                                             .body_b = left ? FW_GROUND : 0,
+                                             .hinge = k,
+                                             .ax_m = left ? x - r->body.x_m : x,
+                                             .bx_m = left ? x : x - r->body.x_m,
+                                             .root_a_m = {-0.5 * L, 0},
+                                             .root_b_m = {0.5 * L, 0}};
+}
+
+static double lost(rig *r, double gap, fw_mechanism_pull law, double more_of_all) {
+    fw_mechanism_plates p;
+    fw_mechanism_face *face;
+    double *c;
+    int n;
+    assert_int_equal(fw_mechanism_plates_new(r->arena, &r->m, NULL, &p), FW_OK);
+    assert_null(p.why);
+    assert_int_equal(fw_mechanism_plates_across(r->arena, &p, &c), FW_OK);
+    assert_int_equal(fw_mechanism_faces_below(r->arena, &p, gap, &face, &n), FW_OK);
+    for (int i = 0; i < n; i++)
+        face[i].more = more_of_all;
+    return tension(r->arena, c, p.n, face, n, law);
+}
+
+/* two leaves that are guided: k = 24 EI/L^3 and shear, on the plate and half of both leaves */
+static void stage(void **state) {
+    (void)state;
+    rig r;
+    const double a = 300e-6, b = 100e-6, g = 2e-6;
+    rig_new(&r, L + 0.5 * a, a, b);
+    add_leaf(&r, 0.5 * L, false);
+    add_leaf(&r, 1.5 * L + a, true);
+    double EI = E * W * H * H * H / 12, shear = 1.2 * L / (E / 2.6 * W * H);
+    double k = 2 / (L * L * L / (12 * EI) + shear), A = a * b + L * W;
+    assert_relative(lost(&r, g, FW_PULL_EACH, 0), k * g * g / (4 * A), LOOSE);
+    assert_relative(lost(&r, g, FW_PULL_WIDEST, 0), k * g * g / (4 * a * b), LOOSE);
+    /* twice the length: an eighth of the stiffness; twice the gap: four times the tension */
+    assert_relative(lost(&r, 2 * g, FW_PULL_EACH, 0), k * g * g / A, LOOSE);
+    fw_arena_free(r.arena);
+}
+
+/* a leaf alone, with next to nothing at its end: what shooting gives is not below the bounds' lower end, and not above
+   the upper one */
+static void cantilever(void **state) {
+    (void)state;
+    rig r;
+    const double g = 2e-6;
+    rig_new(&r, L, 1e-7, 1e-7);
+    add_leaf(&r, 0.5 * L, false);
+    double EI = E * W * H * H * H / 12, exact = lost_at(true) * EI * g * g / (W * L * L * L * L);
+    double low = lost(&r, g, FW_PULL_EACH, 0), high = lost(&r, g, FW_PULL_WIDEST, 0);
+    assert_true(low <= exact && low > 0.9 * exact);
+    assert_true(high > 8 / lost_at(true) * exact); /* an even pull that reaches the ground */
+    fw_arena_free(r.arena);
+}
+
+/* ---- walls ---- */
+
+static void put_wall(fw_arena *arena, fw_layout_piece *p, int body, double x0, double y0, double x1,
+                     double y1) {
+    *p = (fw_layout_piece){.role = FW_ROLE_STRUCTURE, .body = body, .joint = FW_NONE, .label = "w"};
+    assert_int_equal(
+        fw_geometry_contour_rectangle(arena, (fw_geometry_box){x0, y0, x1, y1}, &p->contour),
+        FW_OK);
+}
+
+/* a plate of 100 um x 60 um, at its right a wall 5 um away that reaches 30 um of it, above it nothing but far away */
+static void walls(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r, 50e-6, 100e-6, 60e-6);
+    fw_layout_piece piece[3];
+    fw_layout layout = {.drawn = true, .piece = piece, .npiece = 3};
+    put_wall(r.arena, &piece[0], 0, 0, 0, 100e-6, 60e-6);
+    put_wall(r.arena, &piece[1], FW_GROUND, 105e-6, 30e-6, 150e-6, 90e-6);
+    put_wall(r.arena, &piece[2], FW_GROUND, 0, 300e-6, 50e-6, 350e-6);
+    r.body.y_m = 30e-6;
+    r.m.layout = &layout;
+    fw_mechanism_face *face;
+    fw_mechanism_strip_beside none[1];
+    int n;
+    double area = 0, turn = 0;
+    assert_int_equal(fw_mechanism_faces_beside(r.arena, &r.m, &face, &n, none), FW_OK);
+    for (int i = 0; i < n; i++) {
+        assert_relative(face[i].gap_m, 5e-6, 1e-9);
+        assert_int_equal(face[i].body[1], FW_GROUND);
+        assert_relative(face[i].by[0][0], 1, 1e-12);
+        assert_near(face[i].by[0][1], 0, 1e-12);
+        area += face[i].area_m2, turn += face[i].area_m2 * face[i].by[0][2];
+    }
+    double near_half = 15e-6; /* rays stand 12 um apart */
+    assert_near(area / H, 30e-6, near_half);
+    assert_near(turn / area, -15e-6,
+                near_half); /* below: pulled at y > 0 along x it turns clockwise */
+    /* walls that recede by 0.5 um each; and others that come nearer */
+    layout.edge_m = -0.5e-6;
+    assert_int_equal(fw_mechanism_faces_beside(r.arena, &r.m, &face, &n, none), FW_OK);
+    assert_relative(face[0].gap_m, 6e-6, 1e-9);
+    layout.edge_m = 1e-6;
+    assert_int_equal(fw_mechanism_faces_beside(r.arena, &r.m, &face, &n, none), FW_OK);
+    assert_relative(face[0].gap_m, 3e-6, 1e-9);
+    fw_arena_free(r.arena);
+}
+
+/* undersides add up to the area and to its moments */
+static void undersides(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r, 0, 100e-6, 60e-6);
+    add_leaf(&r, 150e-6, true);
+    r.pin[0].root_a_m.x = -100e-6;
+    fw_layout_piece piece[1];
+    fw_layout layout = {.drawn = true, .piece = piece, .npiece = 1};
+    put_wall(r.arena, &piece[0], 0, -50e-6, -30e-6, 50e-6, 30e-6);
+    fw_mechanism_plates p;
+    assert_int_equal(fw_mechanism_plates_new(r.arena, &r.m, NULL, &p), FW_OK);
+    r.m.layout = &layout;
+    fw_mechanism_face *face;
+    int n;
+    double area = 0, tilt = 0, polar = 0;
+    assert_int_equal(fw_mechanism_faces_below(r.arena, &p, 1e-6, &face, &n), FW_OK);
+    for (int i = 0; i < n - 1; i++) { /* the last one is half of the leaf */
+        area += face[i].area_m2, tilt += face[i].area_m2 * face[i].by[0][2];
+        polar += face[i].area_m2 *
+                 (face[i].by[0][1] * face[i].by[0][1] + face[i].by[0][2] * face[i].by[0][2]);
+    }
+    assert_relative(area, 6e-9, 1e-12);
+    assert_near(tilt / area, 0, 1e-12);
+    assert_relative(polar, r.shape.polar_m4, 0.03);
+    assert_relative(face[n - 1].area_m2, 0.5 * L * W, 1e-9);
+    fw_arena_free(r.arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plate_on_a_spring),
+        cmocka_unit_test(enough),
+        cmocka_unit_test(strips),
+        cmocka_unit_test(stage),
+        cmocka_unit_test(cantilever),
+        cmocka_unit_test(walls),
+        cmocka_unit_test(undersides),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
