@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Faces across a gap and the liquid between them: which walls stand opposite each other, and the tension at which what
-   they hang on gives way. Theory: docs/theory/stiction.md. */
-#include "base/constants.h"
-#include "geometry/segment.h"
+/* Liquid between faces across a gap: the tension at which what they hang on gives way. Theory: docs/theory/stiction.md. */
 #include "maths/dense.h"
 #include "mechanism/mechanism_plates.h"
+#include <math.h>
 #include <string.h>
 
 /* ---- compliances ---- */
@@ -49,8 +47,9 @@ fw_status fw_mechanism_plates_beside(fw_arena *arena, const fw_mechanism_plates 
 
 /* ---- the tension at which an equilibrium is lost ---- */
 
-enum { ROUNDS = 600, HALVINGS = 10 };
-static const double settled = 1e-7; /* of a gap, between two rounds */
+enum { STEPS = 40, POWERS = 60, TRIES = 60 };
+static const double settled = 1e-9, /* of a gap, by a step */
+    kept = 0.1;                     /* of every gap, by a step that is not made shorter */
 
 typedef struct pulled {
     const double *c;
@@ -58,8 +57,11 @@ typedef struct pulled {
     const fw_mechanism_face *face;
     int nface;
     fw_mechanism_pull law;
-    double *f, *u, *gap; /* (n), (n), (nface) */
-    double *widest;      /* (n/3 + 1) by body[0] */
+    double *f, *u, *gap;      /* (n), (n), (nface) */
+    int *widest;              /* (n/3 + 1) the face of the largest gap by body[0]; -1: none */
+    double *slope, *a, *step; /* (n x n) C df/du, (n x n), (n) */
+    double *unit;             /* (n) 1, of turns the largest lever, m */
+    int *pivot;               /* (n) */
 } pulled;
 
 static double closed(const fw_mechanism_face *face, const double *u) {
@@ -84,43 +86,133 @@ static void give_way(const pulled *p, double *u) {
     }
 }
 
-static void pull(const pulled *p, double s) {
-    memset(p->f, 0, (size_t)p->n * sizeof *p->f);
-    for (int i = 0; p->law == FW_PULL_WIDEST && i <= p->n / 3; i++)
-        p->widest[i] = 0;
-    for (int i = 0; p->law == FW_PULL_WIDEST && i < p->nface; i++) {
-        double *w = &p->widest[p->face[i].body[0] + 1];
-        if (!p->face[i].strip) *w = fmax(*w, p->gap[i]);
-    }
+/* the face whose gap a face's pull goes with, and what of s; -1: it has none */
+static int law_of(const pulled *p, int i, double *share) {
+    const fw_mechanism_face *face = &p->face[i];
+    *share = p->law == FW_PULL_EACH ? 1 + face->more : 1;
+    return p->law == FW_PULL_EACH ? i : face->strip ? -1 : p->widest[face->body[0] + 1];
+}
+
+static void find_widest(const pulled *p) {
+    for (int i = 0; i <= p->n / 3; i++)
+        p->widest[i] = -1;
     for (int i = 0; i < p->nface; i++) {
-        const fw_mechanism_face *face = &p->face[i];
-        double by = p->law == FW_PULL_EACH ? (1 + face->more) / p->gap[i]
-                    : face->strip          ? 0
-                                           : 1 / p->widest[face->body[0] + 1];
-        add_force(face, s * face->area_m2 * by, p->f);
+        int *w = &p->widest[p->face[i].body[0] + 1];
+        if (!p->face[i].strip && (*w < 0 || p->gap[i] > p->gap[*w])) *w = i;
     }
 }
 
-/* Rounds u = C f(u) from rest rise to the equilibrium where there is a stable one, whose largest eigenvalue of C df/du
-   is below 1, and run away where there is none */
-static bool holds(const pulled *p, double s, int *first) {
-    double least = HUGE_VAL;
-    for (int i = 0; i < p->nface; i++)
-        p->gap[i] = p->face[i].gap_m;
-    for (int round = 0; round < ROUNDS; round++) {
-        double moved = 0;
-        pull(p, s);
-        give_way(p, p->u);
-        least = HUGE_VAL;
-        for (int i = 0; i < p->nface; i++) {
-            double gap = p->face[i].gap_m - closed(&p->face[i], p->u),
-                   left = gap / p->face[i].gap_m;
-            moved = fmax(moved, fabs(gap - p->gap[i]) / p->face[i].gap_m);
-            p->gap[i] = gap;
-            if (left < least) least = left, *first = i;
+static void pull(const pulled *p, double s) {
+    double share;
+    memset(p->f, 0, (size_t)p->n * sizeof *p->f);
+    if (p->law == FW_PULL_WIDEST) find_widest(p);
+    for (int i = 0; i < p->nface; i++) {
+        int of = law_of(p, i, &share);
+        if (of >= 0) add_force(&p->face[i], s * p->face[i].area_m2 * share / p->gap[of], p->f);
+    }
+}
+
+/* df/du into `a`: a face pushes its bodies by what the gap of another, or its own, closes */
+static void slopes(const pulled *p, double s) {
+    size_t n = (size_t)p->n;
+    double share;
+    memset(p->a, 0, n * n * sizeof *p->a);
+    for (int i = 0; i < p->nface; i++) {
+        int of = law_of(p, i, &share);
+        if (of < 0) continue;
+        const fw_mechanism_face *to = &p->face[i], *from = &p->face[of];
+        double by = s * to->area_m2 * share / (p->gap[of] * p->gap[of]);
+        for (int side = 0; side < 4; side++) {
+            int row = to->body[side / 2], column = from->body[side % 2];
+            if (row == FW_GROUND || column == FW_GROUND) continue;
+            double *at = p->a + (size_t)(3 * row) * n + 3 * column;
+            for (size_t k = 0; k < 9; k++)
+                at[k / 3 * n + k % 3] += by * to->by[side / 2][k / 3] * from->by[side % 2][k % 3];
         }
-        if (!(least > 0)) return false;
-        if (moved < settled) return true;
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            double sum = 0;
+            for (size_t k = 0; k < n; k++)
+                sum += p->c[i * n + k] * p->a[k * n + j];
+            p->slope[i * n + j] = sum;
+        }
+}
+
+/* u - C f(u) and the gaps at u; the least of what is left of them, of face *first */
+static double look_at(const pulled *p, double s, double *miss, int *first) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < p->nface; i++) {
+        p->gap[i] = p->face[i].gap_m - closed(&p->face[i], p->u);
+        double left = p->gap[i] / p->face[i].gap_m;
+        if (left < least) least = left, *first = i;
+    }
+    if (!(least > 0)) return least;
+    pull(p, s);
+    give_way(p, miss);
+    for (int i = 0; i < p->n; i++)
+        miss[i] = p->u[i] - miss[i];
+    return least;
+}
+
+/* the step d u of Newton that ends the miss, as long as it leaves a tenth of every gap; its size in gaps. -1: there is none */
+static double step_of(const pulled *p, const double *miss) {
+    size_t n = (size_t)p->n;
+    double size = 0, length = 1;
+    for (size_t i = 0; i < n * n; i++)
+        p->a[i] = (i % (n + 1) == 0) - p->slope[i];
+    memcpy(p->step, miss, n * sizeof *miss);
+    if (!fw_maths_lu_factor(p->n, p->a, p->pivot)) return -1;
+    fw_maths_lu_solve(p->n, p->a, p->pivot, p->step);
+    for (int i = 0; i < p->nface; i++) {
+        double closes = -closed(&p->face[i], p->step), most = (1 - kept) * p->gap[i];
+        size = fmax(size, fabs(closes) / p->face[i].gap_m);
+        if (closes * length > most) length = most / closes;
+    }
+    for (size_t i = 0; i < n; i++)
+        p->u[i] -= length * p->step[i];
+    return isfinite(size) ? size : -1;
+}
+
+/* the largest eigenvalue of C df/du, to 1e-3: its powers on the displacement. It is similar to a symmetric matrix */
+static double leading(const pulled *p) {
+    size_t n = (size_t)p->n;
+    double *x = p->step, *y = p->f, before = 0, now = 0;
+    memcpy(x, p->u, n * sizeof *x);
+    for (int k = 0; k < POWERS; k++) {
+        double size = 0;
+        before = now, now = 0;
+        for (size_t i = 0; i < n; i++) {
+            y[i] = 0;
+            for (size_t j = 0; j < n; j++)
+                y[i] += p->slope[i * n + j] * x[j];
+            /* in lengths: turns go with the size of what is turned */
+            size = fmax(size, fabs(x[i]) * p->unit[i]);
+            now = fmax(now, fabs(y[i]) * p->unit[i]);
+        }
+        if (!(size > 0)) return 0;
+        for (size_t i = 0; i < n; i++)
+            x[i] = y[i] / (now > 0 ? now : 1);
+        now /= size;
+        if (k > 3 && fabs(now - before) < 1e-3 * now) break;
+    }
+    return now;
+}
+
+/* Newton's method for u = C f(u) from what holds at a lesser tension: pulls grow with what they close, so that steps rise to
+   the stable equilibrium and become shorter, and C df/du has no eigenvalue of 1 or more there; where there is none, gaps
+   end or steps grow. *eigen: the largest at the equilibrium */
+static bool holds(const pulled *p, double s, double *miss, int *first, double *eigen) {
+    double before = HUGE_VAL;
+    for (int k = 0; k < STEPS; k++) {
+        if (!(look_at(p, s, miss, first) > 0)) return false;
+        slopes(p, s);
+        double size = step_of(p, miss);
+        if (size < 0 || (k > 1 && size > before && size > settled)) return false;
+        before = size;
+        if (!(size < settled)) continue;
+        *eigen = leading(p);
+        return *eigen < 1;
     }
     return false;
 }
@@ -152,378 +244,74 @@ static double surely(const pulled *p) {
     return worst > 0 ? 1 / (4 * worst) : HUGE_VAL;
 }
 
-/* In: m/N ..., m, m^2; out: N/m. Bisection of its logarithm between a tension that holds and one that does not.
-   Valid: small motions. Error 0.5 %, below it for EACH; of WIDEST the upper end is the answer. Cost some 1000 n^2.
-   Source: docs/theory/stiction.md. Test: test_mechanism_pull.c */
+/* the next tension to try: of one gap that closes by the share x, s goes with x (1 - x) and the eigenvalue e is x/(1 - x),
+   so that ((1 - e)/(1 + e))^2 = 1 - s/s_lost; of several this says somewhat too much: `below` that, and between what is
+   known */
+static double next_try(double low, double high, double eigen, double below) {
+    double left = (1 - eigen) / (1 + eigen), said = low / fmax(1 - left * left, 1e-6);
+    double aim = fmax((1 - below) * said,
+                      isfinite(high) ? fmin(1.002 * low, sqrt(low * high)) : 1.002 * low);
+    return below > 0.5 || aim >= high ? sqrt(low * high) : aim;
+}
+
+/* *tension: a bound below; the tension at which it is lost, or `enough` where it holds at that */
+static void search(const pulled *p, double *work, double enough, double *tension, int *first) {
+    double low = *tension, high = HUGE_VAL, eigen = 0, *held = work + p->n;
+    const double start = low;
+    const double closely = 0.002;
+    double below = closely;
+    int at;
+    memset(p->u, 0, (size_t)p->n * sizeof *p->u);
+    if (isfinite(enough) && holds(p, enough, work, &at, &eigen)) {
+        *tension = enough;
+        return;
+    }
+    if (isfinite(enough)) high = enough, *first = at;
+    memset(p->u, 0, (size_t)p->n * sizeof *p->u);
+    if (!holds(p, low, work, &at, &eigen)) eigen = 0.5; /* never: it is a bound */
+    for (int k = 0; k < TRIES && high > 1.004 * low && low < 1e20 * start; k++) {
+        double aim = next_try(low, high, eigen, below), e = 0;
+        memcpy(held, p->u, (size_t)p->n * sizeof *held);
+        if (!holds(p, aim, work, &at, &e)) {
+            high = aim, *first = at, below *= 4;
+            memcpy(p->u, held, (size_t)p->n * sizeof *held);
+        } else {
+            low = aim, eigen = e, below = closely;
+        }
+    }
+    *tension = low >= 1e20 * start ? HUGE_VAL : p->law == FW_PULL_WIDEST ? high : low;
+}
+
+/* In: m/N ..., m, m^2; out: N/m. Between a tension that holds and one that does not, the next one from the eigenvalue at the
+   former. Valid: small motions. Error 0.5 %, below it for EACH; of WIDEST the upper end is the answer. Cost some 40 times
+   n^3 and 200 for each face. Source: docs/theory/stiction.md. Test: test_mechanism_pull.c */
 fw_status fw_mechanism_pull_in(fw_arena *arena, const double *compliance, int n,
                                const fw_mechanism_face *face, int nface, fw_mechanism_pull law,
                                double enough_N_per_m, double *tension, int *first) {
     pulled p = {.c = compliance, .n = n, .face = face, .nface = nface, .law = law};
+    const size_t size = (size_t)n;
+    double *work;
     fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(p.f = fw_arena_array(arena, double, (size_t)n));
-    FW_NEED(p.u = fw_arena_array(arena, double, (size_t)n));
+    FW_NEED(p.f = fw_arena_array(arena, double, size));
+    FW_NEED(p.u = fw_arena_array(arena, double, size));
+    FW_NEED(p.step = fw_arena_array(arena, double, size));
+    FW_NEED(p.unit = fw_arena_array(arena, double, size));
+    FW_NEED(p.slope = fw_arena_array(arena, double, size *size));
+    FW_NEED(p.a = fw_arena_array(arena, double, size *size));
     FW_NEED(p.gap = fw_arena_array(arena, double, (size_t)nface));
-    FW_NEED(p.widest = fw_arena_array(arena, double, (size_t)n / 3 + 1));
+    FW_NEED(p.widest = fw_arena_array(arena, int, size / 3 + 1));
+    FW_NEED(p.pivot = fw_arena_array(arena, int, size));
+    FW_NEED(work = fw_arena_array(arena, double, 2 * size));
+    double lever = 0;
+    for (int i = 0; i < nface; i++)
+        lever = fmax(lever, fmax(fabs(face[i].by[0][2]), fabs(face[i].by[1][2])));
+    for (int i = 0; i < n; i++)
+        p.unit[i] = i % 3 == 2 && lever > 0 ? lever : 1;
     *first = FW_NONE;
     *tension = surely(&p);
-    if (nface > 0 && isfinite(*tension) && *tension < enough_N_per_m) {
-        double low = *tension, high = low;
-        int at;
-        for (int k = 0; k < 40 && holds(&p, high, &at); k++)
-            low = high, high *= 4;
-        bool closes = high < *tension * 1e20;
-        for (int k = 0; k < HALVINGS && closes; k++) {
-            double middle = sqrt(low * high);
-            if (holds(&p, middle, &at))
-                low = middle;
-            else
-                high = middle, *first = at;
-        }
-        *tension = !closes ? HUGE_VAL : law == FW_PULL_WIDEST ? high : low;
-    }
+    if (nface > 0 && isfinite(*tension) && *tension < enough_N_per_m)
+        search(&p, work, enough_N_per_m, tension, first);
     fw_arena_rewind(arena, mark);
-    return FW_OK;
-}
-
-/* ---- undersides ---- */
-
-enum { CELLS = 8 }; /* along the longer side of a piece */
-
-typedef struct list {
-    fw_arena *arena;
-    fw_mechanism_face *face;
-    size_t count, room;
-} list;
-
-static fw_status put(list *to, const fw_mechanism_face *face) {
-    if (to->count == to->room) {
-        size_t more = to->room ? 2 * to->room : 64;
-        FW_NEED(to->face = fw_arena_grow(to->arena, to->face, to->count, more, sizeof *to->face));
-        to->room = more;
-    }
-    to->face[to->count++] = *face;
-    return FW_OK;
-}
-
-static fw_status put_below(list *to, const fw_mechanism *m, int body, int piece, double gap_m,
-                           double more, fw_geometry_vec2 at, double area_m2) {
-    double dx = at.x - m->drawn[body].x_m, dy = at.y - m->drawn[body].y_m;
-    const fw_mechanism_face face = {.body = {body, FW_GROUND},
-                                    .by = {{-1, -dy, dx}},
-                                    .area_m2 = area_m2,
-                                    .gap_m = gap_m,
-                                    .more = more,
-                                    .at = at,
-                                    .piece = {piece, FW_NONE}};
-    return area_m2 > 0 ? put(to, &face) : FW_OK;
-}
-
-/* lines of the liquid along edges: of a plate gamma P, of a strip twice its length, beside 2 gamma cos A/g; and no less
-   than the wetted sides that Mastrangelo and Hsu count, h P/(2 A) */
-static double lines_of(double perimeter_m, double area_m2, double gap_m, double depth_m) {
-    return 0.5 * fmax(gap_m, depth_m) * perimeter_m / area_m2;
-}
-
-static int parts_of(const fw_geometry_segment *s) {
-    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
-    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
-}
-
-/* x where the outline crosses the height y, sorted: at most `most` of them */
-static int crossings(const fw_geometry_contour *c, double y, double *x, int most) {
-    int n = 0;
-    for (int i = 0; i < c->count; i++) {
-        int parts = parts_of(&c->segment[i]);
-        for (int k = 0; k < parts && n < most; k++) {
-            fw_geometry_vec2 a = fw_geometry_segment_point(&c->segment[i], (double)k / parts),
-                             b = fw_geometry_segment_point(&c->segment[i], (k + 1.0) / parts);
-            if ((a.y <= y) == (b.y <= y)) continue;
-            double at = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-            int j = n++;
-            for (; j > 0 && x[j - 1] > at; j--)
-                x[j] = x[j - 1];
-            x[j] = at;
-        }
-    }
-    return n;
-}
-
-/* rows of the piece, cut into cells; their areas add up to the piece's own */
-static fw_status put_piece(list *to, const fw_mechanism *m, int piece, double gap_m, double more) {
-    enum { MOST = 256 };
-    const fw_layout_piece *p = &m->layout->piece[piece];
-    const fw_geometry_box box = fw_geometry_contour_box(&p->contour);
-    double wide = box.x1 - box.x0, high = box.y1 - box.y0, cell = fmax(wide, high) / CELLS, x[MOST];
-    int rows = (int)ceil(high / cell - 1e-9);
-    size_t first = to->count;
-    double sum = 0, exact = fw_geometry_contour_area(&p->contour);
-    if (!(exact > 0)) return FW_OK;
-    for (int j = 0; j < rows; j++) {
-        double y = box.y0 + (j + 0.5) * high / rows;
-        int n = crossings(&p->contour, y, x, MOST);
-        for (int k = 0; k + 1 < n; k += 2) {
-            int cells = (int)ceil((x[k + 1] - x[k]) / cell - 1e-9);
-            double dx = (x[k + 1] - x[k]) / (cells > 0 ? cells : 1);
-            for (int i = 0; i < cells; i++) {
-                fw_geometry_vec2 at = {x[k] + (i + 0.5) * dx, y};
-                sum += dx * high / rows;
-                FW_TRY(put_below(to, m, p->body, piece, gap_m, more, at, dx * high / rows));
-            }
-        }
-    }
-    for (size_t i = first; i < to->count && sum > 0; i++)
-        to->face[i].area_m2 *= exact / sum;
-    return FW_OK;
-}
-
-/* Half of a strip's pull goes to either body, a third of the way from its root to the pin: forces and moments of a strip
-   clamped at both ends under an even load */
-static fw_status put_strips(list *to, const fw_mechanism_plates *p, double gap_m, double depth_m) {
-    const fw_mechanism *m = p->mechanism;
-    for (int k = 0; k < m->nhinge; k++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-        double w = m->hinge[k].input.width_m, length = p->hinge[k].length_m;
-        double more = lines_of(2 * length, w * length, gap_m, depth_m);
-        for (int side = 0; side < 2; side++) {
-            int body = side ? pin->body_b : pin->body_a;
-            fw_geometry_vec2 root = side ? pin->root_b_m : pin->root_a_m;
-            if (body == FW_GROUND) continue;
-            root = fw_geometry_vec_rotate(root, m->drawn[body].phi_rad);
-            size_t before = to->count;
-            FW_TRY(put_below(to, m, body, FW_NONE, gap_m, more,
-                             vec_along(p->hinge[k].pin, 2.0 / 3, root), 0.5 * w * length));
-            if (to->count > before) to->face[before].strip = true;
-        }
-    }
-    return FW_OK;
-}
-
-fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *p, double gap_m,
-                                   fw_mechanism_face **face, int *nface) {
-    const fw_mechanism *m = p->mechanism;
-    const double depth = m->variant->thickness_m;
-    list to = {.arena = arena};
-    for (int i = 0; m->layout && i < m->layout->npiece; i++) {
-        const fw_layout_piece *piece = &m->layout->piece[i];
-        if (piece->body < 0 || piece->body >= m->nbody || !fw_layout_is_wall(piece)) continue;
-        const fw_mechanism_shape *s = &m->shape[piece->body];
-        double round = isfinite(s->perimeter_m) ? s->perimeter_m : 0;
-        FW_TRY(put_piece(&to, m, i, gap_m, lines_of(round, s->area_m2, gap_m, depth)));
-    }
-    for (int b = 0; !m->layout && b < m->nbody; b++) /* as one row of cells along x */
-        for (int i = 0; i < CELLS; i++) {
-            const fw_mechanism_shape *s = &m->shape[b];
-            double side = sqrt(6 * (s->polar_m4 + s->spread_m4.x) / s->area_m2);
-            fw_geometry_vec2 at = {m->drawn[b].x_m + side * ((i + 0.5) / CELLS - 0.5),
-                                   m->drawn[b].y_m};
-            FW_TRY(put_below(&to, m, b, FW_NONE, gap_m, 0, at, s->area_m2 / CELLS));
-        }
-    FW_TRY(put_strips(&to, p, gap_m, depth));
-    *face = to.face, *nface = (int)to.count;
-    return FW_OK;
-}
-
-/* ---- walls opposite each other ---- */
-
-static const double reach_m =
-                        200e-6,    /* a liquid between walls further apart pulls next to nothing */
-    pitch_m = 15e-6, facing = 0.7; /* rays along an edge; - cos of the angle between two normals */
-
-typedef struct wall {
-    fw_geometry_vec2 a, b; /* the material to the left */
-    int solid, piece;      /* solid: a body, FW_GROUND, or FLEXED - joint of a strip */
-} wall;
-
-enum { FLEXED = -1000 };
-
-typedef struct walls {
-    fw_arena *arena;
-    wall *wall;
-    int nwall, nx, ny;
-    fw_geometry_box box;
-    int *begin, *in; /* (nx ny + 1) of each bin of the side reach_m, into its walls */
-} walls;
-
-static bool solid_of(const fw_layout_piece *p, int nbody, int *solid) {
-    if (p->role == FW_ROLE_FLEXURE && p->joint >= 0)
-        *solid = FLEXED - p->joint;
-    else if (fw_layout_is_wall(p))
-        *solid = p->body >= 0 && p->body < nbody ? p->body : FW_GROUND;
-    else
-        return false;
-    return true;
-}
-
-static fw_status take_walls(const fw_mechanism *m, walls *w) {
-    const fw_layout *l = m->layout;
-    size_t n = 0;
-    int solid;
-    for (int i = 0; i < l->npiece; i++)
-        for (int k = 0; k < l->piece[i].contour.count; k++)
-            n += (size_t)parts_of(&l->piece[i].contour.segment[k]);
-    FW_NEED(w->wall = fw_arena_array(w->arena, wall, n));
-    for (int i = 0; i < l->npiece; i++) {
-        const fw_geometry_contour *c = &l->piece[i].contour;
-        for (int k = 0; solid_of(&l->piece[i], m->nbody, &solid) && k < c->count; k++) {
-            const fw_geometry_segment *s = &c->segment[k];
-            int parts = parts_of(s);
-            for (int j = 0; j < parts && !(s->flags & FW_SEGMENT_JOINT); j++)
-                w->wall[w->nwall++] =
-                    (wall){fw_geometry_segment_point(s, (double)j / parts),
-                           fw_geometry_segment_point(s, (j + 1.0) / parts), solid, i};
-        }
-    }
-    return FW_OK;
-}
-
-static fw_geometry_box box_of(fw_geometry_vec2 a, fw_geometry_vec2 b) {
-    return (fw_geometry_box){fw_lesser(a.x, b.x), fw_lesser(a.y, b.y), fw_greater(a.x, b.x),
-                             fw_greater(a.y, b.y)};
-}
-
-static int bin(double x, double from, int n) {
-    int i = (int)((x - from) / reach_m);
-    return i < 0 ? 0 : i >= n ? n - 1 : i;
-}
-
-/* counts the bins that a wall's box covers, or puts it into them */
-static void spread_wall(walls *w, int at, int *next) {
-    const fw_geometry_box box = box_of(w->wall[at].a, w->wall[at].b);
-    for (int j = bin(box.y0, w->box.y0, w->ny); j <= bin(box.y1, w->box.y0, w->ny); j++)
-        for (int i = bin(box.x0, w->box.x0, w->nx); i <= bin(box.x1, w->box.x0, w->nx); i++) {
-            if (next)
-                w->in[next[j * w->nx + i]++] = at;
-            else
-                w->begin[j * w->nx + i + 1]++;
-        }
-}
-
-static fw_status sort_walls(walls *w) {
-    for (int i = 0; i < w->nwall; i++) {
-        fw_geometry_box box = box_of(w->wall[i].a, w->wall[i].b);
-        w->box = i ? fw_box_join(w->box, box) : box;
-    }
-    w->nx = 1 + (int)((w->box.x1 - w->box.x0) / reach_m);
-    w->ny = 1 + (int)((w->box.y1 - w->box.y0) / reach_m);
-    size_t n = (size_t)w->nx * (size_t)w->ny;
-    int *next;
-    FW_NEED(w->begin = fw_arena_array(w->arena, int, n + 1));
-    FW_NEED(next = fw_arena_array(w->arena, int, n));
-    for (int i = 0; i < w->nwall; i++)
-        spread_wall(w, i, NULL);
-    for (size_t i = 0; i < n; i++)
-        w->begin[i + 1] += w->begin[i], next[i] = w->begin[i];
-    FW_NEED(w->in = fw_arena_array(w->arena, int, (size_t)w->begin[n] + 1));
-    for (int i = 0; i < w->nwall; i++)
-        spread_wall(w, i, next);
-    return FW_OK;
-}
-
-/* the nearest wall that the ray from p along the unit vector n meets, and how far away; -1: none within reach */
-static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n, double *gap) {
-    const fw_geometry_box box = box_of(p, vec_along(p, reach_m, n));
-    int found = -1;
-    *gap = reach_m;
-    for (int j = bin(box.y0, w->box.y0, w->ny); j <= bin(box.y1, w->box.y0, w->ny); j++)
-        for (int i = bin(box.x0, w->box.x0, w->nx); i <= bin(box.x1, w->box.x0, w->nx); i++)
-            for (int k = w->begin[j * w->nx + i]; k < w->begin[j * w->nx + i + 1]; k++) {
-                const wall *to = &w->wall[w->in[k]];
-                fw_geometry_vec2 along = vec_sub(to->b, to->a), off = vec_sub(to->a, p);
-                double det = vec_cross(n, along);
-                if (w->in[k] == own || det == 0) continue;
-                double t = vec_cross(off, along) / det, u = vec_cross(off, n) / det;
-                if (t > 0 && t < *gap && u >= 0 && u <= 1) *gap = t, found = w->in[k];
-            }
-    return found;
-}
-
-/* x, y and turn of a body move its point p along n by this */
-static void put_side(const fw_mechanism *m, int body, fw_geometry_vec2 p, fw_geometry_vec2 n,
-                     double sign, double *by) {
-    if (body == FW_GROUND) return;
-    double rx = p.x - m->drawn[body].x_m, ry = p.y - m->drawn[body].y_m;
-    by[0] = sign * n.x, by[1] = sign * n.y, by[2] = sign * (rx * n.y - ry * n.x);
-}
-
-typedef struct seen {
-    int own, other;
-    fw_geometry_vec2 at, normal;
-    double length_m, gap_m;
-} seen;
-
-static fw_status put_beside(list *to, const fw_mechanism *m, const walls *w, const seen *s) {
-    const wall *a = &w->wall[s->own], *b = &w->wall[s->other];
-    const double depth = m->variant->thickness_m;
-    fw_mechanism_face face = {.body = {a->solid, b->solid},
-                              .area_m2 = s->length_m * depth,
-                              .gap_m = s->gap_m,
-                              .more =
-                                  s->gap_m / depth, /* lines of liquid at both faces of the layer */
-                              .at = s->at,
-                              .normal = s->normal,
-                              .piece = {a->piece, b->piece}};
-    put_side(m, a->solid, s->at, s->normal, 1, face.by[0]);
-    put_side(m, b->solid, vec_along(s->at, s->gap_m, s->normal), s->normal, -1, face.by[1]);
-    return put(to, &face);
-}
-
-static void put_strip(const fw_mechanism *m, const walls *w, const seen *s,
-                      fw_mechanism_strip_beside *strip) {
-    int joint = FLEXED - w->wall[s->own].solid, k = m->pin[joint].hinge;
-    if (k == FW_NONE) return;
-    const fw_mechanism_pin *pin = &m->pin[joint];
-    fw_geometry_vec2 pin_at = fw_mechanism_pin_place(m, pin, 0);
-    double far = fmax(vec_length(pin->root_a_m), vec_length(pin->root_b_m));
-    bool middle = vec_distance(s->at, pin_at) <= 0.5 * far || far == 0;
-    if (!middle || !(s->gap_m < strip[k].gap_m)) return;
-    strip[k] = (fw_mechanism_strip_beside){s->gap_m, s->at, w->wall[s->other].piece};
-}
-
-/* each pair of bodies is seen from the one with the lower index, the ground by none */
-static fw_status look_from(const fw_mechanism *m, const walls *w, int own, double come_m, list *to,
-                           fw_mechanism_strip_beside *strip) {
-    const wall *a = &w->wall[own];
-    double length = vec_distance(a->a, a->b);
-    int rays = 1 + (int)(length / pitch_m);
-    if (a->solid == FW_GROUND || !(length > 0)) return FW_OK;
-    fw_geometry_vec2 along = vec_sub(a->b, a->a), n = {along.y / length, -along.x / length};
-    for (int k = 0; k < rays; k++) {
-        seen s = {.own = own,
-                  .at = vec_along(a->a, (k + 0.5) / rays, along),
-                  .normal = n,
-                  .length_m = length / rays};
-        s.other = look(w, own, s.at, n, &s.gap_m);
-        if (s.other < 0) continue;
-        const wall *b = &w->wall[s.other];
-        fw_geometry_vec2 back = vec_unit(vec_sub(b->b, b->a)), out = {back.y, -back.x};
-        s.gap_m = fmax(s.gap_m - come_m, 1e-9); /* closed walls are another matter (FW-D238) */
-        if (b->solid == a->solid || vec_dot(out, n) > -facing) continue;
-        if (a->solid <= FLEXED)
-            put_strip(m, w, &s, strip);
-        else if (b->solid == FW_GROUND || b->solid > a->solid)
-            FW_TRY(put_beside(to, m, w, &s));
-    }
-    return FW_OK;
-}
-
-/* In: the layout in the drawn pose; walls come nearer by what the flow makes of them (fw_layout_walls_m). Walls within
-   200 um whose normals are within 45 degrees of each other; liquid over 15 um of an edge at once. Cost: rays times the
-   walls of a few bins. Test: test_mechanism_pull.c */
-fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *m,
-                                    fw_mechanism_face **face, int *nface,
-                                    fw_mechanism_strip_beside *strip) {
-    walls w = {.arena = arena};
-    list to = {.arena = arena};
-    *face = NULL, *nface = 0;
-    for (int k = 0; k < m->nhinge; k++)
-        strip[k] = (fw_mechanism_strip_beside){.gap_m = HUGE_VAL, .piece = FW_NONE};
-    if (!m->layout || !m->layout->drawn) return FW_OK;
-    FW_TRY(take_walls(m, &w));
-    if (w.nwall == 0) return FW_OK;
-    FW_TRY(sort_walls(&w));
-    for (int i = 0; i < w.nwall; i++)
-        FW_TRY(look_from(m, &w, i, fw_layout_walls_m(m->layout), &to, strip));
-    *face = to.face, *nface = (int)to.count;
     return FW_OK;
 }
 

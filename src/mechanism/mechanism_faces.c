@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Faces across a gap: undersides over a carrier, and which walls stand opposite each other. Theory:
+   docs/theory/stiction.md. */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
+#include <string.h>
+
+/* ---- undersides ---- */
+
+enum { CELLS = 8 }; /* along the longer side of a piece */
+
+typedef struct list {
+    fw_arena *arena;
+    fw_mechanism_face *face;
+    size_t count, room;
+} list;
+
+static fw_status put(list *to, const fw_mechanism_face *face) {
+    if (to->count == to->room) {
+        size_t more = to->room ? 2 * to->room : 64;
+        FW_NEED(to->face = fw_arena_grow(to->arena, to->face, to->count, more, sizeof *to->face));
+        to->room = more;
+    }
+    to->face[to->count++] = *face;
+    return FW_OK;
+}
+
+static fw_status put_below(list *to, const fw_mechanism *m, int body, int piece, double gap_m,
+                           double more, fw_geometry_vec2 at, double area_m2) {
+    double dx = at.x - m->drawn[body].x_m, dy = at.y - m->drawn[body].y_m;
+    const fw_mechanism_face face = {.body = {body, FW_GROUND},
+                                    .by = {{-1, -dy, dx}},
+                                    .area_m2 = area_m2,
+                                    .gap_m = gap_m,
+                                    .more = more,
+                                    .at = at,
+                                    .piece = {piece, FW_NONE}};
+    return area_m2 > 0 ? put(to, &face) : FW_OK;
+}
+
+/* lines of the liquid along edges: of a plate gamma P, of a strip twice its length, beside 2 gamma cos A/g; and no less
+   than the wetted sides that Mastrangelo and Hsu count, h P/(2 A) */
+static double lines_of(double perimeter_m, double area_m2, double gap_m, double depth_m) {
+    return 0.5 * fmax(gap_m, depth_m) * perimeter_m / area_m2;
+}
+
+static int parts_of(const fw_geometry_segment *s) {
+    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
+    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
+}
+
+/* x where the outline crosses the height y, sorted: at most `most` of them */
+static int crossings(const fw_geometry_contour *c, double y, double *x, int most) {
+    int n = 0;
+    for (int i = 0; i < c->count; i++) {
+        int parts = parts_of(&c->segment[i]);
+        for (int k = 0; k < parts && n < most; k++) {
+            fw_geometry_vec2 a = fw_geometry_segment_point(&c->segment[i], (double)k / parts),
+                             b = fw_geometry_segment_point(&c->segment[i], (k + 1.0) / parts);
+            if ((a.y <= y) == (b.y <= y)) continue;
+            double at = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+            int j = n++;
+            for (; j > 0 && x[j - 1] > at; j--)
+                x[j] = x[j - 1];
+            x[j] = at;
+        }
+    }
+    return n;
+}
+
+/* rows of the piece, cut into cells; their areas add up to the piece's own */
+static fw_status put_piece(list *to, const fw_mechanism *m, int piece, double gap_m, double more) {
+    enum { MOST = 256 };
+    const fw_layout_piece *p = &m->layout->piece[piece];
+    const fw_geometry_box box = fw_geometry_contour_box(&p->contour);
+    double wide = box.x1 - box.x0, high = box.y1 - box.y0, cell = fmax(wide, high) / CELLS, x[MOST];
+    int rows = (int)ceil(high / cell - 1e-9);
+    size_t first = to->count;
+    double sum = 0, exact = fw_geometry_contour_area(&p->contour);
+    if (!(exact > 0)) return FW_OK;
+    for (int j = 0; j < rows; j++) {
+        double y = box.y0 + (j + 0.5) * high / rows;
+        int n = crossings(&p->contour, y, x, MOST);
+        for (int k = 0; k + 1 < n; k += 2) {
+            int cells = (int)ceil((x[k + 1] - x[k]) / cell - 1e-9);
+            double dx = (x[k + 1] - x[k]) / (cells > 0 ? cells : 1);
+            for (int i = 0; i < cells; i++) {
+                fw_geometry_vec2 at = {x[k] + (i + 0.5) * dx, y};
+                sum += dx * high / rows;
+                FW_TRY(put_below(to, m, p->body, piece, gap_m, more, at, dx * high / rows));
+            }
+        }
+    }
+    for (size_t i = first; i < to->count && sum > 0; i++)
+        to->face[i].area_m2 *= exact / sum;
+    return FW_OK;
+}
+
+/* Half of a strip's pull goes to either body, a third of the way from its root to the pin: forces and moments of a strip
+   clamped at both ends under an even load */
+static fw_status put_strips(list *to, const fw_mechanism_plates *p, double gap_m, double depth_m) {
+    const fw_mechanism *m = p->mechanism;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
+        double w = m->hinge[k].input.width_m, length = p->hinge[k].length_m;
+        double more = lines_of(2 * length, w * length, gap_m, depth_m);
+        for (int side = 0; side < 2; side++) {
+            int body = side ? pin->body_b : pin->body_a;
+            fw_geometry_vec2 root = side ? pin->root_b_m : pin->root_a_m;
+            if (body == FW_GROUND) continue;
+            root = fw_geometry_vec_rotate(root, m->drawn[body].phi_rad);
+            size_t before = to->count;
+            FW_TRY(put_below(to, m, body, FW_NONE, gap_m, more,
+                             vec_along(p->hinge[k].pin, 2.0 / 3, root), 0.5 * w * length));
+            if (to->count > before) to->face[before].strip = true;
+        }
+    }
+    return FW_OK;
+}
+
+fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *p, double gap_m,
+                                   fw_mechanism_face **face, int *nface) {
+    const fw_mechanism *m = p->mechanism;
+    const double depth = m->variant->thickness_m;
+    list to = {.arena = arena};
+    for (int i = 0; m->layout && i < m->layout->npiece; i++) {
+        const fw_layout_piece *piece = &m->layout->piece[i];
+        if (piece->body < 0 || piece->body >= m->nbody || !fw_layout_is_wall(piece)) continue;
+        const fw_mechanism_shape *s = &m->shape[piece->body];
+        double round = isfinite(s->perimeter_m) ? s->perimeter_m : 0;
+        FW_TRY(put_piece(&to, m, i, gap_m, lines_of(round, s->area_m2, gap_m, depth)));
+    }
+    for (int b = 0; !m->layout && b < m->nbody; b++) /* as one row of cells along x */
+        for (int i = 0; i < CELLS; i++) {
+            const fw_mechanism_shape *s = &m->shape[b];
+            double side = sqrt(6 * (s->polar_m4 + s->spread_m4.x) / s->area_m2);
+            fw_geometry_vec2 at = {m->drawn[b].x_m + side * ((i + 0.5) / CELLS - 0.5),
+                                   m->drawn[b].y_m};
+            FW_TRY(put_below(&to, m, b, FW_NONE, gap_m, 0, at, s->area_m2 / CELLS));
+        }
+    FW_TRY(put_strips(&to, p, gap_m, depth));
+    *face = to.face, *nface = (int)to.count;
+    return FW_OK;
+}
+
+/* ---- walls opposite each other ---- */
+
+static const double reach_m =
+                        200e-6,    /* a liquid between walls further apart pulls next to nothing */
+    pitch_m = 15e-6, facing = 0.7; /* rays along an edge; - cos of the angle between two normals */
+
+typedef struct wall {
+    fw_geometry_vec2 a, b; /* the material to the left */
+    int solid, piece;      /* solid: a body, FW_GROUND, or FLEXED - joint of a strip */
+} wall;
+
+enum { FLEXED = -1000 };
+
+typedef struct walls {
+    fw_arena *arena;
+    wall *wall;
+    int nwall, nx, ny;
+    fw_geometry_box box;
+    int *begin, *in; /* (nx ny + 1) of each bin of the side reach_m, into its walls */
+} walls;
+
+static bool solid_of(const fw_layout_piece *p, int nbody, int *solid) {
+    if (p->role == FW_ROLE_FLEXURE && p->joint >= 0)
+        *solid = FLEXED - p->joint;
+    else if (fw_layout_is_wall(p))
+        *solid = p->body >= 0 && p->body < nbody ? p->body : FW_GROUND;
+    else
+        return false;
+    return true;
+}
+
+static fw_status take_walls(const fw_mechanism *m, walls *w) {
+    const fw_layout *l = m->layout;
+    size_t n = 0;
+    int solid;
+    for (int i = 0; i < l->npiece; i++)
+        for (int k = 0; k < l->piece[i].contour.count; k++)
+            n += (size_t)parts_of(&l->piece[i].contour.segment[k]);
+    FW_NEED(w->wall = fw_arena_array(w->arena, wall, n));
+    for (int i = 0; i < l->npiece; i++) {
+        const fw_geometry_contour *c = &l->piece[i].contour;
+        for (int k = 0; solid_of(&l->piece[i], m->nbody, &solid) && k < c->count; k++) {
+            const fw_geometry_segment *s = &c->segment[k];
+            int parts = parts_of(s);
+            for (int j = 0; j < parts && !(s->flags & FW_SEGMENT_JOINT); j++)
+                w->wall[w->nwall++] =
+                    (wall){fw_geometry_segment_point(s, (double)j / parts),
+                           fw_geometry_segment_point(s, (j + 1.0) / parts), solid, i};
+        }
+    }
+    return FW_OK;
+}
+
+static fw_geometry_box box_of(fw_geometry_vec2 a, fw_geometry_vec2 b) {
+    return (fw_geometry_box){fw_lesser(a.x, b.x), fw_lesser(a.y, b.y), fw_greater(a.x, b.x),
+                             fw_greater(a.y, b.y)};
+}
+
+static int bin(double x, double from, int n) {
+    int i = (int)((x - from) / reach_m);
+    return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
+/* counts the bins that a wall's box covers, or puts it into them */
+static void spread_wall(walls *w, int at, int *next) {
+    const fw_geometry_box box = box_of(w->wall[at].a, w->wall[at].b);
+    for (int j = bin(box.y0, w->box.y0, w->ny); j <= bin(box.y1, w->box.y0, w->ny); j++)
+        for (int i = bin(box.x0, w->box.x0, w->nx); i <= bin(box.x1, w->box.x0, w->nx); i++) {
+            if (next)
+                w->in[next[j * w->nx + i]++] = at;
+            else
+                w->begin[j * w->nx + i + 1]++;
+        }
+}
+
+static fw_status sort_walls(walls *w) {
+    for (int i = 0; i < w->nwall; i++) {
+        fw_geometry_box box = box_of(w->wall[i].a, w->wall[i].b);
+        w->box = i ? fw_box_join(w->box, box) : box;
+    }
+    w->nx = 1 + (int)((w->box.x1 - w->box.x0) / reach_m);
+    w->ny = 1 + (int)((w->box.y1 - w->box.y0) / reach_m);
+    size_t n = (size_t)w->nx * (size_t)w->ny;
+    int *next;
+    FW_NEED(w->begin = fw_arena_array(w->arena, int, n + 1));
+    FW_NEED(next = fw_arena_array(w->arena, int, n));
+    for (int i = 0; i < w->nwall; i++)
+        spread_wall(w, i, NULL);
+    for (size_t i = 0; i < n; i++)
+        w->begin[i + 1] += w->begin[i], next[i] = w->begin[i];
+    FW_NEED(w->in = fw_arena_array(w->arena, int, (size_t)w->begin[n] + 1));
+    for (int i = 0; i < w->nwall; i++)
+        spread_wall(w, i, next);
+    return FW_OK;
+}
+
+/* the nearest wall that the ray from p along the unit vector n meets, and how far away; -1: none within reach */
+static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n, double *gap) {
+    const fw_geometry_box box = box_of(p, vec_along(p, reach_m, n));
+    int found = -1;
+    *gap = reach_m;
+    for (int j = bin(box.y0, w->box.y0, w->ny); j <= bin(box.y1, w->box.y0, w->ny); j++)
+        for (int i = bin(box.x0, w->box.x0, w->nx); i <= bin(box.x1, w->box.x0, w->nx); i++)
+            for (int k = w->begin[j * w->nx + i]; k < w->begin[j * w->nx + i + 1]; k++) {
+                const wall *to = &w->wall[w->in[k]];
+                fw_geometry_vec2 along = vec_sub(to->b, to->a), off = vec_sub(to->a, p);
+                double det = vec_cross(n, along);
+                if (w->in[k] == own || det == 0) continue;
+                double t = vec_cross(off, along) / det, u = vec_cross(off, n) / det;
+                if (t > 0 && t < *gap && u >= 0 && u <= 1) *gap = t, found = w->in[k];
+            }
+    return found;
+}
+
+/* x, y and turn of a body move its point p along n by this */
+static void put_side(const fw_mechanism *m, int body, fw_geometry_vec2 p, fw_geometry_vec2 n,
+                     double sign, double *by) {
+    if (body == FW_GROUND) return;
+    double rx = p.x - m->drawn[body].x_m, ry = p.y - m->drawn[body].y_m;
+    by[0] = sign * n.x, by[1] = sign * n.y, by[2] = sign * (rx * n.y - ry * n.x);
+}
+
+typedef struct seen {
+    int own, other;
+    fw_geometry_vec2 at, normal;
+    double length_m, gap_m;
+} seen;
+
+static fw_status put_beside(list *to, const fw_mechanism *m, const walls *w, const seen *s) {
+    const wall *a = &w->wall[s->own], *b = &w->wall[s->other];
+    const double depth = m->variant->thickness_m;
+    fw_mechanism_face face = {.body = {a->solid, b->solid},
+                              .area_m2 = s->length_m * depth,
+                              .gap_m = s->gap_m,
+                              .more =
+                                  s->gap_m / depth, /* lines of liquid at both faces of the layer */
+                              .at = s->at,
+                              .normal = s->normal,
+                              .piece = {a->piece, b->piece}};
+    put_side(m, a->solid, s->at, s->normal, 1, face.by[0]);
+    put_side(m, b->solid, vec_along(s->at, s->gap_m, s->normal), s->normal, -1, face.by[1]);
+    return put(to, &face);
+}
+
+static void put_strip(const fw_mechanism *m, const walls *w, const seen *s,
+                      fw_mechanism_strip_beside *strip) {
+    int joint = FLEXED - w->wall[s->own].solid, k = m->pin[joint].hinge;
+    if (k == FW_NONE) return;
+    const fw_mechanism_pin *pin = &m->pin[joint];
+    fw_geometry_vec2 pin_at = fw_mechanism_pin_place(m, pin, 0);
+    double far = fmax(vec_length(pin->root_a_m), vec_length(pin->root_b_m));
+    bool middle = vec_distance(s->at, pin_at) <= 0.5 * far || far == 0;
+    if (!middle || !(s->gap_m < strip[k].gap_m)) return;
+    strip[k] = (fw_mechanism_strip_beside){s->gap_m, s->at, w->wall[s->other].piece};
+}
+
+/* each pair of bodies is seen from the one with the lower index, the ground by none */
+static fw_status look_from(const fw_mechanism *m, const walls *w, int own, double come_m, list *to,
+                           fw_mechanism_strip_beside *strip) {
+    const wall *a = &w->wall[own];
+    double length = vec_distance(a->a, a->b);
+    int rays = 1 + (int)(length / pitch_m);
+    if (a->solid == FW_GROUND || !(length > 0)) return FW_OK;
+    fw_geometry_vec2 along = vec_sub(a->b, a->a), n = {along.y / length, -along.x / length};
+    for (int k = 0; k < rays; k++) {
+        seen s = {.own = own,
+                  .at = vec_along(a->a, (k + 0.5) / rays, along),
+                  .normal = n,
+                  .length_m = length / rays};
+        s.other = look(w, own, s.at, n, &s.gap_m);
+        if (s.other < 0) continue;
+        const wall *b = &w->wall[s.other];
+        fw_geometry_vec2 back = vec_unit(vec_sub(b->b, b->a)), out = {back.y, -back.x};
+        s.gap_m = fmax(s.gap_m - come_m, 1e-9); /* closed walls are another matter (FW-D238) */
+        if (b->solid == a->solid || vec_dot(out, n) > -facing) continue;
+        if (a->solid <= FLEXED)
+            put_strip(m, w, &s, strip);
+        else if (b->solid == FW_GROUND || b->solid > a->solid)
+            FW_TRY(put_beside(to, m, w, &s));
+    }
+    return FW_OK;
+}
+
+/* In: the layout in the drawn pose; walls come nearer by what the flow makes of them (fw_layout_walls_m). Walls within
+   200 um whose normals are within 45 degrees of each other; liquid over 15 um of an edge at once. Cost: rays times the
+   walls of a few bins. Test: test_mechanism_pull.c */
+fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *m,
+                                    fw_mechanism_face **face, int *nface,
+                                    fw_mechanism_strip_beside *strip) {
+    walls w = {.arena = arena};
+    list to = {.arena = arena};
+    *face = NULL, *nface = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        strip[k] = (fw_mechanism_strip_beside){.gap_m = HUGE_VAL, .piece = FW_NONE};
+    if (!m->layout || !m->layout->drawn) return FW_OK;
+    FW_TRY(take_walls(m, &w));
+    if (w.nwall == 0) return FW_OK;
+    FW_TRY(sort_walls(&w));
+    for (int i = 0; i < w.nwall; i++)
+        FW_TRY(look_from(m, &w, i, fw_layout_walls_m(m->layout), &to, strip));
+    *face = to.face, *nface = (int)to.count;
+    return FW_OK;
+}
