@@ -134,8 +134,8 @@ static void what_is_not_in_the_table_cannot_be_said(void **state) {
         "{\"kind\": \"log\"}",
         "{\"kind\": 7}",
         "{\"kind\": \"check\", \"options\": {\"lab\": \"x\"}}",
-        "{\"kind\": \"check\", \"files\": {\"lab.xml\": \"\"}, \"options\": {\"lab\": "
-        "\"/etc/passwd\"}}",
+        ("{\"kind\": \"check\", \"files\": {\"lab.xml\": \"\"}, \"options\": {\"lab\": "
+         "\"/etc/passwd\"}}"),
         "{\"kind\": \"check\", \"files\": {\"../lab.xml\": \"\"}}",
         "{\"kind\": \"check\", \"files\": {\"d.xml\": \"\"}}",
         "{\"kind\": \"check\", \"files\": {\"-o.xml\": \"\"}}",

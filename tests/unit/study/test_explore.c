@@ -74,8 +74,8 @@ static void what_was_asked_before_does_not_matter(void **state) {
     static const char *const first[] = {
         ASKED ",\"points\":[[\"7 um\"],[\"5 furlongs\"]]",
         ASKED ",\"set\":{\"limits/@safety-factor\":\"3\"},\"points\":[[\"9.3 um\"]]",
-        "\"inputs\":[\"arc\",\"flexure[A]/@width\"],\"values\":[\"governing.utilisation\"],"
-        "\"points\":[[\"230 deg\",\"9 um\"]]"};
+        ("\"inputs\":[\"arc\",\"flexure[A]/@width\"],\"values\":[\"governing.utilisation\"],"
+         "\"points\":[[\"230 deg\",\"9 um\"]]")};
     for (size_t i = 0; i < sizeof first / sizeof first[0]; i++) {
         fw_plan_live *live = live_new(), *fresh = live_new();
         json_decref(explore(live, first[i]));
