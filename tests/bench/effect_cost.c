@@ -51,6 +51,8 @@ static char *read_all(fw_arena *arena, const char *name, size_t *n) {
 /* the material of the description, at 50 um where it states no thickness */
 static fw_mechanism_variant variant_of(fw_arena *arena, const fw_device *d, fw_diags *diags) {
     fw_mechanism_variant v = {.thickness_m = 1,
+                              /* what a flow may leave on surfaces that a scene closes */
+                              .drying = {.adhesion_words = "stated", .adhesion_high = 0.05},
                               .explicit_mass_scale = 1,
                               .explicit_stiffness_scale = 1,
                               .explicit_damping_scale = 1};
