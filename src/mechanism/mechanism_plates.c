@@ -13,7 +13,7 @@
 /* NULL: every joint is a flexure whose direction is known, every body is drawn */
 static fw_status missing(fw_arena *arena, const fw_mechanism *m, const char **why) {
     *why = NULL;
-    if (m->nbody > FW_PLATES_MOST)
+    if (m->nbody > FW_MECHANISM_PLATES_MOST)
         *why = "there are more than 100 bodies";
     else if (m->nhinge == 0)
         *why = "no joint is a flexure";

@@ -7,7 +7,7 @@
 #define FW_MECHANISM_MECHANISM_PLATES_H
 #include "mechanism/mechanism.h"
 
-enum { FW_PLATES_MOST = 100 }; /* bodies: dense matrices */
+enum { FW_MECHANISM_PLATES_MOST = 100 }; /* bodies: dense matrices */
 
 typedef struct fw_mechanism_plate_hinge {
     fw_geometry_vec2 pin;    /* world */

@@ -249,7 +249,7 @@ class Study(unittest.TestCase):
 
     def used(self, path, **settings):
         sets = [w for k, v in settings.items() for w in ("--set", f"{k}={v}")]
-        said = run("check", path, "--json", "--advice", "none", "--accuracy", "1e-9", *sets)
+        said = run("check", path, "--json", "--advice", "none", "--accuracy", "1e-6", *sets)
         return json.loads(said.stdout)["governing"]["utilisation"]
 
     def test_a_yield_of_one_uncertain_load_is_that_of_its_limit(self):

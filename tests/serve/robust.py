@@ -94,7 +94,7 @@ def half_open(program, directory):
                         alive.discard(s)
                         cut[s] = time.monotonic() - began
 
-        thread = threading.Thread(target=drip)
+        thread = threading.Thread(target=drip, daemon=True)
         thread.start()
         try:
             for _ in range(3):
@@ -162,7 +162,7 @@ def loaded(program, directory):
             while not stop.wait(0.2):
                 most[0] = max(most[0], sum(row[2] for row in processes(server.process.pid).values()))
 
-        thread = threading.Thread(target=watch)
+        thread = threading.Thread(target=watch, daemon=True)
         thread.start()
         began = time.monotonic()
         with concurrent.futures.ThreadPoolExecutor(number) as pool:

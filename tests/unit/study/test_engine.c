@@ -73,7 +73,7 @@ static const char more[] =
     "<respond name=\"give\" value=\"hinge_model[*].bodies_give\" take=\"largest\"/>";
 
 typedef struct room {
-    char directory[64], device[96], file[96];
+    char directory[256], device[288], file[288];
 } room;
 
 static void write_to(const char *path, const char *text) {
@@ -87,7 +87,9 @@ static void write_to(const char *path, const char *text) {
 static room room_new(const char *flows) {
     room r;
     char text[6000];
-    snprintf(r.directory, sizeof r.directory, "/tmp/fw-engine-XXXXXX");
+    const char *parent = getenv("TMPDIR");
+    int size = snprintf(r.directory, sizeof r.directory, "%s/fw-engine-XXXXXX", parent ? parent : "/tmp");
+    assert_true(size > 0 && (size_t)size < sizeof r.directory);
     assert_non_null(mkdtemp(r.directory));
     snprintf(r.device, sizeof r.device, "%s/device.xml", r.directory);
     snprintf(r.file, sizeof r.file, "%s/study.xml", r.directory);
