@@ -64,8 +64,12 @@ describe("a range", () => {
         const edge = list.find((p, i) => p.state === "accept" && list[i + 1].state !== "accept");
         const next = list[list.indexOf(edge) + 1];
         for (const p of [edge, next]) assert.equal(check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `scene[push]/force/@fx=${p.x} mN`).verdict, p.state);
+        const asked = [];
+        page.on("request", (r) => r.url().endsWith("/api/explore") && asked.push(r));
         await page.selectOption('select[aria-label="Vary"]', "width");
         await whole(page);
+        assert.equal(asked.length, 0, "what was computed for this very input is remembered");
+        assert.ok((await points(page)).length >= 201);
     });
 
     test("a place that is looked at is told, and used by one step of the history", async () => {

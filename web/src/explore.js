@@ -21,6 +21,7 @@ const FIRST = 3; // points of the first request
 const MOST = 64;
 const HALVINGS = 6; // of an interval in which the decision changes
 const EDGES = 8;
+const KEPT = 12; // exact inputs whose points are remembered
 
 export class Explore {
     constructor(holder) {
@@ -28,6 +29,7 @@ export class Explore {
         this.rangesOf = new Map(); // what -> [from, to] as somebody has typed them
         this.points = [];
         this.done = new Map();
+        this.kept = new Map(); // exact input -> values of the inputs -> point
         this.at = null;
         this.asked = 0;
         this.inAll = 1;
@@ -227,26 +229,49 @@ export class Explore {
         }
     }
 
-    /** Points of texts, in requests of about REQUEST_MS; take(answer point, index) for each. */
+    /** Points that were computed for the same text, held values, options, inputs and number, whatever their range was. */
+    #keptOf(spec) {
+        const key = inputKey({ ...this.#options(), explore: [spec.inputs.map((x) => x.what), spec.number.id] });
+        const points = this.kept.get(key) ?? new Map();
+        this.kept.delete(key);
+        this.kept.set(key, points); // the last one that was used stands last
+        if (this.kept.size > KEPT) this.kept.delete(this.kept.keys().next().value);
+        return points;
+    }
+
+    /** Points of texts: those that are kept, the others in requests of about REQUEST_MS; take(point, index) for each. */
     async #ask(spec, texts, key, signal, take) {
+        const kept = this.#keptOf(spec), nameOf = (k) => texts[k].join("\n"), missing = [];
+        for (let k = 0; k < texts.length; k++) {
+            if (kept.has(nameOf(k))) take(kept.get(nameOf(k)), k);
+            else missing.push(k);
+        }
+        const show = (n) => {
+            this.asked += n;
+            this.showing.take(key);
+            this.#draw(spec);
+            this.#say();
+        };
+        if (missing.length < texts.length) show(texts.length - missing.length);
         const set = Object.fromEntries(Object.entries(state.set).filter(([path]) => !spec.inputs.some((x) => x.what === path || `device/${x.what}` === path)));
         const { number: n } = spec;
         const values = [...n.value, ...n.low, ...n.high, "governing.utilisation"]; // the last one: that it is judged
         const body = { text: state.text, set, ...lab(), options: this.#options(), inputs: spec.inputs.map((x) => x.what), values };
-        for (let i = 0; i < texts.length; ) {
-            const some = texts.slice(i, i + (this.chunk ?? FIRST));
+        for (let i = 0; i < missing.length; ) {
+            const some = missing.slice(i, i + (this.chunk ?? FIRST));
             const since = performance.now();
-            const answer = await post("/api/explore", { ...body, points: some }, { signal });
+            const answer = await post("/api/explore", { ...body, points: some.map((k) => texts[k]) }, { signal });
             if (signal.aborted) throw new Error("given up");
             if (answer.status !== "ok") throw new Error(answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "this cannot be computed");
-            answer.points.forEach((p, k) => take(point(p, n), i + k));
+            answer.points.forEach((p, j) => {
+                const k = some[j], found = point(p, n);
+                kept.set(nameOf(k), found);
+                take(found, k);
+            });
             i += some.length;
-            this.asked += some.length;
             const each = (performance.now() - since) / some.length;
             this.chunk = Math.min(Math.max(Math.round(REQUEST_MS / each), 1), MOST);
-            this.showing.take(key);
-            this.#draw(spec);
-            this.#say();
+            show(some.length);
         }
     }
 
