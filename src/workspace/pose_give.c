@@ -170,26 +170,82 @@ static opened open_of(const limber *l, const standing *s, int i) {
     return b;
 }
 
-static void law_of(const limber *l, int i, const opened *b, fw_flexure_hinge_bent *law) {
+/* of an ideal pin: its spring, and a far stiffer one against displacements */
+static void law_of(const limber *l, int i, const opened *b, bool hessian,
+                   fw_flexure_hinge_bent *law) {
     const double at[3] = {b->o * b->th, b->o * b->w, b->o * b->v};
-    fw_flexure_hinge_law_bend(&l->hinge[i]->law, &l->rest[i], at, false, law);
+    if (l->hinge[i]) {
+        fw_flexure_hinge_law_bend(&l->hinge[i]->law, &l->rest[i], at, hessian, law);
+        return;
+    }
+    *law = (fw_flexure_hinge_bent){.holds = true};
+    for (int k = 0; k < 3; k++) {
+        double stiff = k ? l->stiff_N_per_m : l->hold->section[i].spring_Nm_per_rad;
+        law->hessian[k][k] = stiff, law->gradient[k] = stiff * at[k];
+    }
 }
 
-/* what a hinge does to its bodies: hinge_element.c */
-static void of_hinge(const limber *l, const standing *s, int i, loads *to) {
+/* first unknown of a body; the platform and the ground have none */
+static int first_of(int body) {
+    return body < 0 || body >= LINKS || body == PLATFORM ? FW_NONE
+                                                         : 3 * (body < PLATFORM ? body : body - 1);
+}
+
+/* adds d load/d unknown, row of a body's component, column of another's, to a (UNKNOWN x UNKNOWN) in SI */
+static void put(double *a, int body, int row, int column_of, int column, double value) {
+    int first = first_of(column_of);
+    if (first != FW_NONE && body >= 0 && body < LINKS)
+        a[UNKNOWN * (3 * body + row) + first + column] += value;
+}
+
+/* What a hinge does to its bodies (hinge_element.c), and how that goes with their places. With w = e.D, v = n.D
+   and p the places and turns of both pins, load = -G, G = J' (M, X, Y), dG/dp = J' H J + X d2w + Y d2v. */
+static void of_hinge(const limber *l, const standing *s, int i, loads *to, double *a) {
     const opened b = open_of(l, s, i);
-    double M, X, Y;
-    if (l->hinge[i]) {
-        fw_flexure_hinge_bent law;
-        law_of(l, i, &b, &law);
-        M = b.o * law.gradient[0], X = b.o * law.gradient[1], Y = b.o * law.gradient[2];
-    } else {
-        M = l->hold->section[i].spring_Nm_per_rad * b.th;
-        X = l->stiff_N_per_m * b.w, Y = l->stiff_N_per_m * b.v;
-    }
+    fw_flexure_hinge_bent law;
+    law_of(l, i, &b, a != NULL, &law);
+    double M = b.o * law.gradient[0], X = b.o * law.gradient[1], Y = b.o * law.gradient[2];
     double fx = X * b.c - Y * b.n, fy = X * b.n + Y * b.c, both = 0.5 * (Y * b.w - X * b.v);
     add(l, s, i - 1, b.from, fx, fy, both + M, to);
     add(l, s, i, b.to, -fx, -fy, both - M, to);
+    if (!a) return;
+    const double J[3][6] = {{0, 0, -1, 0, 0, 1},
+                            {-b.c, -b.n, 0.5 * b.v, b.c, b.n, 0.5 * b.v},
+                            {b.n, -b.c, -0.5 * b.w, -b.n, b.c, -0.5 * b.w}};
+    const double *H = &law.hessian[0][0];
+    double K[6][6] = {{0}}, arm[2][2] = {{0}};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            for (int p = 0; p < 6; p++)
+                for (int q = 0; q < 6 && J[r][p] != 0; q++)
+                    K[p][q] += J[r][p] * H[3 * r + c] * J[c][q];
+    /* along e and n the force (fx, fy) stays while they turn: by half of either body's turn */
+    const double turned[4] = {0.5 * fy, -0.5 * fx, -0.5 * fy, 0.5 * fx}; /* d G/d turn of places */
+    static const int place_row[4] = {0, 1, 3, 4}, turn_row[2] = {2, 5};
+    for (int t = 0; t < 2; t++) {
+        for (int p = 0; p < 4; p++)
+            K[place_row[p]][turn_row[t]] += turned[p], K[turn_row[t]][place_row[p]] += turned[p];
+        for (int u = 0; u < 2; u++)
+            K[turn_row[t]][turn_row[u]] -= 0.25 * (X * b.w + Y * b.v);
+    }
+    const int body[2] = {i - 1, i};
+    const fw_geometry_vec2 at[2] = {b.from, b.to};
+    for (int side = 0; side < 2; side++)
+        if (body[side] >= 0 && body[side] < LINKS) {
+            arm[side][0] = at[side].x - l->hold->at[body[side]].x - s->body[body[side]][0];
+            arm[side][1] = at[side].y - l->hold->at[body[side]].y - s->body[body[side]][1];
+        }
+    for (int p = 0; p < 6; p++) /* columns, then rows: from pins to bodies */
+        for (int q = 0; q < 2; q++)
+            K[p][3 * q + 2] += arm[q][0] * K[p][3 * q + 1] - arm[q][1] * K[p][3 * q];
+    for (int p = 0; p < 6; p++)
+        for (int q = 0; q < 2; q++)
+            K[3 * q + 2][p] += arm[q][0] * K[3 * q + 1][p] - arm[q][1] * K[3 * q][p];
+    for (int q = 0; q < 2; q++) /* the arms turn, too; G is minus the force on either pin */
+        K[3 * q + 2][3 * q + 2] += (q ? -1 : 1) * (arm[q][0] * fx + arm[q][1] * fy);
+    for (int p = 0; p < 6; p++)
+        for (int q = 0; q < 6; q++)
+            put(a, body[p / 3], p % 3, body[q / 3], q % 3, -K[p][q]);
 }
 
 static fw_geometry_vec2 point(const limber *l, const standing *s,
@@ -231,34 +287,56 @@ static int body_of(int k) {
     return k / 3 < PLATFORM ? k / 3 : k / 3 + 1;
 }
 
-/* the part of the loads that body k's place has to do with, in units of rows */
-static void some(const limber *l, const standing *s, const fw_workspace_grip *grip, int k,
-                 double r[UNKNOWN]) {
-    loads sum = {0};
-    for (int i = k < 0 ? 0 : k; i < (k < 0 ? FW_SIX : k + 2); i++)
-        of_hinge(l, s, i, &sum);
-    for (int j = 0; j < 3; j++)
-        of_actuator(l, s, &l->hold->actuator[grip->actuator[j]], s->size[j] * l->force_N, &sum);
-    for (int i = 0; i < UNKNOWN; i++)
-        r[i] = sum.on[i / 3][i % 3] / (i % 3 == 2 ? l->moment_Nm : l->force_N);
+static double row_unit(const limber *l, int row) {
+    return row % 3 == 2 ? l->moment_Nm : l->force_N;
 }
 
-static void slopes(const limber *l, const standing *s, const fw_workspace_grip *grip, double *a) {
+/* how an actuator's load goes with the places of the links: a force's arm turns, of others by differences */
+static void actuator_slopes(const limber *l, const standing *s, const fw_workspace_actuator *act,
+                            double size, double *a) {
     const double step = 1e-7;
-    double near[UNKNOWN], far[UNKNOWN];
-    for (int k = 0; k < 12; k++) {
-        standing moved = *s;
-        moved.body[body_of(k)][k % 3] += step * (k % 3 == 2 ? 1.0 : l->hold->length_m);
-        some(l, s, grip, body_of(k), near), some(l, &moved, grip, body_of(k), far);
-        for (int i = 0; i < UNKNOWN; i++)
-            a[UNKNOWN * i + k] = (far[i] - near[i]) / step;
+    bool many = act->kind == FW_ACTUATOR_TENDON || act->kind == FW_ACTUATOR_ELECTRODES;
+    if (act->kind == FW_ACTUATOR_FORCE && act->body != PLATFORM) {
+        fw_geometry_vec2 at = point(l, s, act->point), from = l->hold->at[act->body];
+        const double *q = s->body[act->body];
+        double x = at.x - from.x - q[0], y = at.y - from.y - q[1];
+        put(a, act->body, 2, act->body, 2, -size * (y * act->direction[1] + x * act->direction[0]));
     }
-    for (int j = 0; j < 3; j++) {
-        loads one = {0};
-        of_actuator(l, s, &l->hold->actuator[grip->actuator[j]], l->force_N, &one);
+    loads near = {0};
+    if (many) of_actuator(l, s, act, size, &near);
+    for (int k = 0; many && k < 12; k++) {
+        standing moved = *s;
+        loads far = {0};
+        double by = step * (k % 3 == 2 ? 1.0 : l->hold->length_m);
+        moved.body[body_of(k)][k % 3] += by;
+        of_actuator(l, &moved, act, size, &far);
         for (int i = 0; i < UNKNOWN; i++)
-            a[UNKNOWN * i + 12 + j] =
-                one.on[i / 3][i % 3] / (i % 3 == 2 ? l->moment_Nm : l->force_N);
+            a[UNKNOWN * i + k] += (far.on[i / 3][i % 3] - near.on[i / 3][i % 3]) / by;
+    }
+}
+
+/* loads on the bodies and their slopes by the unknowns, in units of rows and columns */
+static void all(const limber *l, const standing *s, const fw_workspace_grip *grip, double *r,
+                double *a) {
+    loads sum = {0};
+    memset(a, 0, UNKNOWN * UNKNOWN * sizeof *a);
+    for (int i = 0; i < FW_SIX; i++)
+        of_hinge(l, s, i, &sum, a);
+    for (int j = 0; j < 3; j++) {
+        const fw_workspace_actuator *act = &l->hold->actuator[grip->actuator[j]];
+        double size = s->size[j] * l->force_N;
+        loads one = {0};
+        of_actuator(l, s, act, l->force_N, &one);
+        actuator_slopes(l, s, act, size, a);
+        for (int i = 0; i < UNKNOWN; i++) {
+            sum.on[i / 3][i % 3] += s->size[j] * one.on[i / 3][i % 3];
+            a[UNKNOWN * i + 12 + j] = one.on[i / 3][i % 3] / row_unit(l, i);
+        }
+    }
+    for (int i = 0; i < UNKNOWN; i++) {
+        r[i] = sum.on[i / 3][i % 3] / row_unit(l, i);
+        for (int k = 0; k < 12; k++)
+            a[UNKNOWN * i + k] *= (k % 3 == 2 ? 1.0 : l->hold->length_m) / row_unit(l, i);
     }
 }
 
@@ -267,8 +345,7 @@ static bool settle(const limber *l, const fw_workspace_grip *grip, standing *s) 
     double a[UNKNOWN * UNKNOWN], x[UNKNOWN];
     int pivot[UNKNOWN];
     for (int round = 0; round < ROUNDS; round++) {
-        some(l, s, grip, FW_NONE, x);
-        slopes(l, s, grip, a);
+        all(l, s, grip, x, a);
         if (!fw_maths_lu_factor(UNKNOWN, a, pivot)) return false;
         fw_maths_lu_solve(UNKNOWN, a, pivot, x);
         double most = 0.0;
@@ -279,7 +356,7 @@ static bool settle(const limber *l, const fw_workspace_grip *grip, standing *s) 
         for (int k = 0; k < UNKNOWN; k++)
             *(k < 12 ? &s->body[body_of(k)][k % 3] : &s->size[k - 12]) -=
                 by * x[k] * (k < 12 && k % 3 != 2 ? l->hold->length_m : 1.0);
-        if (most < 1e-8) return true;
+        if (most < 1e-6) return true; /* the next change is its square */
     }
     return false;
 }
@@ -335,7 +412,7 @@ static double strain_of(const limber *l, const standing *s, int i) {
     fw_flexure_hinge_bent law;
     fw_flexure_strip_load load;
     fw_flexure_strip_strains out;
-    law_of(l, i, &b, &law);
+    law_of(l, i, &b, false, &law);
     const double force[2] = {law.gradient[1], law.gradient[2]}, along = b.o * b.w;
     if (!law.holds || !fw_flexure_hinge_law_holds(&h->law, b.o * b.th)) return HUGE_VAL;
     fw_flexure_strip_load_of(&h->section, &h->law, &l->rest[i], b.o * b.th, force, &along, &load);
@@ -366,40 +443,52 @@ static bool limber_of(const fw_workspace_hold *hold, const fw_mechanism *m, limb
 typedef struct looked {
     fw_workspace_response *response;
     double pins[FW_SIX], gives[FW_SIX]; /* largest strains */
+    double apart;                       /* largest |gives/pins - 1| of large strains at one pose */
+    fw_workspace_strain_extreme done[FW_SIX]; /* poses and grips that were looked at first */
+    int ndone;
 } looked;
 
-/* a pose by one grip, unless its strains with pins are far from the largest */
-static void look(const limber *l, const fw_workspace_strain_proof *proof, const double pose[3],
-                 const fw_workspace_pose_load *load, int g, looked *to) {
+/* A pose by one grip, unless its strains with pins are far below the largest. `always`: of the first ones,
+   which say how far strains with hinges that give may be from those with pins. */
+static void look(const limber *l, const double pose[3], const fw_workspace_pose_load *load, int g,
+                 bool always, looked *to) {
     const fw_workspace_grip *grip = &l->hold->grip[g];
     fw_workspace_jet2 force[FW_SIX];
-    bool certain, own[2], any = false, large[FW_SIX];
+    bool certain, own[2], any = always, matters[FW_SIX];
+    double pins[FW_SIX];
     standing s;
     if (!fw_workspace_pose_forces(l->hold, load, to->response, grip, &certain, own, force)) return;
     for (int i = 0; i < FW_SIX; i++) {
-        double now = fw_workspace_pose_strain(l->hold, load, i, &force[i], NULL).lo;
-        to->pins[i] = fmax(to->pins[i], now);
-        any = any || (large[i] = now > 0.5 * proof->strain[i]);
+        pins[i] = fw_workspace_pose_strain(l->hold, load, i, &force[i], NULL).lo;
+        to->pins[i] = fmax(to->pins[i], pins[i]);
+        matters[i] = pins[i] * (1.05 + 2.0 * to->apart) > to->gives[i];
+        any = any || matters[i];
     }
     if (!any) return;
     bool stands = stand(l, grip, pose, &s);
     if (stands && !holds(l, grip, &s)) return;
     for (int i = 0; i < FW_SIX; i++) {
-        double strain = stands ? strain_of(l, &s, i) : large[i] ? HUGE_VAL : 0.0;
+        if (!matters[i]) continue;
+        double strain = stands ? strain_of(l, &s, i) : HUGE_VAL;
         to->gives[i] = fmax(to->gives[i], strain);
+        to->apart = fmax(to->apart, fabs(strain / pins[i] - 1.0));
     }
 }
 
-static void look_at(const limber *l, const fw_workspace_strain_proof *proof, const double pose[3],
-                    looked *to) {
+/* by all grips, or by one */
+static void look_at(const limber *l, const double pose[3], int only, looked *to) {
     const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
     const fw_workspace_hold *h = l->hold;
     fw_workspace_pose_load load;
     if (!fw_workspace_pose_load_over(h, &at, NULL, &load)) return;
     for (int i = 0; i < h->nactuator; i++)
         fw_workspace_pose_response(h, &load, &h->actuator[i], &to->response[i]);
-    for (int g = 0; g < h->ngrip && g < MOST_GRIPS; g++)
-        look(l, proof, pose, &load, g, to);
+    for (int g = 0; g < h->ngrip && g < MOST_GRIPS; g++) {
+        bool done = only != FW_NONE && only != g;
+        for (int k = 0; k < to->ndone && !done; k++)
+            done = to->done[k].grip == g && !memcmp(to->done[k].pose, pose, 3 * sizeof *pose);
+        if (!done) look(l, pose, &load, g, only == g, to);
+    }
 }
 
 fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, const fw_mechanism *m,
@@ -412,13 +501,19 @@ fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, con
     if (!limber_of(hold, m, &l)) return FW_OK;
     FW_NEED(to.response =
                 fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    for (int i = 0; i < FW_SIX; i++) {
+        const fw_workspace_strain_extreme *most = &proof->most[i];
+        if (hold->section[i].n == 0) continue;
+        look_at(&l, most->pose, most->grip, &to);
+        to.done[to.ndone++] = *most;
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        if (hold->section[i].n > 0) look_at(&l, proof->most[i].pose, FW_NONE, &to);
     for (int i = 0; i < CORNERS; i++) {
         const double pose[3] = {i & 1 ? box->hi[0] : box->lo[0], i & 2 ? box->hi[1] : box->lo[1],
                                 i & 4 ? box->hi[2] : box->lo[2]};
-        look_at(&l, proof, pose, &to);
+        look_at(&l, pose, FW_NONE, &to);
     }
-    for (int i = 0; i < FW_SIX; i++)
-        if (hold->section[i].n > 0) look_at(&l, proof, proof->most[i].pose, &to);
     for (int i = 0; i < FW_SIX; i++) {
         if (!(to.pins[i] > 0.0) || !(to.gives[i] > 0.0)) continue;
         give[i] = nothing_known;
