@@ -78,6 +78,9 @@ fw_script_test(process.coupons COMMAND ${Python3_EXECUTABLE} tests/process/coupo
 # a seed is the same device on every machine; what a long run says is in tests/judge/README.md
 fw_first_part_of(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py --judge $<TARGET_FILE:judge>
                  --program ${FW_PROGRAM} --seed 7001 FIRST --count 10 WHOLE --count 24)
+# required poses held by the judge's beams
+fw_first_part_of(judge.poses COMMAND ${Python3_EXECUTABLE} tests/judge/poses.py --judge $<TARGET_FILE:judge>
+                 --program ${FW_PROGRAM} --seed 5 FIRST --count 1 WHOLE --count 12)
 # clearances of random devices against GEOS; a longer run is in tests/clearance/README.md
 fw_script_test(clearance.random COMMAND /usr/bin/python3 tests/clearance/compare.py
                $<TARGET_FILE:clearance_outlines> --seed 1 --count 6)

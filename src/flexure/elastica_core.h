@@ -37,6 +37,11 @@ typedef struct fw_flexure_element {
     fw_nodes kept;                /* phi to go back to */
     fw_nodes change[1 + FW_UNKNOWN];        /* of phi in this pass: itself, by the unknowns */
     double start, start_by[1 + FW_UNKNOWN]; /* phi at the start, the same way */
+    double rise;                            /* of the moment, by the present phi */
+    /* Where what is carried has grown, the moment at the element's end takes the place of the first
+       unknown: that is then (end + shift - by_force.F)/grown; grown 0: it stays. `first` is its
+       change in this element */
+    double grown, shift, by_force[2], first;
 } fw_flexure_element;
 
 typedef struct fw_flexure_mesh {
@@ -46,6 +51,7 @@ typedef struct fw_flexure_mesh {
     double end, end_by[1 + FW_UNKNOWN];   /* phi at the end */
     double turn, turn_by[1 + FW_UNKNOWN]; /* of the second body: that and what its root gives */
     double kept;                          /* turn to go back to */
+    double growth;                        /* product of all `grown`; 1: none */
 } fw_flexure_mesh;
 
 struct fw_flexure_elastica {
@@ -85,6 +91,8 @@ void fw_flexure_mesh_refine(fw_flexure_elastica *e,
 void fw_flexure_element_pass(fw_flexure_element *el, const double force[2],
                              fw_flexure_carried *carried);
 void fw_flexure_mesh_pass(fw_flexure_elastica *e, int level, fw_flexure_end_state *end);
+/* over element n of a solved mesh: values alone */
+void fw_flexure_solved_pass(fw_flexure_elastica *e, int n, fw_flexure_carried *carried);
 /* adds the change for dp to phi and p; answers the largest change, *span the largest |phi| */
 double fw_flexure_mesh_update(fw_flexure_elastica *e, int level, const double *dp, double *span);
 void fw_flexure_elastica_begin(const fw_flexure_elastica *e, fw_flexure_carried *carried);

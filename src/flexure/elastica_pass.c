@@ -85,6 +85,8 @@ static inline void carry(fw_flexure_element *el, const slopes *at, fw_flexure_ca
     fw_nodes wm = w * at->m_psi, wx = w * at->x_psi, wy = w * at->y_psi, bm = b * at->m_psi;
     sum = b * at->m + bm * change[0];
     c->value[PHI] += el->turn * c->value[MOMENT] + total(&sum);
+    sum = w * at->m;
+    el->rise = total(&sum);
     sum = w * at->m + wm * change[0];
     c->value[MOMENT] += total(&sum);
     sum = w * at->x + wx * change[0];
@@ -171,12 +173,46 @@ static void move_to_point(const fw_flexure_elastica *e, const fw_flexure_carried
     }
 }
 
+/* Along a pulled strip what the moment at the start changes grows as exp(sqrt(F) s), and beyond 1e16 of
+   it nothing is left of the other end. Where it has grown by that much the moment here, less `moment` that
+   the present rotations have, is the first unknown from here on, so that nothing carried is large. A
+   Riccati sweep in steps; backwards it decays. Source: Ascher, Mattheij, Russell, Numerical Solution of
+   Boundary Value Problems, 1995, section 4.4. Test: test_elastica_ways.c strongly_pulled */
+static const double grown_much = 1e3;
+
+static void take_moment_here(fw_flexure_element *el, double moment, fw_flexure_carried *c) {
+    double g = c->by[MOMENT][0];
+    el->grown = 0;
+    if (!(fabs(g) > grown_much)) return;
+    el->grown = g;
+    el->shift = moment - c->value[MOMENT];
+    for (int k = 0; k < 2; k++)
+        el->by_force[k] = c->by[MOMENT][1 + k];
+    for (int i = 0; i < CARRIED; i++) {
+        double by = c->by[i][0] / g;
+        c->value[i] += by * el->shift;
+        c->by[i][0] = by;
+        for (int k = 0; k < 2; k++)
+            c->by[i][1 + k] -= by * el->by_force[k];
+    }
+    c->value[MOMENT] = moment;
+    c->by[MOMENT][0] = 1;
+    c->by[MOMENT][1] = c->by[MOMENT][2] = 0;
+}
+
 void fw_flexure_mesh_pass(fw_flexure_elastica *e, int level, fw_flexure_end_state *end) {
     fw_flexure_mesh *mesh = &e->mesh[level];
     fw_flexure_carried c;
     fw_flexure_elastica_begin(e, &c);
-    for (int n = 0; n < mesh->count; n++)
-        fw_flexure_element_pass(&mesh->element[n], &e->p[1], &c);
+    double moment = c.value[MOMENT];
+    mesh->growth = 1;
+    for (int n = 0; n < mesh->count; n++) {
+        fw_flexure_element *el = &mesh->element[n];
+        fw_flexure_element_pass(el, &e->p[1], &c);
+        moment += el->rise;
+        take_moment_here(el, moment, &c);
+        if (el->grown != 0) mesh->growth *= el->grown;
+    }
     mesh->end_by[0] = c.value[PHI];
     for (int k = 0; k < FW_UNKNOWN; k++)
         mesh->end_by[1 + k] = c.by[PHI][k];
@@ -187,20 +223,39 @@ void fw_flexure_mesh_pass(fw_flexure_elastica *e, int level, fw_flexure_end_stat
     e->passes += mesh->count;
 }
 
+/* with rotations that are solved the moment follows from these, and is not carried where it grows */
+void fw_flexure_solved_pass(fw_flexure_elastica *e, int n, fw_flexure_carried *c) {
+    fw_flexure_mesh *mesh = &e->mesh[e->solved];
+    fw_flexure_element *el = &mesh->element[n];
+    double moment = c->value[MOMENT];
+    fw_flexure_element_pass(el, &e->p[1], c);
+    if (mesh->growth == 1) return;
+    c->value[MOMENT] = moment + el->rise;
+    c->value[PHI] = n + 1 < mesh->count ? el[1].start : mesh->end;
+}
+
 static double applied(const double *by, const double *dp) {
     return by[0] + by[1] * dp[0] + by[2] * dp[1] + by[3] * dp[2];
 }
 
 double fw_flexure_mesh_update(fw_flexure_elastica *e, int level, const double *dp, double *span) {
     fw_flexure_mesh *mesh = &e->mesh[level];
-    double most = 0, size = 1;
+    double most = 0, size = 1, d[FW_UNKNOWN] = {dp[0], dp[1], dp[2]};
     *span = 0;
+    for (int n = mesh->count - 1; n >= 0; n--) {
+        fw_flexure_element *el = &mesh->element[n];
+        if (el->grown != 0)
+            d[0] = (d[0] + el->shift - el->by_force[0] * d[1] - el->by_force[1] * d[2]) / el->grown;
+        el->first = d[0];
+    }
+    const double start = d[0];
     for (int n = 0; n < mesh->count; n++) {
         fw_flexure_element *el = &mesh->element[n];
+        d[0] = el->first;
         fw_nodes change =
-            el->change[0] + dp[0] * el->change[1] + dp[1] * el->change[2] + dp[2] * el->change[3];
+            el->change[0] + d[0] * el->change[1] + d[1] * el->change[2] + d[2] * el->change[3];
         el->phi += change;
-        el->start = applied(el->start_by, dp);
+        el->start = applied(el->start_by, d);
         for (int i = 0; i < FW_NODES; i++) {
             most = fabs(change[i]) > most ? fabs(change[i]) : most;
             *span = fabs(el->phi[i]) > *span ? fabs(el->phi[i]) : *span;
@@ -211,12 +266,13 @@ double fw_flexure_mesh_update(fw_flexure_elastica *e, int level, const double *d
     most = fmax(most, fabs(mesh->turn - turn));
     mesh->end = applied(mesh->end_by, dp); /* a number that is none anywhere comes to here */
     if (!isfinite(mesh->end)) most = (double)INFINITY;
+    d[0] = start;
     for (int k = 0; k < FW_UNKNOWN; k++) {
-        e->p[k] += dp[k];
+        e->p[k] += d[k];
         size = fmax(size, fabs(e->p[k]));
     }
     for (int k = 0; k < FW_UNKNOWN; k++)
-        most = fmax(most, fabs(dp[k]) / size);
+        most = fmax(most, fabs(d[k]) / size);
     return most;
 }
 

@@ -37,6 +37,7 @@ static bool step_of(fw_flexure_elastica *e, int level, const fw_flexure_goal *g,
     }
     if (g->eased) ease(g, &n->end, a, x);
     bool regular = fw_maths_solve3(a, 1, x, &det);
+    det *= e->mesh[level].growth; /* by the moment at the start, as of the unloaded beam */
     n->stability = e->unloaded != 0 ? det / e->unloaded : (double)NAN;
     if (!regular || !isfinite(det) || n->stability * n->sign < 0) return false;
     const double dp[3] = {x[0][0], x[1][0], x[2][0]};
@@ -312,7 +313,7 @@ static const fw_flexure_element *walk(fw_flexure_elastica *e, int n, fw_flexure_
     const fw_flexure_mesh *mesh = &e->mesh[e->solved];
     fw_flexure_elastica_begin(e, at);
     for (int i = 0; i < n; i++)
-        fw_flexure_element_pass(&mesh->element[i], &e->p[1], at);
+        fw_flexure_solved_pass(e, i, at);
     return &mesh->element[n];
 }
 
@@ -403,14 +404,14 @@ typedef struct curve { /* rotation and moment over one element */
 } curve;
 
 /* *carried goes from the start of the element to its end */
-static curve curve_of(const fw_flexure_elastica *e, fw_flexure_element *el,
-                      fw_flexure_carried *carried) {
+static curve curve_of(fw_flexure_elastica *e, int n, fw_flexure_carried *carried) {
+    const fw_flexure_element *el = &e->mesh[e->solved].element[n];
     curve c = {.phi = {carried->value[PHI]}, .moment = {carried->value[MOMENT]}};
     fw_nodes moment;
     moment_at_nodes(e, el, carried->value[MOMENT], &moment);
     for (int i = 0; i < FW_NODES; i++)
         c.phi[1 + i] = el->phi[i], c.moment[1 + i] = moment[i];
-    fw_flexure_element_pass(el, &e->p[1], carried);
+    fw_flexure_solved_pass(e, n, carried);
     c.phi[PLACES - 1] = carried->value[PHI], c.moment[PLACES - 1] = carried->value[MOMENT];
     return c;
 }
@@ -444,9 +445,9 @@ void fw_flexure_elastica_along(fw_flexure_elastica *e, int n, const double *part
     fw_flexure_carried at;
     if (mesh) fw_flexure_elastica_begin(e, &at);
     for (int i = 0, k = 0; mesh && k < mesh->count; before += mesh->element[k++].h) {
-        fw_flexure_element *el = &mesh->element[k];
+        const fw_flexure_element *el = &mesh->element[k];
         bool last = k == mesh->count - 1;
-        const curve c = curve_of(e, el, &at);
+        const curve c = curve_of(e, k, &at);
         for (; i < n && (last || part[i] < before + el->h); i++) {
             fw_flexure_beam_section made;
             double phi, moment, z = fmin(fmax((part[i] - before) / el->h, 0), 1);
@@ -517,7 +518,7 @@ void fw_flexure_elastica_peak_strain(fw_flexure_elastica *e, fw_flexure_elastica
                 *out = at[i];
                 element = n, place = i, kept = start;
             }
-        fw_flexure_element_pass(el, &e->p[1], &start);
+        fw_flexure_solved_pass(e, n, &start);
     }
     const fw_flexure_element *el = &e->mesh[e->solved].element[element];
     double z[PLACES] = {0};
@@ -547,7 +548,7 @@ double fw_flexure_elastica_energy_J(fw_flexure_elastica *e) {
         fw_nodes density = el->once_end * (moment * moment * el->bend + stretch);
         for (int j = 0; j < FW_NODES; j++)
             sum += density[j];
-        fw_flexure_element_pass(el, &e->p[1], &at);
+        fw_flexure_solved_pass(e, n, &at);
     }
     sum += e->root[1] * at.value[MOMENT] * at.value[MOMENT];
     return 0.5 * sum / e->soft;

@@ -139,12 +139,12 @@ static double limit_angle(turned *t, double guess_rad, double limit) {
    a section's axial force does not bend it here. W then misses the neutral radius, r u^2/3
    sin(a)/a, u = t/2r; kx and ky miss up to 2 u^2 and 4 u^2. The beam's own error is told and far
    smaller */
-static void errors_of(const fw_plan_ladder_case *c, const fw_flexure_elastica_result *at,
-                      fw_report_level *row) {
+static void errors_of(const fw_plan_ladder_case *c, const fw_flexure_result *closed_form,
+                      const fw_flexure_elastica_result *at, fw_report_level *row) {
     const fw_flexure_input *in = &c->hinge->input;
     bool arc = in->kind == FW_FLEXURE_CSFH;
     double u = arc ? 0.5 * in->width_m / in->radius_m : 0, a = 0.5 * in->angle_rad;
-    fw_flexure_error e = c->hinge->closed_form.error;
+    fw_flexure_error e = closed_form->error; /* of the strain that is shown */
     e.stiffness += at->error, e.strain += at->error;
     e.kx += 2 * u * u + at->error, e.ky += 4 * u * u + at->error;
     if (arc) e.centre_m += in->radius_m * u * u / 3 * fabs(sin(a)) / a;
@@ -188,7 +188,7 @@ static fw_status elastica(const fw_plan_ladder_case *c, fw_report_level *row) {
                              .limit_angle_rad = angle,
                              .moment_Nm = t.at.wrench[0],
                              .drift_m = hypot(t.at.twist[1], t.at.twist[2])};
-    errors_of(c, &t.at, row);
+    errors_of(c, r, &t.at, row);
     return FW_OK;
 }
 

@@ -258,6 +258,7 @@ static void loads(fw_json *json, const fw_verdict_variant_verdict *v) {
         fw_json_real(json, "angle_rad", l->angle_rad);
         fw_json_real(json, "joint_force_N", l->force_N);
         fw_json_real(json, "over_rotation", l->over_rotation);
+        fw_json_real(json, "added", l->added);
         fw_json_real(json, "give", l->give);
         fw_json_real(json, "relief", l->relief);
         fw_json_text(json, "actuation", l->actuation);

@@ -44,9 +44,11 @@ fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *re
    else: the statement is of the rotation, the pin is its model, and it costs a tenth. They stay
    where the step to hinges that give changes less than `fw_statics_level_stated` times the accuracy
    (3 % at the default accuracy: what stiffnesses are known to). Not where something acts on
-   hinges that give in another way, or draws them across their strip. */
-bool fw_statics_level_pins_first(const fw_mechanism *mechanism, const fw_device_scene *scene,
-                                 const fw_effect_choice *asked);
+   hinges that give in another way, or draws them across their strip, and not where pins hold a body
+   that flexures let move. */
+fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const fw_device_scene *scene, const fw_effect_choice *asked,
+                                      bool *first);
 static const double fw_statics_level_stated = 30;
 /* it was computed, and changes less; step may be NULL */
 bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy);

@@ -365,7 +365,8 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
     if (options->hinge_accuracy > 0) accuracy = stated = options->hinge_accuracy;
     *motion = NULL;
     FW_TRY(fw_dynamics_check_request(mechanism, scene, options, diags));
-    bool tried = fw_statics_level_pins_first(mechanism, scene, asked);
+    bool tried;
+    FW_TRY(fw_statics_level_pins_first(arena, mechanism, scene, asked, &tried));
     if (tried) o.effects.hinge = FW_HINGE_REVOLUTE, o.effects.pins_first = true;
     for (;;) {
         const fw_dynamics_motion *found;

@@ -419,7 +419,8 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
     fw_effect_choice choice = options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     double stated = fw_statics_level_stated * accuracy;
-    bool tried = fw_statics_level_pins_first(mechanism, scene, &choice);
+    bool tried;
+    FW_TRY(fw_statics_level_pins_first(arena, mechanism, scene, &choice, &tried));
     *modes = NULL;
     if (tried) choice.hinge = FW_HINGE_REVOLUTE, choice.pins_first = true;
     for (;;) {

@@ -158,7 +158,8 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     out->peak_angle_rad = peak->angle_rad;
     out->angle_error_rad = peak->error_rad;
     out->t_s = (double)NAN;
-    out->utilisation = load->known ? load->strain / out->strain_limit : by_angle;
+    out->utilisation =
+        load->known ? load->strain * (1.0 + load->added) / out->strain_limit : by_angle;
     out->peak_strain = out->utilisation * out->strain_limit;
     out->actuation = load->actuation;
     out->joint_force_N = load->known ? load->force_N : (double)NAN;
@@ -175,7 +176,7 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     out->lasting = moved + c->error.above + load->give;
     out->lasting_low = low;
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - low) - numeric);
-    out->utilisation_high = out->utilisation * (1.0 + moved + c->error.above + load->give);
+    out->utilisation_high = out->utilisation * (1.0 + out->lasting);
     if (!workspace->certified) out->utilisation_high += numeric;
     chance(by, out);
     workspace_fatigue(by, out);
@@ -342,12 +343,36 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
     return FW_OK;
 }
 
+/* required poses in which nothing bounds what drift and give of the hinges add */
+static fw_status judge_give(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_workspace_load *worst = NULL;
+    const char *text;
+    for (int i = 0; i < FW_SIX && !worst; i++)
+        if (v->workspace.load[i].known && isinf(v->workspace.load[i].give))
+            worst = &v->workspace.load[i];
+    if (!worst) return FW_OK;
+    FW_NEED(text = fw_arena_printf(
+                arena,
+                "what drift and give of the hinges change in required poses is not known: held by "
+                "%s, no equilibrium of hinges that give was found; hold the platform where it is "
+                "needed, ask for a smaller box, or take hinges that give less",
+                worst->actuation));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = 535,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = 0.5,
+                                                  .text = text};
+    return FW_OK;
+}
+
 /* a required pose that no pose of the legs has: nothing of a hinge can be said there */
 static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_result *w = &v->workspace;
     char x[32], y[32], phi[32];
     const char *text;
-    if (!w->required || w->reachable) return FW_OK;
+    if (!w->required) return FW_OK;
+    if (w->reachable) return judge_give(arena, v);
     FW_NEED(text = fw_arena_printf(
                 arena,
                 "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "

@@ -163,8 +163,8 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
 
 /* ---- loads in the plane that tip it ---- */
 
-/* forces of the scene at their points, with their laws' largest values; of anything else that may act on a body its force
-   is not looked up */
+/* forces of the scene at their points, with their laws' largest values; of anything else that may act on a body, and
+   of a law without a proved largest value, its force is not looked up */
 static void acting(const fw_mechanism *m, const fw_device_scene *s, double *else_Nm) {
     const bool more = s->ntendon || s->ncomb || s->ncontact || s->npart || m->nspring || m->ndriver;
     for (int b = 0; b < m->nbody; b++)
@@ -172,8 +172,10 @@ static void acting(const fw_mechanism *m, const fw_device_scene *s, double *else
     for (int i = 0; i < s->nforce; i++) {
         const fw_device_force *f = &s->force[i];
         if (f->body == FW_GROUND) continue;
+        double arm = hypot(f->x_m, f->y_m);
+        if (!(arm > 0)) continue;
         double most = fw_quantity_law_measure(f->law, s->duration_s).most;
-        else_Nm[f->body] += most * hypot(f->fx_N, f->fy_N) * hypot(f->x_m, f->y_m);
+        else_Nm[f->body] += isfinite(most) ? most * hypot(f->fx_N, f->fy_N) * arm : (double)NAN;
     }
 }
 

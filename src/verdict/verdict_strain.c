@@ -201,12 +201,17 @@ double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
 /* Largest difference of strain and of angle between the level used and the next at the motion's
    peak, over the largest of either, and what both have in common. In a motion with inertia pins
    are judged by the reference cases where these are worse: frequencies that shift are not in the
-   step. Exact beams have no next level: what is left is what they have in common with solids. */
+   step. Exact beams have no next level: what is left is what they have in common with solids. Where the
+   step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
+   equilibrium, the utilisation may be off by half: a verdict is then neither. */
+static const double model_not_known = 0.5;
+
 double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const fw_statics_level_step *s = x->level;
     double usual = fw_verdict_model_error.motion, common = fw_verdict_motion_lasting_error(m),
            off = 0, largest = 0;
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
+    if (s && s->unknown) return model_not_known;
     if (!s || s->why_not || m->nhinge == 0) return usual;
     for (int k = 0; k < m->nhinge; k++) {
         if (!isfinite(s->at.strain[k]) || !isfinite(s->up.strain[k])) return usual;

@@ -262,10 +262,24 @@ fw_status fw_workspace_certify_strain(fw_arena *arena, const fw_workspace_hold *
 fw_status fw_workspace_sample_strain(fw_arena *arena, const fw_workspace_hold *hold,
                                      const fw_workspace_box3 *box,
                                      fw_workspace_strain_proof *proof);
+
+/* ---- pose_give.c: what drift and give of the hinges change ---- */
+
+typedef struct fw_workspace_give {
+    bool first_order;           /* not known yet: by first order at the hinge's own worst pose */
+    double added, give, relief; /* of fw_workspace_load */
+} fw_workspace_give;
+fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold,
+                             const fw_mechanism *mechanism, const fw_workspace_box3 *box,
+                             const fw_workspace_strain_proof *proof,
+                             fw_workspace_give give[FW_SIX]);
 /* What is known of a hinge at its worst pose beside the strain: see fw_workspace_load. */
 fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
                                const fw_mechanism *mechanism,
                                const fw_workspace_strain_proof *proof, int hinge,
-                               fw_workspace_load *load);
+                               const fw_workspace_give *give, fw_workspace_load *load);
+/* of two boxes: the one with the larger strain stays, with what the other one has when hinges give */
+void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load *b,
+                            fw_workspace_load *out);
 
 #endif

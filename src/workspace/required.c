@@ -275,11 +275,15 @@ static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_wor
         result->certified = false;
         FW_TRY(fw_workspace_sample_strain(arena, hold, box, proof));
     }
+    fw_workspace_give give[FW_SIX];
+    FW_TRY(fw_workspace_gives(arena, hold, m, box, proof, give));
     for (int i = 0; i < FW_SIX; i++) {
-        if (hold->section[i].n == 0 ||
-            (result->load[i].known && !(proof->strain[i] > result->load[i].strain)))
-            continue;
-        FW_TRY(fw_workspace_load_of(arena, hold, m, proof, i, &result->load[i]));
+        if (hold->section[i].n == 0) continue;
+        fw_workspace_load now, was = result->load[i];
+        FW_TRY(fw_workspace_load_of(arena, hold, m, proof, i, &give[i], &now));
+        bool worse = !was.known || now.strain > was.strain;
+        result->load[i] = worse ? now : was;
+        if (was.known) fw_workspace_load_both(&was, &now, &result->load[i]);
     }
     return FW_OK;
 }

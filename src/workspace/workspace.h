@@ -70,8 +70,9 @@ typedef struct fw_workspace_load { /* of one hinge, the worst over all required 
     double x_m, y_m, phi_rad;      /* where it is nearly reached, and there: */
     double angle_rad, force_N;
     double over_rotation; /* strain over that of the rotation alone */
-    /* relative: what drift and give of all hinges may add, and take away */
-    double give, relief;
+    /* relative: what poses with hinges that drift and give were found to have beyond `strain`, or
+       less; of both together what these may add besides (HUGE_VAL: nothing bounds it), and take away */
+    double added, give, relief;
     const char *actuation; /* what holds the pose, the worst that the description allows */
 } fw_workspace_load;
 

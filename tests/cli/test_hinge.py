@@ -188,6 +188,13 @@ class Hinge(unittest.TestCase):
                     # of a crystal, shear goes with the direction too: some 0.1 %
                     self.assertLessEqual(abs(beam[key] / closed[key] - 1), own + (0.002 if crystal else 1e-6), hinge)
 
+    def test_deep_arc(self):
+        """every level's strain against a solid of its own (`--level continuum`), which is 2.5 % below the printed form"""
+        levels = self.ladder(device([(arc(88, 236, 9.3, 3.1), 20)], "140 GPa", 0.27, "74 um", "1 GPa"))["hinges"][0]["levels"]
+        self.assertEqual([row["level"] for row in levels], CHEAP)
+        for row in levels:
+            self.assertLessEqual(abs(row["strain_per_rad"] / 0.01928219 - 1), row["error"]["strain"], row)
+
     @unittest.skipUnless(CCX, "CalculiX is not installed")
     def test_random_solids(self):
         _, _, an_arc, a_leaf = self.random_flexures(4, 5)

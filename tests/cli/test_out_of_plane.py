@@ -115,6 +115,17 @@ class OutOfPlane(unittest.TestCase):
         self.assertEqual(all_["body"], "coupler")
         self.assertAlmostEqual(all_["stiffness_N_per_m"] * 0.2983686, 1, 2)
 
+    def test_a_law_that_nothing_bounds(self):
+        """forces beside the centre, and shocks, whose law is a formula: of its largest value nothing is proved"""
+        law = 'law="expression" factor="(1 - cos(pi*time/(20 ms)))/2"'
+        whole, _, one = self.across(f'<force on="stage" x="0.1 mm" fx="1 uN" {law}/>')
+        self.assertEqual(whole["verdict"], "accept")
+        bounded = self.across('<force on="stage" x="0.1 mm" fx="1 uN" law="ramp" rise="15 ms"/>')[2]
+        self.assertTrue(1 < one["tips_at"] <= bounded["tips_at"], (one["tips_at"], bounded["tips_at"]))
+        shaken = self.across(f'<base-motion az="100 m/s^2" {law}/>', flow=GLASS)
+        self.assertEqual(shaken[0]["verdict"], "inconclusive")
+        self.assertIn("580", json.dumps(shaken[0]["reasons"]))
+
     def test_required_frequency_counts_both(self):
         thin = "6 um"
         whole, all_, _ = self.across(thickness=thin)

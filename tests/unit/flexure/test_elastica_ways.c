@@ -387,12 +387,58 @@ static void memory_runs_out(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* A leaf pulled by N along its chord and turned by a little bends as a column,
+   M(xi) = M0 cosh z (2 xi - 1)/cosh z, z^2 = N (1 + d N) L^2/4 EI, whatever N: to z = 35, where what the first root's
+   moment changes has grown by 1e30 at the other one */
+static void strongly_pulled(void **state) {
+    (void)state;
+    const double L = 600 * um, t = 5 * um, h = 20 * um, E = 1e11, G = 4e10, dL = 1.2 * um, th = 1e-6;
+    const double EA = E * h * t, EI = EA * t * t / 12, d = 1 / EA - 1.2 / (G * h * t);
+    for (double strain = 1e-4; strain < 0.025; strain *= 1.3) {
+        double N = strain * EA, q = N * (1 + d * N), z = 0.5 * L * sqrt(q / EI), stretch = strain * L;
+        double M0 = th / (L / EI * tanh(z) / z + 2 * dL / EI);
+        rig r = {.beam = {.npiece = 1, .depth_m = h, .youngs_Pa = E, .shear_Pa = G, .root_m = {dL, dL}}};
+        r.piece[0] = (fw_flexure_beam_piece){.length_m = L, .width_m = {t, t, t}};
+        begin(&r, NULL, false);
+        /* along x: the chord stays half way between both bodies */
+        const double twist[3] = {th, stretch * cos(0.5 * th), stretch * sin(0.5 * th)};
+        const double guess[3] = {M0, N, 0}, part[] = {0, 0.25, 0.5, 0.75, 1};
+        const fw_flexure_elastica_task place = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                                {twist[0], twist[1], twist[2]}};
+        const fw_flexure_elastica_task force = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                                {th, N * cos(0.5 * th), N * sin(0.5 * th)}};
+        for (int i = 0; i < 2; i++) {
+            fw_flexure_elastica_result out;
+            double M[5], along[5];
+            fw_flexure_elastica_near(r.e, i ? &force : &place, twist, guess, 1e-8, &out);
+            assert_int_equal(out.code, FW_ELASTICA_OK);
+            fw_flexure_elastica_along(r.e, 5, part, M, along);
+            for (int k = 0; k < 5; k++) {
+                double wanted = M0 * cosh(z * (2 * part[k] - 1)) / cosh(z);
+                assert_true(fabs(M[k] - wanted) < 1e-5 * M0);
+                assert_true(fabs(along[k] / N - 1) < 1e-6);
+            }
+            for (int k = 0; k < 9; k++) {
+                double a = out.stiffness[k / 3][k % 3], b = out.stiffness[k % 3][k / 3];
+                assert_true(fabs(a - b) <= 1e-6 * (fabs(a) + fabs(b)));
+            }
+            fw_flexure_elastica_state end;
+            fw_flexure_elastica_at(r.e, L, &end);
+            assert_true(fabs(end.moment_Nm - M0) < 1e-5 * M0);
+            double U = 0.5 * N * stretch + 0.5 * M0 * th;
+            assert_true(fabs(fw_flexure_elastica_energy_J(r.e) / U - 1) < 1e-6);
+        }
+        fw_arena_free(r.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_are_told),
         cmocka_unit_test(warm_is_cold),
         cmocka_unit_test(leaves_are_met_at_once),
         cmocka_unit_test(limits_are_told),
+        cmocka_unit_test(strongly_pulled),
         cmocka_unit_test(primary_branch),
         cmocka_unit_test(inside_a_wound_arc),
         cmocka_unit_test(inside_any_beam),

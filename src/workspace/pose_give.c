@@ -1,0 +1,568 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is known of the hinges at their worst poses beside the proved strain: where it is, and what
+   drift and give of all hinges add to it or take away.
+
+   First order: a leg whose hinges are displaced is one whose platform hinge is. It is asked where
+   the axis of a hinge is not known. Else corners and worst poses are solved with hinges that give: the
+   platform stands still, the four links have three unknowns each, three actuators have their sizes,
+
+     sum of the hinges' forces on body k + sum s_j G_j(k) = 0,   k = 1..5
+
+   by Newton's method from the pose with pins, else along the way to it from the drawn one. Hinges
+   have the law of finite_force.c, its own frame half turned, strains are those of strip_strain.c.
+   in: m, rad, N; out: relative. Error: law 1 % of the strain, poses that were not looked at by what
+   the proved bound with pins has over those that were. Cost 40 us a pose and grip. Source:
+   docs/theory/workspace.md. Test: test_pose_strain.c. */
+#include "maths/dense.h"
+#include "workspace/pose_load.h"
+#include <math.h>
+#include <string.h>
+
+enum {
+    LINKS = 5,
+    PLATFORM = 2,
+    UNKNOWN = 15,
+    CORNERS = 8,
+    ROUNDS = 30,
+    STEPS = 8,
+    MOST_GRIPS = 64
+};
+
+/* relative: of the strain by the hinges' law; beyond the other first order says nothing */
+static const double law_error = 0.01, first_order_most = 0.2;
+static const fw_workspace_give nothing_known = {.give = HUGE_VAL, .relief = 1.0};
+
+/* ---- first order ---- */
+
+typedef struct worst {
+    const fw_workspace_hold *hold;
+    const fw_workspace_strain_extreme *at;
+    fw_workspace_response *response;
+    int hinge;
+} worst;
+
+/* strain of the hinge with C and D displaced; 0: out of reach */
+static double displaced(const worst *w, const double shift[4], fw_workspace_pose_load *load,
+                        fw_workspace_jet2 force[FW_SIX]) {
+    const double *p = w->at->pose;
+    const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    const fw_workspace_grip *grip = &w->hold->grip[w->at->grip];
+    bool certain, own[2];
+    if (!fw_workspace_pose_load_over(w->hold, &at, shift, load)) return 0.0;
+    for (int k = 0; k < 3 && !grip->wrench; k++) {
+        int i = grip->actuator[k];
+        fw_workspace_pose_response(w->hold, load, &w->hold->actuator[i], &w->response[i]);
+    }
+    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, own, force))
+        return 0.0;
+    fw_maths_interval s = fw_workspace_pose_strain(w->hold, load, w->hinge, &force[w->hinge], NULL);
+    return 0.5 * (s.lo + s.hi);
+}
+
+/* How far a hinge's drift and give move the end that a stiff leg would have, times how the strain
+   goes with that end. A leg that pushes the platform with R gives by C R the other way: its end has
+   to be held that much further along R. The left leg pushes with R, the right one with -R. give:
+   with its sign; drift: the size of what the drift does. in: N, strain/m; out: strain. */
+static void given(const fw_mechanism *m, const fw_workspace_pose_load *load, int i,
+                  const fw_workspace_jet2 *force, const double slope[2], double *give,
+                  double *drift) {
+    int k = m->pin[i].hinge;
+    if (k == FW_NONE) return;
+    const fw_mechanism_hinge *h = &m->hinge[k];
+    double theta = load->theta[i].v.m, fx = force->x.v.m, fy = force->y.v.m;
+    double sign = i < 3 ? 1.0 : -1.0, steep = hypot(slope[0], slope[1]);
+    fw_flexure_hinge_at at;
+    if (!fw_flexure_hinge_law_holds(&h->law, theta)) {
+        *drift = HUGE_VAL;
+        return;
+    }
+    fw_flexure_hinge_law_at(&h->law, theta, &at);
+    double cx = 1.0 / at.kx_N_per_m.value, cy = 1.0 / at.ky_N_per_m.value;
+    if (!isfinite(h->axis_rad)) { /* C is known within its two ends, whatever its direction */
+        *give += sign * 0.5 * (cx + cy) * (slope[0] * fx + slope[1] * fy);
+        *drift += steep * (0.5 * fabs(cx - cy) * hypot(fx, fy) + fabs(at.drift_m.value));
+        return;
+    }
+    double c = load->frame[i].x.v.m, s = load->frame[i].y.v.m;
+    double along = c * slope[0] + s * slope[1], across = c * slope[1] - s * slope[0];
+    *give += sign * (along * (c * fx + s * fy) * cx + across * (c * fy - s * fx) * cy);
+    *drift += fabs(across * at.drift_m.value);
+}
+
+/* first order, and its square for what that leaves out; far out it says nothing */
+static void give_and_drift(const worst *w, const fw_mechanism *m,
+                           const fw_workspace_pose_load *load, const fw_workspace_jet2 *force,
+                           double strain, fw_workspace_give *out) {
+    fw_workspace_pose_load beside;
+    fw_workspace_jet2 other[FW_SIX];
+    double slope[4], step = 1e-4 * w->hold->length_m, give = 0.0, drift = 0.0;
+    for (int i = 0; i < 4; i++) {
+        double up[4] = {0}, down[4] = {0};
+        up[i] = step, down[i] = -step;
+        slope[i] =
+            (displaced(w, up, &beside, other) - displaced(w, down, &beside, other)) / (2.0 * step);
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        given(m, load, i, &force[i], &slope[i < 3 ? 0 : 2], &give, &drift);
+    give /= strain, drift /= strain;
+    out->give = fmax(give, 0.0) + drift + give * give;
+    out->relief = fmax(-give, 0.0) + drift + give * give;
+    if (!(fmax(out->give, out->relief) < first_order_most)) *out = nothing_known;
+}
+
+/* ---- hinges that give ---- */
+
+typedef struct limber {
+    const fw_workspace_hold *hold;
+    const fw_mechanism *m;
+    const fw_mechanism_hinge *hinge[FW_SIX]; /* NULL: an ideal pin */
+    fw_flexure_hinge_rest rest[FW_SIX];
+    fw_geometry_vec2 pin[FW_SIX]; /* as drawn, world */
+    double moment_Nm, force_N;    /* units of rows and sizes */
+    double stiff_N_per_m;         /* of a pin */
+} limber;
+
+typedef struct standing {
+    double body[LINKS][3]; /* displacement of hold->at (m) and rotation (rad), from the drawing */
+    double size[3];        /* of the actuators, in their units times force_N */
+} standing;
+
+typedef struct loads {
+    double on[LINKS][3]; /* N, N, N m about the body's displaced point */
+} loads;
+
+static fw_geometry_vec2 place(const limber *l, const standing *s, int body, fw_geometry_vec2 p) {
+    if (body < 0 || body >= LINKS) return p;
+    const double *q = s->body[body], c = cos(q[2]), n = sin(q[2]);
+    fw_geometry_vec2 at = l->hold->at[body];
+    double x = p.x - at.x, y = p.y - at.y;
+    return (fw_geometry_vec2){at.x + q[0] + c * x - n * y, at.y + q[1] + n * x + c * y};
+}
+
+static double turn(const standing *s, int body) {
+    return body < 0 || body >= LINKS ? 0.0 : s->body[body][2];
+}
+
+static void add(const limber *l, const standing *s, int body, fw_geometry_vec2 at, double fx,
+                double fy, double couple, loads *to) {
+    if (body < 0 || body >= LINKS) return;
+    const double *q = s->body[body];
+    double x = at.x - l->hold->at[body].x - q[0], y = at.y - l->hold->at[body].y - q[1];
+    to->on[body][0] += fx, to->on[body][1] += fy, to->on[body][2] += couple + x * fy - y * fx;
+}
+
+typedef struct opened { /* a hinge between its bodies: rotation, e.D and n.D, frame half turned */
+    double o, th, w, v, c, n;
+    fw_geometry_vec2 from, to;
+} opened;
+
+static opened open_of(const limber *l, const standing *s, int i) {
+    const fw_mechanism_hinge *h = l->hinge[i];
+    double lower = turn(s, i - 1), upper = turn(s, i);
+    opened b = {.o = !h || h->first_is_a ? 1.0 : -1.0,
+                .th = upper - lower + l->hold->loop->start_rad[i],
+                .from = place(l, s, i - 1, l->pin[i]),
+                .to = place(l, s, i, l->pin[i])};
+    double psi = (h ? h->axis_rad : 0.0) + 0.5 * (lower + upper);
+    double dx = b.to.x - b.from.x, dy = b.to.y - b.from.y;
+    b.c = cos(psi), b.n = sin(psi);
+    b.w = b.c * dx + b.n * dy, b.v = b.c * dy - b.n * dx;
+    return b;
+}
+
+/* of an ideal pin: its spring, and a far stiffer one against displacements */
+static void law_of(const limber *l, int i, const opened *b, bool hessian,
+                   fw_flexure_hinge_bent *law) {
+    const double at[3] = {b->o * b->th, b->o * b->w, b->o * b->v};
+    if (l->hinge[i]) {
+        fw_flexure_hinge_law_bend(&l->hinge[i]->law, &l->rest[i], at, hessian, law);
+        return;
+    }
+    *law = (fw_flexure_hinge_bent){.holds = true};
+    for (int k = 0; k < 3; k++) {
+        double stiff = k ? l->stiff_N_per_m : l->hold->section[i].spring_Nm_per_rad;
+        law->hessian[k][k] = stiff, law->gradient[k] = stiff * at[k];
+    }
+}
+
+/* first unknown of a body; the platform and the ground have none */
+static int first_of(int body) {
+    return body < 0 || body >= LINKS || body == PLATFORM ? FW_NONE
+                                                         : 3 * (body < PLATFORM ? body : body - 1);
+}
+
+/* adds d load/d unknown, row of a body's component, column of another's, to a (UNKNOWN x UNKNOWN) in SI */
+static void put(double *a, int body, int row, int column_of, int column, double value) {
+    int first = first_of(column_of);
+    if (first != FW_NONE && body >= 0 && body < LINKS)
+        a[UNKNOWN * (3 * body + row) + first + column] += value;
+}
+
+/* What a hinge does to its bodies (hinge_element.c), and how that goes with their places. With w = e.D, v = n.D
+   and p the places and turns of both pins, load = -G, G = J' (M, X, Y), dG/dp = J' H J + X d2w + Y d2v. */
+static void of_hinge(const limber *l, const standing *s, int i, loads *to, double *a) {
+    const opened b = open_of(l, s, i);
+    fw_flexure_hinge_bent law;
+    law_of(l, i, &b, a != NULL, &law);
+    double M = b.o * law.gradient[0], X = b.o * law.gradient[1], Y = b.o * law.gradient[2];
+    double fx = X * b.c - Y * b.n, fy = X * b.n + Y * b.c, both = 0.5 * (Y * b.w - X * b.v);
+    add(l, s, i - 1, b.from, fx, fy, both + M, to);
+    add(l, s, i, b.to, -fx, -fy, both - M, to);
+    if (!a) return;
+    const double J[3][6] = {{0, 0, -1, 0, 0, 1},
+                            {-b.c, -b.n, 0.5 * b.v, b.c, b.n, 0.5 * b.v},
+                            {b.n, -b.c, -0.5 * b.w, -b.n, b.c, -0.5 * b.w}};
+    const double *H = &law.hessian[0][0];
+    double K[6][6] = {{0}}, arm[2][2] = {{0}};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            for (int p = 0; p < 6; p++)
+                for (int q = 0; q < 6 && J[r][p] != 0; q++)
+                    K[p][q] += J[r][p] * H[3 * r + c] * J[c][q];
+    /* along e and n the force (fx, fy) stays while they turn: by half of either body's turn */
+    const double turned[4] = {0.5 * fy, -0.5 * fx, -0.5 * fy, 0.5 * fx}; /* d G/d turn of places */
+    static const int place_row[4] = {0, 1, 3, 4}, turn_row[2] = {2, 5};
+    for (int t = 0; t < 2; t++) {
+        for (int p = 0; p < 4; p++)
+            K[place_row[p]][turn_row[t]] += turned[p], K[turn_row[t]][place_row[p]] += turned[p];
+        for (int u = 0; u < 2; u++)
+            K[turn_row[t]][turn_row[u]] -= 0.25 * (X * b.w + Y * b.v);
+    }
+    const int body[2] = {i - 1, i};
+    const fw_geometry_vec2 at[2] = {b.from, b.to};
+    for (int side = 0; side < 2; side++)
+        if (body[side] >= 0 && body[side] < LINKS) {
+            arm[side][0] = at[side].x - l->hold->at[body[side]].x - s->body[body[side]][0];
+            arm[side][1] = at[side].y - l->hold->at[body[side]].y - s->body[body[side]][1];
+        }
+    for (int p = 0; p < 6; p++) /* columns, then rows: from pins to bodies */
+        for (int q = 0; q < 2; q++)
+            K[p][3 * q + 2] += arm[q][0] * K[p][3 * q + 1] - arm[q][1] * K[p][3 * q];
+    for (int p = 0; p < 6; p++)
+        for (int q = 0; q < 2; q++)
+            K[3 * q + 2][p] += arm[q][0] * K[3 * q + 1][p] - arm[q][1] * K[3 * q][p];
+    for (int q = 0; q < 2; q++) /* the arms turn, too; G is minus the force on either pin */
+        K[3 * q + 2][3 * q + 2] += (q ? -1 : 1) * (arm[q][0] * fx + arm[q][1] * fy);
+    for (int p = 0; p < 6; p++)
+        for (int q = 0; q < 6; q++)
+            put(a, body[p / 3], p % 3, body[q / 3], q % 3, -K[p][q]);
+}
+
+static fw_geometry_vec2 point(const limber *l, const standing *s,
+                              const fw_workspace_body_point *p) {
+    return place(l, s, p->body, (fw_geometry_vec2){p->x_m, p->y_m});
+}
+
+/* an actuator of size 1, times `by` */
+static void of_actuator(const limber *l, const standing *s, const fw_workspace_actuator *a,
+                        double by, loads *to) {
+    double c = a->kind == FW_ACTUATOR_ELECTRODES ? cos(turn(s, a->against)) : 1.0;
+    double n = a->kind == FW_ACTUATOR_ELECTRODES ? sin(turn(s, a->against)) : 0.0;
+    double fx = by * (c * a->direction[0] - n * a->direction[1]);
+    double fy = by * (n * a->direction[0] + c * a->direction[1]);
+    switch (a->kind) {
+    case FW_ACTUATOR_TORQUE:
+        to->on[a->body][2] += by * l->hold->length_m;
+        break;
+    case FW_ACTUATOR_FORCE:
+    case FW_ACTUATOR_ELECTRODES:
+        add(l, s, a->body, point(l, s, a->point), fx, fy, 0.0, to);
+        add(l, s, a->against, point(l, s, a->point), -fx, -fy, 0.0, to);
+        break;
+    case FW_ACTUATOR_TENDON:
+        for (int i = 0; i + 1 < a->npoint; i++) {
+            const fw_workspace_body_point *p = &a->point[i], *q = p + 1;
+            fw_geometry_vec2 from = point(l, s, p), on = point(l, s, q);
+            double x = on.x - from.x, y = on.y - from.y, way = hypot(x, y);
+            if (p->body == q->body || !(way > 0.0)) continue;
+            add(l, s, p->body, from, by * x / way, by * y / way, 0.0, to);
+            add(l, s, q->body, on, -by * x / way, -by * y / way, 0.0, to);
+        }
+        break;
+    }
+}
+
+/* unknown k: of which body; the platform has none */
+static int body_of(int k) {
+    return k / 3 < PLATFORM ? k / 3 : k / 3 + 1;
+}
+
+static double row_unit(const limber *l, int row) {
+    return row % 3 == 2 ? l->moment_Nm : l->force_N;
+}
+
+/* how an actuator's load goes with the places of the links: a force's arm turns, of others by differences */
+static void actuator_slopes(const limber *l, const standing *s, const fw_workspace_actuator *act,
+                            double size, double *a) {
+    const double step = 1e-7;
+    bool many = act->kind == FW_ACTUATOR_TENDON || act->kind == FW_ACTUATOR_ELECTRODES;
+    if (act->kind == FW_ACTUATOR_FORCE && act->body != PLATFORM) {
+        fw_geometry_vec2 at = point(l, s, act->point), from = l->hold->at[act->body];
+        const double *q = s->body[act->body];
+        double x = at.x - from.x - q[0], y = at.y - from.y - q[1];
+        put(a, act->body, 2, act->body, 2, -size * (y * act->direction[1] + x * act->direction[0]));
+    }
+    loads near = {0};
+    if (many) of_actuator(l, s, act, size, &near);
+    for (int k = 0; many && k < 12; k++) {
+        standing moved = *s;
+        loads far = {0};
+        double by = step * (k % 3 == 2 ? 1.0 : l->hold->length_m);
+        moved.body[body_of(k)][k % 3] += by;
+        of_actuator(l, &moved, act, size, &far);
+        for (int i = 0; i < UNKNOWN; i++)
+            a[UNKNOWN * i + k] += (far.on[i / 3][i % 3] - near.on[i / 3][i % 3]) / by;
+    }
+}
+
+/* loads on the bodies and their slopes by the unknowns, in units of rows and columns */
+static void all(const limber *l, const standing *s, const fw_workspace_grip *grip, double *r,
+                double *a) {
+    loads sum = {0};
+    memset(a, 0, UNKNOWN * UNKNOWN * sizeof *a);
+    for (int i = 0; i < FW_SIX; i++)
+        of_hinge(l, s, i, &sum, a);
+    for (int j = 0; j < 3; j++) {
+        const fw_workspace_actuator *act = &l->hold->actuator[grip->actuator[j]];
+        double size = s->size[j] * l->force_N;
+        loads one = {0};
+        of_actuator(l, s, act, l->force_N, &one);
+        actuator_slopes(l, s, act, size, a);
+        for (int i = 0; i < UNKNOWN; i++) {
+            sum.on[i / 3][i % 3] += s->size[j] * one.on[i / 3][i % 3];
+            a[UNKNOWN * i + 12 + j] = one.on[i / 3][i % 3] / row_unit(l, i);
+        }
+    }
+    for (int i = 0; i < UNKNOWN; i++) {
+        r[i] = sum.on[i / 3][i % 3] / row_unit(l, i);
+        for (int k = 0; k < 12; k++)
+            a[UNKNOWN * i + k] *= (k % 3 == 2 ? 1.0 : l->hold->length_m) / row_unit(l, i);
+    }
+}
+
+/* Newton's method on links and sizes, the platform as it stands in s; false: it leads nowhere */
+static bool settle(const limber *l, const fw_workspace_grip *grip, standing *s) {
+    double a[UNKNOWN * UNKNOWN], x[UNKNOWN];
+    int pivot[UNKNOWN];
+    for (int round = 0; round < ROUNDS; round++) {
+        all(l, s, grip, x, a);
+        if (!fw_maths_lu_factor(UNKNOWN, a, pivot)) return false;
+        fw_maths_lu_solve(UNKNOWN, a, pivot, x);
+        double most = 0.0;
+        for (int k = 0; k < 12; k++)
+            most = fmax(most, fabs(x[k]));
+        if (!isfinite(most)) return false;
+        double by = fmin(1.0, 0.1 / most);
+        for (int k = 0; k < UNKNOWN; k++)
+            *(k < 12 ? &s->body[body_of(k)][k % 3] : &s->size[k - 12]) -=
+                by * x[k] * (k < 12 && k % 3 != 2 ? l->hold->length_m : 1.0);
+        if (most < 1e-6) return true; /* the next change is its square */
+    }
+    return false;
+}
+
+/* as it stands with pins */
+static bool stiff(const limber *l, const double pose[3], standing *s) {
+    const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
+    const fw_workspace_hold *h = l->hold;
+    fw_workspace_pose_load o;
+    if (!fw_workspace_pose_load_over(h, &at, NULL, &o)) return false;
+    for (int k = 0; k < LINKS; k++) {
+        int side = k > PLATFORM;
+        fw_geometry_vec2 base = h->loop->leg[side].base;
+        s->body[k][0] = k == PLATFORM ? pose[0] : base.x + o.a[side].x.v.m - h->at[k].x;
+        s->body[k][1] = k == PLATFORM ? pose[1] : base.y + o.a[side].y.v.m - h->at[k].y;
+        s->body[k][2] = atan2(o.turn[k].y.v.m, o.turn[k].x.v.m);
+    }
+    return true;
+}
+
+/* from where it stands with pins, or along the way from the drawn pose, each step with what pins do
+   in it */
+static bool stand(const limber *l, const fw_workspace_grip *grip, const double pose[3],
+                  standing *s) {
+    *s = (standing){0};
+    if (!stiff(l, pose, s)) return false;
+    if (settle(l, grip, s)) return true;
+    standing before = {0}, now;
+    *s = (standing){0};
+    for (int i = 0; i <= STEPS; i++) {
+        const double part = (double)i / STEPS;
+        const double way[3] = {part * pose[0], part * pose[1], part * pose[2]};
+        if (!stiff(l, way, &now)) return false;
+        for (int k = 0; k < LINKS; k++)
+            for (int j = 0; j < 3; j++)
+                s->body[k][j] += now.body[k][j] - before.body[k][j];
+        before = now;
+        if (!settle(l, grip, s)) return false;
+    }
+    return true;
+}
+
+static bool holds(const limber *l, const fw_workspace_grip *grip, const standing *s) {
+    for (int j = 0; j < 3; j++)
+        if (l->hold->actuator[grip->actuator[j]].pulls && s->size[j] < 0.0) return false;
+    return true;
+}
+
+static double strain_of(const limber *l, const standing *s, int i) {
+    const fw_mechanism_hinge *h = l->hinge[i];
+    if (!h || l->hold->section[i].n == 0) return 0.0;
+    const opened b = open_of(l, s, i);
+    fw_flexure_hinge_bent law;
+    fw_flexure_strip_load load;
+    fw_flexure_strip_strains out;
+    law_of(l, i, &b, false, &law);
+    const double force[2] = {law.gradient[1], law.gradient[2]}, along = b.o * b.w;
+    if (!law.holds || !fw_flexure_hinge_law_holds(&h->law, b.o * b.th)) return HUGE_VAL;
+    fw_flexure_strip_load_of(&h->section, &h->law, &l->rest[i], b.o * b.th, force, &along, &load);
+    if (!load.held) return HUGE_VAL;
+    fw_flexure_strip_strain(&h->section, &load, &out);
+    return out.peak;
+}
+
+static bool limber_of(const fw_workspace_hold *hold, const fw_mechanism *m, limber *l) {
+    *l = (limber){.hold = hold, .m = m};
+    for (int i = 0; i < FW_SIX; i++) {
+        int k = m->pin[i].hinge;
+        double spring = hold->section[i].spring_Nm_per_rad;
+        l->pin[i] = fw_mechanism_pin_place(m, &m->pin[i], 0);
+        l->moment_Nm = fmax(l->moment_Nm, spring);
+        if (k == FW_NONE) continue;
+        l->hinge[i] = &m->hinge[k];
+        if (!isfinite(m->hinge[k].axis_rad) || !(spring > 0.0)) return false;
+        l->rest[i] = fw_flexure_hinge_rest_of(&m->hinge[k].law);
+    }
+    l->force_N = l->moment_Nm / hold->length_m;
+    l->stiff_N_per_m = 1e6 * l->force_N / hold->length_m;
+    return l->moment_Nm > 0.0;
+}
+
+/* ---- over the poses that are looked at ---- */
+
+typedef struct looked {
+    fw_workspace_response *response;
+    double pins[FW_SIX], gives[FW_SIX]; /* largest strains */
+    double apart;                       /* largest |gives/pins - 1| of large strains at one pose */
+    fw_workspace_strain_extreme done[FW_SIX]; /* poses and grips that were looked at first */
+    int ndone;
+} looked;
+
+/* A pose by one grip, unless its strains with pins are far below the largest. `always`: of the first ones,
+   which say how far strains with hinges that give may be from those with pins. */
+static void look(const limber *l, const double pose[3], const fw_workspace_pose_load *load, int g,
+                 bool always, looked *to) {
+    const fw_workspace_grip *grip = &l->hold->grip[g];
+    fw_workspace_jet2 force[FW_SIX];
+    bool certain, own[2], any = always, matters[FW_SIX];
+    double pins[FW_SIX];
+    standing s;
+    if (!fw_workspace_pose_forces(l->hold, load, to->response, grip, &certain, own, force)) return;
+    for (int i = 0; i < FW_SIX; i++) {
+        pins[i] = fw_workspace_pose_strain(l->hold, load, i, &force[i], NULL).lo;
+        to->pins[i] = fmax(to->pins[i], pins[i]);
+        matters[i] = pins[i] * (1.05 + 2.0 * to->apart) > to->gives[i];
+        any = any || matters[i];
+    }
+    if (!any) return;
+    bool stands = stand(l, grip, pose, &s);
+    if (stands && !holds(l, grip, &s)) return;
+    for (int i = 0; i < FW_SIX; i++) {
+        if (!matters[i]) continue;
+        double strain = stands ? strain_of(l, &s, i) : HUGE_VAL;
+        to->gives[i] = fmax(to->gives[i], strain);
+        to->apart = fmax(to->apart, fabs(strain / pins[i] - 1.0));
+    }
+}
+
+/* by all grips, or by one */
+static void look_at(const limber *l, const double pose[3], int only, looked *to) {
+    const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
+    const fw_workspace_hold *h = l->hold;
+    fw_workspace_pose_load load;
+    if (!fw_workspace_pose_load_over(h, &at, NULL, &load)) return;
+    for (int i = 0; i < h->nactuator; i++)
+        fw_workspace_pose_response(h, &load, &h->actuator[i], &to->response[i]);
+    for (int g = 0; g < h->ngrip && g < MOST_GRIPS; g++) {
+        bool done = only != FW_NONE && only != g;
+        for (int k = 0; k < to->ndone && !done; k++)
+            done = to->done[k].grip == g && !memcmp(to->done[k].pose, pose, 3 * sizeof *pose);
+        if (!done) look(l, pose, &load, g, only == g, to);
+    }
+}
+
+fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, const fw_mechanism *m,
+                             const fw_workspace_box3 *box, const fw_workspace_strain_proof *proof,
+                             fw_workspace_give give[FW_SIX]) {
+    limber l;
+    looked to = {0};
+    for (int i = 0; i < FW_SIX; i++)
+        give[i] = (fw_workspace_give){.first_order = true};
+    if (!limber_of(hold, m, &l)) return FW_OK;
+    FW_NEED(to.response =
+                fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    for (int i = 0; i < FW_SIX; i++) {
+        const fw_workspace_strain_extreme *most = &proof->most[i];
+        if (hold->section[i].n == 0) continue;
+        look_at(&l, most->pose, most->grip, &to);
+        to.done[to.ndone++] = *most;
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        if (hold->section[i].n > 0) look_at(&l, proof->most[i].pose, FW_NONE, &to);
+    for (int i = 0; i < CORNERS; i++) {
+        const double pose[3] = {i & 1 ? box->hi[0] : box->lo[0], i & 2 ? box->hi[1] : box->lo[1],
+                                i & 4 ? box->hi[2] : box->lo[2]};
+        look_at(&l, pose, FW_NONE, &to);
+    }
+    for (int i = 0; i < FW_SIX; i++) {
+        if (!(to.pins[i] > 0.0) || !(to.gives[i] > 0.0)) continue;
+        give[i] = nothing_known;
+        if (!isfinite(to.gives[i])) continue;
+        double is = to.gives[i] / proof->strain[i];
+        double most = is * fmax(proof->strain[i] / to.pins[i], 1.0); /* elsewhere, too */
+        give[i].added = most - 1.0;
+        give[i].give = law_error;
+        give[i].relief = 1.0 - is * (1.0 - law_error) / most;
+    }
+    return FW_OK;
+}
+
+fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
+                               const fw_mechanism *m, const fw_workspace_strain_proof *proof,
+                               int hinge, const fw_workspace_give *give, fw_workspace_load *out) {
+    worst w = {.hold = hold, .at = &proof->most[hinge], .hinge = hinge};
+    *out = (fw_workspace_load){.strain = proof->strain[hinge]};
+    if (hold->section[hinge].n == 0) return FW_OK;
+    FW_NEED(w.response = fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    fw_workspace_pose_load load;
+    fw_workspace_jet2 force[FW_SIX];
+    const double none[4] = {0};
+    double strain = displaced(&w, none, &load, force);
+    out->known = true;
+    out->error = fmax(out->strain - w.at->strain.lo, 0.0);
+    out->x_m = w.at->pose[0], out->y_m = w.at->pose[1], out->phi_rad = w.at->pose[2];
+    if (!(strain > 0.0)) return FW_OK; /* nothing turns */
+    out->angle_rad = load.theta[hinge].v.m;
+    out->force_N = hypot(force[hinge].x.v.m, force[hinge].y.v.m);
+    out->actuation = hold->grip[w.at->grip].name;
+    int k = m->pin[hinge].hinge;
+    out->over_rotation = strain / (fabs(out->angle_rad) * m->hinge[k].closed_form.strain_per_rad);
+    fw_workspace_give by = *give;
+    if (by.first_order) give_and_drift(&w, m, &load, force, strain, &by);
+    out->give = by.give, out->relief = by.relief, out->added = by.added;
+    return FW_OK;
+}
+
+void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load *b,
+                            fw_workspace_load *out) {
+    double of_a = a->strain * (1.0 + a->added), of_b = b->strain * (1.0 + b->added);
+    fw_workspace_load most = b->strain > a->strain ? *b : *a;
+    double all = fmax(of_a, of_b);
+    if (all > 0.0) {
+        double least = fmax(of_a * (1.0 - a->relief), of_b * (1.0 - b->relief));
+        most.added = all / most.strain - 1.0;
+        most.give = fmax(of_a * (1.0 + a->give), of_b * (1.0 + b->give)) / all - 1.0;
+        most.relief = 1.0 - least / all;
+    }
+    *out = most;
+}
