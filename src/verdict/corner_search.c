@@ -3,7 +3,6 @@
    and what of it is kept; then which of these ranges would have to be narrower. Called a corner
    here, as in the tables of results, even where only one input is off its nominal value.
    Theory: docs/theory/as-fabricated.md. */
-#include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,6 @@
 /* A verdict for everything that a flow may make. Which corner of the ranges is worst differs by
    hinge and scene: a given rotation strains a wide flexure more, a given load a thin one. Theory:
    docs/theory/as-fabricated.md. */
-#include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
