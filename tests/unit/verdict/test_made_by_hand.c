@@ -63,6 +63,7 @@ static void scene(hand *h) {
     double drawn;
     fw_text_add(&h->text, "<scene name=\"go\" duration=\"3 ms\">\n<comb-drive id=\"c\" kind=\"comb\" on=\"b\" "
                           "x=\"0.4 mm\" direction=\"80 deg\" fingers=\"40\" voltage=\"30 V\" law=\"ramp\" rise=\"1 ms\"");
+    solid(h, " width=\"", 8); /* as by default of the comb as drawn */
     gap(h, " gap=\"", between(h, 6, 9)), solid(h, " overlap=\"", drawn = between(h, 30, 50));
     if (between(h, 0, 1) < 0.5)
         um(h, " length=\"", drawn + between(h, 40, 60));
