@@ -13,6 +13,7 @@ fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_in
         fabricated.flare_m += input[i].flare_m * off + input[i].flare_at_m;
         fabricated.thickness_ratio += input[i].thickness * off + input[i].thickness_at;
         fabricated.youngs_ratio += input[i].youngs * off + input[i].youngs_at;
+        fabricated.local_m += input[i].local * off;
     }
     return fabricated;
 }
@@ -93,6 +94,26 @@ static void change_length(double edge_m, fw_device_flexure *f) {
             edge_m * (f->piece[0].curvature_per_m + f->piece[f->npiece - 1].curvature_per_m);
 }
 
+/* what is left at one hinge, where they differ */
+static fw_verdict_fabrication at_hinge(const fw_verdict_fabrication *fabricated, int joint) {
+    fw_verdict_fabrication here = *fabricated;
+    if (here.sign) here.edge_m += here.sign[joint] * here.local_m;
+    return here;
+}
+
+/* a flexure of its own for every hinge */
+static fw_status tell_apart(fw_arena *arena, const fw_device *was, fw_device *d) {
+    size_t f = (size_t)was->nflexure, j = (size_t)was->nrevolute;
+    FW_NEED(d->flexure = fw_arena_grow(arena, d->flexure, f, f + j, sizeof *d->flexure));
+    for (int i = 0; i < was->nrevolute; i++) {
+        const int own = was->revolute[i].flexure;
+        if (own == FW_NONE) continue;
+        d->flexure[d->nflexure] = was->flexure[own];
+        d->revolute[i].flexure = d->nflexure++;
+    }
+    return FW_OK;
+}
+
 static fw_status change_flexure(fw_arena *arena, const fw_verdict_fabrication *fabricated,
                                 fw_device_flexure *f, const char **gone) {
     double drawn_width = f->width_m, edge = fabricated->edge_m;
@@ -167,7 +188,7 @@ static void change_joint(const fw_device *was, const fw_layout *drawn, double ed
     fw_flexure_result before, now;
     fw_flexure_closed_form(&then, &before);
     fw_flexure_closed_form(&fabricated, &now);
-    fw_flexure_flare(&then, was->flexure[joint->flexure].flare_m, &before);
+    fw_flexure_flare(&then, was->flexure[was->revolute[j].flexure].flare_m, &before);
     fw_flexure_flare(&fabricated, d->flexure[joint->flexure].flare_m, &now);
     double ratio = now.stiffness_Nm_per_rad / before.stiffness_Nm_per_rad;
     joint->stiffness_Nm_per_rad *= ratio;
@@ -341,18 +362,25 @@ fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
     change_variant(&out->variant, fabricated);
     for (int i = 0; i < device->nflexure; i++)
         FW_TRY(change_flexure(arena, fabricated, &out->device.flexure[i], &out->gone));
+    if (fabricated->sign) FW_TRY(tell_apart(arena, device, &out->device));
+    for (int j = 0; fabricated->sign && j < device->nrevolute; j++) {
+        const fw_verdict_fabrication here = at_hinge(fabricated, j);
+        const int f = out->device.revolute[j].flexure;
+        if (f != FW_NONE) FW_TRY(change_flexure(arena, &here, &out->device.flexure[f], &out->gone));
+    }
     for (int i = 0; i < device->nscene; i++)
         if (fw_device_in_flow(device->scene[i].flow, variant->flow))
             FW_TRY(
                 change_scene(arena, fabricated, device, layout, &out->device.scene[i], &out->gone));
     if (out->gone) return FW_OK;
     for (int j = 0; drawn && j < device->nrevolute; j++) {
-        int f = device->revolute[j].flexure;
-        FW_TRY(change_hinge_layout(arena, fabricated, f == FW_NONE ? NULL : &out->device.flexure[f],
+        const fw_verdict_fabrication here = at_hinge(fabricated, j);
+        int f = out->device.revolute[j].flexure;
+        FW_TRY(change_hinge_layout(arena, &here, f == FW_NONE ? NULL : &out->device.flexure[f],
                                    &out->layout.hinge[j]));
     }
     for (int j = 0; j < device->nrevolute; j++)
-        change_joint(device, layout, fabricated->edge_m, out, j);
+        change_joint(device, layout, at_hinge(fabricated, j).edge_m, out, j);
     for (int b = 0; drawn && b < device->nbody; b++)
         change_body(&layout->body[b], fabricated->edge_m, &out->device.body[b],
                     &out->layout.body[b]);

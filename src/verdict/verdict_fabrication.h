@@ -20,6 +20,9 @@ typedef struct fw_verdict_fabrication_input {
     double edge_m, flare_m, thickness, youngs; /* per unit of x */
     /* the same at drawn and even: 0, but where an input goes with others (process/process_corners.c) */
     double edge_at_m, flare_at_m, thickness_at, youngs_at;
+    double
+        local; /* edges of every hinge apart from the others, per unit of x either way; such an input has no
+                     corners of its own */
     const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
                             NULL: it is known */
 } fw_verdict_fabrication_input;
@@ -28,6 +31,8 @@ typedef struct fw_verdict_fabrication {
     double edge_m;                        /* edges of the material stand out by this, mid-depth */
     double flare_m;                       /* see fw_device_flexure */
     double thickness_ratio, youngs_ratio; /* of the variant's own */
+    double local_m;                       /* edges of hinge j stand out by sign[j] local_m more */
+    const signed char *sign;              /* (nrevolute) NULL: all alike */
 } fw_verdict_fabrication;
 
 typedef struct fw_verdict_fabricated_device { /* copies; what they do not change is shared */

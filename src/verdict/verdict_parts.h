@@ -126,16 +126,20 @@ typedef struct fw_verdict_search {
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
     const fw_verdict_known *known; /* (nknown) */
     int nknown;
-    int judged;    /* points that were run, and not known */
-    int first;     /* how many points there were when the slopes were known */
-    double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
+    const signed char *sign; /* how hinges differ at what is run now; NULL: not at all */
+    int judged;              /* points that were run, and not known */
+    int first;               /* how many points there were when the slopes were known */
+    double *slope;           /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
     /* of each input: that whose slopes were taken, scaled by the edges, and the point where it was off
        its nominal value; FW_NONE: no range */
     int slope_like[FW_FABRICATION_INPUTS], slope_point[FW_FABRICATION_INPUTS];
     fw_verdict_end *end; /* (2 nrequirement) low and high of each band */
 } fw_verdict_search;
 
-enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) };
+enum {
+    FW_MOST_APART = 16, /* points where hinges differ */
+    FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) + FW_MOST_APART
+};
 #define FW_NO_CORNER (~0u)
 
 /* for ranges of v; options are those of the drawn device's verdict */
@@ -167,6 +171,9 @@ int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits); /* a poin
 void fw_verdict_search_govern(fw_verdict_search *s);
 /* runs the device at x and keeps it as the next corner of s->fabricated */
 fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits);
+/* the same into `corner` and ln (ncheck), without keeping it */
+fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
+                                  fw_verdict_fabricated_corner *corner, double *ln);
 /* what would have to be held so that it accepts: fabricated->held and control */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s);
 
