@@ -50,7 +50,7 @@ static double elements(double w, double h, double one, double other) {
     int n = 0;
     for (int finger = 0; finger < 2; finger++) {
         const double left = finger ? w + one : 0;
-        const double complex up = CMPLX(0, h);
+        const double complex up = h * csqrt(-1);
         const double complex corner[5] = {left, left + w, left + w + up, left + up, left};
         for (int f = 0; f < FACES; f++)
             for (int i = 0; i < SIDE; i++) {
