@@ -94,6 +94,8 @@ static const char *has_none(const fw_device *d, const fw_device_probe *p) {
         return driver || p->carrier == FW_CARRIER_TENDON || p->carrier == FW_CARRIER_COMB
                    ? NULL
                    : "only drivers, tendons and comb drives feed power in";
+    case FW_PROBE_IS_capacitance:
+        return p->carrier == FW_CARRIER_COMB ? NULL : "only a comb drive has electrodes";
     case FW_PROBE_IS_displacement:
     case FW_PROBE_IS_velocity:
     case FW_PROBE_IS_distance:

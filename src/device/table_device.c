@@ -12,14 +12,14 @@ static const char *const probe_kinds[] = {
 #include "device/probes.def"
     NULL};
 #undef FW_PROBE
-#define FW_PROBE(name, unit, suffix, m, kg, s, rad, takes, sentence)                               \
+#define FW_PROBE(name, unit, suffix, m, kg, s, A, rad, takes, sentence)                            \
     "; " #name " (" unit "): " sentence
 static const char probe_kinds_are[] =
 #include "device/probes.def"
     ".";
 #undef FW_PROBE
-#define FW_PROBE(name, unit, suffix, m, kg, s, rad, takes, sentence)                               \
-    {#name, unit, suffix, {m, kg, s, 0, 0, 0, rad, 0}, takes, sentence},
+#define FW_PROBE(name, unit, suffix, m, kg, s, A, rad, takes, sentence)                            \
+    {#name, unit, suffix, {m, kg, s, A, 0, 0, rad, 0}, takes, sentence},
 const fw_device_probe_kind fw_device_probe_kinds[FW_PROBE_KINDS] = {
 #include "device/probes.def"
 };

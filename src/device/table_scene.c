@@ -135,8 +135,8 @@ static const fw_xml_attribute_row comb_rows[] = {
      RANGE(1e-6, 1e-3,
            "contact lithography prints nothing below 1 um; beyond 1 mm it is no finger"),
      .fallback = "8 um",
-     .sentence = "comb: of every finger, of rotor and stator. Changes the mask and the rotor's "
-                 "mass, not the force."},
+     .sentence = "comb: of every finger, of rotor and stator. Changes the mask, the rotor's "
+                 "mass and the field at the fingers' edges."},
     {"depth", THICKNESS, .fallback = "thickness of the device layer",
      .sentence = "Of the electrodes, across the wafer."},
     {"voltage", D_VOLTAGE, RANGE(-1e4, 1e4, "gaps of micrometres break down far below 10 kV"),

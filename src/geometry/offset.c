@@ -26,6 +26,14 @@ static fw_geometry_segment moved(const fw_geometry_segment *s, double d) {
     return m;
 }
 
+fw_geometry_segment fw_geometry_segment_moved(const fw_geometry_segment *s, double d) {
+    fw_geometry_segment m = moved(s, d);
+    if (s->kind == FW_LINE) return m;
+    m.a = vec_along(s->a, d, outward(s, 0));
+    m.b = vec_along(s->b, d, outward(s, 1));
+    return m;
+}
+
 /* The moved ends of a joint: it grows by d at both ends along its own line. The ends are ordered
    before computing, so that the two pieces that share the joint get the same doubles. */
 static bool slide_joint(const fw_geometry_segment *joint, double d, fw_geometry_vec2 *a,

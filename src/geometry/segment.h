@@ -86,6 +86,9 @@ double fw_geometry_segment_nearest(const fw_geometry_segment *s, fw_geometry_vec
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
 bool fw_geometry_segment_faces(const fw_geometry_segment *arc, fw_geometry_vec2 direction,
                                double *t);
+/* moved by d along its normals, to the right of its way: outward of a contour; an arc's radius may come out <= 0, and
+   nothing of it is left then */
+fw_geometry_segment fw_geometry_segment_moved(const fw_geometry_segment *s, double d);
 fw_geometry_segment fw_geometry_segment_reverse(const fw_geometry_segment *s);
 /* the part between two parameters, with end points already known */
 fw_geometry_segment fw_geometry_segment_cut(const fw_geometry_segment *s, double t0,

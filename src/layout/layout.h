@@ -52,6 +52,7 @@ typedef struct fw_layout_hinge_layout { /* per joint */
     double gap_m;
     double keep_out_m; /* radius about W that belongs to this hinge */
     double free_rad;   /* rotation until solid parts of the two bodies touch, either way */
+    fw_geometry_contour solid[2]; /* outlines, as drawn, of what is at `lower` and `upper` */
     int convex;        /* body with the convex surface: the one farther from the ground */
     double facing_rad; /* sector about W in which the surfaces face each other: counter-clockwise */
     double facing_from_rad; /* from here, measured from the axis, where the upper body's ring ends,
@@ -169,6 +170,10 @@ bool fw_layout_is_wall(const fw_layout_piece *piece);
 bool fw_layout_has_outline(const fw_layout *layout, int body);
 /* by how much two walls come nearer than they are drawn */
 double fw_layout_walls_m(const fw_layout *layout);
+/* free_rad of a drawn hinge whose solids stand out by out_m, either of them; at the face where they stand out most,
+   that is edge + |flare|/2. An edge that ends at a root of the flexure may be off by out_m. Test: test_layout.c */
+fw_status fw_layout_free_rotation_made(fw_arena *arena, const fw_layout_hinge_layout *hinge,
+                                       double out_m, double *free_rad);
 
 /* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places, and *layout holds what
    can be shown of it with its faults. */

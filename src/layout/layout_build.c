@@ -98,6 +98,7 @@ static void measure_free_rotation(fw_layout_drawing *d) {
             fw_layout_drawing_outline(d, fw_layout_drawing_slot(d, h->lower, j));
         const fw_geometry_contour *q =
             fw_layout_drawing_outline(d, fw_layout_drawing_slot(d, h->upper, j));
+        h->solid[0] = *p, h->solid[1] = *q;
         h->free_rad = fw_layout_free_rotation(h->centre, p, q, 4.0 * h->keep_out_m);
     }
 }

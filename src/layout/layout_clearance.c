@@ -243,6 +243,60 @@ double fw_layout_free_rotation(fw_geometry_vec2 w, const fw_geometry_contour *p,
     return least;
 }
 
+/* What a corner that closes as its edges move by d takes of either of them; 0 where it opens, and along a joint, which
+   stays. Exact between lines, with an arc to d^2/2R. */
+static double taken_by(const fw_geometry_segment *before, const fw_geometry_segment *after,
+                       double d) {
+    const double turn = fw_geometry_corner_turn(before, after);
+    if ((before->flags | after->flags) & FW_SEGMENT_JOINT) return 0.0;
+    return turn * d < 0.0 && fabs(turn) < 3.0 ? fabs(d) * tan(0.5 * fabs(turn)) : 0.0;
+}
+
+/* What circles about w may cross of an outline whose edges stand out by d: each edge moved along its normal, a joint
+   where it is, and an arc of radius |d| about every corner that d opens. */
+static fw_status stand_out(fw_arena *arena, const fw_geometry_contour *c, fw_geometry_vec2 w,
+                           double radius_m, double d, fw_geometry_contour *out) {
+    const fw_geometry_box at = {w.x, w.y, w.x, w.y};
+    *out = (fw_geometry_contour){
+        .segment = fw_arena_array(arena, fw_geometry_segment, 2 * (size_t)c->count)};
+    FW_NEED(out->segment);
+    for (int i = 0; i < c->count; i++) {
+        const fw_geometry_segment *s = &c->segment[i], *next = &c->segment[(i + 1) % c->count],
+                                  *last = &c->segment[(i + c->count - 1) % c->count];
+        if (fw_box_gap(at, fw_segment_box(s)) > radius_m + fabs(d)) continue;
+        const bool joint = s->flags & FW_SEGMENT_JOINT;
+        const fw_geometry_segment moved = joint ? *s : fw_geometry_segment_moved(s, d);
+        const double whole = fw_geometry_segment_length(&moved),
+                     turn = fw_geometry_corner_turn(s, next);
+        const double from = taken_by(last, s, d) / whole, to = 1.0 - taken_by(s, next, d) / whole;
+        if (from < to && (s->kind == FW_LINE || moved.radius > 0.0))
+            out->segment[out->count++] =
+                fw_geometry_segment_cut(&moved, from, fw_geometry_segment_point(&moved, from), to,
+                                        fw_geometry_segment_point(&moved, to));
+        if (joint || (next->flags & FW_SEGMENT_JOINT) || !(turn * d > 0.0) ||
+            fabs(turn) < FW_SMOOTH_RAD)
+            continue;
+        const fw_geometry_segment after = fw_geometry_segment_moved(next, d);
+        out->segment[out->count++] = (fw_geometry_segment){.kind = FW_ARC,
+                                                           .a = moved.b,
+                                                           .b = after.a,
+                                                           .centre = s->b,
+                                                           .radius = fabs(d),
+                                                           .sweep_rad = turn};
+    }
+    return FW_OK;
+}
+
+fw_status fw_layout_free_rotation_made(fw_arena *arena, const fw_layout_hinge_layout *h,
+                                       double out_m, double *free_rad) {
+    const double radius_m = 4.0 * h->keep_out_m;
+    fw_geometry_contour p, q;
+    FW_TRY(stand_out(arena, &h->solid[0], h->centre, radius_m, out_m, &p));
+    FW_TRY(stand_out(arena, &h->solid[1], h->centre, radius_m, out_m, &q));
+    *free_rad = fw_layout_free_rotation(h->centre, &p, &q, radius_m);
+    return FW_OK;
+}
+
 /* smallest gap that was asked for between two bodies; else the least space */
 static double allowed(const fw_layout_drawing *d, int a, int b) {
     double limit = fw_layout_rule.least_space_m;

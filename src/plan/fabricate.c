@@ -266,7 +266,9 @@ static fw_status range_of(fw_plan *plan, const fw_process_flow *flow, const char
     for (int i = 0; i < flow->ncorner; i++) {
         const fw_process_corner *c = &flow->corner[i];
         const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
-        if (c->of == FW_CORNER_THICKNESS || c->of == FW_CORNER_YOUNGS || !q || q->unknown) continue;
+        if (c->of == FW_CORNER_THICKNESS || c->of == FW_CORNER_YOUNGS || c->of == FW_CORNER_LOCAL ||
+            !q || q->unknown)
+            continue;
         fw_quantity low = *q, high = *q;
         char a[32], b[32];
         fw_process_quantity_range(q, &low.value, &high.value);

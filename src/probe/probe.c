@@ -138,6 +138,7 @@ double fw_probe_across(const fw_probe *p, const fw_probe_state *s) {
 }
 
 double fw_probe_origin(const fw_probe *p) {
+    if (p->asked->row == FW_PROBE_IS_capacitance) return fw_probe_capacitance_drawn(p);
     if (p->kind->takes == FW_PROBE_OUTLINES) return fw_probe_gap_drawn(p);
     if (p->kind->takes != FW_PROBE_PAIR) return 0;
     const fw_geometry_vec2 a = p->drawn[0], b = p->drawn[1];
@@ -148,13 +149,13 @@ double fw_probe_origin(const fw_probe *p) {
 }
 
 const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *unit) {
-    static const char *const prefix[] = {"n", "u", "m", "", "k", "M", "G"};
+    static const char *const prefix[] = {"f", "p", "n", "u", "m", "", "k", "M", "G"};
     char number[32];
-    int k = 3;
+    int k = 5, least = strcmp(unit, "F") == 0 ? 0 : 2; /* nobody counts in picometres */
     double size = fabs(value) * (1 + 1e-12);
-    while (isfinite(size) && size > 0 && size < 1 && k > 0)
+    while (isfinite(size) && size > 0 && size < 1 && k > least)
         size *= 1e3, value *= 1e3, k--;
-    while (isfinite(size) && size >= 1e3 && k < 6)
+    while (isfinite(size) && size >= 1e3 && k < 8)
         size *= 1e-3, value *= 1e-3, k++;
     fw_number_text(number, sizeof number, value, 4);
     snprintf(buffer, FW_PROBE_TEXT, "%s %s%s", number, prefix[k], unit);

@@ -82,8 +82,9 @@ double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int 
 double fw_probe_at_equilibrium(const fw_probe *p, const fw_device_scene *scene,
                                const fw_statics *statics);
 
-/* of a gap as it is where the mechanism starts; NaN: not known */
+/* of a gap as it is where the mechanism starts, and of electrodes as they are drawn; NaN: not known */
 double fw_probe_gap_drawn(const fw_probe *p);
+double fw_probe_capacitance_drawn(const fw_probe *p);
 /* by how much more two outlines that meet as drawn may be apart as made: walls that are etched away
    leave that open */
 double fw_probe_gap_etched_m(const fw_probe *p);

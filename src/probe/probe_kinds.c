@@ -379,6 +379,27 @@ static double power(const fw_probe *p, const fw_probe_state *s) {
 
 const fw_probe_row fw_probe_power = {.value = power};
 
+/* ---- capacitance ----
+   Between the electrodes of a comb drive at a pose: comb_drive.c, with the fringe of fringe_field.c where that acts. In: m, rad; out: F. Validity and error: theirs. Test: test_probe.py. */
+
+static double capacitance(const fw_probe *p, const fw_probe_state *s) {
+    const fw_effects_comb_element *c = p->element ? fw_effects_comb_of(p->element) : NULL;
+    double place[3];
+    if (!c) return (double)NAN;
+    fw_effects_element_place_ports(p->element, s->q, s->v, p->p, p->w);
+    stretch_ports(p, s);
+    fw_effects_comb_place(p->element, p->p, place);
+    return fw_effects_comb_capacitance(c, place, NULL, NULL);
+}
+
+double fw_probe_capacitance_drawn(const fw_probe *p) {
+    const double as_drawn[3] = {0, 0, 0};
+    const fw_effects_comb_element *c = p->element ? fw_effects_comb_of(p->element) : NULL;
+    return c ? fw_effects_comb_capacitance(c, as_drawn, NULL, NULL) : (double)NAN;
+}
+
+const fw_probe_row fw_probe_capacitance = {.value = capacitance};
+
 /* ---- compliance, stiffness and frequency ----
    Compliance of a point along a direction, from the small motions about a pose: shapes u_i of all
    degrees of freedom are orthogonal in mass and stiffness, M_i = u_i M u_i, K_i = M_i w_i^2, so that

@@ -258,7 +258,8 @@ typedef enum fw_process_corner_of {
     FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
     FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device layer */
     FW_CORNER_THICKNESS,  /* m: of the device layer */
-    FW_CORNER_YOUNGS      /* of the material as it is */
+    FW_CORNER_YOUNGS,     /* of the material as it is */
+    FW_CORNER_LOCAL       /* m: edges of one hinge against those of the others */
 } fw_process_corner_of;
 
 typedef struct fw_process_corner { /* <corner of q assumed>: an input of what stands in the end */

@@ -95,11 +95,8 @@ fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication
 static const struct {
     const char *word;
     fw_quantity_dimension dimension;
-} kind[] = {{"edge", FW_DIM_LENGTH},
-            {"taper", {.rad = 1}},
-            {"anisotropy", {0}},
-            {"thickness", FW_DIM_LENGTH},
-            {"youngs", {0}}};
+} kind[] = {{"edge", FW_DIM_LENGTH},      {"taper", {.rad = 1}}, {"anisotropy", {0}},
+            {"thickness", FW_DIM_LENGTH}, {"youngs", {0}},       {"local", FW_DIM_LENGTH}};
 enum { KINDS = sizeof kind / sizeof kind[0] };
 
 static const fw_quantity *quantity(fw_process_pack *pack, const fw_xml_record *e, const char *name,
@@ -271,6 +268,10 @@ static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
         in->edge_m = 1.0;
         in->drawn = in->nominal;
         in->even = unknown ? 0.0 : in->nominal;
+        break;
+    case FW_CORNER_LOCAL: /* about what all have in common */
+        in->local = 1.0;
+        in->drawn = in->nominal;
         break;
     case FW_CORNER_TAPER:
         in->flare_m = v->thickness_m;

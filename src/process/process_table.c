@@ -23,7 +23,8 @@ static const char *const yes_no[] = {"yes", "no", NULL};
 static const char *const carriers[] = {"none", "insulating", NULL};
 static const char *const source_kinds[] = {"publication", "datasheet", "handbook", "measured",
                                            "convention",  "assumed",   NULL};
-static const char *const corners[] = {"edge", "taper", "anisotropy", "thickness", "youngs", NULL};
+static const char *const corners[] = {"edge",   "taper", "anisotropy", "thickness",
+                                      "youngs", "local", NULL};
 static const char *const operations[] = {"clean",    "anodise", "displace", "coat",    "bake",
                                          "expose",   "develop", "plate",    "deposit", "wet-etch",
                                          "dry-etch", "strip",   "release",  "mount",   "bond",
@@ -166,7 +167,9 @@ static const fw_xml_attribute_row attacks_rows[] = {
     {"material", TO(MATERIAL), REQUIRED, .sentence = "What it dissolves or sputters."},
 };
 static const fw_xml_attribute_row corner_rows[] = {
-    {"of", WORD(corners), REQUIRED, .sentence = "What is not made exactly as drawn."},
+    {"of", WORD(corners), REQUIRED,
+     .sentence = "What is not made exactly as drawn; local: by how much the "
+                 "edges of one hinge may stand apart from those of the others."},
     {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
     {"q", TO(QUANTITY), .sentence = "Its range is the corner; none for youngs."},
     {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},

@@ -3,7 +3,6 @@
    and what of it is kept; then which of these ranges would have to be narrower. Called a corner
    here, as in the tables of results, even where only one input is off its nominal value.
    Theory: docs/theory/as-fabricated.md. */
-#include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -29,6 +28,9 @@ static fw_status describe(const fw_verdict_search *s, const double *x, const cha
         FW_NEED(value);
         fw_text_printf(&text, "%s%s %s", text.length ? ", " : "", in->name, value);
     }
+    for (int j = 0, n = 0; s->sign && j < s->device->nrevolute; j++)
+        if (s->sign[j] < 0)
+            fw_text_printf(&text, "%s%s", n++ ? " " : ", narrower: ", s->device->revolute[j].id);
     if (text.length == 0) fw_text_add(&text, "nominal");
     FW_TRY(fw_text_end(&text));
     *what = text.data;
@@ -176,7 +178,7 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
 
 /* What the flow makes may be just what was drawn: that has been judged, and is not run again. */
 static bool as_drawn(const fw_verdict_fabrication *fabricated) {
-    return fabricated->edge_m == 0.0 && fabricated->flare_m == 0.0 &&
+    return !fabricated->sign && fabricated->edge_m == 0.0 && fabricated->flare_m == 0.0 &&
            fabricated->thickness_ratio == 1.0 && fabricated->youngs_ratio == 1.0;
 }
 
@@ -190,6 +192,7 @@ static fw_status judge_point(const fw_verdict_search *s, fw_arena *scratch, cons
     fw_verdict_variant_verdict now = {0};
     const fw_mechanism *m = NULL;
     FW_NEED(device);
+    fabricated.sign = fabricated.local_m != 0.0 ? s->sign : NULL;
     if (as_drawn(&fabricated)) return take(s, s->v, corner, ln);
     FW_TRY(fw_verdict_fabrication_build(scratch, s->device, s->layout, s->v->variant, &fabricated,
                                         device));
@@ -208,9 +211,8 @@ static fw_status judge_point(const fw_verdict_search *s, fw_arena *scratch, cons
     return FW_OK;
 }
 
-/* runs the device at x into `corner` and ln (ncheck); nothing is added to the search */
-static fw_status run_point(const fw_verdict_search *s, const double *x,
-                           fw_verdict_fabricated_corner *corner, double *ln) {
+fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
+                                  fw_verdict_fabricated_corner *corner, double *ln) {
     size_t n = (size_t)s->v->ninput, h = (size_t)s->v->nhinge;
     double *kept;
     *corner = (fw_verdict_fabricated_corner){0};
@@ -219,6 +221,7 @@ static fw_status run_point(const fw_verdict_search *s, const double *x,
     FW_NEED(kept = fw_arena_array(s->arena, double, n));
     memcpy(kept, x, n * sizeof *kept);
     corner->x = kept;
+    corner->sign = s->sign;
     FW_NEED(corner->hinge = fw_arena_array(s->arena, fw_verdict_hinge_verdict, h));
     FW_TRY(describe(s, x, &corner->what));
     for (size_t k = 0; k < h; k++)
@@ -234,8 +237,9 @@ static fw_status run_point(const fw_verdict_search *s, const double *x,
 /* ---- points ---- */
 
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in) {
-    return in->high >
-           in->low; /* one that is known exactly has one value, and no second end to run */
+    return in->local == 0.0 &&
+           in->high >
+               in->low; /* one that is known exactly has one value, and no second end to run */
 }
 
 unsigned fw_verdict_search_without_range(const fw_verdict_variant_verdict *v) {
@@ -247,7 +251,9 @@ unsigned fw_verdict_search_without_range(const fw_verdict_variant_verdict *v) {
 
 void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x) {
     for (int i = 0; i < s->v->ninput; i++)
-        x[i] = bits >> i & 1u ? s->v->input[i].high : s->v->input[i].low;
+        x[i] = !fw_verdict_search_has_range(&s->v->input[i]) ? s->v->input[i].nominal
+               : bits >> i & 1u                              ? s->v->input[i].high
+                                                             : s->v->input[i].low;
 }
 
 int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits) {
@@ -259,7 +265,8 @@ int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits) {
 /* bit for bit: where two points make one device, both were made from the same ends of ranges */
 static bool is_same(const fw_verdict_fabrication *a, const fw_verdict_fabrication *b) {
     return a->edge_m == b->edge_m && a->flare_m == b->flare_m &&
-           a->thickness_ratio == b->thickness_ratio && a->youngs_ratio == b->youngs_ratio;
+           a->thickness_ratio == b->thickness_ratio && a->youngs_ratio == b->youngs_ratio &&
+           a->local_m == b->local_m;
 }
 
 /* a device that was run before this search, or in it: of one range the end of a slope is a corner */
@@ -300,10 +307,10 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     double *ln = s->ln + (size_t)point * (size_t)s->ncheck;
     fw_arena_tell(s->arena, "judging what a flow makes of it", point, 0, "devices");
     fw_verdict_known known;
-    if (known_device(s, x, &known)) {
+    if (!s->sign && known_device(s, x, &known)) {
         FW_TRY(take_known(s, &known, x, &fabricated->corner[point], ln));
     } else {
-        FW_TRY(run_point(s, x, &fabricated->corner[point], ln));
+        FW_TRY(fw_verdict_search_point(s, x, &fabricated->corner[point], ln));
         s->judged++;
     }
     s->bits[point] = bits;
@@ -312,11 +319,14 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
 }
 
 /* the same without keeping it as a corner: is it accepted? */
-static fw_status point_accepts(const fw_verdict_search *s, const double *x, bool *accepted) {
+static fw_status point_accepts(const fw_verdict_search *from, const double *x,
+                               const signed char *sign, bool *accepted) {
     fw_verdict_fabricated_corner corner;
+    fw_verdict_search at = *from, *s = &at;
     double *ln;
+    s->sign = sign;
     FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->ncheck));
-    FW_TRY(run_point(s, x, &corner, ln));
+    FW_TRY(fw_verdict_search_point(s, x, &corner, ln));
     *accepted = corner.decision == FW_ACCEPT;
     return FW_OK;
 }
@@ -352,7 +362,7 @@ static fw_status box_accepts(const fw_verdict_search *s, const box *b, bool *acc
         double x[FW_FABRICATION_INPUTS];
         for (int i = 0; i < s->v->ninput; i++)
             x[i] = fmin(fmax(fabricated->corner[c].x[i], b->low[i]), b->high[i]);
-        FW_TRY(point_accepts(s, x, accepted));
+        FW_TRY(point_accepts(s, x, fabricated->corner[c].sign, accepted));
     }
     return FW_OK;
 }
@@ -379,6 +389,10 @@ static double weight(const fw_verdict_search *s, int check, int i, bool *low_is_
     const fw_verdict_fabrication_input *in = &s->v->input[i];
     double range = in->high - in->low, x = s->fabricated->corner[s->fabricated->at].x[i];
     double slope = check == FW_NONE ? (double)NAN : s->slope[check * s->v->ninput + i];
+    if (in->local != 0.0) { /* its corners are those where hinges differ, with one sign */
+        *low_is_bad = false;
+        return 0.0;
+    }
     *low_is_bad = isnan(slope) || slope == 0.0 ? x < in->nominal : slope < 0.0;
     if (isnan(slope)) return fabs(x - in->nominal) * fabs(in->edge_m) * 1e6;
     return fabs(slope) * range;
@@ -396,6 +410,7 @@ static double rounded(double x, double range, bool up) {
 static fw_status hold_one(fw_verdict_search *s, int i, bool low_is_bad, bool *done) {
     const fw_verdict_fabrication_input *in = &s->v->input[i];
     double bad = low_is_bad ? in->low : in->high, good = low_is_bad ? in->high : in->low;
+    if (in->local != 0.0) good = in->nominal; /* all alike */
     box b = whole(s->v);
     double *end = low_is_bad ? &b.low[i] : &b.high[i];
     *end = good;

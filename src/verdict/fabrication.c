@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/verdict_fabrication.h"
 #include "flexure/flexure.h"
+#include "geometry/segment.h"
 #include <math.h>
 
 fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_input *input,
@@ -12,6 +13,7 @@ fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_in
         fabricated.flare_m += input[i].flare_m * off + input[i].flare_at_m;
         fabricated.thickness_ratio += input[i].thickness * off + input[i].thickness_at;
         fabricated.youngs_ratio += input[i].youngs * off + input[i].youngs_at;
+        fabricated.local_m += input[i].local * off;
     }
     return fabricated;
 }
@@ -47,7 +49,24 @@ static double fabricated_fillet(double fillet_m, double edge_m, double drawn_m, 
                                                 : fmin(fabricated, compared_fillet * width_m);
 }
 
-/* both edges of a path move by `edge_m` along their normals */
+/* what is left of a piece that loses `first` and `last` at its ends; its width is taken as the parabola through the
+   three that are stated */
+static void shorten(fw_geometry_strip_piece *p, double first_m, double last_m) {
+    const double *w = p->width_m, whole = p->length_m;
+    const double bend = 2.0 * (w[0] + w[2] - 2.0 * w[1]), slope = w[2] - w[0] - bend;
+    double now[3];
+    for (int k = 0; k < 3; k++) {
+        double at = (first_m + 0.5 * k * (whole - first_m - last_m)) / whole;
+        now[k] = w[0] + at * (slope + at * bend);
+    }
+    bool uniform = w[0] == w[1] && w[1] == w[2];
+    for (int k = 0; k < 3 && !uniform; k++)
+        p->width_m[k] = now[k];
+    p->length_m = whole - first_m - last_m;
+}
+
+/* Both edges of a path move by `edge_m` along their normals, and so do the walls that it grows out of: either end
+   stands out by that. */
 static fw_status change_pieces(fw_arena *arena, double edge_m, fw_device_flexure *f) {
     if (f->npiece == 0) return FW_OK;
     fw_geometry_strip_piece *piece =
@@ -55,6 +74,7 @@ static fw_status change_pieces(fw_arena *arena, double edge_m, fw_device_flexure
     FW_NEED(piece);
     for (int i = 0; i < f->npiece; i++) {
         piece[i] = f->piece[i];
+        shorten(&piece[i], i == 0 ? edge_m : 0.0, i + 1 == f->npiece ? edge_m : 0.0);
         for (int k = 0; k < 3; k++)
             piece[i].width_m[k] += 2.0 * edge_m;
     }
@@ -62,10 +82,43 @@ static fw_status change_pieces(fw_arena *arena, double edge_m, fw_device_flexure
     return FW_OK;
 }
 
+/* the same of an arc or a line, whose narrowest or widest place stays in the middle */
+static void change_length(double edge_m, fw_device_flexure *f) {
+    const double whole = f->length_m, left = (whole - 2.0 * edge_m) / whole;
+    if (f->width_middle_m > 0.0)
+        f->width_m = f->width_middle_m + (f->width_m - f->width_middle_m) * left * left;
+    f->length_m = whole - 2.0 * edge_m;
+    if (f->kind == FW_FLEXURE_CSFH) f->angle_rad *= left;
+    if (f->kind == FW_FLEXURE_PATH)
+        f->angle_rad -=
+            edge_m * (f->piece[0].curvature_per_m + f->piece[f->npiece - 1].curvature_per_m);
+}
+
+/* what is left at one hinge, where they differ */
+static fw_verdict_fabrication at_hinge(const fw_verdict_fabrication *fabricated, int joint) {
+    fw_verdict_fabrication here = *fabricated;
+    if (here.sign) here.edge_m += here.sign[joint] * here.local_m;
+    return here;
+}
+
+/* a flexure of its own for every hinge */
+static fw_status tell_apart(fw_arena *arena, const fw_device *was, fw_device *d) {
+    size_t f = (size_t)was->nflexure, j = (size_t)was->nrevolute;
+    FW_NEED(d->flexure = fw_arena_grow(arena, d->flexure, f, f + j, sizeof *d->flexure));
+    for (int i = 0; i < was->nrevolute; i++) {
+        const int own = was->revolute[i].flexure;
+        if (own == FW_NONE) continue;
+        d->flexure[d->nflexure] = was->flexure[own];
+        d->revolute[i].flexure = d->nflexure++;
+    }
+    return FW_OK;
+}
+
 static fw_status change_flexure(fw_arena *arena, const fw_verdict_fabrication *fabricated,
                                 fw_device_flexure *f, const char **gone) {
     double drawn_width = f->width_m, edge = fabricated->edge_m;
     if (isnan(f->fillet_m)) f->fillet_m = fw_flexure_default_fillet(f);
+    change_length(edge, f);
     f->width_m += 2.0 * edge;
     if (f->width_middle_m > 0.0) f->width_middle_m += 2.0 * edge;
     FW_TRY(change_pieces(arena, edge, f));
@@ -100,14 +153,31 @@ static double turned(const fw_device *d, int body) {
 
 /* the hinge point is the centre of elastic weights of what stands; where the axis is not drawn it
    stays */
-static void move_hinge_point(fw_device *d, int j, double by_m, double axis_rad) {
+static void move_hinge_point(fw_device *d, int j, fw_geometry_vec2 by, double axis_rad) {
     fw_device_revolute *joint = &d->revolute[j];
-    move(&joint->x_m, &joint->y_m, by_m, axis_rad);
-    move(&joint->ax_m, &joint->ay_m, by_m, axis_rad - turned(d, joint->body_a));
-    move(&joint->bx_m, &joint->by_m, by_m, axis_rad - turned(d, joint->body_b));
+    const double way = hypot(by.x, by.y), to = axis_rad + atan2(by.y, by.x);
+    move(&joint->x_m, &joint->y_m, way, to);
+    move(&joint->ax_m, &joint->ay_m, way, to - turned(d, joint->body_a));
+    move(&joint->bx_m, &joint->by_m, way, to - turned(d, joint->body_b));
 }
 
-static void change_joint(const fw_device *was, const fw_layout *drawn,
+/* From W as drawn to W as made, in the frame as drawn. An arc and a leaf keep theirs, with their middle; that of a path
+   goes with its two ends, the first of which is now edge_m farther along. */
+static fw_geometry_vec2 way_of_centre(const fw_flexure_input *then, double was_m,
+                                      const fw_flexure_input *made, double now_m, double edge_m) {
+    fw_flexure_shape before, now;
+    if (then->kind != FW_FLEXURE_PATH) return (fw_geometry_vec2){now_m - was_m, 0.0};
+    fw_flexure_shape_of(then, &before);
+    fw_flexure_shape_of(made, &now);
+    const fw_geometry_pose at =
+        fw_geometry_strip_along(before.start, then->piece[0].curvature_per_m, edge_m);
+    const double turn = at.angle_rad - now.start.angle_rad, x = now_m - now.start.x_m,
+                 y = -now.start.y_m;
+    return (fw_geometry_vec2){at.x_m + cos(turn) * x - sin(turn) * y - was_m,
+                              at.y_m + sin(turn) * x + cos(turn) * y};
+}
+
+static void change_joint(const fw_device *was, const fw_layout *drawn, double edge_m,
                          fw_verdict_fabricated_device *out, int j) {
     fw_device *d = &out->device;
     fw_device_revolute *joint = &d->revolute[j];
@@ -118,13 +188,15 @@ static void change_joint(const fw_device *was, const fw_layout *drawn,
     fw_flexure_result before, now;
     fw_flexure_closed_form(&then, &before);
     fw_flexure_closed_form(&fabricated, &now);
-    fw_flexure_flare(&then, was->flexure[joint->flexure].flare_m, &before);
+    fw_flexure_flare(&then, was->flexure[was->revolute[j].flexure].flare_m, &before);
     fw_flexure_flare(&fabricated, d->flexure[joint->flexure].flare_m, &now);
     double ratio = now.stiffness_Nm_per_rad / before.stiffness_Nm_per_rad;
     joint->stiffness_Nm_per_rad *= ratio;
     joint->damping_Nms_per_rad *= sqrt(ratio);
     if (drawn && drawn->drawn && drawn->hinge[j].drawn)
-        move_hinge_point(d, j, now.centre_m - before.centre_m, drawn->hinge[j].axis_rad);
+        move_hinge_point(d, j,
+                         way_of_centre(&then, before.centre_m, &fabricated, now.centre_m, edge_m),
+                         drawn->hinge[j].axis_rad);
 }
 
 /* ---- bodies: what is drawn grows by e along every edge (fw_layout_body_measure); what is stated goes with it.
@@ -147,32 +219,113 @@ static void change_body(const fw_layout_body_layout *shape, double edge_m, fw_de
     changed->centroid.y += shift * shape->edge_m2.y;
 }
 
-static void change_hinge_layout(double edge_m, const fw_device_flexure *f,
-                                fw_layout_hinge_layout *h) {
-    if (!h->drawn || !f) return;
+static fw_status change_hinge_layout(fw_arena *arena, const fw_verdict_fabrication *fabricated,
+                                     const fw_device_flexure *f, fw_layout_hinge_layout *h) {
+    const double edge_m = fabricated->edge_m, out_m = edge_m + 0.5 * fabs(fabricated->flare_m);
+    if (!h->drawn || !f) return FW_OK;
     h->fillet_m = fabricated_fillet(h->fillet_m, edge_m, f->width_m - 2.0 * edge_m, f->width_m);
     if (h->surface_radius_m > 0.0) h->surface_radius_m += edge_m;
     if (h->gap_m > 0.0) h->gap_m -= 2.0 * edge_m;
+    return out_m == 0.0 ? FW_OK : fw_layout_free_rotation_made(arena, h, out_m, &h->free_rad);
 }
 
-/* ---- gaps of what drives and damps ---- */
+/* ---- what drives, damps and touches ---- */
+
+/* Fingers, films and round things are of the same layer: their tips and faces move as every edge does. A finger
+   keeps its length, for its root moves as its tip does. */
+static void change_comb(const fw_verdict_fabrication *fabricated, const fw_device *d,
+                        fw_device_comb *c) {
+    const double edge = fabricated->edge_m;
+    c->gap_m -= 2.0 * edge;
+    c->depth_m *= fabricated->thickness_ratio; /* NaN stays: that of the layer */
+    c->width_m = (c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M) + 2.0 * edge;
+    if (c->kind == FW_ELECTRODES_PLATE) {
+        double own = c->direction_rad + turned(d, c->body_a) - turned(d, c->body_b);
+        c->length_m += 2.0 * edge;
+        move(&c->bx_m, &c->by_m, edge, own);
+        return;
+    }
+    if (isnan(c->length_m)) c->length_m = 2.0 * c->overlap_m;
+    c->overlap_m += 2.0 * edge;
+}
+
+static void change_film(const fw_verdict_fabrication *fabricated, fw_device_air *a) {
+    a->gap_m -= 2.0 * fabricated->edge_m;
+    a->length_m += 2.0 * fabricated->edge_m;
+    a->depth_m *= fabricated->thickness_ratio;
+    move(&a->x_m, &a->y_m, fabricated->edge_m, a->direction_rad);
+}
+
+/* a stated place and a drawn wall, whose corners are rounded, need not agree better */
+static const double touches_m = 10e-6;
+
+/* Is the round thing about this point, no larger than the distance, part of what is drawn of the body, and so of the
+   layer? A bead that is held stands in the open. What is not drawn at all is taken to be. */
+static bool is_of_layer(const fw_device *d, const fw_layout *layout, int body, double x_m,
+                        double y_m, double distance_m) {
+    fw_geometry_vec2 at = {x_m, y_m};
+    bool any = false;
+    if (!layout || !layout->drawn) return true;
+    if (body != FW_GROUND) {
+        const fw_device_body *b = &d->body[body];
+        const fw_layout_body_layout *shape = &layout->body[body];
+        const double c = cos(b->phi_rad), s = sin(b->phi_rad);
+        at.x = (isnan(b->x_m) ? shape->centroid.x : b->x_m) + c * x_m - s * y_m;
+        at.y = (isnan(b->y_m) ? shape->centroid.y : b->y_m) + s * x_m + c * y_m;
+    }
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_layout_piece *p = &layout->piece[i];
+        if (p->body != body || !fw_layout_is_wall(p)) continue;
+        any = true;
+        for (int k = 0; k < p->contour.count; k++)
+            if (fw_geometry_segment_nearest(&p->contour.segment[k], at, NULL, NULL) <=
+                distance_m + touches_m)
+                return true;
+    }
+    return !any;
+}
+
+/* a hinge without a distance of its own has the gap of its flexure, as made */
+static void change_contact(double edge_m, const fw_device *d, const fw_layout *layout,
+                           fw_device_contact_use *c) {
+    if (isnan(c->distance_m)) return;
+    if (c->joint != FW_NONE || c->side == FW_CONTACT_INSIDE) {
+        c->distance_m -= 2.0 * edge_m;
+        return;
+    }
+    const double drawn_m = c->distance_m;
+    if (is_of_layer(d, layout, c->body_a, c->ax_m, c->ay_m, drawn_m)) c->distance_m += edge_m;
+    if (is_of_layer(d, layout, c->body_b, c->bx_m, c->by_m, drawn_m)) c->distance_m += edge_m;
+}
 
 static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fabricated,
-                              fw_device_scene *s, const char **gone) {
-    size_t c = (size_t)s->ncomb, a = (size_t)s->nair;
+                              const fw_device *d, const fw_layout *layout, fw_device_scene *s,
+                              const char **gone) {
+    size_t c = (size_t)s->ncomb, a = (size_t)s->nair, t = (size_t)s->ncontact;
     double least = fabs(fabricated->flare_m);
     FW_NEED(s->comb = fw_arena_grow(arena, s->comb, c, c, sizeof *s->comb));
     FW_NEED(s->air = fw_arena_grow(arena, s->air, a, a, sizeof *s->air));
+    FW_NEED(s->contact = fw_arena_grow(arena, s->contact, t, t, sizeof *s->contact));
     for (size_t i = 0; i < c; i++) {
-        s->comb[i].gap_m -= 2.0 * fabricated->edge_m;
-        if (!(s->comb[i].gap_m > least))
-            FW_NEED(*gone = fw_arena_printf(arena, "the gap of comb drive %s closes",
-                                            fw_text_name(s->comb[i].id)));
+        fw_device_comb *comb = &s->comb[i];
+        change_comb(fabricated, d, comb);
+        bool apart = comb->kind == FW_ELECTRODES_COMB && !(comb->overlap_m > 0.0);
+        if (apart || !(comb->gap_m > least))
+            FW_NEED(*gone = fw_arena_printf(
+                        arena, "%s of comb drive %s %s", apart ? "the fingers" : "the gap",
+                        fw_text_name(comb->id), apart ? "no longer reach each other" : "closes"));
     }
     for (size_t i = 0; i < a; i++) {
         if (s->air[i].kind != FW_AIR_SQUEEZE) continue;
-        s->air[i].gap_m -= 2.0 * fabricated->edge_m;
+        change_film(fabricated, &s->air[i]);
         if (!(s->air[i].gap_m > least)) *gone = "the gap of a squeezed film closes";
+    }
+    for (size_t i = 0; i < t; i++) {
+        fw_device_contact_use *contact = &s->contact[i];
+        change_contact(fabricated->edge_m, d, layout, contact);
+        if (contact->distance_m <= 0.0)
+            FW_NEED(*gone = fw_arena_printf(arena, "the gap of contact %s closes",
+                                            fw_text_name(contact->id)));
     }
     return FW_OK;
 }
@@ -209,17 +362,25 @@ fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
     change_variant(&out->variant, fabricated);
     for (int i = 0; i < device->nflexure; i++)
         FW_TRY(change_flexure(arena, fabricated, &out->device.flexure[i], &out->gone));
+    if (fabricated->sign) FW_TRY(tell_apart(arena, device, &out->device));
+    for (int j = 0; fabricated->sign && j < device->nrevolute; j++) {
+        const fw_verdict_fabrication here = at_hinge(fabricated, j);
+        const int f = out->device.revolute[j].flexure;
+        if (f != FW_NONE) FW_TRY(change_flexure(arena, &here, &out->device.flexure[f], &out->gone));
+    }
     for (int i = 0; i < device->nscene; i++)
         if (fw_device_in_flow(device->scene[i].flow, variant->flow))
-            FW_TRY(change_scene(arena, fabricated, &out->device.scene[i], &out->gone));
+            FW_TRY(
+                change_scene(arena, fabricated, device, layout, &out->device.scene[i], &out->gone));
     if (out->gone) return FW_OK;
     for (int j = 0; drawn && j < device->nrevolute; j++) {
-        int f = device->revolute[j].flexure;
-        change_hinge_layout(fabricated->edge_m, f == FW_NONE ? NULL : &out->device.flexure[f],
-                            &out->layout.hinge[j]);
+        const fw_verdict_fabrication here = at_hinge(fabricated, j);
+        int f = out->device.revolute[j].flexure;
+        FW_TRY(change_hinge_layout(arena, &here, f == FW_NONE ? NULL : &out->device.flexure[f],
+                                   &out->layout.hinge[j]));
     }
     for (int j = 0; j < device->nrevolute; j++)
-        change_joint(device, layout, out, j);
+        change_joint(device, layout, at_hinge(fabricated, j).edge_m, out, j);
     for (int b = 0; drawn && b < device->nbody; b++)
         change_body(&layout->body[b], fabricated->edge_m, &out->device.body[b],
                     &out->layout.body[b]);

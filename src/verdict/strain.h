@@ -119,7 +119,7 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     bool lost;                  /* a hinge was pressed beyond its buckling load */
     bool no_memory; /* for them: strains are those of the closed form, and the run has failed */
     fw_verdict_strain_peak *hinge;                /* (nhinge) */
-    struct fw_verdict_clearance_watch *clearance; /* verdict_clearance.h */
+    struct fw_verdict_clearance_watch *clearance; /* verdict_parts.h */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
     fw_verdict_bending bending;

@@ -2,7 +2,6 @@
 #include "verdict/verdict_parts.h"
 #include "base/constants.h"
 #include "verdict/strain.h"
-#include "verdict/verdict_clearance.h"
 #include <math.h>
 
 static fw_verdict_decision decide(double low, double high) {

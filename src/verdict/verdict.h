@@ -169,8 +169,9 @@ typedef struct fw_verdict_requirement {
 
 /* one device that the flow may make, judged like the drawn one */
 typedef struct fw_verdict_fabricated_corner {
-    const double *x;  /* (ninput) */
-    const char *what; /* "nominal", "printed edge -0.15 um, thickness 49 um" */
+    const double *x;         /* (ninput) */
+    const signed char *sign; /* how hinges differ (verdict_fabrication.h); NULL: not at all */
+    const char *what;        /* "nominal", "printed edge -0.15 um, thickness 49 um" */
     /* (nhinge) worst over the scenes; utilisation 0 where `why` says that nothing was run */
     fw_verdict_hinge_verdict *hinge;
     const char *why;                     /* what speaks against it beside its hinges, or NULL */

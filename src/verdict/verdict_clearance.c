@@ -5,7 +5,6 @@
 #include "clearance/clearance.h"
 #include "geometry/segment.h"
 #include "verdict/strain.h"
-#include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 

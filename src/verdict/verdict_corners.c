@@ -2,7 +2,6 @@
 /* A verdict for everything that a flow may make. Which corner of the ranges is worst differs by
    hinge and scene: a given rotation strains a wide flexure more, a given load a thin one. Theory:
    docs/theory/as-fabricated.md. */
-#include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -252,6 +251,141 @@ fw_status fw_verdict_search_ends(fw_verdict_search *s, int check) {
     return FW_OK;
 }
 
+/* ---- hinges that differ ----
+   Edges of every hinge may stand apart from what all have in common by up to d. At the worst device that was run each
+   hinge alone is made narrower by d: the change of every check. To first order the worst pattern of a check adds the
+   sizes of all of them. It is run for every check that it may bring to its limit, at that check's own worst point, and
+   what the estimate is off there is added to all. */
+
+static int local_input(const fw_verdict_variant_verdict *v) {
+    for (int i = 0; i < v->ninput; i++)
+        if (v->input[i].local != 0.0 && v->input[i].high > v->input[i].low) return i;
+    return FW_NONE;
+}
+
+static int worst_point(const fw_verdict_search *s, int check, int points) {
+    int worst = FW_NONE;
+    for (int p = 0; p < points; p++) {
+        const double ln = s->ln[(size_t)p * (size_t)s->ncheck + (size_t)check];
+        if (isnan(ln)) continue;
+        if (worst == FW_NONE || ln > s->ln[(size_t)worst * (size_t)s->ncheck + (size_t)check])
+            worst = p;
+    }
+    return worst;
+}
+
+typedef struct apart {
+    int input, points; /* local_input; those that were run alike */
+    double far;        /* the input where hinges differ most */
+    double *change;    /* (ncheck x nrevolute) of ln U as one hinge alone gets narrower */
+    double *most;      /* (ncheck) ln U of the worst pattern, to first order; NaN: no such check */
+    double error;
+} apart;
+
+static fw_status change_each(fw_verdict_search *s, apart *a, int worst) {
+    const size_t joints = (size_t)s->device->nrevolute, n = (size_t)s->v->ninput;
+    double *ln = fw_arena_array(s->arena, double, (size_t)s->ncheck),
+           *x = fw_arena_array(s->arena, double, n);
+    signed char *sign = fw_arena_array(s->arena, signed char, joints);
+    fw_verdict_fabricated_corner unused;
+    FW_NEED(ln && x && sign ? ln : NULL);
+    memcpy(x, s->fabricated->corner[worst].x, n * sizeof *x);
+    x[a->input] = a->far;
+    for (size_t j = 0; j < joints; j++) {
+        if (s->device->revolute[j].flexure == FW_NONE) continue;
+        sign[j] = -1;
+        s->sign = sign;
+        FW_TRY(fw_verdict_search_point(s, x, &unused, ln));
+        sign[j] = 0;
+        s->judged++;
+        for (int r = 0; r < s->ncheck; r++) {
+            const double was = s->ln[(size_t)worst * (size_t)s->ncheck + (size_t)r];
+            /* gone at one of the two: no estimate */
+            a->change[(size_t)r * joints + j] = isnan(was) && isnan(ln[r]) ? 0.0
+                                                : isnan(was + ln[r])       ? fw_trusted
+                                                                           : ln[r] - was;
+        }
+    }
+    return FW_OK;
+}
+
+/* the pattern of a check at its own worst point; *ran false: it was run already */
+static fw_status run_pattern(fw_verdict_search *s, apart *a, int check, bool *ran) {
+    const size_t joints = (size_t)s->device->nrevolute, n = (size_t)s->v->ninput;
+    const int worst = worst_point(s, check, a->points);
+    double *x = fw_arena_array(s->arena, double, n);
+    signed char *sign = fw_arena_array(s->arena, signed char, joints);
+    FW_NEED(x && sign ? x : NULL);
+    for (size_t j = 0; j < joints; j++)
+        if (s->device->revolute[j].flexure != FW_NONE)
+            sign[j] = a->change[(size_t)check * joints + j] < 0.0 ? 1 : -1;
+    memcpy(x, s->fabricated->corner[worst].x, n * sizeof *x);
+    x[a->input] = a->far;
+    *ran = false;
+    for (int p = a->points; p < s->fabricated->ncorner; p++)
+        if (memcmp(s->fabricated->corner[p].x, x, n * sizeof *x) == 0 &&
+            memcmp(s->fabricated->corner[p].sign, sign, joints) == 0)
+            return FW_OK;
+    if (s->fabricated->ncorner >= FW_MOST_POINTS) return FW_OK;
+    s->sign = sign;
+    *ran = true;
+    FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
+    const double got =
+        s->ln[(size_t)(s->fabricated->ncorner - 1) * (size_t)s->ncheck + (size_t)check];
+    if (!isnan(got)) a->error = fmax(a->error, fabs(got - a->most[check]));
+    return FW_OK;
+}
+
+/* the highest first; at least one is run */
+static fw_status run_patterns(fw_verdict_search *s, apart *a) {
+    bool *done = fw_arena_array(s->arena, bool, (size_t)s->ncheck), ran, any = false;
+    FW_NEED(done);
+    for (int turn = 0; turn < s->ncheck; turn++) {
+        int next = FW_NONE;
+        for (int r = 0; r < s->ncheck; r++)
+            if (!done[r] && !isnan(a->most[r]) && (next == FW_NONE || a->most[r] > a->most[next]))
+                next = r;
+        if (next == FW_NONE) return FW_OK;
+        done[next] = true;
+        if (any && !(a->most[next] + a->error > log(near_limit(s, next)))) continue;
+        FW_TRY(run_pattern(s, a, next, &ran));
+        any = any || ran;
+    }
+    return FW_OK;
+}
+
+/* most (nhinge): of a hinge at the worst pattern, 0 where none is known */
+static fw_status hinges_apart(fw_verdict_search *s, double *most) {
+    const size_t joints = (size_t)s->device->nrevolute;
+    apart a = {.input = local_input(s->v), .points = s->fabricated->ncorner};
+    if (a.input == FW_NONE || s->first == 0) return FW_OK;
+    const fw_verdict_fabrication_input *in = &s->v->input[a.input];
+    a.far = in->nominal + fmax(in->high - in->nominal, in->nominal - in->low);
+    FW_NEED(a.change = fw_arena_array(s->arena, double, (size_t)s->ncheck *joints));
+    FW_NEED(a.most = fw_arena_array(s->arena, double, (size_t)s->ncheck));
+    size_t highest = 0, cells = (size_t)a.points * (size_t)s->ncheck;
+    for (size_t i = 0; i < cells; i++)
+        if (!(s->ln[i] <= s->ln[highest]) && !isnan(s->ln[i])) highest = i;
+    FW_TRY(change_each(s, &a, (int)(highest / (size_t)s->ncheck)));
+    for (int r = 0; r < s->ncheck; r++) {
+        const int at = worst_point(s, r, a.points);
+        a.most[r] = at == FW_NONE ? (double)NAN : s->ln[(size_t)at * (size_t)s->ncheck + (size_t)r];
+        for (size_t j = 0; j < joints; j++)
+            a.most[r] += fabs(a.change[(size_t)r * joints + j]);
+    }
+    FW_TRY(run_patterns(s, &a));
+    s->sign = NULL;
+    const int checks = s->device->nscene + 1;
+    for (int r = 0; r < s->v->nhinge * checks; r++) {
+        if (isnan(a.most[r])) continue;
+        double numeric = 0.0;
+        for (int c = 0; c < s->fabricated->ncorner; c++)
+            numeric = fmax(numeric, s->fabricated->corner[c].hinge[r / checks].numeric);
+        most[r / checks] = fmax(most[r / checks], exp(a.most[r] + a.error) + numeric);
+    }
+    return FW_OK;
+}
+
 /* ---- what it says ---- */
 
 static void tightest(fw_verdict_search *s, int k) {
@@ -431,10 +565,14 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     FW_TRY(fw_verdict_search_begin(arena, device, layout, options, v, &s));
     if (quick && !alone) s.options.corners = FW_CORNERS_FIRST;
     FW_TRY(try_suspect(&s, &decided));
+    double *apart_most = fw_arena_array(arena, double, (size_t)v->nhinge);
+    FW_NEED(apart_most);
     if (!decided) FW_TRY(fw_verdict_search_corners(&s));
+    if (!decided) FW_TRY(hinges_apart(&s, apart_most));
     for (int k = 0; k < v->nhinge; k++) {
         tightest(&s, k);
         if (!decided && s.first > 0) first_order(&s, k);
+        s.fabricated->hinge[k].most = fmax(s.fabricated->hinge[k].most, apart_most[k]);
     }
     if (!decided) FW_TRY(fw_verdict_ends_made(&s));
     fw_verdict_search_govern(&s);

@@ -20,6 +20,9 @@ typedef struct fw_verdict_fabrication_input {
     double edge_m, flare_m, thickness, youngs; /* per unit of x */
     /* the same at drawn and even: 0, but where an input goes with others (process/process_corners.c) */
     double edge_at_m, flare_at_m, thickness_at, youngs_at;
+    double
+        local; /* edges of every hinge apart from the others, per unit of x either way; such an input has no
+                     corners of its own */
     const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
                             NULL: it is known */
 } fw_verdict_fabrication_input;
@@ -28,6 +31,8 @@ typedef struct fw_verdict_fabrication {
     double edge_m;                        /* edges of the material stand out by this, mid-depth */
     double flare_m;                       /* see fw_device_flexure */
     double thickness_ratio, youngs_ratio; /* of the variant's own */
+    double local_m;                       /* edges of hinge j stand out by sign[j] local_m more */
+    const signed char *sign;              /* (nrevolute) NULL: all alike */
 } fw_verdict_fabrication;
 
 typedef struct fw_verdict_fabricated_device { /* copies; what they do not change is shared */
@@ -40,11 +45,12 @@ typedef struct fw_verdict_fabricated_device { /* copies; what they do not change
 
 fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_input *input,
                                                  int ninput, const double *x);
-/* In: the device as drawn (layout may be NULL) in a variant. Flexures: width + 2 edge, gap - 2
-   edge, concave fillets - edge, trapezoid section; stated stiffness by the ratio of the closed
+/* In: the device as drawn (layout may be NULL) in a variant. Solids grow by 2 edge, gaps lose it. Flexures: width, gap,
+   length (an arc its angle), concave fillets - edge, trapezoid section; stated stiffness by the ratio of the closed
    forms, stated damping by its root; hinge points move with the centres of elastic weights; bodies:
-   mass and inertia with the area, A + P edge; gaps of combs and squeezed films - 2 edge. Thickness
-   and modulus scale what is stated as another flow would. */
+   mass and inertia with the area, A + P edge; combs, plates, squeezed films and contacts; how far hinges turn until
+   solids touch. Thickness and modulus scale what is stated as another flow would.
+   Test: test_made.c, test_made_by_hand.c */
 fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
                                        const fw_layout *layout, const fw_mechanism_variant *variant,
                                        const fw_verdict_fabrication *fabricated,

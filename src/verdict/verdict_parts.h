@@ -126,16 +126,20 @@ typedef struct fw_verdict_search {
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
     const fw_verdict_known *known; /* (nknown) */
     int nknown;
-    int judged;    /* points that were run, and not known */
-    int first;     /* how many points there were when the slopes were known */
-    double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
+    const signed char *sign; /* how hinges differ at what is run now; NULL: not at all */
+    int judged;              /* points that were run, and not known */
+    int first;               /* how many points there were when the slopes were known */
+    double *slope;           /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
     /* of each input: that whose slopes were taken, scaled by the edges, and the point where it was off
        its nominal value; FW_NONE: no range */
     int slope_like[FW_FABRICATION_INPUTS], slope_point[FW_FABRICATION_INPUTS];
     fw_verdict_end *end; /* (2 nrequirement) low and high of each band */
 } fw_verdict_search;
 
-enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) };
+enum {
+    FW_MOST_APART = 16, /* points where hinges differ */
+    FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) + FW_MOST_APART
+};
 #define FW_NO_CORNER (~0u)
 
 /* for ranges of v; options are those of the drawn device's verdict */
@@ -167,7 +171,58 @@ int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits); /* a poin
 void fw_verdict_search_govern(fw_verdict_search *s);
 /* runs the device at x and keeps it as the next corner of s->fabricated */
 fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits);
+/* the same into `corner` and ln (ncheck), without keeping it */
+fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
+                                  fw_verdict_fabricated_corner *corner, double *ln);
 /* what would have to be held so that it accepts: fabricated->held and control */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s);
+
+/* ---- verdict_clearance.c: what clearance/ finds, judged: bands, what is asked for, and reasons ---- */
+
+/* one stator alone against all that moves: what shorts the drive */
+typedef struct fw_verdict_stator_watch {
+    const char *label;
+    fw_clearance_things things;
+    fw_clearance_least least;
+} fw_verdict_stator_watch;
+
+typedef struct fw_verdict_clearance_watch { /* of one run of a scene */
+    const fw_clearance_things *things;      /* NULL: nothing is drawn */
+    fw_arena *arena;
+    fw_clearance_path path;
+    fw_clearance_wish wish;
+    fw_clearance_least least;        /* of what has left the path */
+    bool parts;                      /* something has, before the motion's end */
+    fw_verdict_stator_watch *stator; /* (nstator) */
+    int nstator;
+    const bool *among; /* (nsolid x nsolid) all pairs but those with what stands */
+    fw_status status;
+} fw_verdict_clearance_watch;
+
+/* room for all scenes of a variant; layout may be NULL. with_stators: each is looked at by itself, too */
+fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
+                                     const fw_mechanism *mechanism, bool with_stators,
+                                     fw_verdict_clearance_watch watch[2],
+                                     fw_verdict_variant_verdict *v);
+/* which pairs the scene lets meet */
+fw_status fw_verdict_clearance_scene(const fw_mechanism *m, const fw_device_scene *scene,
+                                     fw_verdict_clearance_watch watch[2]);
+/* an fw_dynamics_tracer; context is the strain monitor */
+void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);
+/* Scene i, whose motion is v->motion[i]: its clearance, and a reason where it is not accepted.
+   brief: only whether it is, which is proved with a fraction of the distances. */
+fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
+                                     const fw_layout *layout, bool brief, fw_diags *diags,
+                                     fw_verdict_variant_verdict *v);
+/* Share of what there is to use up: of a motion, the distance that is lost over what may be lost; of a
+   required box, what is asked for over what is left. 0.001 to 1000; above 1 it is too little. */
+double fw_verdict_clearance_used(const fw_verdict_clearance *clearance);
+/* every required box of the flow that can be reached as a whole; after fw_workspace_required */
+fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
+                                     const fw_layout *layout, bool brief,
+                                     fw_verdict_variant_verdict *v);
+/* every flexure against its own two bodies; after the hinges */
+fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
+                                      fw_verdict_variant_verdict *v);
 
 #endif

@@ -4,7 +4,7 @@
      valgrind --tool=callgrind --toggle-collect=measured --dump-after=measured \
        ./effect_cost FILE SCENE COUNT [options] [--then FILE SCENE COUNT [options]]...
 
-   --off ID       as if the scene did not call for this effect
+   --off ID       as if the scene did not call for this effect; at most twice
    --pins         hinges stay pins, whatever is known of their strips
    --general      the code for all joints and effects, even where the fast kernel would do
    --stir SIZE    how far the state is from the assembled pose, scaled; default 0.01
@@ -19,7 +19,7 @@
 #include <string.h>
 
 typedef struct request {
-    const char *file, *scene, *off;
+    const char *file, *scene, *off[2];
     long count;
     bool general, still;
     bool pins; /* hinges are taken as such, whatever their strips */
@@ -81,14 +81,18 @@ static const fw_mechanism *mechanism_of(fw_arena *arena, const fw_device *d, fw_
 }
 
 /* all that the scene calls for, but for one effect; says what that is */
-static void compile(const fw_effect_case *c, const char *off, bool pins, fw_effects_loads *loads) {
+static bool is_off(const char *const off[2], const char *id) {
+    return (off[0] && strcmp(off[0], id) == 0) || (off[1] && strcmp(off[1], id) == 0);
+}
+
+static void compile(const fw_effect_case *c, const char *const off[2], bool pins, fw_effects_loads *loads) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     if (fw_effects_loads_new(c->arena, c->mechanism, c->scene, loads) != FW_OK) fail("memory");
     for (size_t i = 0; i < count; i++) {
         if (!row[i]->called_for(c)) continue;
         printf("calls %s %d\n", row[i]->id, row[i]->count ? row[i]->count(c) : 1);
-        if (off && strcmp(row[i]->id, off) == 0) continue;
+        if (is_off(off, row[i]->id)) continue;
         if (pins && strcmp(row[i]->id, "nonlinear-hinge") == 0) continue;
         if (row[i]->add(c, loads) != FW_OK) fail(row[i]->id);
     }
@@ -167,7 +171,7 @@ static request request_of(int argc, char **argv, int *at) {
         else if (strcmp(argv[i], "--still") == 0)
             r.still = true;
         else if (strcmp(argv[i], "--off") == 0 && i + 1 < argc)
-            r.off = argv[++i];
+            r.off[r.off[0] != NULL] = argv[++i];
         else if (strcmp(argv[i], "--stir") == 0 && i + 1 < argc)
             r.stir = strtod(argv[++i], NULL);
         else

@@ -14,8 +14,8 @@ EFFECTS = len(re.findall(r"^FW_EFFECT(?:_ELEMENT)?\(\w+", (ROOT / "src/device/ef
 ABOUT = {
     ("tendons", "pulled"): {"tendon"},
     ("tendons", "drawn"): {"tendon"},
-    ("comb", "drive"): {"comb-drive", "air", "material-damping"},
-    ("comb", "oscillate"): {"comb-drive", "material-damping"},
+    ("comb", "drive"): {"comb-drive", "fringe-field", "air", "material-damping"},
+    ("comb", "oscillate"): {"comb-drive", "fringe-field", "material-damping"},
     ("comb", "pull-back"): {"comb-drive", "joint-damping"},
     ("shaken", "shock"): {"base-motion", "gravity", "air"},
     ("shaken", "vibration"): {"base-motion", "air"},

@@ -271,6 +271,27 @@ class Probe(unittest.TestCase):
             return math.hypot(c[0] - a[0] - t * dx, c[1] - a[1] - t * dy)
         return min(foot(c, b[k - 1], b[k]) for a, b in ((p, q), (q, p)) for c in a for k in range(len(b)))
 
+    def test_capacitance_of_a_comb_and_of_a_plate(self):
+        text = (ROOT / "tests/data/theory/cart.xml").read_text()
+        probes = '<probe id="c" kind="capacitance" of="comb"/><probe id="p" kind="capacitance" of="plate"/>'
+        asked = text.replace("</mechanism>", "</mechanism>" + probes)
+        eps0, h, k = 8.8541878128e-12, 50e-6, 10.0
+        x = 3 / 8  # gap over the width of a finger
+        edge = (2 * math.log(1 + 2 * x) - 2 * math.log(x) + math.log(1 + 2 * x) / x) / math.pi
+        per = 2 * 40 * eps0 * (h / 3e-6 + edge)  # F/m
+        moved = 0.5 * per * 30**2 / k
+        found = json.loads(run("statics", "-", "--scene", "comb", "--json", input=asked).stdout)
+        self.assertEqual([(q["id"], q["unit"]) for q in found["probes"]], [("c", "F")])
+        self.assertAlmostEqual(found["probes"][0]["value"] / (per * (20e-6 + moved)), 1, delta=1e-9)
+        found = json.loads(run("statics", "-", "--scene", "plate", "--json", input=asked).stdout)
+        moved = found["q"]["plate"][0]
+        self.assertAlmostEqual(found["probes"][0]["value"] / (eps0 * 400e-6 * h / (6e-6 - moved)), 1, delta=1e-9)
+        # in a motion, and only of electrodes
+        course = json.loads(run("simulate", "-", "--scene", "comb", "--json", input=asked).stdout)["probes"][0]
+        self.assertEqual(course["id"], "c")
+        wrong = asked.replace('of="comb"/><probe id="p"', 'of="comb"/><probe id="f" kind="capacitance" of="spring"/><probe id="p"')
+        self.assertEqual(run("statics", "-", input=wrong).returncode, 3)
+
     def test_a_gap_is_the_distance_of_what_is_drawn(self):
         text = self.with_gap()
         rows = self.rows(text, "--scene", "close", "--samples", "401")

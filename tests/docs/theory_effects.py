@@ -247,7 +247,17 @@ def effect_comb_drive(g):
 
 def effect_comb_drive_program(run, _):
     pull_in = at_rest(run, CART, "plate")["pull_in"][0]
-    return {"x": at_rest(run, CART, "comb")["q"]["plate"][0], "pullin": pull_in["voltage_V"], "share": pull_in["fringe"]}
+    return {"x": at_rest(run, CART, "comb", "--effects", "none")["q"]["plate"][0], "pullin": pull_in["voltage_V"], "share": pull_in["fringe"]}
+
+
+def effect_fringe_field(g):
+    x = g["gap"] / g["w"]
+    F = (2 * log(1 + 2 * x) - 2 * log(x) + log(1 + 2 * x) / x) / pi
+    return {"F": F, "share": F * g["gap"] / g["h"], "x": EPS0 * g["N"] * (g["h"] / g["gap"] + F) * g["V"] ** 2 / g["k"]}
+
+
+def effect_fringe_field_program(run, _):
+    return {"x": at_rest(run, CART, "comb")["q"]["plate"][0]}
 
 
 def effect_temperature(g):

@@ -138,7 +138,8 @@ def wafer(g):
 
 def as_fabricated(g):
     drawn = theory_flexures.arc(g)
-    made = theory_flexures.arc({**g, "t": g["t"] - 2 * g["edge"], "rho": g["rho"] + g["edge"]})
+    made = theory_flexures.arc({**g, "t": g["t"] - 2 * g["edge"], "rho": g["rho"] + g["edge"],
+                                "angle": g["angle"] + 2 * g["edge"] / g["r"]})
     flare = g["h"] * tan(g["slope"])
     return {"K_edge": made["K"] / drawn["K"] - 1, "flare": flare, "section": (flare / g["t"]) ** 2, "per_um": 3 * 0.2e-6 / g["t"]}
 
@@ -148,7 +149,8 @@ def as_fabricated_program(run, g):
         found = run("hinge", theory_flexures.DEVICE, "--level", "closed-form", "--json", *options)["hinges"]
         return next(h for h in found if h["id"] == "A")["used_stiffness_Nm_per_rad"]
     made = stiffness("--set", f"flexure[arc]/@width={(g['t'] - 2 * g['edge']) * 1e6:g} um",
-                     "--set", f"flexure[arc]/@fillet={(g['rho'] + g['edge']) * 1e6:g} um")
+                     "--set", f"flexure[arc]/@fillet={(g['rho'] + g['edge']) * 1e6:g} um",
+                     "--set", f"flexure[arc]/@angle={g['angle'] + 2 * g['edge'] / g['r']:.12g} rad")
     return {"K_edge": made / stiffness() - 1}
 
 

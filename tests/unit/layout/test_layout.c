@@ -430,6 +430,35 @@ static void free_rotation_of_two_sectors(void **state) {
     fw_arena_free(arena);
 }
 
+/* the same two as their edges move: a corner of one nears the flat of the other by 2 d, and what passes as drawn does
+   not where both have grown into each other's way */
+static void free_rotation_as_made(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_layout_hinge_layout h = {.centre = {1e-3, -2e-3}, .keep_out_m = 50e-6};
+    double now;
+    for (int n = -3; n <= 3; n++) {
+        const double d = n * 0.7e-6, inner = n < 0 ? 70e-6 - d : 70e-6; /* a corner that recedes stays sharp */
+        const double flat = n < 0 ? 2 * asin(d / inner) : asin(2 * d / inner);
+        assert_int_equal(
+            fw_geometry_contour_ring_sector(arena, h.centre, 50e-6, 90e-6, 0.0, 1.0, &h.solid[0]), FW_OK);
+        assert_int_equal(
+            fw_geometry_contour_ring_sector(arena, h.centre, 70e-6, 120e-6, 1.4, 2.0, &h.solid[1]), FW_OK);
+        assert_int_equal(fw_layout_free_rotation_made(arena, &h, d, &now), FW_OK);
+        /* of receding ones the outer end is the nearest; the circles are 0.5 um apart */
+        const double want = n < 0 ? 0.4 - 2 * asin(d / (90e-6 + d)) : 0.4 - flat;
+        assert_near(now, want, 3e-4);
+        assert_int_equal(
+            fw_geometry_contour_ring_sector(arena, h.centre, 95e-6, 120e-6, 1.4, 2.0, &h.solid[1]), FW_OK);
+        assert_int_equal(fw_layout_free_rotation_made(arena, &h, d, &now), FW_OK);
+        assert_near(now, M_PI, 0.0);
+    }
+    const double met = acos((90e-6 * 90e-6 + 95e-6 * 95e-6 - 6e-6 * 6e-6) / (2 * 90e-6 * 95e-6));
+    assert_int_equal(fw_layout_free_rotation_made(arena, &h, 3e-6, &now), FW_OK);
+    assert_near(now, 0.4 - met, 3e-3);
+    fw_arena_free(arena);
+}
+
 static void symmetric_device_gives_symmetric_layout(void **state) {
     (void)state;
     fixture f;
@@ -841,6 +870,7 @@ int main(void) {
         cmocka_unit_test(tethers_break_at_the_body),
         cmocka_unit_test(free_rotation_is_free),
         cmocka_unit_test(free_rotation_of_two_sectors),
+        cmocka_unit_test(free_rotation_as_made),
         cmocka_unit_test(symmetric_device_gives_symmetric_layout),
         cmocka_unit_test(variants_are_drawn_or_refused),
         cmocka_unit_test(other_mechanisms_are_drawn),

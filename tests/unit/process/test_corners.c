@@ -103,6 +103,29 @@ static void the_copper_flow(void **state) {
     assert_near(fabricated.thickness_ratio, 0.9, 1e-12);
 }
 
+/* by how much hinges may differ moves nothing that all have in common */
+static void hinges_of_their_own(void **state) {
+    (void)state;
+    fw_mechanism_variant v = variant_of(50e-6, 1.5e9);
+    int n;
+    const fw_verdict_fabrication_input *list =
+        inputs(SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+               "<corner of=\"local\" name=\"from hinge to hinge\" q=\"litho.edge\"/>", &v, &n);
+    const int l = named(list, n, "from hinge to hinge");
+    assert_near(list[l].local, 1, 0);
+    assert_near(list[l].high - list[l].nominal, 0.15e-6, 1e-15);
+    assert_true(list[l].edge_m == 0 && list[l].flare_m == 0 && list[l].thickness == 0 && list[l].youngs == 0);
+    double x[FW_FABRICATION_INPUTS];
+    for (int i = 0; i < n; i++)
+        x[i] = list[i].nominal;
+    const fw_verdict_fabrication alike = fw_verdict_fabrication_at(list, n, x);
+    x[l] = list[l].high;
+    const fw_verdict_fabrication apart = fw_verdict_fabrication_at(list, n, x);
+    assert_near(alike.local_m, 0, 0);
+    assert_near(apart.local_m, 0.15e-6, 1e-15);
+    assert_near(apart.edge_m, alike.edge_m, 0);
+}
+
 static void mistakes_have_a_place(void **state) {
     (void)state;
     static const char *const wrong[][2] = {
@@ -178,6 +201,7 @@ int main(void) {
         cmocka_unit_test(the_silicon_flow_leaves_the_trapezoid_of_its_etch),
         cmocka_unit_test(a_known_anisotropy_is_compensated),
         cmocka_unit_test(the_copper_flow),
+        cmocka_unit_test(hinges_of_their_own),
         cmocka_unit_test(mistakes_have_a_place),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

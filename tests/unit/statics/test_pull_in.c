@@ -6,7 +6,8 @@
 #include "statics/statics.h"
 
 static const double eps0 = 8.8541878128e-12;
-static const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
+static const fw_effect_choice all = {.mode = FW_EFFECTS_ALL},
+                              faces = {.mode = FW_EFFECTS_NONE}; /* what is kept: no fringe */
 
 static const fw_device_comb plate_drive = {.id = "plate",
                                            .kind = FW_ELECTRODES_PLATE,
@@ -55,11 +56,14 @@ static rig comb_on_stage(fixture *f, double kx, double ky) {
     return r;
 }
 
-static const fw_statics_pull_in *find(fixture *f, const rig *r) {
+static const fw_statics_pull_in *find_with(fixture *f, const rig *r, const fw_effect_choice *effects) {
     const fw_statics_pull_in *found;
-    assert_int_equal(fw_statics_pull_in_find(f->arena, &r->m, &r->scene, &all, &f->diags, &found),
+    assert_int_equal(fw_statics_pull_in_find(f->arena, &r->m, &r->scene, effects, &f->diags, &found),
                      FW_OK);
     return found;
+}
+static const fw_statics_pull_in *find(fixture *f, const rig *r) {
+    return find_with(f, r, &faces);
 }
 
 /* V^2 = 8 k g^3/(27 eps0 A) at a third of the gap, whatever the scene's own voltage is */
@@ -127,6 +131,26 @@ static void test_two_plates(void **state) {
     assert_true(p->bifurcation);
     assert_relative(p->voltage_V, sqrt(k * g * g * g / (2 * eps0 * area)), 1e-10);
     fw_arena_free(f.arena);
+}
+
+/* With the fringe the pull along has h/g + F(g) in place of h/g, and what draws aside 2 h/g^3 + F''(g) */
+static void test_side_with_fringe(void **state) {
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        fixture f = begin();
+        double kx = pow(5, i), ky = 40 * kx, g = 4e-6, o = 50e-6, h = 50e-6, per = eps0 * 40, by[2];
+        double along = per * (h / g + fw_effects_comb_edge(g, 8e-6, by));
+        double aside = per * (2 * h / (g * g * g) + by[1]);
+        double a = aside * along / kx, b = aside * o, square = 2 * ky / (b + sqrt(b * b + 4 * a * ky));
+        rig r = comb_on_stage(&f, kx, ky);
+        add_drive(&f, &r, &comb_drive);
+        const fw_statics_pull_in *p = find_with(&f, &r, &all), *without = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_SIDE);
+        assert_relative(p->voltage_V, sqrt(square), 1e-9);
+        assert_true(p->voltage_V < 0.99 * without->voltage_V && p->fringe < 0.5 * without->fringe);
+        fw_arena_free(f.arena);
+    }
 }
 
 /* side instability: (2 face/g^3) (overlap + face V^2/(g kx)) V^2 = ky, a quadratic in V^2 */
@@ -332,7 +356,7 @@ static void test_statics(void **state) {
         fw_device_comb c = plate_drive;
         c.voltage_V = share[i] * volt;
         add_drive(&f, &r, &c);
-        const fw_statics_static_options o = {.effects = all, .path = i == 1};
+        const fw_statics_static_options o = {.effects = faces, .path = i == 1};
         const fw_statics *s;
         fw_status status = fw_statics_solve(f.arena, &r.m, &r.scene, &o, &f.diags, &s);
         if (i == 2) {
@@ -359,6 +383,7 @@ int main(void) {
         cmocka_unit_test(test_plate_with_load),
         cmocka_unit_test(test_two_plates),
         cmocka_unit_test(test_side),
+        cmocka_unit_test(test_side_with_fringe),
         cmocka_unit_test(test_side_with_offset),
         cmocka_unit_test(test_side_almost_in_the_middle),
         cmocka_unit_test(test_side_of_a_soft_stage),
