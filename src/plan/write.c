@@ -134,7 +134,10 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
         .cut = pf->cut,
         .measuring = pf->measuring,
         .release = pf->release_svg.length ? &pf->release_svg : NULL,
-        .wiring = pf->wiring};
+        .wiring = pf->wiring,
+        .plates_written = pf->wafer || pf->single,
+        .test_die = pf->coupons != NULL,
+        .test_dies = pf->wafer ? pf->wafer->tests : 0};
 }
 
 /* of a rejected device */
