@@ -100,6 +100,7 @@ fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
 fw_script_test(release.distances COMMAND tests/release/distances.py ${FW_PROGRAM} 1 8 TIMEOUT 900)
 set_tests_properties(release.distances PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(accept.nets COMMAND ${Python3_EXECUTABLE} tests/accept/nets.py ${FW_PROGRAM})
+fw_script_test(accept.shapes COMMAND /usr/bin/python3 tests/accept/random_shapes.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
 # width and space as written before KLayout's, in both directions; with FW_TEST_ALL=1 24 devices
 fw_script_test(accept.written COMMAND tests/accept/written_rules.py ${FW_PROGRAM} TIMEOUT 600)
@@ -111,7 +112,7 @@ fw_script_test(klayout.gdspy COMMAND /usr/bin/python3 tests/klayout/gdspy_cell.p
 fw_script_test(klayout.cells COMMAND /usr/bin/python3 tests/klayout/cells.py ${FW_PROGRAM} TIMEOUT 600)
 # STEP as Open CASCADE reads it
 fw_script_test(accept.step COMMAND /usr/bin/python3 tests/accept/step.py ${FW_PROGRAM})
-set_tests_properties(klayout.package klayout.rules klayout.gdspy klayout.cells accept.step PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(accept.shapes klayout.package klayout.rules klayout.gdspy klayout.cells accept.step PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/auxv.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -171,7 +172,10 @@ static bool own_file(char path[PATH_MAX]) {
     void *extra = NULL;
     if (!dladdr1(&here, &info, &extra, RTLD_DL_LINKMAP) || !extra) return false;
     const struct link_map *map = extra;
-    return realpath(map->l_name[0] ? map->l_name : "/proc/self/exe", path) != NULL;
+    if (map->l_name[0]) return realpath(map->l_name, path) != NULL;
+    if (realpath("/proc/self/exe", path)) return true;
+    const char *called = (const char *)getauxval(AT_EXECFN); /* a bare root has no /proc */
+    return called && realpath(called, path) != NULL;
 }
 
 static bool is_place(const char *part, size_t n) {

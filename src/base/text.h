@@ -59,6 +59,15 @@ char *fw_millionths_text(char *buffer, double value);
 char *fw_place_text(char *buffer, double x, double y);
 /* the same into a caller's buffer of n bytes; returns buffer */
 char *fw_number_text(char *buffer, size_t n, double value, int digits);
+/* so many digits, or as many as a number below a million needs to be written without an exponent */
+static inline int fw_number_plain(double value, int digits) {
+    double most = 1;
+    for (int i = 0; i < digits; i++)
+        most *= 10;
+    while (digits < 6 && (value >= most || value <= -most))
+        most *= 10, digits++;
+    return digits;
+}
 /* 100 times `part` to three digits, below a million without an exponent: "0.364", "11100" */
 char *fw_percent_text(char *buffer, size_t n, double part);
 /* whole string is one finite number ('.' decimal, optional exponent, no hex, inf or nan)? */

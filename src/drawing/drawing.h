@@ -72,7 +72,7 @@ fw_status fw_drawing_read(fw_arena *arena, const char *data, size_t n,
                           const fw_drawing_asked *asked, fw_diags *diags, fw_drawing *out);
 
 /* dxf_reader.c: closed LWPOLYLINE and POLYLINE with bulges, CIRCLE, and chains of LINE, ARC and
-   open polylines, of ENTITIES */
+   open polylines, of ENTITIES and of the blocks that these insert */
 fw_status fw_drawing_read_dxf(fw_arena *arena, const char *data, size_t n,
                               const fw_drawing_asked *asked, fw_diags *diags, fw_drawing *out);
 /* gds_reader.c: BOUNDARY and BOX of one cell */
@@ -219,16 +219,35 @@ typedef struct fw_drawing_run {
     int first, count, line; /* of edges */
 } fw_drawing_run;
 
+typedef struct fw_drawing_block { /* of DXF: a drawing that INSERT places */
+    const char *name, *begin;     /* of its first entity */
+    int line;                     /* before that */
+    fw_geometry_vec2 base;
+    bool open; /* it is being placed */
+} fw_drawing_block;
+
+typedef struct fw_drawing_frame { /* p goes to (xx x + xy y + x, yx x + yy y + y) */
+    double xx, xy, yx, yy, x, y;
+} fw_drawing_frame;
+
 typedef struct fw_drawing_dxf {
     fw_arena *arena;
     fw_diags *diags;
     const fw_drawing_asked *asked;
     const char *at, *end;
     int line;
+    const char *pair_at; /* where the pair `now` begins, behind line */
+    int pair_line;
     fw_drawing_pair now;
-    bool failed, over;     /* nothing more can be read; the text is at its end */
-    int insunits;          /* -1: not said */
-    const char *layer;     /* the only one so far that had something; NULL */
+    fw_drawing_block *block; /* (nblock) */
+    int nblock, block_room;
+    fw_drawing_frame frame; /* of the block that is being placed, in the drawing */
+    const char
+        *inherited;    /* layer of its INSERT, which its layer 0 stands for; NULL: there is none */
+    int depth, work;   /* blocks within blocks; entities of blocks that were placed */
+    bool failed, over; /* nothing more can be read; the text is at its end */
+    int insunits;      /* -1: not said */
+    const char *layer; /* the only one so far that had something; NULL */
     fw_drawing_edge *edge; /* (nedge) */
     int nedge, edge_room;
     fw_drawing_run *closed; /* (nclosed) runs of edges that are closed as they are */

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* DXF (ASCII) to closed outlines. Pairs of lines, a group code and a value; of the sections only
-   $INSUNITS of HEADER and the ENTITIES of model space. A bulge is the tangent of a quarter of the
+   $INSUNITS of HEADER, BLOCKS, and the ENTITIES of model space with the blocks that they insert. A bulge is the tangent of a quarter of the
    sweep, so arcs of polylines are exact. Source: AutoCAD DXF Reference, u18_1_h. */
 #include "base/constants.h"
 #include "base/text.h"
 #include "drawing/drawing.h"
 #include "geometry/segment.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
-enum { LINE_MOST = 2048, LAYER_MOST = 256 };
+enum { LINE_MOST = 2048, LAYER_MOST = 256, BLOCKS_MOST = 10000, DEEPEST = 16, WORK_MOST = 100000 };
 
 typedef fw_drawing_pair pair;
 typedef fw_drawing_edge edge;
@@ -55,6 +57,8 @@ static bool next(reader *r) {
     const char *code;
     size_t n;
     double number;
+    r->pair_at = r->at;
+    r->pair_line = r->line;
     if (r->failed || r->over || !next_line(r, &code, &n)) {
         r->over = true;
         return false;
@@ -97,10 +101,10 @@ typedef struct entity {
 } entity;
 
 /* what is geometry and is not read; what is neither is a remark (text, dimensions, points) */
-static const char *const refused[] = {"SPLINE", "ELLIPSE", "INSERT", "SOLID",   "TRACE",
-                                      "REGION", "3DFACE",  "MLINE",  "3DSOLID", NULL};
+static const char *const refused[] = {"SPLINE", "ELLIPSE", "SOLID",   "TRACE", "REGION",
+                                      "3DFACE", "MLINE",   "3DSOLID", NULL};
 
-static bool is_wanted(reader *r, const entity *e) {
+static bool is_wanted(const reader *r, const entity *e) {
     if (e->paper) return false;
     return !r->asked->layer || strcmp(r->asked->layer, e->layer) == 0;
 }
@@ -118,7 +122,14 @@ static bool is_of_layer(reader *r, const entity *e) {
     return false;
 }
 
-static bool usable(reader *r, const entity *e) {
+/* in a block layer 0 is that of what inserts it */
+static void inherit(const reader *r, entity *e) {
+    if (r->inherited && strcmp(e->layer, "0") == 0)
+        snprintf(e->layer, sizeof e->layer, "%s", r->inherited);
+}
+
+static bool usable(reader *r, entity *e) {
+    inherit(r, e);
     if (!is_wanted(r, e) || !is_of_layer(r, e)) return false;
     if (e->thick || e->turned) {
         fw_diag_error(r->diags, 315, place_at(r, e->line),
@@ -130,6 +141,10 @@ static bool usable(reader *r, const entity *e) {
         r->failed = true;
     }
     return !r->failed;
+}
+
+static fw_geometry_vec2 placed(const fw_drawing_frame *f, fw_geometry_vec2 p) {
+    return (fw_geometry_vec2){f->xx * p.x + f->xy * p.y + f->x, f->yx * p.x + f->yy * p.y + f->y};
 }
 
 static fw_status add_edge(reader *r, fw_geometry_vec2 a, fw_geometry_vec2 b, double sweep_rad,
@@ -148,7 +163,9 @@ static fw_status add_edge(reader *r, fw_geometry_vec2 a, fw_geometry_vec2 b, dou
                                         sizeof *r->edge));
         r->edge_room = more;
     }
-    r->edge[r->nedge++] = (edge){a, b, sweep_rad, line, false};
+    bool mirrored = r->frame.xx * r->frame.yy < r->frame.xy * r->frame.yx;
+    r->edge[r->nedge++] = (edge){placed(&r->frame, a), placed(&r->frame, b),
+                                 mirrored ? -sweep_rad : sweep_rad, line, false};
     return FW_OK;
 }
 
@@ -327,14 +344,153 @@ static fw_status read_simple(reader *r, entity *e) {
 static fw_status read_other(reader *r, entity *e) {
     while (next(r) && r->now.code != 0)
         if (r->now.code == 8 || r->now.code == 67) common_group(r, e);
+    inherit(r, e);
     for (const char *const *name = refused; *name && !r->failed; name++) {
         if (strcmp(*name, e->name) != 0 || !is_wanted(r, e)) continue;
-        fw_diag_error(r->diags, 315, place_at(r, e->line), "%s on layer '%.64s' is not read: %s",
-                      e->name, e->layer,
-                      strcmp(*name, "INSERT") == 0 ? "explode blocks into lines, arcs and polylines"
-                                                   : "convert it to polylines of lines and arcs");
+        fw_diag_error(r->diags, 315, place_at(r, e->line),
+                      "%s on layer '%.64s' is not read: convert it to polylines of lines and arcs",
+                      e->name, e->layer);
         r->failed = true;
     }
+    return FW_OK;
+}
+
+/* ---- blocks ---- */
+
+static fw_drawing_block *find_block(const reader *r, const char *name) {
+    for (int i = 0; i < r->nblock; i++)
+        if (strcasecmp(r->block[i].name, name) == 0) return &r->block[i];
+    return NULL;
+}
+
+/* stands on 0/BLOCK, leaves on its first entity, or ENDBLK */
+static fw_status note_block(reader *r) {
+    fw_drawing_block b = {.name = ""};
+    while (next(r) && r->now.code != 0) {
+        if (r->now.code == 2)
+            FW_NEED(b.name = fw_arena_strndup(r->arena, r->now.value, r->now.length));
+        if (r->now.code == 10) b.base.x = number_now(r);
+        if (r->now.code == 20) b.base.y = number_now(r);
+    }
+    b.begin = r->pair_at;
+    b.line = r->pair_line;
+    if (r->nblock == BLOCKS_MOST) damaged(r, r->line, "it has more than 10000 blocks");
+    if (r->failed) return FW_OK;
+    if (r->nblock == r->block_room) {
+        int more = r->block_room ? 2 * r->block_room : 16;
+        FW_NEED(r->block = fw_arena_grow(r->arena, r->block, (size_t)r->nblock, (size_t)more,
+                                         sizeof *r->block));
+        r->block_room = more;
+    }
+    r->block[r->nblock++] = b;
+    return FW_OK;
+}
+
+static fw_status read_entity(reader *r);
+
+/* the entities of a block, with the reader's place in the text as it was */
+static fw_status read_block(reader *r, int number, const entity *e) {
+    fw_drawing_block *b = &r->block[number];
+    const char *why = b->open                ? "holds itself, here or through others"
+                      : r->depth >= DEEPEST  ? "lies within others more than 16 deep"
+                      : r->work >= WORK_MOST ? "would be placed more than 100000 times"
+                                             : NULL;
+    if (why) {
+        fw_diag_error(r->diags, 319, place_at(r, e->line),
+                      "block '%.64s' %s; explode some of the blocks", b->name, why);
+        r->failed = true;
+        return FW_OK;
+    }
+    reader kept = *r;
+    b->open = true;
+    r->at = b->begin;
+    r->line = b->line;
+    r->depth++;
+    next(r);
+    while (!r->failed && !r->over && !is(&r->now, 0, "ENDBLK") && !is(&r->now, 0, "ENDSEC")) {
+        r->work++;
+        FW_TRY(read_entity(r));
+    }
+    r->block[number].open = false;
+    r->at = kept.at, r->line = kept.line, r->over = kept.over, r->now = kept.now;
+    r->pair_at = kept.pair_at, r->pair_line = kept.pair_line, r->depth = kept.depth;
+    return FW_OK;
+}
+
+typedef struct insert {
+    char name[LAYER_MOST];
+    double scale[2], angle_deg, step[2];
+    int columns, rows;
+} insert;
+
+static void insert_group(reader *r, insert *in, entity *e) {
+    int code = r->now.code;
+    if (code == 2)
+        snprintf(in->name, sizeof in->name, "%.*s", (int)r->now.length, r->now.value);
+    else if (code == 10 || code == 20)
+        *(code == 10 ? &e->x[0] : &e->y[0]) = number_now(r);
+    else if (code == 41 || code == 42)
+        in->scale[code - 41] = number_now(r);
+    else if (code == 44 || code == 45)
+        in->step[code - 44] = number_now(r);
+    else if (code == 50)
+        in->angle_deg = number_now(r);
+    else if (code == 70 || code == 71)
+        *(code == 70 ? &in->columns : &in->rows) = (int)fmax(1, fmin(number_now(r), 32767));
+    else
+        common_group(r, e);
+}
+
+/* what INSERT cannot place; NULL: it can */
+static const char *insert_fault(const insert *in, const entity *e, const fw_drawing_block *b) {
+    double same = fabs(in->scale[0]) - fabs(in->scale[1]);
+    if (!b) return "is not in the file; save it with its blocks";
+    if (e->turned)
+        return "is drawn in a plane of its own (groups 210 to 230); flatten it into the plane of x "
+               "and y";
+    if (!(fabs(in->scale[0]) > 1e-9 && fabs(same) <= 1e-9 * fabs(in->scale[0])))
+        return "is stretched, so that its arcs are none any more; explode it";
+    return NULL;
+}
+
+/* INSERT: a block, moved so that its base lies on the point, scaled, turned and repeated */
+static fw_status read_insert(reader *r, entity *e) {
+    insert in = {.scale = {1, 1}, .columns = 1, .rows = 1};
+    while (next(r) && r->now.code != 0)
+        insert_group(r, &in, e);
+    inherit(r, e);
+    if (r->failed || e->paper) return FW_OK;
+    const fw_drawing_block *b = find_block(r, in.name);
+    const char *fault = insert_fault(&in, e, b);
+    if (fault) {
+        fw_diag_error(r->diags, 315, place_at(r, e->line), "block '%.64s' %s", in.name, fault);
+        r->failed = true;
+        return FW_OK;
+    }
+    const fw_drawing_frame from = r->frame;
+    const char *layer = r->inherited;
+    int number = (int)(b - r->block);
+    double c = cos(in.angle_deg * FW_PI / 180), s = sin(in.angle_deg * FW_PI / 180);
+    FW_NEED(r->inherited = fw_arena_strdup(r->arena, e->layer));
+    for (int i = 0; i < in.rows; i++)
+        for (int k = 0; k < in.columns && !r->failed; k++) {
+            double u = k * in.step[0] - in.scale[0] * r->block[number].base.x,
+                   v = i * in.step[1] - in.scale[1] * r->block[number].base.y;
+            fw_geometry_vec2 o =
+                placed(&from, (fw_geometry_vec2){e->x[0] + c * u - s * v, e->y[0] + s * u + c * v});
+            double xx = c * in.scale[0], xy = -s * in.scale[1], yx = s * in.scale[0],
+                   yy = c * in.scale[1];
+            r->frame = (fw_drawing_frame){from.xx * xx + from.xy * yx,
+                                          from.xx * xy + from.xy * yy,
+                                          from.yx * xx + from.yy * yx,
+                                          from.yx * xy + from.yy * yy,
+                                          o.x,
+                                          o.y};
+            r->work++;
+            FW_TRY(read_block(r, number, e));
+        }
+    r->frame = from;
+    r->inherited = layer;
     return FW_OK;
 }
 
@@ -343,6 +499,7 @@ static fw_status read_entity(reader *r) {
     entity e = begin(r);
     if (strcmp(e.name, "LWPOLYLINE") == 0) return read_light(r, &e);
     if (strcmp(e.name, "POLYLINE") == 0) return read_heavy(r, &e);
+    if (strcmp(e.name, "INSERT") == 0) return read_insert(r, &e);
     if (strcmp(e.name, "LINE") == 0 || strcmp(e.name, "ARC") == 0 || strcmp(e.name, "CIRCLE") == 0)
         return read_simple(r, &e);
     return read_other(r, &e);
@@ -353,12 +510,17 @@ static fw_status read_section(reader *r) {
         damaged(r, r->line, "a section has no name");
         return FW_OK;
     }
-    bool header = is(&r->now, 2, "HEADER"), entities = is(&r->now, 2, "ENTITIES");
+    bool header = is(&r->now, 2, "HEADER"), entities = is(&r->now, 2, "ENTITIES"),
+         blocks = is(&r->now, 2, "BLOCKS");
     bool wanted = false;
     next(r);
     while (!r->failed && !r->over && !is(&r->now, 0, "ENDSEC")) {
         if (entities && r->now.code == 0) {
             FW_TRY(read_entity(r));
+            continue;
+        }
+        if (blocks && is(&r->now, 0, "BLOCK")) {
+            FW_TRY(note_block(r));
             continue;
         }
         if (header && r->now.code == 9) wanted = is(&r->now, 9, "$INSUNITS");
@@ -377,6 +539,7 @@ fw_status fw_drawing_read_dxf(fw_arena *arena, const char *data, size_t n,
                 .asked = asked,
                 .at = data,
                 .end = data + n,
+                .frame = {.xx = 1, .yy = 1},
                 .insunits = -1};
     *out = (fw_drawing){0};
     while (next(&r) && !is(&r.now, 0, "EOF"))

@@ -71,7 +71,7 @@ static bool slide_through(const fw_geometry_segment *joint, const fw_geometry_se
     if (n == 2 && vec_distance(hit[1], aim) < vec_distance(hit[0], aim)) hit[0] = hit[1];
     double way = vec_dot(vec_sub(hit[0], v), u);
     *at = vec_along(v, 1e-15 * round(1e15 * way), u);
-    return fabs(way - d) < 0.25 * fabs(d);
+    return way * d > 0 && fabs(way) < 2.1 * fabs(d); /* d/sine, and what an arc bends meanwhile */
 }
 
 /* where the moved neighbour meets the edge that leaves the joint's moved end square to the joint:

@@ -407,7 +407,8 @@ typedef struct fw_layout_release_grid {
     fw_layout_drawing *d;
     int body;
     const char *label;
-    fw_geometry_contour outline; /* as it is now */
+    fw_geometry_contour outline; /* as it is now; */
+    int segments;                /* there is room for so many in it, 0: it is another's */
     fw_geometry_contour before;  /* without holes */
     fw_geometry_box box;         /* of that */
     fw_geometry_vec2 origin, x, y;
@@ -419,6 +420,9 @@ typedef struct fw_layout_release_grid {
 } fw_layout_release_grid;
 
 fw_status fw_layout_note_hole(fw_layout_release_grid *g, fw_geometry_vec2 middle);
+/* room in the outline for `more` segments behind number i; what they are is still to be said. A hole costs
+   the move of what lies behind it, and no copy of an outline that thousands of holes make long. */
+fw_status fw_layout_release_open(fw_layout_release_grid *g, int i, int more);
 /* holes where the grid has left any point too far from an opening: heads, necks, ends of bars (release_rest.c) */
 fw_status fw_layout_release_rest(fw_layout_release_grid *g);
 

@@ -10,8 +10,9 @@
    Holes near the edge come first; one behind another is opened through it. Of all cuts that start
    square to a hole's edge the shortest is taken that leaves through one edge within 45 degrees of
    square, stays away from eyelets and electrodes and from holes that are still closed. Cuts are 12 um
-   wide; where none fits 8, then 4 um. In: outer outline and holes (clockwise). Cost: places on the
-   holes' edges times segments. Test: test_shapes.c */
+   wide; where none fits 8, then 4 um; where none does, they begin askew by 15, 30 or 45 degrees, and
+   holes as small as the dots of letters get cuts of 2 um: what a cut parts is joined again. In: outer
+   outline and holes (clockwise). Cost: places on the holes' edges times segments. Test: test_shapes.c */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"
@@ -21,9 +22,14 @@
    what a process bias takes off either end must leave an edge */
 typedef struct cut_size {
     double half_m, beside_m, rim_m;
+    bool askew;
 } cut_size;
-static const cut_size sizes[] = {{6e-6, 16e-6, 3e-6}, {4e-6, 8e-6, 3e-6}, {2e-6, 4e-6, 3e-6}};
-enum { SIZES = 3, PLACES = 5, ARC_PLACES = 24 };
+static const cut_size sizes[] = {{6e-6, 16e-6, 3e-6, false}, {4e-6, 8e-6, 3e-6, false},
+                                 {2e-6, 4e-6, 3e-6, false},  {6e-6, 16e-6, 3e-6, true},
+                                 {4e-6, 8e-6, 3e-6, true},   {2e-6, 4e-6, 3e-6, true},
+                                 {1e-6, 4e-6, 2e-6, false},  {1e-6, 4e-6, 2e-6, true}};
+enum { SIZES = sizeof sizes / sizeof *sizes, PLACES = 5, ARC_PLACES = 24 };
+enum { TURNS = 6 }; /* ways askew: of 15, 30 and 45 degrees to either side */
 static const double CLEAR_M = 6e-6, LONGEST_M = 5e-3;
 static const double NEAR_M = 2.5e-6; /* of a cut's sides from other edges: two biases, and some */
 
@@ -46,14 +52,15 @@ static fw_geometry_segment side_of_cut(fw_geometry_vec2 a, fw_geometry_vec2 b) {
         .kind = FW_LINE, .flags = FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH, .a = a, .b = b};
 }
 
-/* the two places on a hole's segment, `half` to either side of the ray from `m` along u */
+/* the two places on a hole's segment, `half` to either side of the ray from `m` along u; an arc's is
+   square to it */
 static bool foot_on_hole(const fw_geometry_segment *s, fw_geometry_vec2 m, fw_geometry_vec2 u,
                          double half, double rim, fw_geometry_vec2 q[2]) {
-    fw_geometry_vec2 v = fw_left(u);
+    fw_geometry_vec2 v = fw_left(u), tangent = fw_geometry_segment_tangent(s, 0.5);
     for (int k = 0; k < 2; k++) {
         double aside = k == 0 ? -half : half;
         if (s->kind == FW_LINE)
-            q[k] = fw_add(m, aside, v);
+            q[k] = fw_add(m, aside / fw_dot(tangent, v), tangent);
         else {
             double out = fw_dot(fw_sub(m, s->centre), u) < 0 ? -1.0 : 1.0;
             double in = s->radius * s->radius - half * half;
@@ -158,6 +165,24 @@ static fw_status is_free(opening *o, const cut *k, bool *is) {
     return FW_OK;
 }
 
+/* the way out of a hole at parameter t, askew by the turn-th angle; 0: square to the edge */
+static fw_geometry_vec2 way_out(const fw_geometry_segment *s, double t, int turn) {
+    double angle = (turn % 2 ? 1 : -1) * ((turn + 1) / 2) * FW_PI / 12;
+    return fw_geometry_vec_rotate(fw_left(fw_geometry_segment_tangent(s, t)), angle);
+}
+
+static fw_status try_cut(opening *o, const fw_geometry_contour *hole, const cut_size *size, cut k,
+                         fw_geometry_vec2 m, fw_geometry_vec2 u, cut *best) {
+    bool is = false;
+    if (!foot_on_hole(&hole->segment[k.segment], m, u, size->half_m, size->rim_m, k.q) ||
+        !leaves(&o->outline, u, size, &k) || k.length_m >= best->length_m - 1e-9 ||
+        near_own_hole(hole, &k))
+        return FW_OK;
+    FW_TRY(is_free(o, &k, &is));
+    if (is) *best = k;
+    return FW_OK;
+}
+
 /* the shortest cut of one size; best->segment -1: none */
 static fw_status find_cut(opening *o, const fw_geometry_contour *hole, const cut_size *size,
                           cut *best) {
@@ -169,16 +194,10 @@ static fw_status find_cut(opening *o, const fw_geometry_contour *hole, const cut
         if (fw_geometry_segment_length(s) < 2.0 * (size->half_m + size->rim_m)) continue;
         for (int n = 0; n < places; n++) {
             double t = (n + 0.5) / places;
-            fw_geometry_vec2 m = fw_geometry_segment_point(s, t),
-                             u = fw_left(fw_geometry_segment_tangent(s, t));
-            cut k = {.segment = i};
-            bool is = false;
-            if (!foot_on_hole(s, m, u, size->half_m, size->rim_m, k.q) ||
-                !leaves(&o->outline, u, size, &k) || k.length_m >= best->length_m - 1e-9 ||
-                near_own_hole(hole, &k))
-                continue;
-            FW_TRY(is_free(o, &k, &is));
-            if (is) *best = k;
+            fw_geometry_vec2 m = fw_geometry_segment_point(s, t);
+            int last = size->askew && s->kind == FW_LINE ? TURNS : 0;
+            for (int turn = size->askew ? 1 : 0; turn <= last; turn++)
+                FW_TRY(try_cut(o, hole, size, (cut){.segment = i}, m, way_out(s, t, turn), best));
         }
     }
     return FW_OK;
@@ -285,8 +304,8 @@ fw_status fw_layout_holes_open(fw_layout_drawing *d, int body, const fw_geometry
         if (!done)
             return fw_layout_shape_refuse(
                 d, 316, fw_layout_body_place(d, body), body,
-                "a hole has no straight way of 4 um width to a straight place of the edge, from "
-                "where it could be opened; move it or make it smaller",
+                "a hole has no edge of 6 um from which a straight way of 2 um width leads to the "
+                "outer edge, so that it cannot be opened; move it or make it larger",
                 o.hole[0].segment[0].a);
         caps->count++;
     }

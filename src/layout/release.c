@@ -159,23 +159,14 @@ static fw_status add_cap(grid *g, const column *c, int k) {
 }
 
 static fw_status cut_column(grid *g, const column *c) {
-    const fw_geometry_contour *from = &g->outline;
-    fw_geometry_contour to = {0};
-    size_t most = (size_t)(from->count + 8 * c->n + 2);
-    FW_NEED(to.segment = fw_arena_array(g->d->arena, fw_geometry_segment, most));
-    for (int i = 0; i < from->count; i++) {
-        const fw_geometry_segment *s = &from->segment[i];
-        if (i != c->edge) {
-            to.segment[to.count++] = *s;
-            continue;
-        }
-        to.segment[to.count] = line(s->a, c->p[0], false);
-        to.segment[to.count++].flags = s->flags;
-        to.count += trace(g, c, to.segment + to.count);
-        to.segment[to.count] = line(c->p[1], s->b, false);
-        to.segment[to.count++].flags = s->flags;
-    }
-    g->outline = to;
+    const fw_geometry_segment edge = g->outline.segment[c->edge];
+    FW_TRY(fw_layout_release_open(g, c->edge, 4 * c->n));
+    fw_geometry_segment *to = g->outline.segment + c->edge;
+    to[0] = line(edge.a, c->p[0], false);
+    to[0].flags = edge.flags;
+    int n = 1 + trace(g, c, to + 1);
+    to[n] = line(c->p[1], edge.b, false);
+    to[n].flags = edge.flags;
     for (int k = 0; k < c->n; k++) {
         FW_TRY(add_cap(g, c, k));
         FW_TRY(fw_layout_note_hole(g, of_hole(g, c, k, 0.0, 0.0)));

@@ -17,6 +17,7 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include <math.h>
+#include <string.h>
 
 typedef fw_layout_release_grid grid;
 
@@ -31,6 +32,21 @@ fw_status fw_layout_note_hole(grid *g, fw_geometry_vec2 middle) {
         g->room = room;
     }
     g->hole[g->nhole++] = middle;
+    return FW_OK;
+}
+
+fw_status fw_layout_release_open(grid *g, int i, int more) {
+    fw_geometry_contour *c = &g->outline;
+    int n = c->count + more;
+    if (n > g->segments) {
+        const fw_geometry_segment *old = c->segment;
+        FW_NEED(c->segment = fw_arena_array(g->d->arena, fw_geometry_segment, 2 * (size_t)n));
+        memcpy(c->segment, old, (size_t)c->count * sizeof *old);
+        g->segments = 2 * n;
+    }
+    memmove(c->segment + i + 1 + more, c->segment + i + 1,
+            (size_t)(c->count - i - 1) * sizeof *c->segment);
+    c->count = n;
     return FW_OK;
 }
 
@@ -288,30 +304,23 @@ static fw_geometry_segment round_hole(const grid *g, fw_geometry_vec2 middle, fw
 }
 
 static fw_status open_hole(grid *g, fw_geometry_vec2 middle, const way *w) {
-    const fw_geometry_contour *from = &g->outline;
-    const fw_geometry_segment *edge = &from->segment[w->edge];
+    const fw_geometry_segment edge = g->outline.segment[w->edge];
     const double third = FW_PI / 3.0;
-    double t0 = fw_geometry_segment_parameter(edge, w->p[0]),
-           t1 = fw_geometry_segment_parameter(edge, w->p[1]);
-    fw_geometry_contour to = {0}, cap = {.count = 4};
-    FW_NEED(to.segment = fw_arena_array(g->d->arena, fw_geometry_segment, (size_t)from->count + 4));
+    double t0 = fw_geometry_segment_parameter(&edge, w->p[0]),
+           t1 = fw_geometry_segment_parameter(&edge, w->p[1]);
+    fw_geometry_contour cap = {.count = 4};
     FW_NEED(cap.segment = fw_arena_array(g->d->arena, fw_geometry_segment, 4));
-    for (int i = 0; i < from->count; i++) {
-        if (i != w->edge) {
-            to.segment[to.count++] = from->segment[i];
-            continue;
-        }
-        to.segment[to.count++] = fw_geometry_segment_cut(edge, 0.0, edge->a, t0, w->p[0]);
-        to.segment[to.count++] = side_of(w->p[0], w->q[0]);
-        to.segment[to.count++] = round_hole(g, middle, w->q[0], w->q[1], -5.0 * third);
-        to.segment[to.count++] = side_of(w->q[1], w->p[1]);
-        to.segment[to.count++] = fw_geometry_segment_cut(edge, t1, w->p[1], 1.0, edge->b);
-    }
-    cap.segment[0] = fw_geometry_segment_cut(edge, t0, w->p[0], t1, w->p[1]);
+    FW_TRY(fw_layout_release_open(g, w->edge, 4));
+    fw_geometry_segment *to = g->outline.segment + w->edge;
+    to[0] = fw_geometry_segment_cut(&edge, 0.0, edge.a, t0, w->p[0]);
+    to[1] = side_of(w->p[0], w->q[0]);
+    to[2] = round_hole(g, middle, w->q[0], w->q[1], -5.0 * third);
+    to[3] = side_of(w->q[1], w->p[1]);
+    to[4] = fw_geometry_segment_cut(&edge, t1, w->p[1], 1.0, edge.b);
+    cap.segment[0] = fw_geometry_segment_cut(&edge, t0, w->p[0], t1, w->p[1]);
     cap.segment[1] = side_of(w->p[1], w->q[1]);
     cap.segment[2] = round_hole(g, middle, w->q[1], w->q[0], -third);
     cap.segment[3] = side_of(w->q[0], w->p[0]);
-    g->outline = to;
     FW_TRY(fw_layout_drawing_add(g->d, FW_ROLE_STRUCTURE, g->body, FW_NONE, g->label, &cap));
     return fw_layout_note_hole(g, middle);
 }

@@ -244,6 +244,15 @@ static const char *pieces(fw_arena *arena, const fw_mask_finding *f) {
     return p && q ? fw_arena_printf(arena, "%s and %s", p, q) : NULL;
 }
 
+/* two edges that follow each other, or the arc between them, may be a sharp corner, which no room helps */
+static const char *advice_of(fw_arena *arena, const fw_mask_finding *f) {
+    const fw_mask_rule_kind_row *kind = f->rule->kind;
+    bool of_one = f->label[0] && f->label[1] && strcmp(f->label[0], f->label[1]) == 0;
+    if (kind->chords == 0 || !of_one || abs(f->edge[0] - f->edge[1]) > 1) return kind->advice;
+    return fw_arena_printf(arena, "%s; round the corner if it is one of less than 90 degrees",
+                           kind->advice);
+}
+
 static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_mask_layer *layer,
                             const fw_mask_finding *f) {
     const fw_mask_rule *rule = f->rule;
@@ -259,7 +268,8 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
     if (!who) return NULL;
     const char *cause =
         layout ? fw_mask_cause(arena, layout, vec_scale(0.5, vec_add(f->at[0], f->at[1]))) : "";
-    if (!cause) return NULL;
+    const char *advice = advice_of(arena, f);
+    if (!cause || !advice) return NULL;
     if (kind->built_in)
         return fw_arena_printf(arena, "%s meet at %s on layer %s without a shared joint; %s%s", who,
                                at, layer->name, kind->advice, cause);
@@ -267,7 +277,7 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
         arena, "%s: %s of %s %s at %s; layer %s %s %s %s (rule %s %s%s%s; %s); %s", who, f->what,
         value, unit, at, layer->name, f->value > f->needed ? "takes at most" : "needs", needed,
         unit, limit, unit, rule->formula ? ", " : "", rule->formula ? rule->formula : "",
-        rule->source, kind->advice);
+        rule->source, advice);
 }
 
 /* a cell of the description stands at a line of it; nothing else does */

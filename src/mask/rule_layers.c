@@ -252,10 +252,11 @@ static int by_shapes(const void *left, const void *right) {
 
 static fw_status check_overlap(fw_mask_rules *rules, const fw_mask_rule *rule) {
     const fw_mask_rule_search *in = &rules->search[rule->layer];
-    int n = 0;
-    if (in->nfound == 0) return FW_OK;
-    fw_mask_rule_finding *list =
-        fw_arena_array(rules->arena, fw_mask_rule_finding, (size_t)in->nfound);
+    int n = 0, most = 0;
+    for (int i = 0; i < in->nfound; i++)
+        most += in->found[i].kind == FW_RULE_OVERLAP;
+    if (most == 0) return FW_OK;
+    fw_mask_rule_finding *list = fw_arena_array(rules->arena, fw_mask_rule_finding, (size_t)most);
     FW_NEED(list);
     for (int i = 0; i < in->nfound; i++)
         if (in->found[i].kind == FW_RULE_OVERLAP) list[n++] = in->found[i];

@@ -245,9 +245,11 @@ fw_status fw_mask_rules_chords(fw_mask_rules *r, const fw_mask_rule *rule, fw_ma
     if (!(rule->kind->chords & 1u << kind)) return FW_INTERNAL; /* they were not all searched */
     const fw_mask_rule_search *in = &r->search[rule->layer];
     fw_mask_rule_finding *list, *place;
-    int n = 0, count, *island = NULL;
-    if (in->nfound == 0) return FW_OK;
-    FW_NEED(list = fw_arena_array(r->arena, fw_mask_rule_finding, (size_t)in->nfound));
+    int n = 0, most = 0, count, *island = NULL;
+    for (int i = 0; i < in->nfound; i++)
+        most += in->found[i].kind == kind && fw_mask_rule_short(in->found[i].value_m, rule->least);
+    if (most == 0) return FW_OK;
+    FW_NEED(list = fw_arena_array(r->arena, fw_mask_rule_finding, (size_t)most));
     for (int i = 0; i < in->nfound; i++) {
         const fw_mask_rule_finding *f = &in->found[i];
         if (f->kind != kind || !fw_mask_rule_short(f->value_m, rule->least) ||

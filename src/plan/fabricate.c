@@ -466,3 +466,27 @@ fw_status fw_plan_schedules(fw_plan *plan) {
     }
     return FW_OK;
 }
+
+fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf) {
+    return (fw_recipe_header){
+        .device = plan->device->name,
+        .flow_sha256 = pf->flow_sha256,
+        .mask_sha256 = pf->mask_sha256,
+        .program_version = FW_VERSION,
+        .rejected = plan->verdict.decision == FW_REJECT,
+        .tethers = pf->tethers,
+        .mechanism =
+            plan->verdict.variant ? plan->verdict.variant[pf - plan->flow].mechanism : NULL,
+        .verdict = plan->verdict.variant ? &plan->verdict.variant[pf - plan->flow] : NULL,
+        .because = plan->because,
+        .nbecause = plan->nbecause,
+        .schedule = pf->schedule,
+        .mask = pf->mask,
+        .cut = pf->cut,
+        .measuring = pf->measuring,
+        .release = pf->release_svg.length ? &pf->release_svg : NULL,
+        .wiring = pf->wiring,
+        .plates_written = pf->wafer || pf->single,
+        .test_die = pf->coupons != NULL,
+        .test_dies = pf->wafer ? pf->wafer->tests : 0};
+}

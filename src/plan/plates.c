@@ -197,17 +197,37 @@ static bool box_of(const fw_layout *layout, int body, fw_geometry_box *box) {
     return any;
 }
 
-/* the farthest that anything of a body lies from the straight line between two of its points */
-static double beside(const fw_layout *layout, int body, fw_geometry_vec2 a, fw_geometry_vec2 b) {
-    double most = 0.0, t;
-    const fw_geometry_segment axis = {.kind = FW_LINE, .a = a, .b = b};
+typedef struct
+    bar { /* of the six-bar: two of its points, how far each goes, and how far it turns, at most */
+    fw_geometry_vec2 a, b;
+    double a_m, b_m, turn_rad;
+} bar;
+
+/* No point goes farther than either of the two and the swing about it; between them it goes with the line, and
+   swings about its foot there. */
+static double point_goes(const bar *of, fw_geometry_vec2 p) {
+    fw_geometry_vec2 along = vec_sub(of->b, of->a), from = vec_sub(p, of->a);
+    double swing = 2.0 * sin(0.5 * fmin(of->turn_rad, FW_PI)), square = vec_dot(along, along);
+    double most =
+        fmin(of->a_m + swing * vec_length(from), of->b_m + swing * vec_distance(p, of->b));
+    double t = vec_dot(from, along) / square;
+    if (t < 0.0 || t > 1.0) return most;
+    double off = fabs(vec_cross(along, from)) / sqrt(square);
+    return fmin(most, (1.0 - t) * of->a_m + t * of->b_m + swing * off);
+}
+
+/* What a point of a rigid body goes is convex: of an arc the corners of its box say enough. */
+static double body_goes(const fw_layout *layout, int body, const bar *of) {
+    double most = 0.0;
     for (int i = 0; i < layout->npiece; i++) {
         const fw_geometry_contour *c = &layout->piece[i].contour;
         for (int k = 0; layout->piece[i].body == body && k < c->count; k++) {
-            const fw_geometry_segment *s = &c->segment[k];
-            fw_geometry_vec2 at;
-            double round = s->kind == FW_ARC ? 2.0 * s->radius : 0.0;
-            most = fmax(most, fw_geometry_segment_nearest(&axis, s->a, &t, &at) + round);
+            const fw_geometry_box box = fw_segment_box(&c->segment[k]);
+            const fw_geometry_vec2 corner[4] = {
+                {box.x0, box.y0}, {box.x1, box.y0}, {box.x1, box.y1}, {box.x0, box.y1}};
+            most = fmax(most, point_goes(of, c->segment[k].a));
+            for (int n = 0; c->segment[k].kind == FW_ARC && n < 4; n++)
+                most = fmax(most, point_goes(of, corner[n]));
         }
     }
     return most;
@@ -239,10 +259,17 @@ static void of_workspace(const fw_layout *layout, const fw_mechanism *m,
         2.0 * sin(0.5 * fabs(w->peak[0].angle_rad)) * hypot(at[1].x - at[0].x, at[1].y - at[0].y);
     way[4] =
         2.0 * sin(0.5 * fabs(w->peak[5].angle_rad)) * hypot(at[4].x - at[5].x, at[4].y - at[5].y);
+    double by[FW_SIX];
+    for (int j = 0; j < FW_SIX; j++)
+        by[j] = fabs(w->peak[j].angle_rad);
+    /* links turn with their hinges, from the ground or from the platform on */
+    const double turns[FW_SIX - 1] = {by[0], fmin(by[0] + by[1], turn + by[2]), turn,
+                                      fmin(by[5] + by[4], turn + by[3]), by[5]};
     for (int b = 0; b < FW_SIX - 1; b++) {
-        double length = hypot(at[b + 1].x - at[b].x, at[b + 1].y - at[b].y);
-        double d = fmax(way[b], way[b + 1]) +
-                   (way[b] + way[b + 1]) / length * beside(layout, b, at[b], at[b + 1]);
+        const double length = vec_distance(at[b], at[b + 1]),
+                     chord = fmin(1.0, 0.5 * (way[b] + way[b + 1]) / length);
+        const bar of = {at[b], at[b + 1], way[b], way[b + 1], fmin(turns[b], 2.0 * asin(chord))};
+        double d = body_goes(layout, b, &of);
         if (d > far->m) *far = (farthest){d, b, FW_NONE};
     }
 }

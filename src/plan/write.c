@@ -116,27 +116,6 @@ fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out) {
     return fw_json_finish(&json, "\n");
 }
 
-fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf) {
-    return (fw_recipe_header){
-        .device = plan->device->name,
-        .flow_sha256 = pf->flow_sha256,
-        .mask_sha256 = pf->mask_sha256,
-        .program_version = FW_VERSION,
-        .rejected = plan->verdict.decision == FW_REJECT,
-        .tethers = pf->tethers,
-        .mechanism =
-            plan->verdict.variant ? plan->verdict.variant[pf - plan->flow].mechanism : NULL,
-        .verdict = plan->verdict.variant ? &plan->verdict.variant[pf - plan->flow] : NULL,
-        .because = plan->because,
-        .nbecause = plan->nbecause,
-        .schedule = pf->schedule,
-        .mask = pf->mask,
-        .cut = pf->cut,
-        .measuring = pf->measuring,
-        .release = pf->release_svg.length ? &pf->release_svg : NULL,
-        .wiring = pf->wiring};
-}
-
 /* of a rejected device */
 static fw_status no_recipe(fw_text *out) {
     fw_json json = fw_json_new(out, FW_JSON_COMPACT);

@@ -5,6 +5,7 @@
 #include "recipe/recipe_words.h"
 #include "process/process_law.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* What is made, at the head of the run sheet: the block behind the cut, and widths to look for. */
@@ -109,8 +110,16 @@ static void alignment(const fw_process_step *s, fw_text *out) {
     fw_text_add(out, a->back ? " on the back, mirrored, to " : " to ");
     fw_text_escaped(out, a->to);
     if (a->marks[0]) {
-        fw_text_add(out, " by ");
-        fw_text_escaped(out, a->marks);
+        const char *mark = a->marks;
+        fw_text_add(out, " by the marks ");
+        while (*mark) { /* names with blanks between */
+            size_t n = strcspn(mark, " ");
+            char name[128];
+            snprintf(name, sizeof name, "%.*s", (int)n, mark);
+            fw_text_escaped(out, name);
+            mark += n + strspn(mark + n, " ");
+            if (*mark) fw_text_add(out, strchr(mark, ' ') ? ", " : " and ");
+        }
     }
     fw_text_add(out, "; images at most ");
     if (a->overlay->unknown)

@@ -30,6 +30,9 @@ typedef struct fw_recipe_header {
     const fw_text *release;            /* the picture of the release as a fragment; NULL: none */
     const fw_verdict_variant_verdict *verdict; /* of this flow, for what drying it bears; NULL */
     const fw_wiring *wiring;                   /* nets and their contacts; NULL: nothing is drawn */
+    bool plates_written;                       /* there are plates as the shop writes them, */
+    bool test_die;                             /* a test die, */
+    int test_dies;                             /* and so many of it on those plates */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,

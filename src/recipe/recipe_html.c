@@ -171,20 +171,32 @@ static void hash_row(fw_text *out, const char *name, const char *hash) {
     fw_text_add(out, "</td></tr>\n");
 }
 
-/* of a flow that prints several: what makes this one, and the sheet it is ordered by */
-static void plate_layers(const fw_process_flow *flow, const fw_mask *drawn, const char *mask,
-                         fw_text *out) {
+/* Of a flow that prints several: what makes this one, and the sheet it is ordered by. A plate that is written
+   has its layers joined. */
+static void plate_file(const fw_process_flow *flow, const fw_recipe_header *h, const char *mask,
+                       fw_text *out) {
+    const fw_mask *drawn = h->mask;
     int row = drawn && drawn->table->nplate > 1 ? fw_mask_plate_named(drawn->table, mask) : -1;
-    if (row < 0) return;
-    fw_text_add(out, ", layers ");
-    fw_text_escaped(out, drawn->table->plates[row].layers);
+    const char *written = h->plates_written ? "-plate" : "";
+    fw_text_add(out, "file masks/");
+    fw_text_escaped(out, flow->id);
+    fw_text_add(out, written);
+    if (row >= 0 && h->plates_written) fw_text_printf(out, ".%s", mask);
+    fw_text_add(out, ".gds");
+    if (row < 0 && !h->plates_written) return;
+    if (!h->plates_written) {
+        fw_text_add(out, ", layers ");
+        fw_text_escaped(out, drawn->table->plates[row].layers);
+    }
     fw_text_add(out, "; order sheet ");
     fw_text_escaped(out, flow->id);
-    fw_text_printf(out, ".%s.order.txt", mask);
+    fw_text_add(out, written);
+    if (row >= 0) fw_text_printf(out, ".%s", mask);
+    fw_text_add(out, ".order.txt");
 }
 
 /* "Plate M1: file masks/al-masked-rie.gds" of every mask that a step exposes */
-static void plates(const fw_process_flow *flow, const fw_mask *drawn, fw_text *out) {
+static void plates(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
     for (int i = 0; i < flow->nstep; i++) {
         const char *mask = flow->step[i].mask;
         bool again = !mask[0];
@@ -193,12 +205,28 @@ static void plates(const fw_process_flow *flow, const fw_mask *drawn, fw_text *o
         if (again) continue;
         fw_text_add(out, "<tr><td class=\"k\">Plate ");
         fw_text_escaped(out, mask);
-        fw_text_add(out, "</td><td colspan=\"3\">file masks/");
-        fw_text_escaped(out, flow->id);
-        fw_text_add(out, ".gds");
-        plate_layers(flow, drawn, mask, out);
+        fw_text_add(out, "</td><td colspan=\"3\">");
+        plate_file(flow, h, mask, out);
         fw_text_add(out, "; plate no. ____________&ensp; inspected ____________</td></tr>\n");
     }
+}
+
+/* Where the coupons are that steps read. */
+static void test_die(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
+    if (!h->test_die) return;
+    fw_text_add(out, "<tr><td class=\"k\">Test die, with the coupons</td><td colspan=\"3\">");
+    if (h->test_dies > 0)
+        fw_text_printf(out, "on these plates, %d %s", h->test_dies,
+                       h->test_dies == 1 ? "place of the map" : "places of the map");
+    else {
+        fw_text_add(out, "<b>not on these plates</b>: place masks/");
+        fw_text_escaped(out, flow->id);
+        fw_text_add(out, "-coupons.gds beside the device, or state test-dies of a &lt;wafer&gt;; "
+                         "without it leave lines of coupons open");
+    }
+    fw_text_add(out, "; what each coupon is for: ");
+    fw_text_escaped(out, flow->id);
+    fw_text_add(out, "-coupons.json</td></tr>\n");
 }
 
 static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
@@ -221,7 +249,8 @@ static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_tex
     blank_row(out, "Date", "Operator");
     blank_row(out, "Buddy (HF steps)", "Laboratory");
     blank_row(out, "Revision of this sheet", "Approved by, date");
-    plates(flow, h->mask, out);
+    plates(flow, h, out);
+    test_die(flow, h, out);
     hash_row(out, "Mask set, SHA-256", h->mask_sha256);
     hash_row(out, "Process file, SHA-256", flow->sha256);
     fw_text_add(out, "<tr><td class=\"k\">Process version</td><td>");

@@ -98,7 +98,7 @@ static void words(const picture *p, double x, double y, const char *fill, const 
 /* a number at the right end of its column */
 static void number(const picture *p, double x, double y, double value) {
     char text[32];
-    fw_number_text(text, sizeof text, value, 3);
+    fw_number_text(text, sizeof text, value, fw_number_plain(value, 3));
     fw_svg_put(p->out, "text x='{c}' y='{c}' text-anchor='end' font-size='12' fill='#222222'>{s}\n",
                x, y, text);
 }
@@ -135,7 +135,7 @@ static void scale_bar(const picture *p, double y) {
     char text[32];
     fw_svg_put(p->out, "path d='M{c} {c}v6m0 -3h{c}m0 -3v6' fill='none' stroke='#222222'\n", x, y,
                length * p->per_m);
-    fw_number_text(text, sizeof text, 1e6 * length, 3);
+    fw_number_text(text, sizeof text, 1e6 * length, fw_number_plain(1e6 * length, 3));
     fw_svg_put(p->out, "text x='{c}' y='{c}' font-size='12' fill='#222222'>{s} \u00b5m\n",
                x + length * p->per_m + 6.0, y + 7.0, text);
 }
@@ -144,8 +144,8 @@ static void scale_bar(const picture *p, double y) {
 static const char *when(const picture *p, fw_arena *arena, double reach_m) {
     char um[32], min[32];
     double t = minutes(p, reach_m);
-    fw_number_text(um, sizeof um, 1e6 * reach_m, 3);
-    fw_number_text(min, sizeof min, t, 3);
+    fw_number_text(um, sizeof um, 1e6 * reach_m, fw_number_plain(1e6 * reach_m, 3));
+    fw_number_text(min, sizeof min, t, fw_number_plain(t, 3));
     const char *text = t > 0.0 ? fw_arena_printf(arena, "%s \u00b5m (%s min)", um, min)
                                : fw_arena_printf(arena, "%s \u00b5m", um);
     return text ? text : "";

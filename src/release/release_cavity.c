@@ -62,19 +62,29 @@ static span span_of(const cell_grid *c, fw_geometry_box b, double room_m) {
                   within(floor((b.y1 + room_m - c->from.y) / s), c->rows - 1)};
 }
 
+/* is an arc surely farther away? Without an angle */
+static bool is_far(const fw_geometry_segment *s, fw_geometry_vec2 p, double reach) {
+    return s->kind == FW_ARC && fabs(vec_distance(p, s->centre) - s->radius) > reach;
+}
+
 /* adds the cells that an outline may touch: none that it touches is missing, none is added whose middle is farther than a
    step from it */
 static void cells_touch(const cell_grid *cells, const fw_geometry_contour *outline,
                         unsigned char *set) {
     double reach = HALF_DIAGONAL * cells->step_m * (1.0 + 1e-9), t;
-    fw_geometry_vec2 on;
+    fw_geometry_vec2 on, to = middle(cells, cells->columns, cells->rows);
+    const fw_geometry_box all = {cells->from.x, cells->from.y, to.x, to.y};
     for (int i = 0; i < outline->count; i++) {
         const fw_geometry_segment *s = &outline->segment[i];
-        span a = span_of(cells, fw_segment_box(s), reach);
+        const fw_geometry_box box = fw_segment_box(s);
+        if (fw_box_gap(box, all) > reach) continue;
+        span a = span_of(cells, box, reach);
         for (int r = a.r0; r <= a.r1; r++)
             for (int c = a.c0; c <= a.c1; c++) {
                 unsigned char *cell = &set[(size_t)r * (size_t)cells->columns + (size_t)c];
-                if (!*cell && fw_geometry_segment_nearest(s, middle(cells, c, r), &t, &on) <= reach)
+                fw_geometry_vec2 at = middle(cells, c, r);
+                if (!*cell && !is_far(s, at, reach) &&
+                    fw_geometry_segment_nearest(s, at, &t, &on) <= reach)
                     *cell = 1;
             }
     }
@@ -276,7 +286,7 @@ typedef struct maker {
     int *part_of; /* (npiece) */
     fw_release_part *part;
     int npart;
-    unsigned char *hollow;
+    unsigned char *hollow, *opening;
 } maker;
 
 static bool is_free_to_move(const maker *m, int piece) {
@@ -369,13 +379,22 @@ static fw_status sort_outlines(maker *m, fw_release_cavity *cavity) {
     return FW_OK;
 }
 
+/* cells that letters and marks touch, which are cleared */
+static fw_status find_openings(maker *m) {
+    FW_TRY(cells_set(m->arena, &m->cells, &m->opening));
+    for (int i = 0; i < m->layout->npiece; i++)
+        if (m->part_of[i] == FW_RELEASE_OPENING)
+            cells_touch(&m->cells, &m->layout->piece[i].contour, m->opening);
+    return FW_OK;
+}
+
 /* cells that lie whole in a part, less those of a set */
 static fw_status whole_cells(maker *m, int part, const unsigned char *without, unsigned char *set) {
     unsigned char *edge;
     FW_TRY(cells_set(m->arena, &m->cells, &edge));
+    memcpy(edge, m->opening, m->n);
     for (int i = 0; i < m->layout->npiece; i++)
-        if (m->part_of[i] == part || m->part_of[i] == FW_RELEASE_OPENING)
-            cells_touch(&m->cells, &m->layout->piece[i].contour, edge);
+        if (m->part_of[i] == part) cells_touch(&m->cells, &m->layout->piece[i].contour, edge);
     for (int i = 0; i < m->layout->npiece; i++)
         if (m->part_of[i] == part)
             FW_TRY(cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge, set));
@@ -386,6 +405,7 @@ static fw_status whole_cells(maker *m, int part, const unsigned char *without, u
 
 static fw_status find_ground(maker *m, fw_release_cavity *cavity) {
     FW_NEED(cavity->ground = fw_arena_array(m->arena, fw_release_ground, (size_t)m->npart));
+    FW_TRY(find_openings(m));
     for (int part = 0; part < m->npart; part++) {
         const fw_release_part *p = &m->part[part];
         if (p->duty != FW_RELEASE_STAYS) continue;
@@ -438,6 +458,7 @@ fw_status fw_release_square_in(fw_arena *arena, const fw_layout *layout, int pie
     fw_layout own = *layout; /* cells over the part alone */
     own.die = fw_geometry_contour_box(&layout->piece[piece].contour);
     FW_TRY(start(arena, &own, 2.0 * step_m, step_m, &m));
+    FW_TRY(find_openings(&m));
     FW_TRY(cells_set(arena, &m.cells, &set));
     FW_TRY(whole_cells(&m, m.part_of[piece], NULL, set));
     FW_TRY(cells_grow(arena, &m.cells, -(int)ceil(clear_m / step_m - 1e-9), set));

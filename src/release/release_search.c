@@ -147,13 +147,16 @@ fw_status fw_release_search(fw_release_field *field, fw_release_part *part, int 
    The area where the distance to the nearest opening is above r. Boxes as above; where few edges are near, and not
    one straight edge alone, a box is a raster of cells of at most a FINE-th of the part's greatest distance. In a
    cell the distance is taken to be linear, with the slope at its middle, which is exact beside one straight edge.
-   Up to a reach of a seventh of the greatest the area is taken from the exact area and the length of the edges, so
-   that no corner of lettering is looked at. In: field, parts with reach_m. Out: bonded_m2 (m2) for the reaches
+   Up to a reach of a seventh of the greatest, or of half of what all that moves needs where that is less, the area is
+   taken from the exact area and the length of the edges, so that no corner of lettering is looked at: nobody stops an
+   etch there. Cells near edges are at most a third of that need, so that narrow arms of wide parts count. In: field, parts with reach_m. Out: bonded_m2 (m2) for the reaches
    k reach_m/FW_RELEASE_STEPS. Error: below 2 % of the area (strip, disc, square). Test: test_reach.c,
    bonds_shrink_as_in_closed_form. */
 
 static const double FINE = 24.0;
 enum { EVEN = 9 }; /* of FW_RELEASE_STEPS: up to here by a parabola */
+static const double PARABOLA = 0.5, NEAR = 2.0,
+                    CELL = 6.0; /* of what is needed; of half a cell: its share */
 
 /* share of the square |x|, |y| <= a in which g x + k y > t, a > 0 */
 static double share_above(double g, double k, double a, double t) {
@@ -173,13 +176,15 @@ static double share_above(double g, double k, double a, double t) {
 typedef struct bond {
     fw_release_field *field;
     fw_release_part *part;
-    double *whole; /* (npart x (FW_RELEASE_STEPS + 1)) of boxes that are bonded up to there */
+    double needed_m; /* of all that moves; HUGE_VAL: nothing does */
+    double *whole;   /* (npart x (FW_RELEASE_STEPS + 1)) of boxes that are bonded up to there */
     fw_release_crossing *row;
 } bond;
 
-static void add_box(bond *b, int part, double near_m, fw_geometry_vec2 slope, double half_m) {
+static void add_box(bond *b, int part, double near_m, fw_geometry_vec2 slope, double half_m,
+                    double share) {
     fw_release_part *p = &b->part[part];
-    double area = 4.0 * half_m * half_m, step = p->reach_m / FW_RELEASE_STEPS;
+    double area = share * 4.0 * half_m * half_m, step = p->reach_m / FW_RELEASE_STEPS;
     double spread = (fabs(slope.x) + fabs(slope.y)) * half_m;
     int low = (int)floor((near_m - spread) / step), high = (int)ceil((near_m + spread) / step);
     if (low > FW_RELEASE_STEPS) low = FW_RELEASE_STEPS;
@@ -215,6 +220,25 @@ static bool beside_line(const fw_release_edge *e, const fw_release_box *box) {
     return e->radius == 0.0 && t >= h && t <= e->length - h;
 }
 
+/* The seams that run all through a cell, each with the share of the cell on its left, which is its part's: a long
+   seam along the rows of a raster would else move by up to half a cell. 0: none, or not all of the way. */
+static int seams_of(const bond *b, const int *list, int n, fw_geometry_vec2 c, double half,
+                    int part[2], double share[2]) {
+    int found = 0;
+    for (int i = 0; i < n; i++) {
+        const fw_release_edge *e = &b->field->edge[list[i]];
+        if (e->open || e->part < 0 || e->radius > 0.0) continue;
+        fw_geometry_vec2 from = vec_sub(c, e->a);
+        double t = vec_dot(from, e->along), left = vec_cross(e->along, from);
+        double wide = half * (fabs(e->along.x) + fabs(e->along.y));
+        if (fabs(left) >= wide || t <= -wide || t >= e->length + wide) continue;
+        if (t < wide || t > e->length - wide || found == 2) return 0;
+        part[found] = e->part;
+        share[found++] = share_above(-e->along.y, e->along.x, half, -left);
+    }
+    return found;
+}
+
 /* (n x n) cells of a box; of a row the parts are found at once, where there may be several and it matters. A
    cell counts for nothing where it is nearer than from_m. */
 static void add_raster(bond *b, const fw_release_level *level, const fw_release_box *box, int n,
@@ -235,11 +259,20 @@ static void add_raster(bond *b, const fw_release_level *level, const fw_release_
             while (k < crossings && b->row[k].x <= c.x)
                 k++;
             if (mixed) part = b->row[k].part;
-            if (!stays(b, part)) continue;
-            fw_geometry_vec2 away = vec_sub(c, fw_release_edge_foot(nearest, c));
-            add_box(b, part, near, vec_scale(1.0 / near, away), half);
+            int beside[2] = {part, part};
+            double share[2] = {1.0, 0.0};
+            int parts = mixed ? seams_of(b, list, box->count, c, half, beside, share) : 0;
+            fw_geometry_vec2 slope =
+                vec_scale(1.0 / near, vec_sub(c, fw_release_edge_foot(nearest, c)));
+            for (int m = 0; m < (parts > 0 ? parts : 1); m++)
+                if (stays(b, beside[m])) add_box(b, beside[m], near, slope, half, share[m]);
         }
     }
+}
+
+/* the reach up to which no box counts, of parts that reach no less than `least` */
+static double from_of(const bond *b, double least) {
+    return fmin(EVEN * least / FW_RELEASE_STEPS, PARABOLA * b->needed_m);
 }
 
 static fw_status measure_box(bond *b, const fw_release_level *level, fw_release_box *box,
@@ -249,22 +282,26 @@ static fw_status measure_box(bond *b, const fw_release_level *level, fw_release_
     if (box->part == FW_RELEASE_MIXED && !fw_release_box_cut(b->field, level, box))
         fw_release_box_settle(b->field, box);
     double least = least_of(b, level, box), fine = least / FINE;
-    if (least == HUGE_VAL || most < EVEN * least / FW_RELEASE_STEPS) return FW_OK;
+    if (least == HUGE_VAL || most < from_of(b, least)) return FW_OK;
+    if (box->near_m - fw_release_box_about(box) < NEAR * b->needed_m)
+        fine = fmin(fine, b->needed_m / CELL);
     bool line = box->part != FW_RELEASE_MIXED && box->count == 1 &&
                 beside_line(&b->field->edge[level->list[box->first]], box);
     if (!line && box->count > MANY && box->half_m > 2.0 * fine)
         return fw_release_level_split(b->field, level, box, next);
-    add_raster(b, level, box, line ? 1 : (int)ceil(box->half_m / fine),
-               EVEN * least / FW_RELEASE_STEPS);
+    add_raster(b, level, box, line ? 1 : (int)ceil(box->half_m / fine), from_of(b, least));
     return FW_OK;
 }
 
 /* the first steps: a parabola from the area, which falls by the length of the edges, to where boxes count */
-static void start(fw_release_part *p, double edge_m) {
-    double to = p->reach_m * EVEN / FW_RELEASE_STEPS, fall = p->area_m2 - p->bonded_m2[EVEN];
-    double bend = fmin(fmax(edge_m * to - fall, 0.0), fall); /* fall more slowly, never rise */
-    for (int k = 0; k < EVEN; k++) {
-        double x = (double)k / EVEN;
+static void start(const bond *b, fw_release_part *p, double edge_m) {
+    double step = p->reach_m / FW_RELEASE_STEPS, steps = ceil(from_of(b, p->reach_m) / step);
+    int even = steps > EVEN ? EVEN : (int)steps;
+    double fall = p->area_m2 - p->bonded_m2[even];
+    double bend =
+        fmin(fmax(edge_m * even * step - fall, 0.0), fall); /* fall more slowly, never rise */
+    for (int k = 0; k < even; k++) {
+        double x = (double)k / even;
         p->bonded_m2[k] = p->area_m2 - (fall + bend) * x + bend * x * x;
     }
 }
@@ -277,13 +314,20 @@ static void sum_up(bond *b, const double *edge) {
             above += whole[k];
             p->bonded_m2[k] = fmin(p->bonded_m2[k] + above, p->area_m2);
         }
-        start(p, edge[i]);
+        start(b, p, edge[i]);
         p->bonded_m2[FW_RELEASE_STEPS] = 0.0;
     }
 }
 
+static double needed_of(const fw_release_part *part, int npart) {
+    double needed = 0.0;
+    for (int i = 0; i < npart; i++)
+        if (part[i].duty == FW_RELEASE_MOVES) needed = fmax(needed, part[i].reach_m);
+    return needed > 0.0 ? needed : HUGE_VAL;
+}
+
 fw_status fw_release_measure(fw_release_field *field, fw_release_part *part) {
-    bond b = {.field = field, .part = part};
+    bond b = {.field = field, .part = part, .needed_m = needed_of(part, field->npart)};
     fw_release_level level[2] = {{0}, {0}}, *from = &field->start;
     FW_NEED(b.whole =
                 fw_arena_array(field->arena, double, (size_t)field->npart *(FW_RELEASE_STEPS + 1)));

@@ -453,6 +453,9 @@ static void add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
     arm->slide += length / w;
     arm->length_m += length;
     if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
+    double edge = 6 * vec_length(r) / (w * w) + 1 / w;
+    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at;
+    arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
 }
 
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own

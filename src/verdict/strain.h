@@ -24,6 +24,10 @@ typedef struct fw_verdict_arm {
     double bend[6], twist[6], twist3[6], slide;
     double length_m, narrow_m; /* of the way; where it is narrowest, */
     fw_geometry_vec2 narrow;   /* and the place, world */
+    /* of the way, as if it bore everything alone: the largest 6/w^2, and 6 r/w^2 + 1/w with r from the pin, by
+       which a moment and a force are multiplied to be stress times thickness; where the latter is */
+    double edge_m2, edge_m;
+    fw_geometry_vec2 edge;
 } fw_verdict_arm;
 
 /* arm: (2 nhinge) of hinge k in body a, in body b. In: outlines of the layout in the drawn pose. Range:

@@ -393,6 +393,11 @@ extern const double fw_verdict_first_accuracy;
    share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
    verdict, or NULL */
 double fw_verdict_bending_share(const fw_dynamics_motion *motion);
+/* What the rims of release holes bear at most in a motion, over what the material is allowed: three times
+   (Kirsch) the stress of a strip between holes that bears everything alone. NaN: there are no holes. *at: 2 times the
+   number of the hinge, and 1 for its second body; NULL allowed */
+double fw_verdict_bending_rims(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                               int *at);
 /* the same where hinges turn, else 0: bands of clearances have it */
 double fw_verdict_bending_turning(const fw_dynamics_motion *motion);
 /* that above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */

@@ -135,6 +135,52 @@ double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
     return share > fw_verdict_bending_told ? share : 0;
 }
 
+static const double fw_verdict_rim = 3; /* Kirsch: of a hole in a wide plate that is pulled */
+
+double fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion, int *at) {
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    double worst = 0;
+    if (!(m->device->release_pitch_m > 0) || !saw || !saw->bending.arm) return (double)NAN;
+    const fw_verdict_bending *b = &saw->bending;
+    const double *most = b->hardest_N + 2 * m->nhinge;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
+        const fw_verdict_arm *arm = &b->arm[i];
+        if (!arm->known || !limit) continue;
+        double strain = fw_verdict_rim *
+                        (most[i / 2 * 2 + 1] * arm->edge_m2 + sqrt(most[i / 2 * 2]) * arm->edge_m) /
+                        b->stiff_N;
+        double allowed =
+            limit->allowable_Pa / m->device->safety_factor / m->variant->material.youngs.value;
+        if (strain <= worst * allowed) continue;
+        worst = strain / allowed;
+        if (at) *at = i;
+    }
+    return worst;
+}
+
+static void tell_rims(const fw_mechanism *m, const fw_device_scene *scene,
+                      const fw_dynamics_motion *motion, fw_diags *diags) {
+    int at = 0;
+    const double share = fw_verdict_bending_rims(m, motion, &at);
+    char percent[32], x[32], y[32];
+    if (!(share > 1)) return;
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const fw_verdict_arm *arm = &saw->bending.arm[at];
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[at / 2].pin];
+    const int body = at % 2 ? pin->body_b : pin->body_a;
+    fw_diag_warning(
+        diags, 575, m->device->body[body].place,
+        "in scene %s the rims of release holes of body %s are not known to bear what hinge %s "
+        "brings: the bound, three times the stress of a strip that bears it alone, is %s %% of "
+        "what is allowed, near (%s, %s) um; a wider body, smaller holes or a larger pitch there "
+        "lower it",
+        scene->name, m->device->body[body].id, pin->id,
+        fw_number_text(percent, sizeof percent, 100 * share, 2),
+        fw_number_text(x, sizeof x, 1e6 * arm->edge.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4));
+}
+
 static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,
                                        int body) {
     const fw_verdict_arm *narrow = NULL;
@@ -153,6 +199,7 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
     const double share = fw_verdict_bending_counted(motion);
     char all[32], one[32], width[32], x[32], y[32];
     int most = 0;
+    tell_rims(m, scene, motion, diags);
     if (share == 0) return;
     for (int i = 1; i < m->nbody; i++)
         if (b->body_J[i] > b->body_J[most]) most = i;

@@ -108,8 +108,11 @@ static fw_status say_gap(fw_arena *arena, const fw_wiring *w, const fw_wiring_ga
                 fw_number_text(field, sizeof field, 1e-6 * g->field_V_per_m, 3),
                 fw_number_text(x, sizeof x, 1e6 * g->at[0].x, 5),
                 fw_number_text(y, sizeof y, 1e6 * g->at[0].y, 5), g->scene ? " in scene " : "",
-                g->scene ? g->scene : "", fw_number_text(low, sizeof low, g->breakdown_V[0], 3),
-                fw_number_text(high, sizeof high, g->breakdown_V[1], 3)));
+                g->scene ? g->scene : "",
+                fw_number_text(low, sizeof low, g->breakdown_V[0],
+                               fw_number_plain(g->breakdown_V[0], 3)),
+                fw_number_text(high, sizeof high, g->breakdown_V[1],
+                               fw_number_plain(g->breakdown_V[1], 3))));
     return FW_OK;
 }
 
@@ -164,8 +167,10 @@ static fw_status handle_gaps(fw_arena *arena, fw_wiring *w) {
                             w->net[i].name, fw_number_text(volts, sizeof volts, g->volts, 4),
                             fw_number_text(um, sizeof um, 1e6 * c->thickness_m, 3),
                             w->net[i].kind == FW_WIRING_ROTOR ? "air" : "insulator",
-                            fw_number_text(low, sizeof low, g->breakdown_V[0], 3),
-                            fw_number_text(high, sizeof high, g->breakdown_V[1], 3))));
+                            fw_number_text(low, sizeof low, g->breakdown_V[0],
+                                           fw_number_plain(g->breakdown_V[0], 3)),
+                            fw_number_text(high, sizeof high, g->breakdown_V[1],
+                                           fw_number_plain(g->breakdown_V[1], 3)))));
     }
     return FW_OK;
 }

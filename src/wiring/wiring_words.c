@@ -49,8 +49,10 @@ fw_status fw_wiring_gap_words(fw_arena *arena, const fw_wiring *w, const fw_wiri
                 fw_number_text(field, sizeof field, 1e-6 * g->field_V_per_m, 3)));
     if (isnan(g->breakdown_V[0])) return FW_OK;
     FW_NEED(*out = fw_arena_printf(arena, "%s; breaks down between %s and %s V", *out,
-                                   fw_number_text(low, sizeof low, g->breakdown_V[0], 3),
-                                   fw_number_text(high, sizeof high, g->breakdown_V[1], 3)));
+                                   fw_number_text(low, sizeof low, g->breakdown_V[0],
+                                                  fw_number_plain(g->breakdown_V[0], 3)),
+                                   fw_number_text(high, sizeof high, g->breakdown_V[1],
+                                                  fw_number_plain(g->breakdown_V[1], 3))));
     return FW_OK;
 }
 

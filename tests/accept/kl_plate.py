@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # kl_plate.py: klayout -b -r kl_plate.py -rd a=FLOW-wafer.gds -rd b=FLOW-plate.gds -rd expression="1/0 NOT 2/0" -rd layer=1/0 -rd mirror=1
-#   [-rd scale=1.0002] [-rd field=119] [-rd tol=4] [-rd die=1]
+#   [-rd scale=1.0002] [-rd field=119] [-rd tol=4] [-rd die=1] [-rd rule=4.0]
 # The layered plate, joined by KLayout's booleans, its dies scaled, mirrored, or what it leaves free within a square of `field` mm, against the
 # written one: no difference wider than tol nm. die=1: a is one die, and b has it in its middle. Of the written one: one layer,
-# no overlap between polygons, 4094 vertices at most. Exit 1 if not.
+# no overlap between polygons, no width or space below `rule` um, 4094 vertices at most. Exit 1 if not.
 import pya, sys
 A = pya.Layout(); A.read(a); B = pya.Layout(); B.read(b); bad = 0
 given = globals()
@@ -56,6 +56,11 @@ if tol: x = x.sized(-tol // 2)
 say("XOR: %d polygons, %g um2, of %d" % (x.count(), x.area() * B.dbu ** 2, want.count()), not x.is_empty() or want.is_empty())
 # KLayout's own merging rounds where slanted edges meet cuts: some square nanometres
 say("areas of the polygons add up to that of the whole but for %d nm2: nothing overlaps" % (raw.area() - got.area()), abs(raw.area() - got.area()) > 1000)
+# as written: widths and spaces of everything on the plate, titles and crosses too; corners of 90 degrees are some less on the grid
+rule = int(round(1000 * float(given.get("rule", 4.0)))) - 2 * int(given.get("chord", 5))
+for name, pairs in (("width", got.width_check(rule, False, pya.Region.Euclidian, 89.0, None, None)),
+                    ("space", got.space_check(rule, False, pya.Region.Euclidian, 89.0, None, None))):
+    say("%s of at least %g um: %d below%s" % (name, 1e-3 * rule, pairs.count(), ", at %s" % next(pairs.each()).bbox().to_s() if pairs.count() else ""), pairs.count())
 most = max(s.polygon.num_points() for c in B.each_cell() for i in drawn for s in c.shapes(i).each())
 say("at most %d vertices" % most, most > 4094)
 say("no holes", any(s.polygon.holes() for c in B.each_cell() for i in drawn for s in c.shapes(i).each()))

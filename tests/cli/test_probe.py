@@ -397,6 +397,20 @@ class Probe(unittest.TestCase):
             wide[name] = used["utilisation_band"][1] / used["utilisation"] - 1
         self.assertGreater(wide["thin"], wide["stiff"] + 0.1)
 
+    def test_rims_of_release_holes_are_bounded(self):
+        """no holes: nothing to say; with holes less than what is allowed; four times the force: a warning says whose"""
+        text = (ROOT / "docs/gallery/reference-six-bar/device.xml").read_text()
+        holed = text.replace("<die ", '<die release-pitch="40 um" ')
+        shares = []
+        for one in (text, holed, holed.replace('fx="0.25 mN"', 'fx="1 mN"').replace('fy="-0.14 mN"', 'fy="-0.56 mN"')):
+            result = run("check", self.file(one), "--corners", "none", "--advice", "none", "--json")
+            shares.append([m["hole_rims"] for m in json.loads(result.stdout)["hinge_model"] if m["scene"] == "step-load"][0])
+            self.assertEqual("FW-D575" in result.stderr, len(shares) == 3, result.stderr)
+        self.assertIsNone(shares[0])
+        self.assertTrue(0.1 < shares[1] < 1, shares)
+        self.assertTrue(3 < shares[2] / shares[1] < 6, shares)
+        self.assertRegex(result.stderr, r"the rims of release holes of body \w+ are not known to bear what hinge \w brings")
+
     def test_without_probes_nothing_changes(self):
         text = self.GRIPPER.read_text(encoding="utf-8")
         plain = "\n".join(line for line in text.splitlines() if "<probe" not in line and "<require" not in line)

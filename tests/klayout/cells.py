@@ -142,6 +142,32 @@ class Cells(unittest.TestCase):
             self.assertLess(off, 1e-5 * area)
             self.assertEqual(wide, 0)  # nothing wider than the chords of both, 5 nm each
 
+    def test_blocks_of_dxf_are_placed(self):
+        """blocks within blocks, turned, mirrored, larger and in rows, as KLayout has them"""
+        def insert(name, x, y, **more):
+            codes = {"sx": 41, "sy": 42, "dx": 44, "dy": 45, "turn": 50, "columns": 70, "rows": 71}
+            return "0\nINSERT\n8\nA\n2\n%s\n10\n%g\n20\n%g\n" % (name, x, y) + "".join("%d\n%g\n" % (codes[k], v) for k, v in more.items())
+
+        def block(name, x, y, content):
+            return "0\nBLOCK\n8\n0\n2\n%s\n70\n0\n10\n%g\n20\n%g\n3\n%s\n%s0\nENDBLK\n8\n0\n" % (name, x, y, name, content)
+
+        flag = "0\nLWPOLYLINE\n8\n%s\n90\n5\n70\n1\n10\n0\n20\n0\n10\n40\n20\n0\n42\n0.5\n10\n40\n20\n30\n10\n12\n20\n17\n10\n0\n20\n60\n"
+        text = ("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n13\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n" + block("FLAG", 3, 5, flag % "A")
+                + block("ROW", 10, 0, insert("FLAG", 0, 0, columns=3, dx=90, rows=2, dy=120, turn=20) + insert("FLAG", 500, 40, sx=-1.5, sy=1.5, turn=250))
+                + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + insert("ROW", 100, 200, turn=-35) + insert("ROW", 900, 900, sx=0.5, sy=-0.5)
+                + insert("FLAG", -300, 0) + "0\nENDSEC\n0\nEOF\n")
+        (self.where / "blocks.dxf").write_text(text)
+        klayout("import pya\no = pya.LoadLayoutOptions(); o.dxf_dbu = 0.001; o.dxf_unit = 1.0; o.dxf_circle_points = 1000; o.dxf_polyline_mode = 3\n"
+                "l = pya.Layout(); l.read('blocks.dxf', o)\n"
+                "i = [k for k in l.layer_indexes() if not pya.Region(l.top_cell().begin_shapes_rec(k)).is_empty()][0]\n"
+                "m = pya.Layout(); m.dbu = l.dbu\nm.create_cell('T').shapes(m.layer(9, 0)).insert(pya.Region(l.top_cell().begin_shapes_rec(i)).merged())\n"
+                "m.write('blocks.gds')\npya.Application.instance().exit(0)\n", self.where)
+        self.own("blocks", '<cell file="blocks.dxf" x="0.2 mm" y="0.4 mm" layers="A>77/0"/>')
+        (area, off, wide), = self.compare([["blocks/masks/%s.gds" % FLOW, [77, 0], [["blocks.gds", [9, 0], [200000, 400000, 0, False]]]]])
+        self.assertGreater(area, 14 * 1000 * 1e6)
+        self.assertLess(off, 2e-3 * area)
+        self.assertEqual(wide, 0)
+
     def test_wafer(self):
         wafer = '<wafer diameter="100 mm"><cell file="logo.gds" x="%s mm" y="-58 mm" layers="1/0>mask"/></wafer>'
         self.own("wafer", "", wafer % "5")
@@ -159,7 +185,7 @@ class Cells(unittest.TestCase):
         (self.where / "cut.gds").write_bytes(good[: len(good) // 2])
         (self.where / "block.dxf").write_text("0\nSECTION\n2\nENTITIES\n0\nINSERT\n8\nA\n2\nB\n10\n0\n20\n0\n0\nENDSEC\n0\nEOF\n")
         for cell, number, says in (
-                ('file="block.dxf" unit="um" layers="A>77/0"', 565, "line 5, byte 21: INSERT"),
+                ('file="block.dxf" unit="um" layers="A>77/0"', 565, "line 5, byte 21: block 'B' is not in the file"),
                 ('file="cut.gds" layers="1/0>77/0"', 565, "byte "),
                 ('file="logo.oas" layers="1/0>77/0"', 569, "KLayout"),
                 ('file="logo.gds" layers="1/0>77/0"  x="20 mm"', 571, "leaves the die"),

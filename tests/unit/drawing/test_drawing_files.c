@@ -21,6 +21,12 @@
     "0\nARC\n8\n" layer "\n10\n" x "\n20\n" y "\n40\n" r "\n50\n" from "\n51\n" to "\n"
 #define CIRCLE(layer, x, y, r) "0\nCIRCLE\n8\n" layer "\n10\n" x "\n20\n" y "\n40\n" r "\n"
 
+#define BLOCKS(content)  "0\nSECTION\n2\nBLOCKS\n" content "0\nENDSEC\n"
+#define BLOCK(name, x, y, content)                                                                 \
+    "0\nBLOCK\n8\n0\n2\n" name "\n70\n0\n10\n" x "\n20\n" y "\n" content "0\nENDBLK\n8\n0\n"
+#define INSERT(name, x, y, more)                                                                   \
+    "0\nINSERT\n8\njaw\n2\n" name "\n10\n" x "\n20\n" y "\n" more
+
 static fw_drawing_asked asked_for(const char *layer, const char *unit, double unit_m) {
     return (fw_drawing_asked){.file = "t.dxf",
                               .layer = layer,
@@ -104,6 +110,37 @@ static void heavy_polyline(void **state) {
     fw_arena_free(arena);
 }
 
+/* A half disc of radius 10 about (1, 2), flat below, its base there: twice as large, mirrored about y and turned by a
+   quarter, two by three times in a block that is itself placed; layer 0 is the INSERT's, others stay. */
+static void blocks(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static const char text[] = HEAD("13") BLOCKS(
+        BLOCK("Half", "1", "2", LIGHT("0", "1", AT("11", "2") "42\n1\n" AT("-9", "2"))
+                  CIRCLE("other", "0", "0", "5"))
+            BLOCK("rows", "0", "0",
+                  INSERT("HALF", "5", "7", "41\n-2\n42\n2\n50\n90\n70\n2\n71\n3\n44\n100\n45\n50\n")))
+        ENTITIES(INSERT("rows", "1000", "0", ""));
+    fw_drawing_asked asked = asked_for("jaw", NULL, NONE);
+    fw_drawing d = sound(arena, text, strlen(text), &asked);
+    assert_int_equal(d.count, 6);
+    assert_relative(area(&d), 6 * 0.5 * M_PI * 400 * UM * UM, 1e-13);
+    fw_geometry_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < d.count; i++) {
+        fw_geometry_box one = fw_geometry_contour_box(&d.outline[i].contour);
+        box = (fw_geometry_box){fmin(box.x0, one.x0), fmin(box.y0, one.y0), fmax(box.x1, one.x1),
+                                fmax(box.y1, one.y1)};
+    }
+    /* y of the half disc, 0 to 20, goes to -x; its x, -20 to 20, to y; columns to y, rows to -x */
+    assert_near(box.x0, (1005 - 100 - 20) * UM, 1e-12);
+    assert_near(box.x1, 1005 * UM, 1e-12);
+    assert_near(box.y0, (7 - 20) * UM, 1e-12);
+    assert_near(box.y1, (7 + 100 + 20) * UM, 1e-12);
+    asked = asked_for("other", NULL, NONE);
+    assert_int_equal(sound(arena, text, strlen(text), &asked).count, 6);
+    fw_arena_free(arena);
+}
+
 static void dxf_is_refused(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -131,7 +168,25 @@ static void dxf_is_refused(void **state) {
         {HEAD("13") ENTITIES(LIGHT("0", "1", AT("0", "0") AT("9", "9") AT("9", "0") AT("0", "9"))),
          NULL, NULL, NONE, 315, "crosses"},
         {HEAD("13") ENTITIES("0\nSPLINE\n8\n0\n"), NULL, NULL, NONE, 315, "SPLINE"},
-        {HEAD("13") ENTITIES("0\nINSERT\n8\n0\n2\nblock\n"), NULL, NULL, NONE, 315, "explode"},
+        {HEAD("13") ENTITIES(INSERT("block", "0", "0", "")), NULL, NULL, NONE, 315, "not in the file"},
+        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", CIRCLE("0", "0", "0", "9")))
+             ENTITIES(INSERT("b", "0", "0", "41\n2\n")),
+         NULL, NULL, NONE, 315, "stretched"},
+        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", CIRCLE("0", "0", "0", "9")))
+             ENTITIES(INSERT("b", "0", "0", "230\n-1\n")),
+         NULL, NULL, NONE, 315, "plane"},
+        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", INSERT("c", "1", "1", ""))
+                               BLOCK("c", "0", "0", INSERT("b", "1", "1", "")))
+             ENTITIES(INSERT("b", "0", "0", "")),
+         NULL, NULL, NONE, 319, "holds itself"},
+        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", "")) ENTITIES(
+             INSERT("b", "0", "0", "70\n32000\n71\n32000\n44\n1\n45\n1\n")),
+         NULL, NULL, NONE, 319, "100000"},
+        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", CIRCLE("0", "0", "0", "9") "0\nSPLINE\n8\n0\n"))
+             ENTITIES(INSERT("b", "0", "0", "")),
+         NULL, NULL, NONE, 315, "SPLINE on layer 'jaw'"},
+        {HEAD("13") "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nb\n", NULL, NULL, NONE, 312,
+         "does not end"},
         {HEAD("13") ENTITIES("0\nLWPOLYLINE\n8\n0\n43\n5\n70\n1\n" SQUARE), NULL, NULL, NONE, 315,
          "width"},
         {HEAD("13") ENTITIES("0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n0\n"), NULL, NULL, NONE, 312,
@@ -349,7 +404,8 @@ static void damaged_files(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polylines_and_circles), cmocka_unit_test(chains),
-        cmocka_unit_test(heavy_polyline),        cmocka_unit_test(dxf_is_refused),
+        cmocka_unit_test(heavy_polyline),        cmocka_unit_test(blocks),
+        cmocka_unit_test(dxf_is_refused),
         cmocka_unit_test(cells_and_layers),      cmocka_unit_test(gds_is_refused),
         cmocka_unit_test(damaged_files),
     };

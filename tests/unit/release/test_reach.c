@@ -161,6 +161,40 @@ static void bonds_shrink_as_in_closed_form(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* A base on a wide frame, with narrow arms: its own greatest distance is many times what anything needs, and a long
+   seam lies anywhere between the rows of a raster. Of 2400 x 300 um a reach r leaves (2400 - 2 r)(300 - r), of an
+   arm nothing from half its width on. */
+static void bonds_beside_seams(void **state) {
+    (void)state;
+    for (int n = 0; n < 12; n++) {
+        plate *p = plate_new(2000);
+        double low = 37.0 * n / 12, xy[60][2] = {{-1200, low}, {1200, low}, {1200, 300 + low}};
+        int corners = 3;
+        for (int k = 13; k >= 0; k--) { /* arms, 40 um wide, from the right */
+            const double x = -1130 + 170 * k, y = 300 + low;
+            const double arm[4][2] = {{x + 40, y}, {x + 40, y + 400}, {x, y + 400}, {x, y}};
+            memcpy(xy[corners], arm, sizeof arm);
+            corners += 4;
+        }
+        xy[corners][0] = -1200, xy[corners++][1] = 300 + low;
+        fw_geometry_contour frame = rectangle(p, -1200, -900 + low, 1200, low),
+                            base = polygon(p, xy, corners);
+        frame.segment[2].flags = base.segment[0].flags = FW_SEGMENT_JOINT;
+        plate_add(p, FW_ROLE_FRAME, FW_GROUND, "frame", frame);
+        plate_add(p, FW_ROLE_STRUCTURE, FW_GROUND, "base", base);
+        plate_add(p, FW_ROLE_STRUCTURE, 0, "link", rectangle(p, -100, 1200, 100, 1260));
+        const fw_release *r = solve(p, 0.1);
+        assert_int_equal(r->npart, 3);
+        assert_near(r->needed_m, 30 * UM, 0.1 * UM);
+        const fw_release_part *part = &r->part[1];
+        assert_near(part->area_m2, (2400.0 * 300 + 14 * 40.0 * 400) * UM * UM, 1e-16);
+        for (double reach = 32; reach < 140; reach += 9)
+            assert_near(fw_release_bonded(part, reach * UM) / part->area_m2,
+                        (2400 - 2 * reach) * (300 - reach) * UM * UM / part->area_m2, 0.004);
+        fw_arena_free(p->arena);
+    }
+}
+
 /* any plate with any holes: no random point is farther than the bound, and the worst one found is as far
    as it says, both by the distances of geometry/ */
 static void bounds_hold(void **state) {
@@ -206,6 +240,7 @@ int main(void) {
         cmocka_unit_test(wedges_beside_slots),
         cmocka_unit_test(seams_are_no_openings),
         cmocka_unit_test(bonds_shrink_as_in_closed_form),
+        cmocka_unit_test(bonds_beside_seams),
         cmocka_unit_test(bounds_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -81,6 +81,10 @@ static void a_bar_is_a_beam(void **state) {
                 by[j] += of[j];
             }
             assert_true(arm->narrow_m > 0.98 * w && arm->narrow_m <= 1.0001 * w);
+            /* a moment: 6/w^2; a force at the pin has its largest moment in the middle of the bar */
+            const double edge = arm->edge_m / (6 * half / (w * w) + 1 / w);
+            assert_true(arm->edge_m2 * w * w > 5.99 && arm->edge_m2 * w * w < 6.3);
+            assert_true(edge > 0.93 && edge < 1.08);
         }
         for (int j = 0; j < 3; j++)
             if (!(by[j] > 0.985 && by[j] < 1.035))
