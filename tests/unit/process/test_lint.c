@@ -4,6 +4,7 @@
 #include "process/pack.h"
 #include "pack_fixture.h"
 #include "process/calibrate.h"
+#include <math.h>
 
 static void expect(int number, const char *says) {
     const fw_diag *d = said_of(number, says);
@@ -43,6 +44,35 @@ static void mistakes_of_a_flow(void **state) {
          "<exposed material=\"aluminium\" rate=\"develop.t\"/>", 169, "length per time"},
         {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>",
          "<exposed material=\"aluminium\" selectivity=\"rie.R\"/>", 169, "has no unit"},
+        /* the plate or the resist of the other tone */
+        {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>",
+         "<change kind=\"pattern\" material=\"resist\" where=\"structure\"/>", 559,
+         "step S09 exposes it for the part 'structure'"},
+        {COPPER, "<change kind=\"pattern\" material=\"resist\" where=\"structure\"/>",
+         "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>", 559, "the part 'field'"},
+        /* timed for another layer */
+        {SILICON, "pause=\"rie.break\"><arg name=\"depth\" q=\"si.d\"/>",
+         "pause=\"rie.break\"><arg name=\"depth\" q=\"al.d\"/>", 561, "step S18 is computed for 1 um"},
+        {SILICON, "<time law=\"spin\" overrun=\"0\" k=\"2\"><arg name=\"thickness\" q=\"litho.resist\"/>",
+         "<time law=\"spin\" overrun=\"0\" k=\"2\"><arg name=\"thickness\" q=\"al.d\"/>", 561,
+         "step S07 is computed for 1 um"},
+        /* a step of another kind */
+        {SILICON, "id=\"S03\" op=\"deposit\"", "id=\"S03\" op=\"dry-etch\"", 562, "step S03 (dry-etch)"},
+        {SILICON, "id=\"S16\" op=\"strip\"", "id=\"S16\" op=\"inspect\"", 562, "step S16 (inspect)"},
+        /* a coat that no spinner gives: too thick, too thin */
+        {SILICON, "id=\"resist.d0\" value=\"1.40\"", "id=\"resist.d0\" value=\"0.05\"", 563,
+         "step S07 would spin at"},
+        {SILICON, "id=\"resist.d0\" value=\"1.40\"", "id=\"resist.d0\" value=\"9\"", 563,
+         "step S07 would spin at"},
+        /* etched from below, through carrier and paste */
+        {SILICON, "thickness=\"si.d\" where=\"field\" profile",
+         "thickness=\"si.d\" side=\"back\" where=\"field\" profile", 564, "'thermal-paste' covers"},
+        /* acid with nobody beside it */
+        {COPPER, "op=\"anodise\" title=\"Anodise: make the surface porous\" equipment=\"hf-bench\" "
+                 "in-source=\"yes\" batch=\"1\" second-signature=\"yes\" attended=\"2\"",
+         "op=\"anodise\" title=\"Anodise: make the surface porous\" equipment=\"hf-bench\" "
+         "in-source=\"yes\" batch=\"1\" second-signature=\"yes\" attended=\"0\"",
+         174, "nobody leaves alone"},
         /* resist that was not stripped meets the plasma */
         {SILICON, "<change kind=\"remove\" material=\"resist\"/>", "", 269, "'resist'"},
         {SILICON, "<q id=\"hard.T\" value=\"115\"", "<q id=\"hard.T\" value=\"131\"", 271,
@@ -167,6 +197,27 @@ static void replaced_values_keep_their_range(void **state) {
             fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", own, m, &diags, &flow);
         assert_int_equal(status, with[i].number ? FW_INPUT : FW_OK);
         if (with[i].number) expect(with[i].number, "h.x");
+    }
+}
+
+/* a bath that nobody names is in no bill; a laboratory's resist meets the spinner as the pack's own does */
+static void baths_are_named_and_spinners_turn(void **state) {
+    (void)state;
+    static const char *const uses[][2] = {{SILICON, "pan"}, {SILICON, "developing"}, {COPPER, "anodising"},
+                                          {COPPER, "plating"}, {COPPER, "seed-etch"}};
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        diags = fw_diags_new(arena);
+        const char *from = fw_arena_printf(arena, "<uses bath=\"%s\"/>", uses[i][1]);
+        assert_non_null(read_pack(arena, uses[i][0], from, "", &diags));
+        expect(562, "is done in a bath, and names none");
+    }
+    for (int um = 1; um <= 40; um++) { /* 8000 rpm for 1 um, 100 for 9 */
+        char to[64];
+        snprintf(to, sizeof to, "id=\"litho.resist\" value=\"%d\"", um);
+        const double rpm = 4000 * pow(1.4 / um, 1 / 0.503);
+        diags = fw_diags_new(arena);
+        read_pack(arena, SILICON, "id=\"litho.resist\" value=\"2\"", to, &diags);
+        assert_int_equal(said_of(563, "step S07") != NULL, rpm < 100 || rpm > 12000);
     }
 }
 
@@ -488,6 +539,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(bath, setup, teardown),
         cmocka_unit_test_setup_teardown(mistakes_of_a_flow, setup, teardown),
         cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),
+        cmocka_unit_test_setup_teardown(baths_are_named_and_spinners_turn, setup, teardown),
         cmocka_unit_test_setup_teardown(shared_hazards, setup, teardown),
         cmocka_unit_test(liquids_react_by_their_groups),
         cmocka_unit_test_setup_teardown(one_coat_is_exposed_once, setup, teardown),
