@@ -3,6 +3,7 @@
    twice, a second carrier, a second coat that the bake is not timed for. Each question is a function here and a row in
    lint.c. Generated test: tests/process/orders.py, every step once more right behind itself and at the end of its phase;
    test_lint.c does_not_again_what_harms. */
+#include "base/constants.h"
 #include "base/text.h"
 #include "process/films.h"
 #include "process/pack.h"
@@ -304,6 +305,79 @@ static void lint_timed(fw_process_pack *pack, const fw_process_step *s) {
         fw_number_text(by, sizeof by, 1e6 * stated->value, 4), stated->id);
 }
 
+/* the one material that a step adds or takes away; NULL: several, none, or only what is exposed */
+static const char *material_of(const fw_process_step *s) {
+    const char *material = NULL;
+    for (int k = 0; k < s->nchange; k++) {
+        if (material && strcmp(material, s->change[k].material) != 0) return NULL;
+        material = s->change[k].material;
+    }
+    return material;
+}
+
+static const fw_quantity *rate_of(const fw_process_step *s) {
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, "rate") == 0) return s->argument[i].q;
+    return NULL;
+}
+
+/* a rate is one of one material: an etch timed by that of another step's material is timed for that */
+static void lint_rate(fw_process_pack *pack, int at) {
+    const fw_process_step *s = &pack->flow->step[at];
+    const fw_quantity *rate = rate_of(s);
+    const char *material = material_of(s);
+    for (int i = 0; rate && material && i < at; i++) {
+        const fw_process_step *before = &pack->flow->step[i];
+        const char *other = material_of(before);
+        if (rate_of(before) != rate || !other || strcmp(other, material) == 0) continue;
+        fw_diag_error(
+            pack->diags, 561, s->place,
+            "the time of step %s is computed with the rate '%s', by which step %s is timed "
+            "for '%s', but the step is of '%s'; name the rate of that",
+            s->id, rate->id, before->id, other, material);
+        return;
+    }
+}
+
+static bool on_the_wafer(const fw_process_stack *stack, const char *material) {
+    bool there = false;
+    for (int column = 0; column < stack->columns; column++)
+        there = there || fw_process_stack_holds(stack, column, material);
+    return there;
+}
+
+/* A step that is done again works on what is still there: nothing exposes a resist that was stripped long before.
+   What comes on at the step itself, or before it in its own changes, needs not be there. */
+static fw_status lint_redone(fw_process_pack *pack, int at, int again,
+                             const fw_process_on_fail *f) {
+    const fw_process_step *s = &pack->flow->step[again];
+    fw_process_stack before, after;
+    FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, at - 1, &before, NULL));
+    FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, at, &after, NULL));
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k];
+        const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
+        if (strcmp(c->kind, "add") == 0) return FW_OK;
+        if (c->back || !on[0] || on_the_wafer(&before, on) || on_the_wafer(&after, on)) continue;
+        fw_diag_error(
+            pack->diags, 276, pack->flow->step[at].place,
+            "<on-fail if=\"%s\"> of step %s goes on with step %s, which works on '%s', and "
+            "that is not on the wafer any more; go back to where it is put on",
+            f->condition, pack->flow->step[at].id, s->id, on);
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
+static fw_status lint_reworks(fw_process_pack *pack, int at) {
+    const fw_process_flow *f = pack->flow;
+    for (int k = 0; k < f->step[at].non_fail; k++)
+        for (int j = 0; j < at; j++)
+            if (strcmp(f->step[at].on_fail[k].go_to, f->step[j].id) == 0)
+                FW_TRY(lint_redone(pack, at, j, &f->step[at].on_fail[k]));
+    return FW_OK;
+}
+
 /* what a kind of step does to the wafer, of which it has at least one */
 static void lint_op(fw_process_pack *pack, const fw_process_step *s) {
     static const struct {
@@ -345,7 +419,7 @@ static void lint_bath(fw_process_pack *pack, const fw_process_step *s) {
 /* Below the least speed resist does not level within its spin time, above the largest no chuck holds the wafer; spinners
    of laboratories turn at 100 to 12 000 rpm. */
 static void lint_spin(fw_process_pack *pack, const fw_process_step *s) {
-    const double rpm = 6.283185307179586 / 60, least = 100 * rpm, most = 12000 * rpm;
+    const double rpm = FW_TURN / 60, least = 100 * rpm, most = 12000 * rpm;
     const fw_quantity *q[4] = {NULL};
     static const char *const name[4] = {"thickness", "reference_thickness", "reference_speed",
                                         "exponent"};
@@ -413,6 +487,8 @@ fw_status fw_process_lint_kind(fw_process_pack *pack) {
         lint_bath(pack, s);
         lint_spin(pack, s);
         lint_back(pack, i);
+        lint_rate(pack, i);
+        FW_TRY(lint_reworks(pack, i));
     }
     return FW_OK;
 }

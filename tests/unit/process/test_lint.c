@@ -56,6 +56,23 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "<time law=\"spin\" overrun=\"0\" k=\"2\"><arg name=\"thickness\" q=\"litho.resist\"/>",
          "<time law=\"spin\" overrun=\"0\" k=\"2\"><arg name=\"thickness\" q=\"al.d\"/>", 561,
          "step S07 is computed for 1 um"},
+        /* timed by the rate of another material: whichever comes second is told */
+        {SILICON, "<arg name=\"rate\" q=\"pan.R\"/>", "<arg name=\"rate\" q=\"rie.R\"/>", 561,
+         "with the rate 'rie.R'"},
+        {SILICON, "<arg name=\"depth\" q=\"si.d\"/><arg name=\"rate\" q=\"rie.R\"/>",
+         "<arg name=\"depth\" q=\"si.d\"/><arg name=\"rate\" q=\"pan.R\"/>", 561, "with the rate 'pan.R'"},
+        /* limits in another unit than what they are computed from */
+        {SILICON, "hi=\"{=al.d*1.05}\" unit=\"um\"", "hi=\"{=al.d*1.05}\" unit=\"nm\"", 342,
+         "is a number in um"},
+        {COPPER, "hi=\"{=seed.Rs}\" unit=\"ohm\"", "hi=\"{=seed.Rs}\" unit=\"mohm\"", 342,
+         "is a number in ohm"},
+        /* back to a resist that was stripped; a window of no width; all wafers of a lot in a machine for one */
+        {SILICON, "<on-fail if=\"grass\" then=\"hold\">", "<on-fail if=\"grass\" then=\"rework\" goto=\"S09\">",
+         276, "not on the wafer any more"},
+        {SILICON, "<time law=\"spin\" overrun=\"0\" k=\"2\">", "<time law=\"spin\" overrun=\"0\" k=\"0\">", 171,
+         "k is 0"},
+        {SILICON, "equipment=\"rie\" in-source=\"yes\" batch=\"1\"",
+         "equipment=\"rie\" in-source=\"yes\" batch=\"99\"", 558, "but is done to every wafer"},
         /* a step of another kind */
         {SILICON, "id=\"S03\" op=\"deposit\"", "id=\"S03\" op=\"dry-etch\"", 562, "step S03 (dry-etch)"},
         {SILICON, "id=\"S16\" op=\"strip\"", "id=\"S16\" op=\"inspect\"", 562, "step S16 (inspect)"},
