@@ -119,6 +119,35 @@ class Flowback(unittest.TestCase):
                                "-o", self.here / "out"), 3).stderr
         self.assertRegex(said, r"thick\.xml:\d+:\d+: error: step S07 would spin at 2\.28 rpm .*FW-D563")
 
+    def test_a_load_is_an_entry_of_each_of_its_wafers(self):
+        """as the schedule of the sheet writes it; the log is that of single entries, byte for byte"""
+        clean = "S02; start=2026-11-02T08:48; end=2026-11-02T09:23; by=AB; particles in bright light=0"
+        begun = ("--wafers", "6", "--lot", "L1", "-q")
+        for number, (load, wafers) in enumerate((("1-6", "123456"), ("2,5", "25"), ("1-3,6", "1236"), ("4", "4"))):
+            self.log = self.here / f"load{number}.log"
+            self.expect(self.command("--entry", clean, "--wafer", load, "--setting", "bath temperature=74 Cel", *begun))
+            together = self.log.read_bytes()
+            self.log = self.here / f"single{number}.log"
+            for k, wafer in enumerate(wafers):
+                self.expect(self.command("--entry", clean, "--wafer", wafer, "--setting", "bath temperature=74 Cel",
+                                         *(begun if k == 0 else ("-q",))))
+            self.assertEqual(together, self.log.read_bytes(), load)
+            day = self.here / "day.txt"
+            day.write_text(f"{clean}; wafer={load}; set bath temperature=74 Cel\n")
+            self.log = self.here / f"day{number}.log"
+            self.expect(self.command("--entries", day, *begun))
+            self.assertEqual(len(self.log.read_text().splitlines()), 1 + len(wafers))
+        before = self.log.read_bytes()
+        for load, more, says in (("3-7", (), "no wafer '7'"), ("1,,2", (), "'wafer=' is not written"), ("5-2", (), "no wafer '5-2'"),
+                                 ("1-2", ("--site", "particles in bright light=0 0 0 0 0"), "of several wafers (1-2)")):
+            result = self.expect(self.command("--entry", clean, "--wafer", load, *more), 3)
+            self.assertIn(says, result.stderr)
+            self.assertEqual(before, self.log.read_bytes())
+        # a wafer that is named like a range is that wafer
+        self.log = self.here / "named.log"
+        self.expect(self.command("--entry", clean, "--wafer", "1-2", "--wafers", "1-2,1,2", "-q"))
+        self.assertEqual(len(self.log.read_text().splitlines()), 2)
+
     def test_a_day_at_once(self):
         day = self.here / "day.txt"
         lines = ["# Monday", ""] + [f"S01; start=2026-11-02T08:{w}0; end=2026-11-02T08:{w}8; by=AB; wafer={w}; instrument=gauge; "
