@@ -44,6 +44,7 @@ fw_script_test(cli.study COMMAND ${Python3_EXECUTABLE} tests/cli/test_study.py $
 fw_script_test(cli.slurm COMMAND ${Python3_EXECUTABLE} tests/cli/test_slurm.py ${FW_PROGRAM} TIMEOUT 300)
 set_tests_properties(cli.slurm PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(cli.measurements COMMAND ${Python3_EXECUTABLE} tests/cli/test_measurements.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.inputs COMMAND ${Python3_EXECUTABLE} tests/cli/test_inputs.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})
 fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_workspace.py ${FW_PROGRAM})

@@ -86,9 +86,10 @@ typedef struct fw_clearance_meet { /* the nearest places of two outlines at a po
     double distance_m;             /* 0: they meet */
     fw_geometry_vec2 at_a, at_b;   /* world */
     const char *a, *b;             /* labels */
-    bool bound;                    /* one of them only holds what it stands for: a flexure's disc */
-    bool lane;                     /* one of them is the die's edge */
-    bool tether;                   /* one of them stands by a tether, broken or not */
+    const fw_clearance_edge *edge[2];
+    bool bound;  /* one of them only holds what it stands for: a flexure's disc */
+    bool lane;   /* one of them is the die's edge */
+    bool tether; /* one of them stands by a tether, broken or not */
 } fw_clearance_meet;
 
 /* ---- clearance_motion.c: the least clearance over a motion ---- */

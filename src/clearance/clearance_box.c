@@ -87,7 +87,7 @@ static void riders(const fw_mechanism *m, int *with) {
 
    All pairs ask for the same parts of the box: forms are kept by part. */
 
-enum { KEPT = 64 }; /* parts whose forms are kept */
+enum { KEPT = 64, CORNERS = 8 }; /* parts whose forms are kept; corners of a part */
 
 /* pose of one body over a part of the box */
 typedef struct linear {
@@ -234,7 +234,7 @@ static double slack_about(const boxes *b, const fw_clearance_pair *pair, const p
     linear l[2] = {linear_of(b, known, pair->a), linear_of(b, known, pair->b)};
     double rest = 0;
     fw_clearance_slack_begin(pair, middle, &slack);
-    for (int corner = 0; corner < 8; corner++) {
+    for (int corner = 0; corner < CORNERS; corner++) {
         const fw_clearance_pose at[2] = {at_corner(&l[0], known->half, corner),
                                          at_corner(&l[1], known->half, corner)};
         fw_clearance_slack_add(pair, at, &slack);
@@ -291,6 +291,29 @@ static bool bound(const void *context, const fw_clearance_pair *pair,
     middle[1] = linear_of(b, known, pair->b).middle;
     *slack_m = slack_about(b, pair, known, middle);
     return true;
+}
+
+static bool hull_of(const void *context, const fw_clearance_pair *pair,
+                    const fw_clearance_region *region, fw_clearance_hull *hull) {
+    const boxes *b = context;
+    const part *known = know(b, region);
+    if (known->reached != FW_REACHED) return false;
+    hull->count = CORNERS;
+    for (int k = 0; k < 2; k++) {
+        const linear l = linear_of(b, known, k ? pair->b : pair->a);
+        hull->middle[k] = l.middle;
+        hull->rest_m[k] = l.rest_m, hull->rest_rad[k] = l.rest_rad;
+        for (int corner = 0; corner < CORNERS; corner++)
+            hull->pose[corner][k] = at_corner(&l, known->half, corner);
+    }
+    return true;
+}
+
+static fw_clearance_region corner_of(const fw_clearance_region *region, int corner) {
+    fw_clearance_region one = *region;
+    for (int i = 0; i < 3; i++)
+        one.low[i] = one.high[i] = corner >> i & 1 ? region->high[i] : region->low[i];
+    return one;
 }
 
 /* the pose in the middle; part 0: the drawn one, if it is in the box */
@@ -403,6 +426,8 @@ fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things
         context.whole.lo[i] = all.low[i], context.whole.hi[i] = all.high[i];
     const fw_clearance_domain domain = {.context = &context,
                                         .bound = bound,
+                                        .hull = hull_of,
+                                        .corner = corner_of,
                                         .moved = moved,
                                         .pose = pose_of,
                                         .start = drawn,

@@ -232,6 +232,18 @@ static bool bound(const void *context, const fw_clearance_pair *pair,
     return true;
 }
 
+/* the coefficients of a span of one piece */
+static bool hull_of(const void *context, const fw_clearance_pair *pair,
+                    const fw_clearance_region *region, fw_clearance_hull *hull) {
+    const motion *s = context;
+    const fw_clearance_span *span = &region->span;
+    if (span->first != span->last) return false;
+    *hull = (fw_clearance_hull){.count = 0};
+    middle_of(s, pair, span, hull->middle);
+    hull->count = fw_clearance_pair_coefficients(pair, s->path, span, span->first, hull->pose);
+    return true;
+}
+
 static void start_of(const motion *s, const fw_clearance_pair *pair, fw_clearance_pose start[2]) {
     for (int k = 0; k < 2; k++) {
         int solid = k ? pair->b : pair->a;
@@ -403,6 +415,7 @@ fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *thing
     motion context = {.things = things, .path = path};
     const fw_clearance_domain domain = {.context = &context,
                                         .bound = bound,
+                                        .hull = hull_of,
                                         .moved = moved,
                                         .pose = pose,
                                         .start = start_at,

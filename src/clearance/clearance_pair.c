@@ -155,6 +155,7 @@ double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_cleara
                                     .at_b = fw_clearance_place(a, pose[0], found.q),
                                     .a = p->label,
                                     .b = q->label,
+                                    .edge = {p, q},
                                     .bound = p->bends || q->bends,
                                     .lane = p->always || q->always,
                                     .tether = p->held != FW_NONE || q->held != FW_NONE};
@@ -289,4 +290,108 @@ double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_sl
     for (int k = 0; k < 2; k++)
         second += 0.5 * slack->turn_rad[k] * slack->turn_rad[k] * pair->arm_m[k];
     return slack->linear_m + second;
+}
+
+/* ---- the same by the direction in which two edges are apart ----
+
+   The slack above is a length: what goes along a wall counts like what goes towards it, so that a
+   pair which slides by at its least distance is cut into ever smaller regions. For a unit vector n
+   and edges p, q at their middle poses
+
+     |q' - p'| >= n.(q' - p') >= min over q of n.(q + d(q)) - max over p of n.(p + d(p)),
+
+   where, from above, n.(p + d(p)) = n.dx + (n + t J'n).p - t J'n.x within t^2/2 |p - x|: a support
+   function of the edge, linear in the pose. Over a region it is least at one of the hull's poses; what
+   these are off by comes off. With n along the shortest way between the edges this is their distance
+   where a region is small, and off by the square of its size. It says nothing where one lies in the
+   hollow of the other: there the slack stands.
+   Error: proved, but for rounding (1e-18 m). Cost: two supports for each pose of the hull.
+   Source: docs/theory/clearance.md. Test: test_clearance.c direction_bounds_every_pose */
+
+static fw_geometry_segment placed(const fw_clearance_solid *solid, fw_clearance_pose pose,
+                                  const fw_geometry_segment *drawn) {
+    fw_geometry_segment s = *drawn;
+    s.a = fw_clearance_place(solid, pose, drawn->a);
+    s.b = fw_clearance_place(solid, pose, drawn->b);
+    if (s.kind == FW_ARC) s.centre = fw_clearance_place(solid, pose, drawn->centre);
+    return s;
+}
+
+/* the largest m.x of the edge's points */
+static double support(const fw_geometry_segment *s, fw_geometry_vec2 m) {
+    double t, most = fmax(vec_dot(m, s->a), vec_dot(m, s->b));
+    if (s->kind == FW_ARC && fw_geometry_segment_faces(s, m, &t))
+        most = fmax(most, vec_dot(m, s->centre) + s->radius * vec_length(m));
+    return most;
+}
+
+/* the largest n.(x + d(x)) of an edge's points, without rests; place: of the centre of mass */
+static double shifted_support(const fw_geometry_segment *s, fw_geometry_vec2 n,
+                              fw_clearance_pose middle, fw_clearance_pose pose) {
+    const fw_geometry_vec2 turned = {n.y, -n.x};
+    const double t = pose.phi_rad - middle.phi_rad;
+    return support(s, vec_along(n, t, turned)) + n.x * (pose.x_m - middle.x_m) +
+           n.y * (pose.y_m - middle.y_m) - t * (turned.x * middle.x_m + turned.y * middle.y_m);
+}
+
+double fw_clearance_edges_bound(const fw_clearance_pair *pair, const fw_clearance_hull *hull,
+                                const fw_clearance_meet *meet, int *where, double *there_m) {
+    const fw_geometry_vec2 apart = vec_sub(meet->at_b, meet->at_a), n = vec_unit(apart);
+    fw_geometry_segment edge[2];
+    double turn[2] = {0, 0}, rest = 0;
+    *where = 0, *there_m = HUGE_VAL;
+    for (int k = 0; k < 2; k++)
+        edge[k] = placed(&pair->things->solid[k ? pair->b : pair->a], hull->middle[k],
+                         &meet->edge[k]->segment);
+    for (int i = 0; i < hull->count; i++) {
+        const double d =
+            -shifted_support(&edge[1], vec_scale(-1, n), hull->middle[1], hull->pose[i][1]) -
+            shifted_support(&edge[0], n, hull->middle[0], hull->pose[i][0]);
+        if (d < *there_m) *there_m = d, *where = i;
+        for (int k = 0; k < 2; k++)
+            turn[k] = fmax(turn[k], fabs(hull->pose[i][k].phi_rad - hull->middle[k].phi_rad));
+    }
+    for (int k = 0; k < 2; k++) {
+        const fw_geometry_vec2 centre = {hull->middle[k].x_m, hull->middle[k].y_m};
+        const double most = turn[k] + hull->rest_rad[k];
+        rest +=
+            hull->rest_m[k] + (hull->rest_rad[k] + 0.5 * most * most) * far_of(&edge[k], centre);
+    }
+    return *there_m - rest;
+}
+
+double fw_clearance_pair_bound(const fw_clearance_pair *pair, const fw_clearance_hull *hull,
+                               double slack_m, double needed_m) {
+    const seen by = seen_from(pair, hull->middle);
+    const double limit = needed_m + slack_m;
+    const fw_clearance_solid *a = &pair->things->solid[pair->a];
+    double low = HUGE_VAL;
+    for (int j = 0; j < pair->count[1]; j++) {
+        const fw_clearance_edge *f = pair->edge[1][j];
+        const fw_geometry_segment there = moved_segment(&by, &f->segment);
+        const fw_geometry_box box = fw_segment_box(&there);
+        if (fw_box_gap(box, pair->whole) >= limit) continue;
+        for (int i = 0; i < pair->count[0]; i++) {
+            const fw_clearance_edge *e = pair->edge[0][i];
+            int where;
+            double there_m;
+            if (i % RUN == 0 && fw_box_gap(box, pair->run[i / RUN]) >= limit) {
+                i += RUN - 1;
+                continue;
+            }
+            if (fw_box_gap(box, pair->box[i]) >= limit || !may_meet(pair, e, f)) continue;
+            fw_geometry_vec2 p, q;
+            const double d = edge_distance(&e->segment, pair->box[i], &there, box, limit, &p, &q);
+            if (d >= limit) continue;
+            if (d <= 0) return -HUGE_VAL;
+            const fw_clearance_meet meet = {.at_a = fw_clearance_place(a, hull->middle[0], p),
+                                            .at_b = fw_clearance_place(a, hull->middle[0], q),
+                                            .edge = {e, f}};
+            const double proved =
+                fmax(d - slack_m, fw_clearance_edges_bound(pair, hull, &meet, &where, &there_m));
+            if (proved < needed_m) return -HUGE_VAL;
+            low = fmin(low, proved);
+        }
+    }
+    return fmin(low, needed_m);
 }

@@ -62,6 +62,22 @@ void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_po
                             fw_clearance_slack *slack);
 double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack);
 
+/* poses of a pair of which all poses of a region are convex combinations, but for the rests */
+enum { FW_CLEARANCE_HULL = FW_CLEARANCE_NODES > 8 ? FW_CLEARANCE_NODES : 8 };
+typedef struct fw_clearance_hull {
+    fw_clearance_pose middle[2], pose[FW_CLEARANCE_HULL][2];
+    int count;
+    double rest_m[2], rest_rad[2];
+} fw_clearance_hull;
+/* Proved: two edges are nowhere in the region nearer than this. *where: at which of the hull's
+   poses they are, to first order; *there_m: how near */
+double fw_clearance_edges_bound(const fw_clearance_pair *pair, const fw_clearance_hull *hull,
+                                const fw_clearance_meet *meet, int *where, double *there_m);
+/* the least of these bounds over all edges that may come nearer than needed_m; -HUGE_VAL as soon as
+   one is below it. slack_m: of the region */
+double fw_clearance_pair_bound(const fw_clearance_pair *pair, const fw_clearance_hull *hull,
+                               double slack_m, double needed_m);
+
 /* ---- clearance_search.c: the least over all poses of a domain ---- */
 
 typedef struct fw_clearance_region { /* a part of a domain */
@@ -80,6 +96,11 @@ typedef struct fw_clearance_domain {
     void (*rough)(const void *context, const fw_clearance_pair *pair,
                   const fw_clearance_region *all, fw_clearance_pose middle[2], double *slack_m,
                   double *moved_m);
+    /* the same as poses that hold those of the region between them; false: not known. NULL: never */
+    bool (*hull)(const void *context, const fw_clearance_pair *pair,
+                 const fw_clearance_region *region, fw_clearance_hull *hull);
+    /* the region that is one pose of that hull; NULL: these are no poses of the region */
+    fw_clearance_region (*corner)(const fw_clearance_region *region, int corner);
     /* how far the pair is moved against each other, at most, from the first pose */
     double (*moved)(const void *context, const fw_clearance_pair *pair,
                     const fw_clearance_region *all);

@@ -186,6 +186,24 @@ static bool decides(const search *s, int p, double low_m) {
     return low_m > 0 && low_m - lost(s, p) >= bar(s);
 }
 
+/* What the direction in which the nearest edges are apart proves where their distance alone decides nothing,
+   and where it is nearest to first order, a look at that pose. */
+static double look_along(search *s, const node *n, const fw_clearance_meet *meet, double slack) {
+    const fw_clearance_domain *domain = s->domain;
+    const fw_clearance_pair *pair = &s->pair[n->pair];
+    fw_clearance_hull hull;
+    int nearest;
+    double there;
+    if (!domain->hull || !domain->hull(domain->context, pair, &n->region, &hull)) return -HUGE_VAL;
+    double low = fw_clearance_edges_bound(pair, &hull, meet, &nearest, &there);
+    if (domain->corner && there - lost(s, n->pair) < bar(s)) {
+        const fw_clearance_region corner = domain->corner(&n->region, nearest);
+        look(s, n->pair, &corner, 0.5);
+    }
+    if (!decides(s, n->pair, low)) return -HUGE_VAL;
+    return fw_clearance_pair_bound(pair, &hull, slack, fmax(bar(s) + lost(s, n->pair), 0));
+}
+
 /* what the region's middle proves, and where that is a pose what it finds; false: there is no pose
    in it */
 static bool look_at_middle(search *s, const node *n, double *low, bool *looked) {
@@ -205,6 +223,8 @@ static bool look_at_middle(search *s, const node *n, double *low, bool *looked) 
     if (*looked && d < limit && d < least_limit(s, n->pair) &&
         domain->pose(domain->context, pair, &n->region, 0.5, &now))
         record(s, n->pair, &now, d, &meet);
+    if (d < limit && d > 0 && !decides(s, n->pair, *low))
+        *low = fmax(*low, look_along(s, n, &meet, slack));
     return true;
 }
 

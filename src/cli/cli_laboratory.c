@@ -229,8 +229,69 @@ static fw_status add_words(fw_arena *arena, entries *list, const char *words, fw
     return FW_OK;
 }
 
+/* where an entry says of which wafer it is; 0: nowhere. *n: how long that is */
+static size_t wafer_in(const char *words, size_t *n) {
+    static const char key[] = "wafer=";
+    for (const char *at = words; (at = strstr(at, key)); at++) {
+        const char *before = at;
+        while (before > words && (before[-1] == ' ' || before[-1] == '\t'))
+            before--;
+        if (before > words && before[-1] != ';') continue;
+        const char *id = at + sizeof key - 1;
+        id += strspn(id, " \t");
+        *n = strcspn(id, "; \t\r");
+        return (size_t)(id - words);
+    }
+    return 0;
+}
+
+static bool is_of_lot(const fw_recipe_asrun *run, const char *id, size_t n) {
+    for (int i = 0; i < run->nwafer; i++)
+        if (strlen(run->wafer[i]) == n && strncmp(run->wafer[i], id, n) == 0) return true;
+    return false;
+}
+
+/* "2-4": numbers of wafers; what is the name of a wafer itself is that wafer */
+static bool is_range(const fw_recipe_asrun *run, const char *id, size_t n, int *from, int *to) {
+    int used = 0;
+    if (is_of_lot(run, id, n) || sscanf(id, "%3d-%3d%n", from, to, &used) != 2) return false;
+    return (size_t)used == n && *from > 0 && *from < *to && *to <= FW_RECIPE_WAFERS;
+}
+
+/* A load: "1-4", "1,2,5-6", as the schedule of the sheet has it, is an entry of each of its wafers, alike. What was
+   measured at coupons is of one. */
+static fw_status add_load(fw_plan *plan, const fw_recipe_asrun *run, entries *list,
+                          const char *words, fw_place place, bool measured) {
+    size_t n = 0;
+    const size_t at = wafer_in(words, &n);
+    const char *id = words + at, *end = id + n;
+    int from, to;
+    if (!at || (!memchr(id, ',', n) && !is_range(run, id, n, &from, &to)))
+        return add_words(plan->arena, list, words, place);
+    if (measured || strstr(words, "coupon="))
+        return fw_diag_error(&plan->diags, 282, place,
+                             "an entry of several wafers (%.*s) has values that were measured at "
+                             "sites or coupons of one: add these with an entry of each wafer",
+                             (int)n, id);
+    for (const char *part = id; part < end;) {
+        const char *comma = memchr(part, ',', (size_t)(end - part));
+        const size_t length = (size_t)((comma ? comma : end) - part);
+        const bool range = is_range(run, part, length, &from, &to);
+        for (int i = range ? from : 0; i <= (range ? to : 0); i++) {
+            const char *one = range ? fw_arena_printf(plan->arena, "%d", i)
+                                    : fw_arena_strndup(plan->arena, part, length);
+            FW_NEED(one);
+            FW_NEED(one = fw_arena_printf(plan->arena, "%.*s%s%s", (int)at, words, one, end));
+            FW_TRY(add_words(plan->arena, list, one, place));
+        }
+        part += length + 1;
+    }
+    return FW_OK;
+}
+
 /* a line for each, blank ones and remarks left out */
-static fw_status entries_of_file(fw_plan *plan, const char *file, entries *list) {
+static fw_status entries_of_file(fw_plan *plan, const char *file, const fw_recipe_asrun *run,
+                                 entries *list) {
     char *text;
     size_t n;
     FW_TRY(fw_input_read(plan->arena, file, LARGEST_LOG, &plan->diags, &text, &n));
@@ -244,8 +305,8 @@ static fw_status entries_of_file(fw_plan *plan, const char *file, entries *list)
         if (length > 0 && line[length - 1] == '\r') length--;
         line[length] = '\0';
         if (begins < length && line[begins] != '#')
-            FW_TRY(add_words(plan->arena, list, line + begins,
-                             (fw_place){file, number, (int)begins + 1}));
+            FW_TRY(add_load(plan, run, list, line + begins,
+                            (fw_place){file, number, (int)begins + 1}, false));
         line = next;
     }
     return list->n ? FW_OK
@@ -253,11 +314,15 @@ static fw_status entries_of_file(fw_plan *plan, const char *file, entries *list)
                                    "the file holds no entry");
 }
 
-static fw_status entries_of(fw_plan *plan, const fw_cli_options *options, entries *list) {
+static fw_status entries_of(fw_plan *plan, const fw_cli_options *options,
+                            const fw_recipe_asrun *run, entries *list) {
     const char *words;
-    if (options->entries) return entries_of_file(plan, options->entries, list);
+    bool measured = false;
+    if (options->entries) return entries_of_file(plan, options->entries, run, list);
     FW_TRY(entry_words(plan->arena, options, &words));
-    return add_words(plan->arena, list, words, (fw_place){"entry", 1, 1});
+    for (int i = 0; i < options->nlogged; i++)
+        measured = measured || strncmp(options->logged[i].before, "set", 3) != 0;
+    return add_load(plan, run, list, words, (fw_place){"entry", 1, 1}, measured);
 }
 
 /* the first line of a log that begins; "" where it has begun */
@@ -283,7 +348,6 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     fw_text whole = fw_text_new(plan->arena);
     const char *line;
     entries list = {0};
-    FW_TRY(entries_of(plan, options, &list));
     FW_TRY(first_line(plan, pf, hash, file->n > 0, options, &line));
     fw_text_bytes(&whole, file->text, file->n);
     fw_text_add(&whole, line);
@@ -292,6 +356,7 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data, whole.length,
                                 &plan->diags, run));
     FW_TRY(check_head(plan->arena, &plan->diags, options->run, run));
+    FW_TRY(entries_of(plan, options, run, &list));
     FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,
                                        (size_t)(run->nentry + list.n), sizeof *run->entry));
     for (int i = 0; i < list.n; i++) {

@@ -537,8 +537,10 @@ static const fw_cli_option_row table[] = {
     {"wafers", 0, "LIST",
      "wafers of the lot, for a log that begins: how many, or their ids with commas between",
      FW_OPT_LOG, fw_cli_take_wafer_ids},
-    {"wafer", 0, "ID", "of which wafer the entry is; without it, of the whole lot", FW_OPT_LOG,
-     fw_cli_take_wafer},
+    {"wafer", 0, "ID",
+     "of which wafer the entry is, or of which load: \"1-4\", \"1,3\" are an entry of each; "
+     "without it, of the whole lot",
+     FW_OPT_LOG, fw_cli_take_wafer},
     {"site", 0, "MEASURE=VALUES",
      "what the step measures, at the sites centre, top, left, bottom, right: \"thickness=9.1 9.0 "
      "9.2 9.1 9.1 um\", or fewer by name: \"thickness=centre:9.1 left:9.0 um\"; repeatable",

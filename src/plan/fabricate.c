@@ -360,6 +360,21 @@ static void warn_of_loose_cells(fw_plan *plan, const fw_plan_flow *pf) {
         }
 }
 
+/* what the first of the errors says that came since there were so many diagnostics, and how many came */
+static const char *refused(const fw_plan *plan, size_t before) {
+    const fw_diag *first = NULL;
+    size_t n = 0;
+    for (size_t i = before; i < plan->diags.count; i++) {
+        if (plan->diags.item[i].severity != FW_ERROR) continue;
+        if (n++ == 0) first = &plan->diags.item[i];
+    }
+    if (!first) return "the mask breaks a design rule or cannot be biased";
+    const char *more =
+        n > 1 ? fw_arena_printf(plan->arena, "; and %zu more among the messages", n - 1) : "";
+    return fw_arena_printf(plan->arena, "its mask: %s [FW-D%03d]%s", first->message, first->number,
+                           more ? more : "");
+}
+
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout || plan->layout->nfault > 0) { /* dimensions that do not fit in any flow */
@@ -393,13 +408,14 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     warn_of_loose_cells(plan, pf);
     FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
     const fw_mask *mask = NULL;
+    const size_t before = plan->diags.count;
     fw_status status = fw_mask_examine(plan->arena, layout, pf->table, plan->device->name, &options,
                                        &plan->diags, &mask);
     if (status != FW_OK && status != FW_GEOMETRY && status != FW_INPUT) return status;
     pf->violated = mask && mask->nfinding ? mask : NULL;
     pf->mask = status == FW_OK || (mask && mask->whole && plan->options.force) ? mask : NULL;
     if (status == FW_OK) return FW_OK;
-    pf->mask_error = "the mask breaks a design rule or cannot be biased; see the diagnostics";
+    FW_NEED(pf->mask_error = refused(plan, before));
     return fw_process_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
 }
 

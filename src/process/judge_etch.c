@@ -266,7 +266,7 @@ static fw_status not_through(fw_process_judge *j, const fw_process_cut *c,
         k->name, c->step->id, fw_process_judge_number(&t, times, 4),
         fw_process_judge_number(&t, 1.0 + c->overrun, 4),
         fw_process_judge_number(&t, proposed, 3)));
-    j->flow->fails = j->flow->reason[j->flow->nreason - 1];
+    if (j->verdict != FW_ANSWER_NO) j->flow->fails = j->flow->reason[j->flow->nreason - 1];
     return FW_OK;
 }
 

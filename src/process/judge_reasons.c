@@ -39,6 +39,7 @@ void fw_process_judge_to_front(fw_process_flow *f, int from) {
 fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,
                                      const char *why) {
     FW_TRY(append(arena, flow, why));
+    if (manufacturable == 0) flow->fails = why;
     if (manufacturable == 0) fw_process_judge_to_front(flow, flow->nreason - 1);
     if (manufacturable == 0 || flow->manufacturable != 0) flow->manufacturable = manufacturable;
     return FW_OK;
@@ -63,6 +64,8 @@ fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight,
         memcpy(text + end, "...", 4);
     }
     FW_TRY(append(j->arena, j->flow, fw_arena_strdup(j->arena, text)));
+    if (weight == FW_ANSWER_NO && j->verdict != FW_ANSWER_NO)
+        j->flow->fails = j->flow->reason[j->flow->nreason - 1];
     j->verdict = worse(j->verdict, weight);
     return FW_OK;
 }

@@ -108,6 +108,11 @@ static void lint_step(fw_process_pack *pack, const fw_process_step *s) {
                           "step %s has the hazard '%s', which nobody handles alone: add "
                           "second-signature=\"yes\"",
                           s->id, s->hazard[i]->id);
+        if (!(s->attended_s > 0.0))
+            fw_diag_error(pack->diags, 174, s->place,
+                          "step %s has the hazard '%s', which nobody leaves alone, and is "
+                          "attended=\"0\": say for how long somebody stands there",
+                          s->id, s->hazard[i]->id);
         if (!s->hazard[i]->first_aid[0])
             fw_diag_error(pack->diags, 174, s->hazard[i]->place,
                           "hazard '%s' has no first aid; add a <firstaid>", s->hazard[i]->id);
@@ -193,6 +198,7 @@ static const struct {
     {"is resist baked before it is used, and the wafer before it is coated?", fw_process_lint_bakes,
      false},
     {"is nothing done again that comes once?", fw_process_lint_again, false},
+    {"is a step what it says that it is, and timed for what it does?", fw_process_lint_kind, true},
     {"is resist as thick as bakes and doses are computed for?", fw_process_lint_coats, true},
     {"is no resist baked once more before it is developed?", fw_process_lint_baked, false},
     {"is what is prepared used, and what is wet said to be?", fw_process_lint_prepared, false},

@@ -3,6 +3,7 @@
    twice, a second carrier, a second coat that the bake is not timed for. Each question is a function here and a row in
    lint.c. Generated test: tests/process/orders.py, every step once more right behind itself and at the end of its phase;
    test_lint.c does_not_again_what_harms. */
+#include "base/constants.h"
 #include "base/text.h"
 #include "process/films.h"
 #include "process/pack.h"
@@ -240,6 +241,254 @@ fw_status fw_process_lint_prepared(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         lint_mounted(pack, i);
         lint_liquid(pack, &pack->flow->step[i]);
+    }
+    return FW_OK;
+}
+
+/* ---- is a step what it says that it is? ---- */
+
+static const fw_process_step *opens_next(const fw_process_flow *f, int from, const char *material,
+                                         const fw_process_change **by) {
+    for (int i = from; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (strcmp(c->material, material) != 0 || strcmp(c->kind, "remove") != 0) continue;
+            *by = c;
+            return fw_process_step_is_op(&f->step[i], "develop") ? &f->step[i] : NULL;
+        }
+    return NULL;
+}
+
+/* light names the part that the developer opens: the plate's tone and the resist's are both in it */
+static void lint_opened(fw_process_pack *pack, int i) {
+    const fw_process_step *s = &pack->flow->step[i];
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k], *by = NULL;
+        if (strcmp(c->kind, "pattern") != 0) continue;
+        const fw_process_step *opens = opens_next(pack->flow, i + 1, c->material, &by);
+        if (opens && strcmp(by->where, c->where) != 0)
+            fw_diag_error(
+                pack->diags, 559, by->place,
+                "step %s develops '%s' in the part '%s', but step %s exposes it for the part "
+                "'%s'; name the same part in both",
+                opens->id, c->material, by->where, s->id, c->where);
+    }
+}
+
+static const fw_quantity *timed_for(const fw_process_step *s) {
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, "thickness") == 0 ||
+            strcmp(s->argument[i].name, "depth") == 0)
+            return s->argument[i].q;
+    return NULL;
+}
+
+/* the one thickness that a step adds, converts or takes away is what its time is computed for; an etch that goes deeper
+   than it is timed for is told by what lies there (FW-D349), a release by how far it reaches */
+static void lint_timed(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_quantity *timed = timed_for(s), *stated = NULL;
+    char is[32], by[32];
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k];
+        if (!c->thickness) continue;
+        if (stated || c->reach) return;
+        stated = c->thickness;
+    }
+    if (!timed || !stated || timed->unknown || stated->unknown ||
+        fabs(timed->value - stated->value) <= 1e-6 * stated->value)
+        return;
+    fw_diag_error(
+        pack->diags, 561, s->place,
+        "the time of step %s is computed for %s um (%s), but the step is of %s um (%s); name "
+        "the same quantity in its <time> and its <change>",
+        s->id, fw_number_text(is, sizeof is, 1e6 * timed->value, 4), timed->id,
+        fw_number_text(by, sizeof by, 1e6 * stated->value, 4), stated->id);
+}
+
+/* the one material that a step adds or takes away; NULL: several, none, or only what is exposed */
+static const char *material_of(const fw_process_step *s) {
+    const char *material = NULL;
+    for (int k = 0; k < s->nchange; k++) {
+        if (material && strcmp(material, s->change[k].material) != 0) return NULL;
+        material = s->change[k].material;
+    }
+    return material;
+}
+
+static const fw_quantity *rate_of(const fw_process_step *s) {
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, "rate") == 0) return s->argument[i].q;
+    return NULL;
+}
+
+/* a rate is one of one material: an etch timed by that of another step's material is timed for that */
+static void lint_rate(fw_process_pack *pack, int at) {
+    const fw_process_step *s = &pack->flow->step[at];
+    const fw_quantity *rate = rate_of(s);
+    const char *material = material_of(s);
+    for (int i = 0; rate && material && i < at; i++) {
+        const fw_process_step *before = &pack->flow->step[i];
+        const char *other = material_of(before);
+        if (rate_of(before) != rate || !other || strcmp(other, material) == 0) continue;
+        fw_diag_error(
+            pack->diags, 561, s->place,
+            "the time of step %s is computed with the rate '%s', by which step %s is timed "
+            "for '%s', but the step is of '%s'; name the rate of that",
+            s->id, rate->id, before->id, other, material);
+        return;
+    }
+}
+
+static bool on_the_wafer(const fw_process_stack *stack, const char *material) {
+    bool there = false;
+    for (int column = 0; column < stack->columns; column++)
+        there = there || fw_process_stack_holds(stack, column, material);
+    return there;
+}
+
+/* A step that is done again works on what is still there: nothing exposes a resist that was stripped long before.
+   What comes on at the step itself, or before it in its own changes, needs not be there. */
+static fw_status lint_redone(fw_process_pack *pack, int at, int again,
+                             const fw_process_on_fail *f) {
+    const fw_process_step *s = &pack->flow->step[again];
+    fw_process_stack before, after;
+    FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, at - 1, &before, NULL));
+    FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, at, &after, NULL));
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k];
+        const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
+        if (strcmp(c->kind, "add") == 0) return FW_OK;
+        if (c->back || !on[0] || on_the_wafer(&before, on) || on_the_wafer(&after, on)) continue;
+        fw_diag_error(
+            pack->diags, 276, pack->flow->step[at].place,
+            "<on-fail if=\"%s\"> of step %s goes on with step %s, which works on '%s', and "
+            "that is not on the wafer any more; go back to where it is put on",
+            f->condition, pack->flow->step[at].id, s->id, on);
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
+static fw_status lint_reworks(fw_process_pack *pack, int at) {
+    const fw_process_flow *f = pack->flow;
+    for (int k = 0; k < f->step[at].non_fail; k++)
+        for (int j = 0; j < at; j++)
+            if (strcmp(f->step[at].on_fail[k].go_to, f->step[j].id) == 0)
+                FW_TRY(lint_redone(pack, at, j, &f->step[at].on_fail[k]));
+    return FW_OK;
+}
+
+/* what a kind of step does to the wafer, of which it has at least one */
+static void lint_op(fw_process_pack *pack, const fw_process_step *s) {
+    static const struct {
+        const char *op, *kind;
+    } does[] = {{"coat", "add"},       {"deposit", "add"},     {"plate", "add"},
+                {"displace", "add"},   {"bond", "add"},        {"expose", "pattern"},
+                {"develop", "remove"}, {"wet-etch", "remove"}, {"dry-etch", "remove"},
+                {"anodise", "convert"}};
+    for (size_t i = 0; i < sizeof does / sizeof does[0]; i++) {
+        bool has = false;
+        for (int k = 0; k < s->nchange; k++)
+            has = has || strcmp(s->change[k].kind, does[i].kind) == 0;
+        if (fw_process_step_is_op(s, does[i].op) && !has)
+            fw_diag_error(pack->diags, 562, s->place,
+                          "step %s (%s) changes nothing in the way of its kind; add its <change "
+                          "kind=\"%s\">, or correct op",
+                          s->id, s->op, does[i].kind);
+    }
+    for (int k = 0; k < s->nchange; k++) /* wafers come in with an inspection */
+        if (fw_process_step_is_op(s, "inspect") && strcmp(s->change[k].kind, "add") != 0)
+            fw_diag_error(pack->diags, 562, s->change[k].place,
+                          "step %s (inspect) changes the wafer; what only measures does not: "
+                          "correct op, or leave the <change> out",
+                          s->id);
+}
+
+/* a bath decides on volume, bill and waste */
+static void lint_bath(fw_process_pack *pack, const fw_process_step *s) {
+    bool any = false;
+    for (int i = 0; i < s->nuse; i++)
+        any = any || s->use[i].bath;
+    if (!any && fw_words_hold("anodise develop displace plate wet-etch", " ", s->op))
+        fw_diag_warning(pack->diags, 562, s->place,
+                        "step %s (%s) is done in a bath, and names none: what it uses up is in no "
+                        "bill of the lot; add <uses bath=\"...\"/>",
+                        s->id, s->op);
+}
+
+/* Below the least speed resist does not level within its spin time, above the largest no chuck holds the wafer; spinners
+   of laboratories turn at 100 to 12 000 rpm. */
+static void lint_spin(fw_process_pack *pack, const fw_process_step *s) {
+    const double rpm = FW_TURN / 60, least = 100 * rpm, most = 12000 * rpm;
+    const fw_quantity *q[4] = {NULL};
+    static const char *const name[4] = {"thickness", "reference_thickness", "reference_speed",
+                                        "exponent"};
+    if (!s->law || strcmp(s->law, "spin") != 0) return;
+    for (int i = 0; i < s->nargument; i++)
+        for (int k = 0; k < 4; k++)
+            if (strcmp(s->argument[i].name, name[k]) == 0) q[k] = s->argument[i].q;
+    for (int k = 0; k < 4; k++)
+        if (!q[k] || q[k]->unknown || !(q[k]->value > 0)) return;
+    const double speed = q[2]->value * pow(q[1]->value / q[0]->value, 1 / q[3]->value);
+    if (speed >= least && speed <= most) return;
+    char at[32], um[32];
+    fw_diag_error(
+        pack->diags, 563, q[0]->replaced ? q[0]->place : s->place,
+        "step %s would spin at %s rpm for %s um (%s) by its spin curve, and spinners turn at 100 "
+        "to 12000 rpm; take a resist for that thickness, or several coats",
+        s->id, fw_number_text(at, sizeof at, speed / rpm, 3),
+        fw_number_text(um, sizeof um, 1e6 * q[0]->value, 4), q[0]->id);
+}
+
+/* a film that was put on the back before a step and that nothing has opened since; NULL: none */
+static const char *covers_back(const fw_process_flow *f, int step) {
+    const char *cover = NULL;
+    for (int i = 0; i < step; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (c->back && strcmp(c->kind, "add") == 0) cover = c->material;
+            if (cover && strcmp(c->kind, "remove") == 0 && strcmp(c->material, cover) == 0)
+                cover = NULL;
+        }
+    return cover;
+}
+
+static bool was_put_there(const fw_process_flow *f, int step, const char *material) {
+    for (int i = 0; i < step; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            if (f->step[i].change[k].back && strcmp(f->step[i].change[k].kind, "add") == 0 &&
+                strcmp(f->step[i].change[k].material, material) == 0)
+                return true;
+    return false;
+}
+
+/* the wafer itself is reached from its back only where that lies bare */
+static void lint_back(fw_process_pack *pack, int i) {
+    const fw_process_step *s = &pack->flow->step[i];
+    const char *cover = covers_back(pack->flow, i);
+    for (int k = 0; k < s->nchange && cover; k++) {
+        const fw_process_change *c = &s->change[k];
+        if (!c->back || strcmp(c->kind, "add") == 0 || was_put_there(pack->flow, i, c->material))
+            continue;
+        fw_diag_error(
+            pack->diags, 564, c->place,
+            "step %s works on '%s' from the back, where '%s' covers the wafer; take that off "
+            "before, or leave side=\"back\" out",
+            s->id, c->material, cover);
+    }
+}
+
+fw_status fw_process_lint_kind(fw_process_pack *pack) {
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        const fw_process_step *s = &pack->flow->step[i];
+        lint_opened(pack, i);
+        lint_timed(pack, s);
+        lint_op(pack, s);
+        lint_bath(pack, s);
+        lint_spin(pack, s);
+        lint_back(pack, i);
+        lint_rate(pack, i);
+        FW_TRY(lint_reworks(pack, i));
     }
     return FW_OK;
 }

@@ -241,6 +241,27 @@ static void lint_cold(fw_process_pack *pack, const fw_process_step *s,
         set->q->id);
 }
 
+/* "{=al.d*0.95}" is a number in the unit of al.d, and the limit is read in that of the measurement */
+static void lint_limit_in(fw_process_pack *pack, const fw_process_step *s,
+                          const fw_process_accept *a, const char *const *limit) {
+    const fw_process_flow *f = pack->flow;
+    for (int i = 0; i < f->ntext; i++) {
+        char id[FW_LABEL];
+        const char *raw = f->text[i].raw;
+        if (f->text[i].slot != (const char **)limit || strncmp(raw, "{=", 2) != 0) continue;
+        const size_t n = strcspn(raw + 2, "*}");
+        if (n >= sizeof id) continue;
+        memcpy(id, raw + 2, n);
+        id[n] = '\0';
+        const fw_quantity *q = fw_process_flow_quantity(f, id);
+        if (!q || !q->unit || strcmp(q->unit, a->unit) == 0) continue;
+        fw_diag_error(pack->diags, 342, a->place,
+                      "step %s measures '%s' in %s, and its limit %s is a number in %s; write "
+                      "unit=\"%s\"",
+                      s->id, a->measure, a->unit, raw, q->unit, q->unit);
+    }
+}
+
 /* what is measured has a unit, or is counted in a word of the laboratory: not in a misspelt unit */
 static void lint_measured_in(fw_process_pack *pack, const fw_process_step *s,
                              const fw_process_accept *a) {
@@ -252,6 +273,13 @@ static void lint_measured_in(fw_process_pack *pack, const fw_process_step *s,
         fw_diag_warning(pack->diags, 533, a->place,
                         "step %s measures '%s' in '%s', which is no unit; did you mean '%s'?",
                         s->id, a->measure, a->unit, better);
+}
+
+static void lint_accept(fw_process_pack *pack, const fw_process_step *s,
+                        const fw_process_accept *a) {
+    lint_measured_in(pack, s, a);
+    lint_limit_in(pack, s, a, &a->low);
+    lint_limit_in(pack, s, a, &a->high);
 }
 
 /* thicknesses, depths and widths of laws: a length below 0 is an edge's, which no law takes */
@@ -287,7 +315,7 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
         for (int k = 0; k < s->nsetting; k++)
             lint_setting(pack, s, &s->setting[k]), lint_cold(pack, s, &s->setting[k]);
         for (int k = 0; k < s->naccept; k++)
-            lint_measured_in(pack, s, &s->accept[k]);
+            lint_accept(pack, s, &s->accept[k]);
         lint_between(pack, s);
         lint_pairs(pack, s, s->argument, s->nargument);
         if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);

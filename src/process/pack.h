@@ -127,6 +127,7 @@ fw_status fw_process_lint_end(fw_process_pack *pack);
 /* twice, or for another layer than lies there: lint_again.c (FW-D520 to FW-D527) */
 fw_status fw_process_lint_again(fw_process_pack *pack);
 fw_status fw_process_lint_coats(fw_process_pack *pack);
+fw_status fw_process_lint_kind(fw_process_pack *pack);
 fw_status fw_process_lint_baked(fw_process_pack *pack);
 fw_status fw_process_lint_prepared(fw_process_pack *pack);
 fw_status fw_process_lint_made(fw_process_pack *pack);

@@ -343,7 +343,9 @@ typedef struct fw_process_flow {
     int manufacturable;    /* 1 yes, 0 no, -1 not guaranteed until something is measured */
     const char **reason;   /* (nreason) */
     int nreason;
-    const char *fails; /* of them: with what is assumed the flow does not make it; NULL: none is */
+    const char
+        *fails; /* of them: why it cannot be made, else what does not come out right with what is
+                          assumed; NULL: none is */
     fw_process_material *process_material; /* (nprocess_material) */
     fw_process_corner *corner;             /* (ncorner) */
     fw_process_finished *finished;         /* (nfinished) */

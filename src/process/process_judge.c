@@ -121,6 +121,7 @@ fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
                           .verdict = FW_ANSWER_FINE};
     flow->reason = NULL;
     flow->nreason = 0;
+    flow->fails = NULL;
     flow->tight = false;
     FW_TRY(fw_process_judge_etching(&j));
     FW_TRY(lithography(&j));

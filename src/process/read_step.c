@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/text.h"
 #include "process/pack.h"
 #include "quantity/quantity.h"
 #include <math.h>
@@ -478,7 +479,14 @@ static fw_status make_room(fw_arena *arena, const fw_xml_record *e, fw_process_s
 /* what is said of a step is what its machine can do; more wafers than places would be run in loads that nobody wrote */
 static void batch_fits(fw_process_pack *pack, const fw_xml_record *e, const fw_process_step *s) {
     const fw_xml_attribute *batch = fw_process_pack_get(e, "batch");
-    if (!batch || !s->equipment || fw_process_step_is_of_lot(s)) return;
+    if (!batch || !s->equipment) return;
+    if (fw_process_step_is_of_lot(s) && !fw_words_hold("hold mount clean inspect", " ", s->op))
+        fw_diag_error(
+            pack->diags, 558, batch->place,
+            "step %s (%s) is written once for a lot (batch=\"%d\"), but is done to every wafer: "
+            "write batch=\"%d\", which is what %s takes",
+            s->id, s->op, s->batch, s->equipment->capacity, s->equipment->id);
+    if (fw_process_step_is_of_lot(s)) return;
     if (s->batch > s->equipment->capacity)
         fw_diag_error(pack->diags, 558, batch->place,
                       "step %s is for %d wafers at once, and %s takes %d (its capacity): write "

@@ -77,6 +77,8 @@ fw_status fw_report_banner(fw_report_page *page) {
               "</h1>\n<p class=\"word\">{r}</p>\n",
               fw_report_decision_colour(v->decision), page->in->device->name,
               fw_report_decision_word(v->decision));
+    if (top.unmade)
+        fw_markup(out, "<p class=\"why\">But it cannot be made in {s}.</p>\n", top.unmade);
     if (v->drawn != v->decision)
         fw_markup(out, "<p class=\"why\">The drawn geometry alone: {r}.</p>\n",
                   fw_report_decision_word(v->drawn));

@@ -261,7 +261,8 @@ typedef struct fw_report_summary {
     bool has_made, has_drawn;     /* has_made: a flow was judged as it makes it */
     /* of all checks, as made where that was judged, and as drawn */
     fw_verdict_check governing, governing_drawn;
-    bool governs;                 /* something was run */
+    bool governs;       /* something was run */
+    const char *unmade; /* flows that cannot make what is not rejected; NULL: none is known */
     fw_report_summary_line *line; /* (nline) in the order in which they are read */
     int nline;
 } fw_report_summary;

@@ -183,29 +183,52 @@ static int assumed(fw_text *text, const fw_verdict_variant_verdict *v) {
     return count;
 }
 
+static const char *flow_of(const fw_report_flow *f) {
+    const char *flow = f->variant->variant->flow;
+    return flow ? flow : "its material";
+}
+
+/* a flow says no to what hinges bear: the reason that says so, and how many more there are */
+static fw_status unmade(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
+    fw_text list = fw_text_new(arena);
+    for (int i = 0; i < in->nflow; i++) {
+        const fw_report_flow *f = &in->flow[i];
+        if (!f->variant || !f->variant->variant || !f->flow || f->flow->manufacturable != 0)
+            continue;
+        const char *why = f->flow->fails;
+        if (!why) why = f->flow->nreason > 0 ? f->flow->reason[0] : "";
+        const char *more = f->flow->nreason > 1
+                               ? fw_arena_printf(arena, "; and %d more below", f->flow->nreason - 1)
+                               : "";
+        FW_NEED(more);
+        fw_text_printf(&list, "%s%s", list.length ? ", " : "", flow_of(f));
+        FW_TRY(
+            add(s, "cannot be made", fw_arena_printf(arena, "in %s: %s%s", flow_of(f), why, more)));
+    }
+    FW_TRY(fw_text_end(&list));
+    if (list.length) s->unmade = list.data;
+    return FW_OK;
+}
+
 /* First what already the values assumed say no to; then what they are; then how much more there is. */
 static fw_status guarantees(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     for (int i = 0; i < in->nflow; i++) {
         const fw_report_flow *f = &in->flow[i];
         fw_text text = fw_text_new(arena), ranges = fw_text_new(arena);
         if (!f->variant || !f->variant->variant) continue;
-        const char *flow = f->variant->variant->flow;
         const bool known = f->variant->fabricated && assumed(&ranges, f->variant) > 0;
-        const bool makes = !f->flow || f->flow->manufacturable > 0;
-        const char *first = makes ? NULL : f->flow->fails;
-        if (makes && !known) continue;
-        if (!makes && !first && !known && f->flow->nreason > 0) first = f->flow->reason[0];
+        const bool open = f->flow && f->flow->manufacturable < 0;
+        const char *first = open ? f->flow->fails : NULL;
+        if (!open && !known) continue;
+        if (open && !first && !known && f->flow->nreason > 0) first = f->flow->reason[0];
         FW_TRY(fw_text_end(&ranges));
         if (first) fw_text_add(&text, first);
         if (known) fw_text_printf(&text, "%s%s", first ? "; " : "", ranges.data);
-        const int more = makes ? 0 : f->flow->nreason - (first != NULL);
+        const int more = open ? f->flow->nreason - (first != NULL) : 0;
         if (more > 0) fw_text_printf(&text, "; and %d more below", more);
         FW_TRY(fw_text_end(&text));
-        const char *label =
-            f->flow && f->flow->manufacturable == 0 ? "cannot be made" : "not guaranteed";
-        FW_TRY(add(s, label,
-                   fw_arena_printf(arena, "in %s: %s", flow ? flow : "its material",
-                                   text.data ? text.data : "")));
+        FW_TRY(add(s, "not guaranteed",
+                   fw_arena_printf(arena, "in %s: %s", flow_of(f), text.data ? text.data : "")));
     }
     return FW_OK;
 }
@@ -224,7 +247,7 @@ static fw_status layout_faults(fw_arena *arena, const fw_layout *layout, fw_repo
 
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     const fw_verdict *v = in->verdict;
-    size_t most = 6 + (size_t)in->nflow;
+    size_t most = 6 + 2 * (size_t)in->nflow;
     for (int i = 0; i < v->nvariant; i++)
         most += (size_t)v->variant[i].nreason;
     const int all = FW_CHECK_HINGES | FW_CHECK_REQUIREMENTS;
@@ -236,6 +259,8 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     FW_TRY(fw_verdict_governing(arena, v, all, true, &s->governing, &s->governs));
     s->has_made = s->has_made && s->made.corner;
     FW_TRY(layout_faults(arena, in->layout, s));
+    const bool drawn = !in->layout || in->layout->nfault == 0;
+    if (drawn && v->decision != FW_REJECT) FW_TRY(unmade(arena, in, s));
     FW_TRY(reasons(arena, v, s));
     FW_TRY(hinges(arena, v, s));
     FW_TRY(advice(arena, v, in->layout && in->layout->nfault > 0, s));

@@ -299,6 +299,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
                    fw_report_decision_word(v->decision), style.colour ? "\033[0m" : "");
     if (v->drawn != v->decision)
         fw_text_printf(out, " (as drawn: %s)", fw_report_decision_word(v->drawn));
+    if (top.unmade) fw_text_printf(out, ", but cannot be made in %s", top.unmade);
     fw_text_add(out, "\n");
     summary(out, &top);
     if (style.detail >= 0 && top.has_drawn) governing(out, top.drawn.hinge, input);

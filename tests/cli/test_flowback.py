@@ -95,6 +95,59 @@ class Flowback(unittest.TestCase):
         self.assertIn('--set "material/@thickness=48 um"', told)
         self.assertNotIn("FW-D507", self.expect(run(*judged, "--set", "material/@thickness=48 um")).stderr)
 
+    def test_a_wafer_that_the_description_overrules_is_told(self):
+        lab, device = self.here / "wide.xml", self.here / "device.xml"
+        device.write_text((ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text().replace(
+            "</device>", '<wafer diameter="100 mm"/></device>'))
+        judged = ("check", device, "--lab", lab, "--measurements", "none", "--corners", "none", "--flow", SILICON)
+        for width, told in ((150, True), (100, False), (76.2, True)):
+            lab.write_text(f'<process xmlns="urn:flexwright:process:1" flow="{SILICON}"><source id="order" kind="measured" '
+                           f'date="2026-11-20">order</source><q id="wafer.D" value="{width}" u="0.1" unit="mm" '
+                           'status="measured" src="order"/></process>')
+            said = self.expect(run(*judged)).stderr
+            self.assertEqual("FW-D529" in said, told, said)
+            if told:
+                self.assertRegex(said, rf"wide\.xml:\d+:\d+: warning: 'wafer.D' is {width:g} mm here, but the <wafer>")
+                self.assertNotIn("FW-D529", self.expect(run(*judged, "--set", f"wafer/@diameter={width} mm")).stderr)
+
+    def test_a_laboratory_meets_the_spinner_too(self):
+        lab = self.here / "thick.xml"
+        lab.write_text(f'<process xmlns="urn:flexwright:process:1" flow="{SILICON}"><source id="sheet" kind="datasheet" '
+                       'date="2026-11-20">sheet</source><q id="litho.resist" value="60" u="1" unit="um" status="typical" '
+                       'src="sheet"/></process>')
+        said = self.expect(run("recipe", ROOT / "docs/gallery/leaf-four-bar/device.xml", "--flow", SILICON, "--lab", lab,
+                               "-o", self.here / "out"), 3).stderr
+        self.assertRegex(said, r"thick\.xml:\d+:\d+: error: step S07 would spin at 2\.28 rpm .*FW-D563")
+
+    def test_a_load_is_an_entry_of_each_of_its_wafers(self):
+        """as the schedule of the sheet writes it; the log is that of single entries, byte for byte"""
+        clean = "S02; start=2026-11-02T08:48; end=2026-11-02T09:23; by=AB; particles in bright light=0"
+        begun = ("--wafers", "6", "--lot", "L1", "-q")
+        for number, (load, wafers) in enumerate((("1-6", "123456"), ("2,5", "25"), ("1-3,6", "1236"), ("4", "4"))):
+            self.log = self.here / f"load{number}.log"
+            self.expect(self.command("--entry", clean, "--wafer", load, "--setting", "bath temperature=74 Cel", *begun))
+            together = self.log.read_bytes()
+            self.log = self.here / f"single{number}.log"
+            for k, wafer in enumerate(wafers):
+                self.expect(self.command("--entry", clean, "--wafer", wafer, "--setting", "bath temperature=74 Cel",
+                                         *(begun if k == 0 else ("-q",))))
+            self.assertEqual(together, self.log.read_bytes(), load)
+            day = self.here / "day.txt"
+            day.write_text(f"{clean}; wafer={load}; set bath temperature=74 Cel\n")
+            self.log = self.here / f"day{number}.log"
+            self.expect(self.command("--entries", day, *begun))
+            self.assertEqual(len(self.log.read_text().splitlines()), 1 + len(wafers))
+        before = self.log.read_bytes()
+        for load, more, says in (("3-7", (), "no wafer '7'"), ("1,,2", (), "'wafer=' is not written"), ("5-2", (), "no wafer '5-2'"),
+                                 ("1-2", ("--site", "particles in bright light=0 0 0 0 0"), "of several wafers (1-2)")):
+            result = self.expect(self.command("--entry", clean, "--wafer", load, *more), 3)
+            self.assertIn(says, result.stderr)
+            self.assertEqual(before, self.log.read_bytes())
+        # a wafer that is named like a range is that wafer
+        self.log = self.here / "named.log"
+        self.expect(self.command("--entry", clean, "--wafer", "1-2", "--wafers", "1-2,1,2", "-q"))
+        self.assertEqual(len(self.log.read_text().splitlines()), 2)
+
     def test_a_day_at_once(self):
         day = self.here / "day.txt"
         lines = ["# Monday", ""] + [f"S01; start=2026-11-02T08:{w}0; end=2026-11-02T08:{w}8; by=AB; wafer={w}; instrument=gauge; "

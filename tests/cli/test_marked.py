@@ -19,6 +19,19 @@ BARE = re.sub(r' (mass|inertia|stiffness|damping)="[^"]*"', "", STATED)
 PLATE = 'width="1.40 mm" height="0.40 mm" x="1.50 mm" y="2.875 mm"'
 STAGE = (ROOT / "docs/gallery/straight-stage/device.xml").read_text()
 
+NECK = """<device xmlns="urn:flexwright:device:1" name="neck">
+  <material ref="silicon-100" thickness="50 um"/><limits safety-factor="1.5"/><flow ref="al-masked-rie"/>
+  <flexure id="h" kind="csfh" radius="80 um" angle="240 deg" width="8 um" gap="10 um"/>
+  <mechanism>
+    <body id="p" x="0 mm" y="0 mm">
+      <plate width="200 um" height="400 um" x="0 um" y="400 um"/><plate width="200 um" height="200 um" x="199 um" y="700 um"/>
+    </body>
+    <revolute id="A" a="ground" b="p" hinge="h"/>
+  </mechanism>
+  <scene name="s" duration="1 ms"><force on="p" x="0 mm" y="0.4 mm" fx="10 uN" fy="0 N"/></scene>
+</device>
+"""
+
 
 def enlarged(text, dice):
     w, h, y = dice.uniform(2.2, 3.0), dice.uniform(0.7, 1.2), dice.uniform(2.2, 2.5)
@@ -115,6 +128,21 @@ class Marked(unittest.TestCase):
             top = json.loads((out / "verdict.json").read_text())["summary"]
             self.assertEqual(top[0]["label"], "cannot be made")
             self.assertIn("FW-D120", top[0]["text"])
+
+    def test_what_no_flow_makes_says_so_first(self):
+        """hinges that hold, on plates that overlap in a corner only: the first lines say that it cannot be made, and where"""
+        text = STAGE[:STAGE.index("<device")] + NECK
+        result, out = self.plan(text)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertEqual(lines[0], "neck: ACCEPT, but cannot be made in al-masked-rie")
+        self.assertRegex(lines[1], r"^cannot be made: in al-masked-rie: its mask: link p .* width of .* at \(99\.\d*, 600\) um.* \[FW-D144\]")
+        top = json.loads((out / "verdict.json").read_text())["summary"]
+        self.assertEqual(top[0]["label"], "cannot be made")
+        self.assertIn("But it cannot be made in al-masked-rie", (out / "report.html").read_text())
+        result, _ = self.plan(text.replace("199 um", "150 um"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.splitlines()[0], "neck: ACCEPT")
 
     def test_hinges_of_what_cannot_be_made(self):
         """their figures are those of the device that can be made, as far as they are alike"""

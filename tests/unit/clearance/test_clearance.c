@@ -139,6 +139,93 @@ static void slack_bounds_every_pose(void **state) {
     }
 }
 
+/* one side of a box as an arc, bulging or hollow */
+static void bend(scene *s, uint64_t *seed, int solid) {
+    fw_geometry_segment *side = &s->things.solid[solid].edge[(int)chance(seed, 0, 4)].segment;
+    const double chord = vec_distance(side->a, side->b);
+    const double radius = chord * chance(seed, 0.6, 4), h = sqrt(radius * radius - chord * chord / 4);
+    const fw_geometry_vec2 left = vec_left(vec_unit(vec_sub(side->b, side->a)));
+    const int turn = chance(seed, 0, 1) < 0.5 ? -1 : 1; /* the smaller part of the circle */
+    side->kind = FW_ARC;
+    side->radius = radius;
+    side->sweep_rad = 2 * turn * asin(0.5 * chord / radius);
+    side->centre = vec_along(vec_scale(0.5, vec_add(side->a, side->b)), turn * h, left);
+    assert_true(fw_geometry_segment_valid(side));
+}
+
+/* what the direction proves holds at every pose between those of the hull, and within the rests; where a
+   region is small, and no edge hollow, it is the distance to first order, which the slack is not */
+static void direction_bounds_every_pose(void **state) {
+    (void)state;
+    uint64_t seed = 29;
+    int better = 0, straight = 0;
+    for (int i = 0; i < test_cases(6000, 1000); i++) {
+        scene s = start();
+        const bool lines = i % 2;
+        box(&s, 0, 0, 0, chance(&seed, 1e-5, 1e-3), chance(&seed, 1e-5, 1e-3));
+        box(&s, 1, 1.1e-3, 0, 1.2e-3 + chance(&seed, 0, 1e-3), chance(&seed, 1e-5, 1e-3));
+        for (int k = 0; k < 2 && !lines; k++)
+            bend(&s, &seed, k);
+        fw_clearance_pair pair;
+        assert_int_equal(fw_clearance_pair_new(s.arena, &s.things, 0, 1, false, &pair), FW_OK);
+        fw_clearance_hull hull = {.count = 4};
+        fw_clearance_slack slack;
+        fw_clearance_meet meet;
+        const double size = pow(10, chance(&seed, -8, -4)), turn = 1e3 * size;
+        for (int k = 0; k < 2; k++) {
+            const fw_clearance_solid *b = &s.things.solid[k ? pair.b : pair.a];
+            hull.middle[k] =
+                about(&seed, (fw_clearance_pose){b->centre.x, b->centre.y, 0}, 1e-5, 0.2);
+            hull.rest_m[k] = i % 3 ? 0 : chance(&seed, 0, size);
+            hull.rest_rad[k] = i % 3 ? 0 : chance(&seed, 0, turn);
+        }
+        const fw_clearance_pose *middle = hull.middle;
+        fw_clearance_slack_begin(&pair, middle, &slack);
+        for (int j = 0; j < hull.count; j++) {
+            for (int k = 0; k < 2; k++)
+                hull.pose[j][k] = about(&seed, middle[k], size, turn);
+            fw_clearance_slack_add(&pair, (const fw_clearance_pose *)hull.pose[j], &slack);
+        }
+        const double d = fw_clearance_pair_distance(&pair, middle, HUGE_VAL, &meet);
+        if (d <= 0) {
+            fw_arena_free(s.arena);
+            continue;
+        }
+        int where;
+        double there, slack_m = fw_clearance_slack_m(&pair, &slack);
+        for (int k = 0; k < 2; k++)
+            slack_m += hull.rest_m[k] + hull.rest_rad[k] * 1e-2;
+        const double edges = fw_clearance_edges_bound(&pair, &hull, &meet, &where, &there);
+        double needed = d - chance(&seed, 0, 1) * slack_m;
+        const double all = fw_clearance_pair_bound(&pair, &hull, slack_m, needed);
+        if (i % 3) straight += lines, better += lines && edges > d - slack_m;
+        assert_true(all <= needed);
+        for (int j = 0; j < 30; j++) {
+            double w[4], sum = 0;
+            for (int k = 0; k < 4; k++)
+                sum += w[k] = pow(chance(&seed, 0, 1), 4);
+            fw_clearance_pose at[2] = {{0, 0, 0}, {0, 0, 0}};
+            fw_clearance_pair own = pair;
+            for (int b = 0; b < 2; b++) {
+                for (int k = 0; k < 4; k++) {
+                    at[b].x_m += w[k] / sum * hull.pose[k][b].x_m;
+                    at[b].y_m += w[k] / sum * hull.pose[k][b].y_m;
+                    at[b].phi_rad += w[k] / sum * hull.pose[k][b].phi_rad;
+                }
+                at[b] = about(&seed, at[b], hull.rest_m[b] / 1.5, hull.rest_rad[b]);
+            }
+            const double now = fw_clearance_pair_distance(&pair, at, HUGE_VAL, NULL);
+            if (isfinite(all)) assert_true(now >= all - 1e-15);
+            for (int k = 0; k < 2; k++) /* of those two edges alone */
+                own.edge[k] = (const fw_clearance_edge **)&meet.edge[k], own.count[k] = 1;
+            fw_clearance_pair_boxes(&own);
+            assert_true(fw_clearance_pair_distance(&own, at, HUGE_VAL, NULL) >= edges - 1e-15);
+        }
+        fw_arena_free(s.arena);
+    }
+    assert_true(better > straight * 9 / 10);
+}
+
 static const fw_clearance_wish closely = {
     .relative = 1e-6, .enough_m = HUGE_VAL, .most = 100000, .most_ever = 100000};
 
@@ -280,6 +367,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coefficients_hold_the_polynomial),
         cmocka_unit_test(slack_bounds_every_pose),
+        cmocka_unit_test(direction_bounds_every_pose),
         cmocka_unit_test(least_is_that_of_dense_samples),
         cmocka_unit_test(what_meets_between_samples_is_found),
         cmocka_unit_test(first_of_several_meetings),

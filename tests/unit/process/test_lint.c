@@ -4,6 +4,7 @@
 #include "process/pack.h"
 #include "pack_fixture.h"
 #include "process/calibrate.h"
+#include <math.h>
 
 static void expect(int number, const char *says) {
     const fw_diag *d = said_of(number, says);
@@ -43,6 +44,52 @@ static void mistakes_of_a_flow(void **state) {
          "<exposed material=\"aluminium\" rate=\"develop.t\"/>", 169, "length per time"},
         {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>",
          "<exposed material=\"aluminium\" selectivity=\"rie.R\"/>", 169, "has no unit"},
+        /* the plate or the resist of the other tone */
+        {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>",
+         "<change kind=\"pattern\" material=\"resist\" where=\"structure\"/>", 559,
+         "step S09 exposes it for the part 'structure'"},
+        {COPPER, "<change kind=\"pattern\" material=\"resist\" where=\"structure\"/>",
+         "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>", 559, "the part 'field'"},
+        /* timed for another layer */
+        {SILICON, "pause=\"rie.break\"><arg name=\"depth\" q=\"si.d\"/>",
+         "pause=\"rie.break\"><arg name=\"depth\" q=\"al.d\"/>", 561, "step S18 is computed for 1 um"},
+        {SILICON, "<time law=\"spin\" overrun=\"0\" k=\"2\"><arg name=\"thickness\" q=\"litho.resist\"/>",
+         "<time law=\"spin\" overrun=\"0\" k=\"2\"><arg name=\"thickness\" q=\"al.d\"/>", 561,
+         "step S07 is computed for 1 um"},
+        /* timed by the rate of another material: whichever comes second is told */
+        {SILICON, "<arg name=\"rate\" q=\"pan.R\"/>", "<arg name=\"rate\" q=\"rie.R\"/>", 561,
+         "with the rate 'rie.R'"},
+        {SILICON, "<arg name=\"depth\" q=\"si.d\"/><arg name=\"rate\" q=\"rie.R\"/>",
+         "<arg name=\"depth\" q=\"si.d\"/><arg name=\"rate\" q=\"pan.R\"/>", 561, "with the rate 'pan.R'"},
+        /* limits in another unit than what they are computed from */
+        {SILICON, "hi=\"{=al.d*1.05}\" unit=\"um\"", "hi=\"{=al.d*1.05}\" unit=\"nm\"", 342,
+         "is a number in um"},
+        {COPPER, "hi=\"{=seed.Rs}\" unit=\"ohm\"", "hi=\"{=seed.Rs}\" unit=\"mohm\"", 342,
+         "is a number in ohm"},
+        /* back to a resist that was stripped; a window of no width; all wafers of a lot in a machine for one */
+        {SILICON, "<on-fail if=\"grass\" then=\"hold\">", "<on-fail if=\"grass\" then=\"rework\" goto=\"S09\">",
+         276, "not on the wafer any more"},
+        {SILICON, "<time law=\"spin\" overrun=\"0\" k=\"2\">", "<time law=\"spin\" overrun=\"0\" k=\"0\">", 171,
+         "k is 0"},
+        {SILICON, "equipment=\"rie\" in-source=\"yes\" batch=\"1\"",
+         "equipment=\"rie\" in-source=\"yes\" batch=\"99\"", 558, "but is done to every wafer"},
+        /* a step of another kind */
+        {SILICON, "id=\"S03\" op=\"deposit\"", "id=\"S03\" op=\"dry-etch\"", 562, "step S03 (dry-etch)"},
+        {SILICON, "id=\"S16\" op=\"strip\"", "id=\"S16\" op=\"inspect\"", 562, "step S16 (inspect)"},
+        /* a coat that no spinner gives: too thick, too thin */
+        {SILICON, "id=\"resist.d0\" value=\"1.40\"", "id=\"resist.d0\" value=\"0.05\"", 563,
+         "step S07 would spin at"},
+        {SILICON, "id=\"resist.d0\" value=\"1.40\"", "id=\"resist.d0\" value=\"9\"", 563,
+         "step S07 would spin at"},
+        /* etched from below, through carrier and paste */
+        {SILICON, "thickness=\"si.d\" where=\"field\" profile",
+         "thickness=\"si.d\" side=\"back\" where=\"field\" profile", 564, "'thermal-paste' covers"},
+        /* acid with nobody beside it */
+        {COPPER, "op=\"anodise\" title=\"Anodise: make the surface porous\" equipment=\"hf-bench\" "
+                 "in-source=\"yes\" batch=\"1\" second-signature=\"yes\" attended=\"2\"",
+         "op=\"anodise\" title=\"Anodise: make the surface porous\" equipment=\"hf-bench\" "
+         "in-source=\"yes\" batch=\"1\" second-signature=\"yes\" attended=\"0\"",
+         174, "nobody leaves alone"},
         /* resist that was not stripped meets the plasma */
         {SILICON, "<change kind=\"remove\" material=\"resist\"/>", "", 269, "'resist'"},
         {SILICON, "<q id=\"hard.T\" value=\"115\"", "<q id=\"hard.T\" value=\"131\"", 271,
@@ -167,6 +214,47 @@ static void replaced_values_keep_their_range(void **state) {
             fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", own, m, &diags, &flow);
         assert_int_equal(status, with[i].number ? FW_INPUT : FW_OK);
         if (with[i].number) expect(with[i].number, "h.x");
+    }
+}
+
+/* a bath that nobody names is in no bill; a laboratory's resist meets the spinner as the pack's own does */
+static void baths_are_named_and_spinners_turn(void **state) {
+    (void)state;
+    static const char *const uses[][2] = {{SILICON, "pan"}, {SILICON, "developing"}, {COPPER, "anodising"},
+                                          {COPPER, "plating"}, {COPPER, "seed-etch"}};
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        diags = fw_diags_new(arena);
+        const char *from = fw_arena_printf(arena, "<uses bath=\"%s\"/>", uses[i][1]);
+        assert_non_null(read_pack(arena, uses[i][0], from, "", &diags));
+        expect(562, "is done in a bath, and names none");
+    }
+    for (int um = 1; um <= 40; um++) { /* 8000 rpm for 1 um, 100 for 9 */
+        char to[64];
+        snprintf(to, sizeof to, "id=\"litho.resist\" value=\"%d\"", um);
+        const double rpm = 4000 * pow(1.4 / um, 1 / 0.503);
+        diags = fw_diags_new(arena);
+        read_pack(arena, SILICON, "id=\"litho.resist\" value=\"2\"", to, &diags);
+        assert_int_equal(said_of(563, "step S07") != NULL, rpm < 100 || rpm > 12000);
+    }
+}
+
+/* a laboratory's value is of the range of the quantity that it takes the place of */
+static void ranges_are_those_of_what_it_is(void **state) {
+    (void)state;
+    static const struct {
+        const char *pack, *from, *to, *says;
+    } bad[] = {
+        {SILICON, "id=\"litho.wavelength\" value=\"405\"", "id=\"litho.wavelength\" value=\"-405\"", "100 to 1100"},
+        {SILICON, "id=\"spin.t\" value=\"60\"", "id=\"spin.t\" value=\"60000\"", "5 to 600"},
+        {SILICON, "id=\"wax.d\" value=\"10\"", "id=\"wax.d\" value=\"10000\"", "a layer of a wafer"},
+        {SILICON, "id=\"rie.p\" value=\"80\"", "id=\"rie.p\" value=\"8000000\"", "an atmosphere"},
+        {SILICON, "id=\"clean.t\" value=\"35\"", "id=\"clean.t\" value=\"50000\"", "a month"},
+        {COPPER, "id=\"cu.d\" value=\"9\"", "id=\"cu.d\" value=\"-9\"", "a layer of a wafer"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        diags = fw_diags_new(arena);
+        assert_null(read_pack(arena, bad[i].pack, bad[i].from, bad[i].to, &diags));
+        expect(278, bad[i].says);
     }
 }
 
@@ -345,8 +433,8 @@ static void uncertainties_make_sense(void **state) {
 static void steps_that_do_nothing(void **state) {
     (void)state;
     fw_process_flow *f =
-        computed_pack(SILICON, "id=\"spin.t\" value=\"60\"", "id=\"spin.t\" value=\"0\"");
-    assert_non_null(said_of(534, "step S07 takes no time"));
+        computed_pack(SILICON, "id=\"peb.t\" value=\"60\"", "id=\"peb.t\" value=\"0\"");
+    assert_non_null(said_of(534, "step S10 takes no time"));
     assert_int_equal(f->manufacturable, 0);
     computed_pack(SILICON, "hi=\"200\" unit=\"um\"", "hi=\"200\" unit=\"umm\"");
     assert_non_null(said_of(533, "did you mean 'um'"));
@@ -488,6 +576,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(bath, setup, teardown),
         cmocka_unit_test_setup_teardown(mistakes_of_a_flow, setup, teardown),
         cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),
+        cmocka_unit_test_setup_teardown(baths_are_named_and_spinners_turn, setup, teardown),
+        cmocka_unit_test_setup_teardown(ranges_are_those_of_what_it_is, setup, teardown),
         cmocka_unit_test_setup_teardown(shared_hazards, setup, teardown),
         cmocka_unit_test(liquids_react_by_their_groups),
         cmocka_unit_test_setup_teardown(one_coat_is_exposed_once, setup, teardown),
