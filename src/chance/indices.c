@@ -94,11 +94,11 @@ static void add_replicate(const work *w, response *r) {
 
 /* Ratio S = mean(x)/V, V = mean(v) - mean(m)^2, with Student's interval of its linear part: the influence of a replicate is
    (x - S (v - 2 mean(m) m))/V */
-static fw_chance_index ratio(const response *r, const sums *s, double level) {
+static fw_chance_share ratio(const response *r, const sums *s, double level) {
     double n = (double)r->replicates, x = s->x / n, v = r->v / n, m = r->m / n,
            variance = v - m * m;
     if (r->replicates < 2 || !(variance > 1e-24 * (v + r->shift * r->shift)))
-        return (fw_chance_index){(double)NAN, (double)NAN, (double)NAN};
+        return (fw_chance_share){(double)NAN, (double)NAN, (double)NAN};
     double index = x / variance;
     double of_x = s->xx / n - x * x, with_v = s->xv / n - x * v, with_m = s->xm / n - x * m;
     double of_v = r->vv / n - v * v, of_m = r->mm / n - m * m, vm = r->vm / n - v * m;
@@ -106,7 +106,7 @@ static fw_chance_index ratio(const response *r, const sums *s, double level) {
     double spread =
         fmax(0, of_x - 2 * index * with_w + index * index * of_w) / (variance * variance);
     double half = fw_maths_student_quantile((1 + level) / 2, n - 1) * sqrt(spread / (n - 1));
-    return (fw_chance_index){index, fmin(1, fmax(0, index - half)), fmax(0, fmin(1, index + half))};
+    return (fw_chance_share){index, fmin(1, fmax(0, index - half)), fmax(0, fmin(1, index + half))};
 }
 
 static fw_status work_new(fw_arena *arena, const fw_chance_model *model, work *w) {
@@ -217,8 +217,8 @@ fw_status fw_chance_indices_run(fw_arena *arena, const fw_chance_model *model,
     FW_NEED(out->mean = fw_arena_array(arena, double, responses));
     FW_NEED(out->variance = fw_arena_array(arena, double, responses));
     FW_NEED(out->rows = fw_arena_array(arena, size_t, responses));
-    FW_NEED(out->first = fw_arena_array(arena, fw_chance_index, responses * w.groups));
-    FW_NEED(out->total = fw_arena_array(arena, fw_chance_index, responses * w.groups));
+    FW_NEED(out->first = fw_arena_array(arena, fw_chance_share, responses * w.groups));
+    FW_NEED(out->total = fw_arena_array(arena, fw_chance_share, responses * w.groups));
     for (size_t r = 0; r < responses; r++) {
         const response *part = &w.part[r];
         double n = (double)part->replicates, m = part->m / n;

@@ -6,7 +6,7 @@
 #include "study/study.h"
 #include "base/svg.h"
 #include "chance/estimate.h"
-#include "chance/nested.h"
+#include "chance/indices.h"
 #include "study/study_store.h"
 #include <jansson.h>
 

@@ -75,7 +75,7 @@ static void coverage(void **state) {
         fw_chance_indices s = run(&model, (uint64_t)seed, 512);
         for (int r = 0; r < 2; r++)
             for (int g = 0; g < 3; g++) {
-                const fw_chance_index *a = &s.first[3 * r + g], *b = &s.total[3 * r + g];
+                const fw_chance_share *a = &s.first[3 * r + g], *b = &s.total[3 * r + g];
                 held[0][r][g] += a->low <= first[r][g] && first[r][g] <= a->high;
                 held[1][r][g] += b->low <= total[r][g] && total[r][g] <= b->high;
             }
