@@ -232,7 +232,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
                      (size_t)device->nrevolute +
-                     6; /* strips; out of reach, as made, riders; stiction */
+                     7; /* strips; out of reach or badly held, as made, riders; stiction */
     for (size_t i = 0; i < n; i++)
         reasons += (size_t)m->device->scene[i].ncontact;
     reasons += (size_t)fw_verdict_missing_most(device);
@@ -365,13 +365,41 @@ static fw_status judge_give(fw_arena *arena, fw_verdict_variant_verdict *v) {
     return FW_OK;
 }
 
+/* what drives the device in its scenes holds no required pose well: what it must give has no bound there */
+static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_workspace_result *w = &v->workspace;
+    char volume[32], needed[32];
+    const char *text;
+    if (!w->badly_by) return FW_OK;
+    FW_NEED(
+        text = fw_arena_printf(
+            arena,
+            "the actuators of the scenes hold the required workspace badly: the best three, %s, "
+            "have unit wrenches of a volume of %s in one of its poses, and %s is needed; forces "
+            "grow without bound towards 0, so that the strain is computed for a wrench on the "
+            "platform instead; drive it at another place, ask for a smaller box, or state in a "
+            "scene two forces and a torque on the platform if they hold it",
+            w->badly_by, fw_number_text(volume, sizeof volume, w->badly, 2),
+            fw_number_text(needed, sizeof needed, FW_WORKSPACE_HOLDS_WELL, 2)));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = 536,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = 0.5,
+                                                  .text = text};
+    return FW_OK;
+}
+
 /* a required pose that no pose of the legs has: nothing of a hinge can be said there */
 static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_result *w = &v->workspace;
     char x[32], y[32], phi[32];
     const char *text;
     if (!w->required) return FW_OK;
-    if (w->reachable) return judge_give(arena, v);
+    if (w->reachable) {
+        FW_TRY(judge_held(arena, v));
+        return judge_give(arena, v);
+    }
     FW_NEED(text = fw_arena_printf(
                 arena,
                 "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "

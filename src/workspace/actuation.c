@@ -117,10 +117,8 @@ static fw_status sections(fw_arena *arena, const fw_mechanism *m,
    supplies the rest. Three of them determine the joint forces; strain is convex in these, so that
    actuators that share the work strain no hinge more than the worst three alone. */
 
-/* a grip that holds worse than this somewhere in the box is no way to hold it: volume of the three
-   unit wrenches */
-static const double holds_well = 0.02;
 enum { GRID = 3 };
+static const double dependent = 1e-6; /* three whose volume is nowhere more hold nothing */
 
 typedef struct gathering {
     fw_arena *arena;
@@ -276,15 +274,22 @@ static double volume(const choosing *c, int pose, const int which[3]) {
            w[0][2] * (w[1][0] * w[2][1] - w[1][1] * w[2][0]);
 }
 
-/* of the same sign, and not small, at every pose that was looked at */
-static bool holds(const choosing *c, const int which[3]) {
-    double least = HUGE_VAL, most = -HUGE_VAL;
+/* how well three hold the box: the least volume of their wrenches at the poses that were looked at, 0 where its sign
+   changes; NaN: not known. *most: the largest */
+static double hold_of(const choosing *c, const int which[3], double *most) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (int p = 0; p < c->poses; p++) {
         double v = volume(c, p, which);
-        if (isnan(v)) return false;
-        least = fmin(least, v), most = fmax(most, v);
+        if (isnan(v)) return *most = v;
+        low = fmin(low, v), high = fmax(high, v);
     }
-    return least > holds_well || most < -holds_well;
+    *most = fmax(fabs(low), fabs(high));
+    return fmax(fmax(low, -high), 0);
+}
+
+static bool holds(const choosing *c, const int which[3]) {
+    double most;
+    return hold_of(c, which, &most) > FW_WORKSPACE_HOLDS_WELL;
 }
 
 static bool on_platform(const choosing *c, int i) {
@@ -365,6 +370,27 @@ static fw_status every_three(fw_arena *arena, choosing *c, int n) {
     return FW_OK;
 }
 
+/* Three of the scenes' own that are independent, none of which holds all of the box: the best of them. They may be what
+   moves the device there, and what they must give then has no bound. */
+static fw_status find_badly_held(fw_arena *arena, const choosing *c, int n) {
+    fw_workspace_hold *hold = c->hold;
+    double best = -1, most;
+    int by[3] = {0};
+    for (int i = 0; i < n; i++)
+        for (int j = i + 1; j < n; j++)
+            for (int k = j + 1; k < n; k++) {
+                const int which[3] = {i, j, k};
+                double now = hold_of(c, which, &most);
+                if (most > dependent && now > best) best = now, memcpy(by, which, sizeof by);
+            }
+    if (best < 0) return FW_OK;
+    const fw_workspace_actuator *a = hold->actuator;
+    hold->badly = best;
+    FW_NEED(hold->badly_by =
+                fw_arena_printf(arena, "%s, %s, %s", a[by[0]].id, a[by[1]].id, a[by[2]].id));
+    return FW_OK;
+}
+
 static const int usual[3][3] = {{0, 4, 2}, {0, 4, 1}, {0, 4, 3}}; /* bodies that torques act on */
 
 /* actuators of the scenes; where no scene has any, torques on the links */
@@ -427,6 +453,7 @@ static fw_status choose(fw_arena *arena, gathering *g, choosing *c, const fw_wor
         FW_TRY(respond_on_grid(arena, c, box));
         FW_TRY(every_three(arena, c, g->n));
         if (c->ngrip > 0 && !one_way) return FW_OK;
+        if (c->ngrip == 0) FW_TRY(find_badly_held(arena, c, g->n));
     }
     FW_TRY(platform_wrench(g, &hold->loop->centre));
     for (int k = 0; k < 3 && none; k++)

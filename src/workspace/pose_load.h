@@ -206,6 +206,9 @@ struct fw_workspace_hold {
     int nactuator;
     const fw_workspace_grip *grip;
     int ngrip;
+    /* the three of the scenes' actuators that hold the box best where none does well, and their least volume; NULL */
+    const char *badly_by;
+    double badly;
 };
 
 /* which grips there are over a box: triples that hold all of it */

@@ -269,6 +269,8 @@ static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_wor
     fw_workspace_proof_end end;
     FW_NEED(hold);
     FW_TRY(fw_workspace_hold_of(arena, m, loop, box, hold));
+    if (hold->badly_by && (!result->badly_by || hold->badly < result->badly))
+        result->badly_by = hold->badly_by, result->badly = hold->badly;
     FW_TRY(
         fw_workspace_certify_strain(arena, hold, box, strain_sharpness, MOST_BOXES, proof, &end));
     if (end != FW_PROVED) {

@@ -40,6 +40,8 @@ typedef struct fw_workspace_proof {
 
 /* ---- the strain that the rotations and the joint forces of a required pose make ---- */
 
+/* Volume of the three unit wrenches below which, anywhere in the box, three actuators are no way to hold it */
+#define FW_WORKSPACE_HOLDS_WELL 0.02
 typedef struct fw_workspace_hold fw_workspace_hold; /* pose_load.h: what may hold the pose */
 
 typedef struct fw_workspace_strain_extreme { /* a pose, what holds it, and the strain there */
@@ -87,6 +89,10 @@ typedef struct fw_workspace_result {
         *box_reachable; /* (device->nworkspace) holds in this flow; all of it reachable */
     const fw_workspace_proof *proof;         /* (device->nworkspace) */
     const fw_workspace_strain_proof *strain; /* (device->nworkspace) */
+    /* three actuators of the scenes that hold a required box badly, where no three do well, and the volume of their
+       unit wrenches at worst; NULL: others hold it */
+    const char *badly_by;
+    double badly;
     fw_workspace_load load[FW_SIX];
     fw_workspace_peak peak[FW_SIX];
 } fw_workspace_result;

@@ -153,6 +153,28 @@ class Judged(InTemporary):
                 self.assertIn(verdict["verdict"], ("inconclusive", "reject"))
 
 
+    def test_scenes_that_hold_it_badly(self):
+        """two forces side by side turn the platform by their distance only: a hundredth of its length is no hold"""
+        device = self.here / "held.xml"
+        text = scaled(1, 1)
+
+        def judged(third, y):
+            scene = (f'<scene name="held" duration="10 ms"><force on="CD" fx="1 uN" fy="0 N" y="{y}"/>'
+                     f'<force on="CD" fx="0 N" fy="1 uN"/>{third}</scene>')
+            device.write_text(text.replace("<workspace", scene + "<workspace"))
+            result = run("check", device, "--json", "--advice", "none")
+            return json.loads(result.stdout), result.stderr
+
+        beside = '<force on="CD" fx="1 uN" fy="0 N"/>'
+        for third, y, held in ((beside, "5 um", False), (beside, "400 um", True), ('<torque on="CD" value="1 uN mm"/>', "0 um", True),
+                               ("", "0 um", True),  # fewer than three: the platform's wrench holds
+                               (beside, "0 um", True)):  # likewise: the same force twice
+            verdict, said = judged(third, y)
+            reasons = [r for r in verdict["reasons"] if r["code"] == "FW-D536"]
+            self.assertEqual(len(reasons), 0 if held else 1, (third, y, verdict["reasons"], said))
+            self.assertEqual(verdict["verdict"], "accept" if held else "inconclusive", (third, y, verdict["reasons"]))
+
+
 class Certificate(InTemporary):
     def test_accepted(self):
         changed = copy.deepcopy(self.certificate)
