@@ -4,6 +4,7 @@
 `check`, and 2 % less of its change does not."""
 import html
 import json
+import math
 import os
 import pathlib
 import random
@@ -140,7 +141,8 @@ class Proposals(unittest.TestCase):
         return self.now(device, value) if re.fullmatch(r"[a-z_]\w*", value) else number(value)
 
     def follow(self, device, least=("parameter", "flexures", "several"), more=()):
-        """every proposal accepts; of these kinds 2 % less of the change, or a last digit, does not"""
+        """every proposal accepts; of these kinds 2 % less of the change does not, or of a small change 0.2 % of the value, which is
+        searched for to 0.1 % and then given as one would type it, or a last digit"""
         result = run("check", device, "--json", *more)
         self.assertIn(result.returncode, (1, 4), result.stderr)
         document = json.loads(result.stdout)
@@ -156,6 +158,8 @@ class Proposals(unittest.TestCase):
             for s in p["set"]:
                 was, to, unit = self.now(device, s["path"]), number(s["value"]), s["value"].partition(" ")[2]
                 part = to * (was / to) ** 0.02 if was > 0 else to - 0.02 * (to - was)
+                if abs(part - to) < 2e-3 * abs(was):
+                    part = to + math.copysign(min(2e-3 * abs(was), abs(was - to)), was - to)
                 if s["path"].startswith("flexure") and abs(part - to) < 1e-7:
                     part = to + (1e-7 if was > to else -1e-7)
                 less.append(f"{s['path']}={part / UNIT[unit]:.9g} {unit}")

@@ -69,6 +69,7 @@ static void in_the_ledger(void **state) {
     use.joint = FW_NONE;
     assert_false(fw_effect_adhesion.called_for(&r.c));
     assert_false(fw_effects_adhesion_of(&r.c, &use, 0.05).known);
+    fw_arena_free(r.arena);
 }
 
 int main(void) {
