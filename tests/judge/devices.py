@@ -5,6 +5,7 @@ import random
 
 import strip
 
+FINGER = 8.0  # um, width of fingers where none is stated
 EPS0 = 8.8541878128e-6  # uN per V^2 where lengths cancel
 DENSITY = 2330e-18  # kg/um^3
 SLOW = 20  # periods of the lowest mode in which slow loads come, as (1 - cos)/2: what swings behind them is 1e-3 at most
@@ -223,8 +224,8 @@ class Device:
             wide = {"rotation": (15, 30), "guided": (6, 12), "folded": (6, 12)}.get(self.topology, (3, 6))
             self.comb = (int(self.between(10, 80)), round(self.between(*wide), 3), round(self.between(20, 60), 3))
             n, gap, overlap = self.comb
-            self.loads.append("comb %d %.15g %.15g %.15g %.15g %.15g %.15g"
-                              % ((body,) + point + (direction, 0.5 * EPS0 * self.h * n, gap, overlap)))
+            self.loads.append("comb %d %.15g %.15g %.15g %.15g %.15g %.15g %.15g %.15g"
+                              % ((body,) + point + (direction, 0.5 * EPS0 * self.h * n, gap, overlap, FINGER, self.h)))
         elif load == "shock":
             self.pull = (c, s)
             self.loads.append("shake %.15g %.15g" % (c * 1e6, s * 1e6))  # per m/s^2

@@ -12,7 +12,7 @@ static const struct {
     int numbers;
     int has_body;
 } KINDS[] = {
-    {"force", LOAD_FORCE, 4, 1}, {"torque", LOAD_TORQUE, 1, 1}, {"comb", LOAD_COMB, 6, 1},
+    {"force", LOAD_FORCE, 4, 1}, {"torque", LOAD_TORQUE, 1, 1}, {"comb", LOAD_COMB, 8, 1},
     {"shake", LOAD_SHAKE, 2, 0}, {"heat", LOAD_HEAT, 5, 0},     {"start", LOAD_START, 3, 1},
     {"slide", HOLD_SLIDE, 2, 1}, {"rod", HOLD_ROD, 5, 1},       {"turn", HOLD_TURN, 1, 1}};
 
@@ -137,7 +137,25 @@ static void push(const struct model *model, const double *q, int k, const double
     force[3 * k + 2] += couple + lx * fy - ly * fx;
 }
 
-/* number[3] is half of eps0 h n V^2; C' of docs/theory/effects/comb-drive.md by a rule of Gauss. */
+/* Capacitance of a gap m between fingers of width w and depth h, over eps0 h and length: of its faces, and of the field at
+   both edges, each of which is that of an electrode which is deeper by (2) of docs/theory/effects/fringe-field.md */
+static double of_gap(double m, double w, double h) {
+    double k = m / (w + m);
+    double deeper =
+        m / (2 * acos(-1.0)) * (log((1 - k * k) / (k * k)) + log((1 + k) / (1 - k)) / k);
+    return (1 + 2 * deeper / h) / m;
+}
+
+/* minus its slope by m, from a symmetrical difference */
+static double closing(double m, double w, double h) {
+    double d = 1e-4 * m;
+    return (8 * (of_gap(m - d, w, h) - of_gap(m + d, w, h)) -
+            (of_gap(m - 2 * d, w, h) - of_gap(m + 2 * d, w, h))) /
+           (12 * d);
+}
+
+/* number[3] is half of eps0 h n V^2, [6] width and [7] depth of the fingers; C' of docs/theory/effects/comb-drive.md by a
+   rule of Gauss. */
 static void comb(const struct model *model, const double *q, const struct load *load, double share,
                  double *force) {
     static const double NODE[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
@@ -151,11 +169,12 @@ static void comb(const struct model *model, const double *q, const struct load *
     double dx = at[0] - body->x - v[0], dy = at[1] - body->y - v[1];
     double x = dx * c + dy * s, y = -dx * s + dy * c;
     double low = -v[5] / 2 - x, high = v[5] / 2, half = (high - low) / 2, middle = (high + low) / 2;
-    double along = 1 / (g - y - tilt * low) + 1 / (g + y + tilt * low), across = 0, couple = 0;
+    double along = of_gap(g - y - tilt * low, v[6], v[7]) + of_gap(g + y + tilt * low, v[6], v[7]);
+    double across = 0, couple = 0;
     for (int i = 0; i < 8; i++) {
         double at_s = middle + half * (i < 4 ? NODE[i] : -NODE[i - 4]), w = half * WEIGHT[i % 4];
         double one = g - y - tilt * at_s, two = g + y + tilt * at_s,
-               slope = 1 / (one * one) - 1 / (two * two);
+               slope = closing(one, v[6], v[7]) - closing(two, v[6], v[7]);
         across += w * slope;
         couple += w * slope * at_s;
     }
