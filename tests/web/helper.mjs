@@ -72,6 +72,9 @@ export async function open(server, { width = 1440, height = 900, colorScheme = "
     });
     if (before) await context.addInitScript(before);
     const page = await context.newPage();
+    // looked at twenty times a second and not at every frame, each of which would have to be drawn for it
+    const wait = page.waitForFunction.bind(page);
+    page.waitForFunction = (what, given, options = {}) => wait(what, given, { polling: 50, ...options });
     page.expected = []; // errors that a test provokes
     page.on("console", (m) => {
         if (["error", "warning"].includes(m.type()) && !page.expected.some((x) => x.test(m.text()))) wrongs.push(`console: ${m.text()} ${m.location().url}`);
