@@ -224,6 +224,10 @@ typedef struct fw_device_comb {
 #define FW_EYELET_RING_M  30e-6
 #define FW_FINGER_WIDTH_M 8e-6
 
+static inline double fw_device_comb_width_m(const fw_device_comb *c) {
+    return c->width_m > 0 ? c->width_m : FW_FINGER_WIDTH_M;
+}
+
 typedef struct
     fw_device_base_motion { /* <base-motion ax ay az>: acceleration of the base times the law */
     double ax_m_per_s2, ay_m_per_s2, az_m_per_s2;

@@ -354,7 +354,7 @@ static fw_effects_comb_element electrodes(const fw_effect_case *c, const fw_devi
                                  .overlap_m = from->overlap_m,
                                  .length_m = from->length_m,
                                  .depth_m = from->depth_m,
-                                 .width_m = from->width_m > 0 ? from->width_m : FW_FINGER_WIDTH_M,
+                                 .width_m = fw_device_comb_width_m(from),
                                  .direction_rad = from->direction_rad,
                                  .turn_rad = turn_of(m, from->body_b) - turn_of(m, from->body_a),
                                  .voltage_V = from->voltage_V};

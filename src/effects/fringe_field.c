@@ -50,10 +50,6 @@ static double share_of(double gap_m, double width_m, double depth_m) {
     return fw_effects_comb_edge(gap_m, width_m, NULL) * gap_m / depth_m;
 }
 
-static double width_of(const fw_device_comb *comb) {
-    return comb->width_m > 0 ? comb->width_m : FW_FINGER_WIDTH_M;
-}
-
 static double depth_of(const fw_effect_case *c, const fw_device_comb *comb) {
     const fw_mechanism_variant *v = c->mechanism->variant;
     return isnan(comb->depth_m) && v ? v->thickness_m : comb->depth_m;
@@ -91,7 +87,7 @@ static void push(const fw_effect_case *c, int body, fw_geometry_vec2 at, double 
 static void lacks(const fw_effect_case *c, const fw_device_comb *from, double square_V2,
                   double *force) {
     const fw_effects_envelope *e = c->envelope;
-    double by[2], F = fw_effects_comb_edge(from->gap_m, width_of(from), by), aside = 0;
+    double by[2], F = fw_effects_comb_edge(from->gap_m, fw_device_comb_width_m(from), by), aside = 0;
     const int body[2] = {from->body_a, from->body_b};
     for (int k = 0; k < 2; k++)
         if (body[k] != FW_GROUND) aside += hypot(e->reach[3 * body[k]], e->reach[3 * body[k] + 1]);
@@ -111,7 +107,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     for (int i = 0; i < c->scene->ncomb; i++) {
         const fw_device_comb *from = &c->scene->comb[i];
         if (!drives(from)) continue;
-        share = fmax(share, share_of(from->gap_m, width_of(from), depth_of(c, from)));
+        share = fmax(share, share_of(from->gap_m, fw_device_comb_width_m(from), depth_of(c, from)));
         if (!e || !e->valid) continue;
         const fw_quantity_law_size law = fw_quantity_law_measure(from->law, c->scene->duration_s);
         const double volt = from->voltage_V * law.most;

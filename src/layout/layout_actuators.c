@@ -43,7 +43,7 @@ static void plan_comb(fw_layout_drawing *d, const fw_device_comb *c) {
     d->comb[d->ncomb++] =
         (fw_layout_comb_plan){.comb = c,
                               .at_edge = c->pad_at_edge,
-                              .width_m = c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M,
+                              .width_m = fw_device_comb_width_m(c),
                               .length_m = length};
 }
 

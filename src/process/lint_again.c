@@ -276,11 +276,8 @@ static void lint_opened(fw_process_pack *pack, int i) {
 }
 
 static const fw_quantity *timed_for(const fw_process_step *s) {
-    for (int i = 0; i < s->nargument; i++)
-        if (strcmp(s->argument[i].name, "thickness") == 0 ||
-            strcmp(s->argument[i].name, "depth") == 0)
-            return s->argument[i].q;
-    return NULL;
+    const fw_quantity *thickness = fw_process_step_argument(s, "thickness");
+    return thickness ? thickness : fw_process_step_argument(s, "depth");
 }
 
 /* the one thickness that a step adds, converts or takes away is what its time is computed for; an etch that goes deeper
@@ -315,21 +312,17 @@ static const char *material_of(const fw_process_step *s) {
     return material;
 }
 
-static const fw_quantity *rate_of(const fw_process_step *s) {
-    for (int i = 0; i < s->nargument; i++)
-        if (strcmp(s->argument[i].name, "rate") == 0) return s->argument[i].q;
-    return NULL;
-}
-
 /* a rate is one of one material: an etch timed by that of another step's material is timed for that */
 static void lint_rate(fw_process_pack *pack, int at) {
     const fw_process_step *s = &pack->flow->step[at];
-    const fw_quantity *rate = rate_of(s);
+    const fw_quantity *rate = fw_process_step_argument(s, "rate");
     const char *material = material_of(s);
     for (int i = 0; rate && material && i < at; i++) {
         const fw_process_step *before = &pack->flow->step[i];
         const char *other = material_of(before);
-        if (rate_of(before) != rate || !other || strcmp(other, material) == 0) continue;
+        if (fw_process_step_argument(before, "rate") != rate || !other ||
+            strcmp(other, material) == 0)
+            continue;
         fw_diag_error(
             pack->diags, 561, s->place,
             "the time of step %s is computed with the rate '%s', by which step %s is timed "
@@ -420,13 +413,11 @@ static void lint_bath(fw_process_pack *pack, const fw_process_step *s) {
    of laboratories turn at 100 to 12 000 rpm. */
 static void lint_spin(fw_process_pack *pack, const fw_process_step *s) {
     const double rpm = FW_TURN / 60, least = 100 * rpm, most = 12000 * rpm;
-    const fw_quantity *q[4] = {NULL};
-    static const char *const name[4] = {"thickness", "reference_thickness", "reference_speed",
-                                        "exponent"};
     if (!s->law || strcmp(s->law, "spin") != 0) return;
-    for (int i = 0; i < s->nargument; i++)
-        for (int k = 0; k < 4; k++)
-            if (strcmp(s->argument[i].name, name[k]) == 0) q[k] = s->argument[i].q;
+    const fw_quantity *const q[4] = {fw_process_step_argument(s, "thickness"),
+                                     fw_process_step_argument(s, "reference_thickness"),
+                                     fw_process_step_argument(s, "reference_speed"),
+                                     fw_process_step_argument(s, "exponent")};
     for (int k = 0; k < 4; k++)
         if (!q[k] || q[k]->unknown || !(q[k]->value > 0)) return;
     const double speed = q[2]->value * pow(q[1]->value / q[0]->value, 1 / q[3]->value);

@@ -403,12 +403,6 @@ bool fw_process_step_is_wet(const fw_process_step *s) {
     return false;
 }
 
-static const fw_quantity *argument(const fw_process_step *s, const char *name) {
-    for (int i = 0; i < s->nargument; i++)
-        if (strcmp(s->argument[i].name, name) == 0) return s->argument[i].q;
-    return NULL;
-}
-
 static double relative(const fw_quantity *q) {
     return q->value != 0.0 ? q->uncertainty / fabs(q->value) : 0.0;
 }
@@ -425,7 +419,8 @@ static const char *loss_of(const fw_process_step *s, const fw_quantity *r, doubl
                            double *u_m) {
     const fw_process_law *law = fw_process_law_find(s->law);
     bool rate = law && law->by_rate, fixed = law && law->stated;
-    const fw_quantity *length = argument(s, rate ? "thickness" : "time"), *R = argument(s, "rate");
+    const fw_quantity *length = fw_process_step_argument(s, rate ? "thickness" : "time"),
+                      *R = fw_process_step_argument(s, "rate");
     double share = 0.0;
     if (!rate && !fixed) return "the time of its law";
     if (unknown_of(length)) return unknown_of(length);

@@ -97,10 +97,6 @@ static void tendon(const fw_device_tendon *t, fw_json *out) {
     end(out, t->law);
 }
 
-static double comb_width(const fw_device_comb *c) {
-    return c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M;
-}
-
 static double comb_length(const fw_device_comb *c) {
     return isnan(c->length_m) ? 2.0 * c->overlap_m : c->length_m;
 }
@@ -112,7 +108,7 @@ static bool comb_drawn(const fw_report_preview *in, const fw_device_comb *c) {
     bool fingers = c->kind == FW_ELECTRODES_COMB;
     double turn = c->direction_rad + (c->body_a >= 0 ? m->body[c->body_a].phi_rad : 0.0);
     double x = fingers ? 0.0 : -1e-6;
-    double y = fingers ? (c->fingers - 1) * (comb_width(c) + c->gap_m) : 0.0;
+    double y = fingers ? (c->fingers - 1) * (fw_device_comb_width_m(c) + c->gap_m) : 0.0;
     fw_geometry_vec2 p = fw_mechanism_local_place(m, c->body_b, c->bx_m, c->by_m);
     p.x += x * cos(turn) - y * sin(turn);
     p.y += x * sin(turn) + y * cos(turn);
@@ -139,7 +135,7 @@ static void comb(const fw_report_preview *in, const fw_device_comb *c, fw_json *
     fw_report_preview_um(out, "gap_um", c->gap_m);
     fw_report_preview_um(out, "length_um", comb_length(c));
     fw_report_preview_um(out, "overlap_um", fingers ? c->overlap_m : 0.0);
-    fw_report_preview_um(out, "width_um", fingers ? comb_width(c) : 0.0);
+    fw_report_preview_um(out, "width_um", fingers ? fw_device_comb_width_m(c) : 0.0);
     end(out, c->law);
 }
 
@@ -362,7 +358,7 @@ void fw_report_preview_scene_box(const fw_mechanism *m, const fw_device_scene *s
     for (int i = 0; s && i < s->ncomb; i++) {
         const fw_device_comb *c = &s->comb[i];
         /* of the fingers on either side of its point, whatever way they lie */
-        double half = fmax(comb_length(c), (c->fingers + 1) * (comb_width(c) + c->gap_m));
+        double half = fmax(comb_length(c), (c->fingers + 1) * (fw_device_comb_width_m(c) + c->gap_m));
         if (c->kind == FW_ELECTRODES_PLATE) half = 0.5 * c->length_m + c->gap_m;
         add(box, &was, reach, m, c->body_b, c->bx_m - half, c->by_m - half);
         add(box, &was, reach, m, c->body_b, c->bx_m + half, c->by_m + half);

@@ -238,7 +238,7 @@ static void change_comb(const fw_verdict_fabrication *fabricated, const fw_devic
     const double edge = fabricated->edge_m;
     c->gap_m -= 2.0 * edge;
     c->depth_m *= fabricated->thickness_ratio; /* NaN stays: that of the layer */
-    c->width_m = (c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M) + 2.0 * edge;
+    c->width_m = fw_device_comb_width_m(c) + 2.0 * edge;
     if (c->kind == FW_ELECTRODES_PLATE) {
         double own = c->direction_rad + turned(d, c->body_a) - turned(d, c->body_b);
         c->length_m += 2.0 * edge;

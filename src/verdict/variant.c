@@ -342,37 +342,43 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
     return FW_OK;
 }
 
+static fw_status of_workspace(fw_verdict_variant_verdict *v, int number,
+                              fw_verdict_decision decision, const char *text) {
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = decision,
+                                                  .keep = 0.5,
+                                                  .text = text};
+    return FW_OK;
+}
+
 /* required poses in which nothing bounds what drift and give of the hinges add */
 static fw_status judge_give(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_load *worst = NULL;
-    const char *text;
     for (int i = 0; i < FW_SIX && !worst; i++)
         if (v->workspace.load[i].known && isinf(v->workspace.load[i].give))
             worst = &v->workspace.load[i];
     if (!worst) return FW_OK;
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "what drift and give of the hinges change in required poses is not known: held by "
-                "%s, no equilibrium of hinges that give was found; hold the platform where it is "
-                "needed, ask for a smaller box, or take hinges that give less",
-                worst->actuation));
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = 535,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = 0.5,
-                                                  .text = text};
-    return FW_OK;
+    return of_workspace(
+        v, 535, FW_INCONCLUSIVE,
+        fw_arena_printf(
+            arena,
+            "what drift and give of the hinges change in required poses is not known: held by "
+            "%s, no equilibrium of hinges that give was found; hold the platform where it is "
+            "needed, ask for a smaller box, or take hinges that give less",
+            worst->actuation));
 }
 
 /* what drives the device in its scenes holds no required pose well: what it must give has no bound there */
 static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_result *w = &v->workspace;
     char volume[32], needed[32];
-    const char *text;
     if (!w->badly_by) return FW_OK;
-    FW_NEED(
-        text = fw_arena_printf(
+    return of_workspace(
+        v, 536, FW_INCONCLUSIVE,
+        fw_arena_printf(
             arena,
             "the actuators of the scenes hold the required workspace badly: the best three, %s, "
             "have unit wrenches of a volume of %s in one of its poses, and %s is needed; forces "
@@ -381,39 +387,26 @@ static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
             "scene two forces and a torque on the platform if they hold it",
             w->badly_by, fw_number_text(volume, sizeof volume, w->badly, 2),
             fw_number_text(needed, sizeof needed, FW_WORKSPACE_HOLDS_WELL, 2)));
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = 536,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = 0.5,
-                                                  .text = text};
-    return FW_OK;
 }
 
 /* a required pose that no pose of the legs has: nothing of a hinge can be said there */
 static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_result *w = &v->workspace;
     char x[32], y[32], phi[32];
-    const char *text;
     if (!w->required) return FW_OK;
     if (w->reachable) {
         FW_TRY(judge_held(arena, v));
         return judge_give(arena, v);
     }
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "
-                "by %s deg",
-                fw_number_text(x, sizeof x, w->fail_x_m * 1e6, 4),
-                fw_number_text(y, sizeof y, w->fail_y_m * 1e6, 4),
-                fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = 201,
-                                                  .decision = FW_REJECT,
-                                                  .keep = 0.5,
-                                                  .text = text};
-    return FW_OK;
+    return of_workspace(
+        v, 201, FW_REJECT,
+        fw_arena_printf(
+            arena,
+            "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "
+            "by %s deg",
+            fw_number_text(x, sizeof x, w->fail_x_m * 1e6, 4),
+            fw_number_text(y, sizeof y, w->fail_y_m * 1e6, 4),
+            fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
 }
 
 /* each hinge may break the device: its survival is the product of theirs */

@@ -360,31 +360,31 @@ static fw_status respond_on_grid(fw_arena *arena, choosing *c, const fw_workspac
     return FW_OK;
 }
 
-static fw_status every_three(fw_arena *arena, choosing *c, int n) {
-    for (int i = 0; i < n; i++)
-        for (int j = i + 1; j < n; j++)
-            for (int k = j + 1; k < n; k++) {
-                const int which[3] = {i, j, k};
-                if (holds(c, which)) FW_TRY(add_grip(arena, c, which));
-            }
-    return FW_OK;
-}
-
-/* Three of the scenes' own that are independent, none of which holds all of the box: the best of them. They may be what
-   moves the device there, and what they must give then has no bound. */
-static fw_status find_badly_held(fw_arena *arena, const choosing *c, int n) {
-    fw_workspace_hold *hold = c->hold;
-    double best = -1, most;
-    int by[3] = {0};
+/* The grips among n actuators. Where none of those that are independent holds all of the box, *best of them, by[3], holds
+   it least badly; below 0: none is independent. */
+static fw_status every_three(fw_arena *arena, choosing *c, int n, double *best, int by[3]) {
+    double most;
+    *best = -1;
     for (int i = 0; i < n; i++)
         for (int j = i + 1; j < n; j++)
             for (int k = j + 1; k < n; k++) {
                 const int which[3] = {i, j, k};
                 double now = hold_of(c, which, &most);
-                if (most > dependent && now > best) best = now, memcpy(by, which, sizeof by);
+                if (now > FW_WORKSPACE_HOLDS_WELL) FW_TRY(add_grip(arena, c, which));
+                if (most > dependent && now > *best) *best = now, memcpy(by, which, sizeof which);
             }
-    if (best < 0) return FW_OK;
+    return FW_OK;
+}
+
+/* The scenes' own actuators. What holds the box badly may be what moves the device there, and what it must give then has
+   no bound. */
+static fw_status own_grips(fw_arena *arena, choosing *c, int n) {
+    fw_workspace_hold *hold = c->hold;
     const fw_workspace_actuator *a = hold->actuator;
+    double best;
+    int by[3];
+    FW_TRY(every_three(arena, c, n, &best, by));
+    if (c->ngrip > 0 || best < 0) return FW_OK;
     hold->badly = best;
     FW_NEED(hold->badly_by =
                 fw_arena_printf(arena, "%s, %s, %s", a[by[0]].id, a[by[1]].id, a[by[2]].id));
@@ -451,9 +451,8 @@ static fw_status choose(fw_arena *arena, gathering *g, choosing *c, const fw_wor
         one_way = one_way || g->to[i].pulls;
     if (g->n >= 3) {
         FW_TRY(respond_on_grid(arena, c, box));
-        FW_TRY(every_three(arena, c, g->n));
+        FW_TRY(own_grips(arena, c, g->n));
         if (c->ngrip > 0 && !one_way) return FW_OK;
-        if (c->ngrip == 0) FW_TRY(find_badly_held(arena, c, g->n));
     }
     FW_TRY(platform_wrench(g, &hold->loop->centre));
     for (int k = 0; k < 3 && none; k++)
@@ -464,7 +463,9 @@ static fw_status choose(fw_arena *arena, gathering *g, choosing *c, const fw_wor
     bool own = c->ngrip > 0;
     const int wrench[3] = {along(hold, 0), along(hold, 1), of_body(hold, 2)};
     FW_TRY(add_grip(arena, c, wrench)); /* the first one: of equals it is named */
-    if (!none) return own ? FW_OK : every_three(arena, c, g->n);
+    double best;
+    int by[3];
+    if (!none) return own ? FW_OK : every_three(arena, c, g->n, &best, by);
     for (int k = 0; k < 3; k++) {
         const int which[3] = {of_body(hold, usual[k][0]), of_body(hold, usual[k][1]),
                               of_body(hold, usual[k][2])};

@@ -63,16 +63,25 @@ def collect(program, first, count, where):
     return found, good and len(found) == count and 10 * count >= 6 * tried
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def asked_of(description, name, first, few, every, packages="klayout", **options):
+    """What a comparison of random drawings with KLayout is asked for: the command line (PROGRAM, --keep and `options`, keyword
+    arguments of add_argument by name), the first seed and how many, of FW_NAME_FIRST and FW_NAME_COUNT. Ends with 77 without KLayout."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--scripts", type=pathlib.Path, default=HERE)
     parser.add_argument("--keep", type=pathlib.Path)
+    for option, how in options.items():
+        parser.add_argument("--" + option, **how)
     asked = parser.parse_args()
     if not shutil.which("klayout"):
-        print("SKIPPED: klayout is not installed (Debian: apt-get install klayout python3-gdspy libgeos-dev)")
-        return 77
-    first, count = (int(os.environ.get("FW_MASKS_" + k, v)) for k, v in (("FIRST", 0), ("COUNT", 14 if os.environ.get("FW_TEST_ALL") else 6)))
+        print("SKIPPED: klayout is not installed (Debian: apt-get install %s)" % packages)
+        sys.exit(77)
+    count = every if os.environ.get("FW_TEST_ALL") else few
+    return asked, int(os.environ.get("FW_%s_FIRST" % name, first)), int(os.environ.get("FW_%s_COUNT" % name, count))
+
+
+def main():
+    asked, first, count = asked_of(__doc__, "MASKS", first=0, few=6, every=14, packages="klayout python3-gdspy libgeos-dev",
+                                   scripts={"type": pathlib.Path, "default": HERE})
     with tempfile.TemporaryDirectory() as temporary:
         where = asked.keep or pathlib.Path(temporary)
         where.mkdir(parents=True, exist_ok=True)

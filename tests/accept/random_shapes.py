@@ -7,17 +7,18 @@ copies and mirror images, from seed FW_SHAPES_FIRST (1000) on; before them windo
 KLayout unites the same shapes, cuts the holes out and takes the bias: above the hinge the mask may differ from that by 60 nm
 (chords), and no width or space but at corners may be below the rule. A jaw that is refused must have a reason that KLayout's
 union has too: it falls apart, a hole is not inside, a corner has no room, a width or space is too small."""
-import argparse
 import json
 import math
 import os
 import pathlib
 import random
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.dont_write_bytecode = True
+import random_masks  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 DEVICE = """<device xmlns="urn:flexwright:device:1" name="jaw-%s">
@@ -189,14 +190,7 @@ def judge(jaw, job, result, windows_too):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("--keep", type=pathlib.Path)
-    asked = parser.parse_args()
-    if not shutil.which("klayout"):
-        print("SKIPPED: klayout is not installed (Debian: apt-get install klayout)")
-        return 77
-    first, count = (int(os.environ.get("FW_SHAPES_" + k, v)) for k, v in (("FIRST", 1000), ("COUNT", 400 if os.environ.get("FW_TEST_ALL") else 40)))
+    asked, first, count = random_masks.asked_of(__doc__, "SHAPES", first=1000, few=40, every=400)
     named, wrong = list(windows()), 0
     with tempfile.TemporaryDirectory() as temporary:
         where = asked.keep or pathlib.Path(temporary)

@@ -9,13 +9,11 @@ and every vertex limit; the test die with one of three. Rules are rows of the la
     has a pair in it with the value of the certificate, to 1e-3 nm;
   - with the whole nanometres just below and just above the least value on each layer: nothing is found, and something is.
 Left out are pairs that are square but for the grid, where neither edge is of an arc (docs/theory/masks.md); they are counted."""
-import argparse
 import json
 import math
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -151,14 +149,7 @@ class Verdict:
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("--keep", type=pathlib.Path)
-    asked = parser.parse_args()
-    if not shutil.which("klayout"):
-        print("SKIPPED: klayout is not installed (Debian: apt-get install klayout)")
-        return 77
-    first, count = (int(os.environ.get("FW_RULES_" + k, v)) for k, v in (("FIRST", 3), ("COUNT", 24 if os.environ.get("FW_TEST_ALL") else 3)))
+    asked, first, count = random_masks.asked_of(__doc__, "RULES", first=3, few=3, every=24)
     verdict, masks, jobs, asked_of, seed = Verdict(), [], [], [], first
     with tempfile.TemporaryDirectory() as temporary:
         where = asked.keep or pathlib.Path(temporary)

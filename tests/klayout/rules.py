@@ -5,14 +5,12 @@
 FW_DRC_COUNT (4; with FW_TEST_ALL=1, as in ./test --all, 24; 200 on demand) devices of random_devices.py from seed FW_DRC_FIRST (40) on,
 whose masks break rules: limits are larger than the tables', as warnings. What the script finds lies in places of the certificate, and
 each of its places has something of the script's in it."""
-import argparse
 import collections
 import json
 import math
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -141,14 +139,7 @@ def draw(program, seed, where, data):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("--keep", type=pathlib.Path)
-    asked = parser.parse_args()
-    if not shutil.which("klayout"):
-        print("SKIPPED: klayout is not installed (Debian: apt-get install klayout)")
-        return 77
-    first, count = (int(os.environ.get("FW_DRC_" + k, v)) for k, v in (("FIRST", 40), ("COUNT", 24 if os.environ.get("FW_TEST_ALL") else 2)))
+    asked, first, count = random_masks.asked_of(__doc__, "DRC", first=40, few=2, every=24)
     verdict, masks, seed = Verdict(), [], first
     devices = 0
     with tempfile.TemporaryDirectory() as temporary:
