@@ -21,7 +21,7 @@ static int by_itself(const char *width, double *governing, double *upper) {
     size_t n;
     fw_design_options o = fw_design_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
-    o.corners = "none";
+    o.corners = "none", o.advice = "none";
     fw_design *design = fw_design_new(&o);
     snprintf(path, sizeof path, "%s/%s", FW_TEST_SOURCE_DIR, SIX_BAR);
     assert_int_equal(fw_design_set(design, "flexure[C]/@width", width), FW_STATUS_OK);
