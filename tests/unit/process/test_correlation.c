@@ -108,7 +108,8 @@ static void as_drawn(const char *pack, const char *csv, double u_s) {
     assert_true(c.njoint >= 2);
     double sum[MOST] = {0}, squares[MOST][MOST] = {{0}};
     int n = 0;
-    for (int d = 0; d < DRAWS; d++) {
+    const int draws = test_fewest(DRAWS, DRAWS / 10);
+    for (int d = 0; d < draws; d++) {
         fw_process_measurement drawn[MOST];
         fw_process_calibration is;
         fw_mark mark = fw_arena_mark(arena);
@@ -125,7 +126,7 @@ static void as_drawn(const char *pack, const char *csv, double u_s) {
         }
         fw_arena_rewind(arena, mark);
     }
-    assert_true(n > DRAWS * 19 / 20); /* the others scatter too much, as in one of a thousand */
+    assert_true(n > draws * 19 / 20); /* the others scatter too much, as in one of a thousand */
     for (int i = 0; i < c.count; i++)
         for (int k = 0; k < i; k++) {
             double ii = squares[i][i] / n - sum[i] / n * sum[i] / n,

@@ -225,6 +225,7 @@ static void of_the_gallery(void **state) {
     static const struct {
         const char *device, *rows;
     } of[] = {
+        {"free-form-gripper", "<vary what=\"pull\" from=\"0.1 mN\" to=\"0.2 mN\"/>"},
         {"copper-nodder", "<vary what=\"push\" from=\"10 uN\" to=\"50 uN\"/>"},
         {"leaf-four-bar", "<vary what=\"width\" from=\"6 um\" to=\"12 um\"/>"},
         {"free-form-four-bar", "<vary what=\"width\" from=\"6 um\" to=\"9 um\"/>"},
@@ -232,7 +233,7 @@ static void of_the_gallery(void **state) {
         {"four-tendons", "<vary what=\"draw\" from=\"4 um\" to=\"30 um\"/>"},
     };
     room r = room_new("");
-    for (size_t i = 0; i < (size_t)test_fewest(test_cases(5, 2), 1); i++) {
+    for (size_t i = 0; i < (size_t)test_fewest(test_cases(6, 3), 1); i++) {
         char device[300];
         snprintf(device, sizeof device, GALLERY "%s/device.xml", of[i].device);
         fw_study *study = open_study(&r, device, "drawn", of[i].rows, any);
