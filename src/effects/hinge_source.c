@@ -311,7 +311,8 @@ static void open_parts(fw_effects_hinge_source *h, const posture *at, double fe,
     h->lasting[3] = fmax(h->lasting[3], h->ring_N[0] * h->ring_N[1] * mixed);
 }
 
-void fw_effects_hinge_sources_at(void *data, const double *q, const double *load, double *force) {
+void fw_effects_hinge_sources_at(void *data, const double *q, const double *load, bool there,
+                                 double *force) {
     fw_effects_hinge_sources *all = data;
     const fw_effects_modal *o = all->modal;
     size_t pins = (size_t)o->mechanism->npin;
@@ -327,7 +328,7 @@ void fw_effects_hinge_sources_at(void *data, const double *q, const double *load
         }
         posture p = posture_of(h, angle, turned);
         parts_at(h, &p, fe, fn, part);
-        open_parts(h, &p, fe, fn, part);
+        if (there) open_parts(h, &p, fe, fn, part);
         for (int j = 0; j < o->modes; j++)
             for (int k = 0; k < FW_HINGE_PARTS; k++)
                 force[j] += part[k] * fw_effects_hinge_source_mode(h, k, j);

@@ -191,9 +191,10 @@ typedef struct fw_effects_peaks {
 } fw_effects_peaks;
 
 /* modal forces that depend on the motion: force (modes) at modal coordinates q under loads `load`
-   (modes). Straight in every cell, to second order in it */
+   (modes); `there`: the motion passes there, and not only the first guess of a step. Straight in
+   every cell, to second order in it */
 typedef struct fw_effects_peaks_source {
-    void (*at)(void *data, const double *q, const double *load, double *force);
+    void (*at)(void *data, const double *q, const double *load, bool there, double *force);
     void *data;
     const double *late; /* (modes) of the motion without them */
 } fw_effects_peaks_source;
@@ -236,7 +237,8 @@ typedef struct fw_effects_hinge_sources {
 fw_status fw_effects_hinge_sources_new(fw_arena *arena, const fw_effects_modal *modal, int slow,
                                        const double *ring, fw_effects_hinge_sources *sources);
 /* force (modes) at modal coordinates q under modal loads `load`; an fw_effects_peaks_source */
-void fw_effects_hinge_sources_at(void *sources, const double *q, const double *load, double *force);
+void fw_effects_hinge_sources_at(void *sources, const double *q, const double *load, bool there,
+                                 double *force);
 /* softness as drawn, and what does not depend on the rotation */
 void fw_effects_hinge_source_of(const fw_mechanism_hinge *hinge, fw_effects_hinge_source *source);
 /* the parts at a rotation, with both bodies turned by `turned_rad` on average, under the force (fe,

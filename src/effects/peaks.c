@@ -130,10 +130,10 @@ static void note_rings(walk *w) {
         w->out->ring[j] = fmax(w->out->ring[j], hypot(w->z[j], w->z[w->m + j]) / w->o->omega[j]);
 }
 
-static void source_at(walk *w, double *force) {
+static void source_at(walk *w, bool there, double *force) {
     for (size_t j = 0; j < w->m; j++)
         w->q[j] = w->p[j] + w->z[j] / w->o->omega[j];
-    w->source->at(w->source->data, w->q, force, w->load);
+    w->source->at(w->source->data, w->q, force, there, w->load);
     for (size_t j = 0; j < w->m; j++)
         force[j] += w->load[j];
 }
@@ -145,7 +145,7 @@ static void add_source(walk *w, double h) {
     double *z = w->kept, *p = z + 2 * w->m, *slope = p + w->m, *right = slope + w->m;
     bool begun = w->begun;
     memcpy(right, w->right, size);
-    source_at(w, w->left);
+    source_at(w, true, w->left);
     for (size_t j = 0; j < w->m; j++)
         w->right[j] += w->load[j];
     memcpy(z, w->z, 2 * size);
@@ -154,7 +154,7 @@ static void add_source(walk *w, double h) {
     enter(w, h);
     leave(w, h);
     memcpy(w->right, right, size);
-    source_at(w, w->right);
+    source_at(w, false, w->right);
     memcpy(w->z, z, 2 * size);
     memcpy(w->p, p, size);
     memcpy(w->slope, slope, size);

@@ -129,23 +129,25 @@ static void tied(void **state) {
 
 /* a force -part W^2 q that follows the motion is a stiffer spring: of one mode under a step the
    peak is 2 f/(W^2 (1 + part)); and a constant one a load */
-static void follow(void *data, const double *q, const double *load, double *force) {
+static void follow(void *data, const double *q, const double *load, bool there, double *force) {
     const fw_effects_modal *o = data;
-    (void)load;
+    (void)load, (void)there;
     for (int j = 0; j < o->modes; j++)
         force[j] = -0.1 * o->omega[j] * o->omega[j] * q[j];
 }
 
-static void like_the_load(void *data, const double *q, const double *load, double *force) {
+static void like_the_load(void *data, const double *q, const double *load, bool there,
+                          double *force) {
     const fw_effects_modal *o = data;
-    (void)q;
+    (void)q, (void)there;
     for (int j = 0; j < o->modes; j++)
         force[j] = 0.1 * load[j];
 }
 
 static void sources(void **state) {
     (void)state;
-    void (*const at[])(void *, const double *, const double *, double *) = {follow, like_the_load};
+    void (*const at[])(void *, const double *, const double *, bool, double *) = {follow,
+                                                                              like_the_load};
     const double factor[] = {1 / 1.1, 1.1};
     for (int i = 0; i < 2; i++) {
         row x;
