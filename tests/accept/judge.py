@@ -27,6 +27,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.dont_write_bytecode = True
+import kl_asked  # noqa: E402
 import outlines  # noqa: E402
 
 TABLES = pathlib.Path(os.environ.get("FW_MASK_TABLES", HERE.parents[1] / "masks"))
@@ -204,17 +205,12 @@ class Judge:
         self.say(name + ": order sheet's hashes", not wrong, " ".join(wrong))
 
     def klayout(self):
-        jobs, result = self.work / "jobs.json", self.work / "result.json"
-        jobs.write_text(json.dumps(self.jobs), encoding="utf-8")
-        environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", LC_ALL="C")
-        done = subprocess.run(["klayout", "-b", "-r", HERE / "kl_batch.py", "-rd", "jobs=%s" % jobs, "-rd", "result=%s" % result],
-                              capture_output=True, text=True, check=False, env=environment)
-        if not result.exists():
-            self.say("KLayout runs", False, done.stdout + done.stderr)
+        answers, why = kl_asked.ask(self.jobs)
+        if answers is None:
+            self.say("KLayout runs", False, why)
             return
-        for name, job, answer in zip(self.asked, self.jobs, json.loads(result.read_text(encoding="utf-8"))):
-            loud = job["script"].endswith(".sh") and re.search("warning|error", answer["output"], re.I)
-            self.say(name, answer["status"] == 0 and not loud, answer["output"])
+        for name, (passed, output) in zip(self.asked, answers):
+            self.say(name, passed, output)
 
     def end(self):
         shutil.rmtree(self.work)
