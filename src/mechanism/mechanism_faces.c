@@ -250,10 +250,12 @@ static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n,
             for (int k = w->begin[j * w->nx + i]; k < w->begin[j * w->nx + i + 1]; k++) {
                 const wall *to = &w->wall[w->in[k]];
                 fw_geometry_vec2 along = vec_sub(to->b, to->a), off = vec_sub(to->a, p);
-                double det = vec_cross(n, along);
+                double det = vec_cross(n, along),
+                       beside = vec_cross(off, n); /* 0 to det within it */
+                if (det > 0 ? beside < 0 || beside > det : beside > 0 || beside < det) continue;
                 if (w->in[k] == own || det == 0) continue;
-                double t = vec_cross(off, along) / det, u = vec_cross(off, n) / det;
-                if (t > 0 && t < *gap && u >= 0 && u <= 1) *gap = t, found = w->in[k];
+                double t = vec_cross(off, along) / det;
+                if (t > 0 && t < *gap) *gap = t, found = w->in[k];
             }
     return found;
 }

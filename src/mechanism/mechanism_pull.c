@@ -125,17 +125,21 @@ static void slopes(const pulled *p, double s) {
         for (int side = 0; side < 4; side++) {
             int row = to->body[side / 2], column = from->body[side % 2];
             if (row == FW_GROUND || column == FW_GROUND) continue;
+            const double *over = from->by[side % 2];
             double *at = p->a + (size_t)(3 * row) * n + 3 * column;
-            for (size_t k = 0; k < 9; k++)
-                at[k / 3 * n + k % 3] += by * to->by[side / 2][k / 3] * from->by[side % 2][k % 3];
+            for (size_t k = 0; k < 3; k++, at += n) {
+                const double pushed = by * to->by[side / 2][k];
+                at[0] += pushed * over[0], at[1] += pushed * over[1], at[2] += pushed * over[2];
+            }
         }
     }
-    for (size_t i = 0; i < n; i++)
+    memset(p->slope, 0, n * n * sizeof *p->slope);
+    for (size_t k = 0; k < n; k++)
         for (size_t j = 0; j < n; j++) {
-            double sum = 0;
-            for (size_t k = 0; k < n; k++)
-                sum += p->c[i * n + k] * p->a[k * n + j];
-            p->slope[i * n + j] = sum;
+            const double by = p->a[k * n + j];
+            if (by == 0) continue; /* most bodies meet few others */
+            for (size_t i = 0; i < n; i++)
+                p->slope[i * n + j] += p->c[i * n + k] * by;
         }
 }
 
@@ -282,16 +286,46 @@ static void search(const pulled *p, double *work, double enough, double *tension
     *tension = low >= 1e20 * start ? HUGE_VAL : p->law == FW_PULL_WIDEST ? high : low;
 }
 
+/* Bodies that no face is of do not push and close nothing: their rows and columns of C, and they, are left out. Exact. */
+static fw_status only_faced(fw_arena *arena, const double *compliance, int n, pulled *p) {
+    const size_t bodies = (size_t)n / 3;
+    int *index, *body, count = 0;
+    double *c;
+    fw_mechanism_face *face;
+    FW_NEED(index = fw_arena_array(arena, int, bodies));
+    FW_NEED(body = fw_arena_array(arena, int, bodies));
+    FW_NEED(face = fw_arena_array(arena, fw_mechanism_face, (size_t)p->nface));
+    for (int i = 0; i < p->nface; i++) {
+        face[i] = p->face[i];
+        for (int side = 0; side < 2; side++) {
+            const int of = face[i].body[side];
+            if (of == FW_GROUND) continue;
+            if (index[of] == 0) body[count] = of, index[of] = ++count;
+            face[i].body[side] = index[of] - 1;
+        }
+    }
+    p->face = face, p->n = 3 * count;
+    const size_t m = (size_t)p->n;
+    FW_NEED(c = fw_arena_array(arena, double, m *m));
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++)
+            c[i * m + j] = compliance[(3 * (size_t)body[i / 3] + i % 3) * (size_t)n +
+                                      3 * (size_t)body[j / 3] + j % 3];
+    p->c = c;
+    return FW_OK;
+}
+
 /* In: m/N ..., m, m^2; out: N/m. Between a tension that holds and one that does not, the next one from the eigenvalue at the
    former. Valid: small motions. Error 0.5 %, below it for EACH; of WIDEST the upper end is the answer. Cost some 40 times
-   n^3 and 200 for each face. Source: docs/theory/stiction.md. Test: test_mechanism_pull.c */
+   n^3 of the bodies that have faces, and 200 for each face. Source: docs/theory/stiction.md. Test: test_mechanism_pull.c */
 fw_status fw_mechanism_pull_in(fw_arena *arena, const double *compliance, int n,
                                const fw_mechanism_face *face, int nface, fw_mechanism_pull law,
                                double enough_N_per_m, double *tension, int *first) {
-    pulled p = {.c = compliance, .n = n, .face = face, .nface = nface, .law = law};
-    const size_t size = (size_t)n;
+    pulled p = {.face = face, .nface = nface, .law = law};
     double *work;
     fw_mark mark = fw_arena_mark(arena);
+    FW_TRY(only_faced(arena, compliance, n, &p));
+    const size_t size = (size_t)p.n;
     FW_NEED(p.f = fw_arena_array(arena, double, size));
     FW_NEED(p.u = fw_arena_array(arena, double, size));
     FW_NEED(p.step = fw_arena_array(arena, double, size));
@@ -305,7 +339,7 @@ fw_status fw_mechanism_pull_in(fw_arena *arena, const double *compliance, int n,
     double lever = 0;
     for (int i = 0; i < nface; i++)
         lever = fmax(lever, fmax(fabs(face[i].by[0][2]), fabs(face[i].by[1][2])));
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < p.n; i++)
         p.unit[i] = i % 3 == 2 && lever > 0 ? lever : 1;
     *first = FW_NONE;
     *tension = surely(&p);
