@@ -21,6 +21,12 @@ DEVICE = ROOT / "docs/gallery/reference-six-bar/device.xml"
 FAST = ("--corners", "none", "--measurements", "none", "--advice", "none", "-q", "--wafers", "2")
 
 
+def device_for(flow):
+    """the six-bar, whose silicon is made in that flow where it does not name it"""
+    text = DEVICE.read_text()
+    return text if flow in text else text.replace("al-masked-rie", flow)
+
+
 def inputs(flow):
     """(id, value, unit) of all that has a value of its own"""
     root = tree.parse(ROOT / f"processes/{flow}.xml").getroot()
@@ -81,7 +87,9 @@ class Inputs(unittest.TestCase):
                            'status="typical" src="lab"/></process>')
             more = ("--lab", lab)
         out = self.here / name
-        result = run("recipe", DEVICE, "--flow", flow, "-o", out, *FAST, *more)
+        device = self.here / "device.xml"
+        device.write_text(device_for(flow))
+        result = run("recipe", device, "--flow", flow, "-o", out, *FAST, *more)
         if result.returncode == 3:
             return None
         self.assertIn(result.returncode, (0, 1), result.stderr)
@@ -102,6 +110,7 @@ class Inputs(unittest.TestCase):
 
     def check(self, flow, share):
         first = self.recipe(flow, "first")
+        self.assertIsNotNone(first, "the device as it is")
         self.agree(first)
         tried = refused = 0
         texts = {s.get("id"): tree.tostring(s).decode() for s in tree.parse(ROOT / f"processes/{flow}.xml").getroot().iter(SPACE + "step")}
