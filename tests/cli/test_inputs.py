@@ -24,7 +24,10 @@ FAST = ("--corners", "none", "--measurements", "none", "--advice", "none", "-q",
 def device_for(flow):
     """the six-bar, whose silicon is made in that flow where it does not name it"""
     text = DEVICE.read_text()
-    return text if flow in text else text.replace("al-masked-rie", flow)
+    if flow in text:
+        return text
+    # holes, so that what etches from below is through within a working day
+    return text.replace("al-masked-rie", flow).replace("<die ", '<die release-pitch="60 um" ')
 
 
 def inputs(flow):
