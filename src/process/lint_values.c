@@ -557,6 +557,13 @@ static void aligned(fw_process_pack *pack, const fw_process_flow *f, int at) {
                       "step %s aligns mask %s to '%s', which no earlier step has exposed; name a "
                       "mask that is on the wafer by then",
                       s->id, s->mask, s->align.to);
+    for (int k = 0; k < s->nchange; k++)
+        if (strcmp(s->change[k].kind, "pattern") == 0 && s->change[k].back != s->align.back)
+            fw_diag_error(pack->diags, 373, s->align.place,
+                          "step %s exposes the %s (its <change>), and aligns a plate of the %s; "
+                          "write the same side in both",
+                          s->id, s->change[k].back ? "back" : "front",
+                          s->align.back ? "back" : "front");
 }
 
 fw_status fw_process_lint_plates(fw_process_pack *pack) {

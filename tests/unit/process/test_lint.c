@@ -84,6 +84,10 @@ static void mistakes_of_a_flow(void **state) {
         /* a liquid takes all directions alike; a base in silicon does not: below */
         {SILICON, "where=\"field\" profile=\"isotropic\"", "where=\"field\" profile=\"anisotropic\" anisotropy=\"rie.A\"",
          540, "step S14 etches 'aluminium' in 'h.pan'"},
+        /* the plate of one side on the other */
+        {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>",
+         "<align to=\"M1\" side=\"back\" overlay=\"litho.gap\"/><change kind=\"pattern\" material=\"resist\" where=\"field\"/>", 373,
+         "aligns a plate of the back"},
         /* a clock that does not know how thick the layer is */
         {SILICON,
          "<time law=\"arrhenius\" overrun=\"al.overetch\" k=\"2\"><arg name=\"thickness\" q=\"al.d\"/><arg name=\"rate\" q=\"pan.R\"/>"
