@@ -175,8 +175,13 @@ static void lint_warmth(fw_process_pack *pack, const fw_process_step *s,
                   q->unit, q->id ? q->id : "q", bearable[row].why);
 }
 
-static bool warms(const char *name) {
-    return strcmp(name, "temperature") == 0 || strcmp(name, "reference_temperature") == 0;
+/* what is set is told there */
+static void warm_arguments(fw_process_pack *pack, const fw_process_step *s,
+                           const fw_process_hazard *in, const fw_process_argument *argument,
+                           int n) {
+    for (int k = 0; k < n; k++)
+        if (!fw_process_step_sets(s, argument[k].q))
+            lint_warmth(pack, s, in, argument[k].name, argument[k].q, s->place);
 }
 
 /* is every bath warm enough to be one, and not too warm? FW-D543 */
@@ -187,9 +192,9 @@ fw_status fw_process_lint_warmth(fw_process_pack *pack) {
         if (!in || !fw_process_step_in_liquid(s)) continue;
         for (int k = 0; k < s->nsetting; k++)
             lint_warmth(pack, s, in, s->setting[k].name, s->setting[k].q, s->setting[k].place);
-        for (int k = 0; k < s->nargument; k++) /* said once where it is set, too */
-            if (warms(s->argument[k].name) && !fw_process_step_sets(s, s->argument[k].q))
-                lint_warmth(pack, s, in, s->argument[k].name, s->argument[k].q, s->place);
+        warm_arguments(pack, s, in, s->argument, s->nargument);
+        for (int k = 0; k < s->nderive; k++)
+            warm_arguments(pack, s, in, s->derive[k].argument, s->derive[k].nargument);
     }
     return FW_OK;
 }

@@ -102,6 +102,11 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "id=\"pan.T-reference\" value=\"22\"", "id=\"pan.T-reference\" value=\"220\"", 543, "220 Cel (pan.T-reference)"},
         {SILICON, "name=\"bath temperature\" q=\"clean.T\" tol-lo=\"70\" tol-hi=\"80\"", "name=\"bath temperature\" q=\"peb.T\" tol-lo=\"\" tol-hi=\"\"",
          543, "loses its ammonia"},
+        {SILICON, "id=\"pan.T-warm\" value=\"27\"", "id=\"pan.T-warm\" value=\"-27\"", 543, "-27 Cel (pan.T-warm)"},
+        {COPPER, "id=\"ps.T\" value=\"22\"", "id=\"ps.T\" value=\"-22\"", 543, "step C05 is done in 'h.hf-organic'"},
+        /* lengths that nobody computes a layer from */
+        {SILICON, "id=\"read.si.d\" value=\"0.15\"", "id=\"read.si.d\" value=\"-0.15\"", 278, "'read.si.d' is -0.15 um"},
+        {COPPER, "id=\"cu.layer\" value=\"116\"", "id=\"cu.layer\" value=\"-116\"", 278, "'cu.layer' is -116 um"},
         /* of orientation, too */
         {SILICON, "id=\"al.R-example\" value=\"40\" urel=\"0.1\" unit=\"nm/min\"",
          "id=\"al.R-example\" value=\"400\" urel=\"0.1\" unit=\"um/min\"", 544, "a rate of 400 um/min (al.R-example)"},
