@@ -554,7 +554,7 @@ static const char third[] =
     "<q id=\"A\" value=\"0.98\" u=\"0.005\" unit=\"1\" status=\"measured\" src=\"lab\"/>"
     "<q id=\"p\" unknown=\"true\" unit=\"Pa\" status=\"assumed\" src=\"lab\"/>"
     "<q id=\"c\" value=\"0.02\" u=\"0\" unit=\"1\" status=\"measured\" src=\"lab\"/>"
-    "<q id=\"w\" value=\"-0.1\" u=\"0.05\" unit=\"um\" status=\"measured\" src=\"lab\"/>"
+    "<q id=\"w\" value=\"-0.1\" u=\"0.05\" unit=\"um\" range=\"edge\" status=\"measured\" src=\"lab\"/>"
     "<q id=\"mask.narrowest-opening\" unknown=\"true\" unit=\"um\" status=\"derived\" src=\"lab\"/>"
     "<corner of=\"edge\" name=\"printed\" q=\"w\"/><corner of=\"anisotropy\" name=\"oxide\" "
     "q=\"Aox\"/><corner of=\"anisotropy\" name=\"silicon\" q=\"A\"/>"
