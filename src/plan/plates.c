@@ -61,6 +61,19 @@ static void check_order(fw_diags *diags, const fw_process_flow *flow, const fw_m
                       flow->id);
 }
 
+/* a table of one plate needs no row for it, and packs call that one M1, or device */
+static void check_only(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
+    const char *only = table->nplate == 1 ? table->plates[0].id : "M1";
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        if (!s->mask[0] || strcmp(s->mask, only) == 0) continue;
+        if (table->nplate == 0 && strcmp(s->mask, "device") == 0) continue;
+        fw_diag_error(diags, 412, s->place,
+                      "step %s prints mask=\"%s\", and the only plate in masks/%s.xml is \"%s\"",
+                      s->id, s->mask, flow->id, only);
+    }
+}
+
 static const fw_process_plate *plate_of(const fw_process_flow *flow, const char *id) {
     for (int p = 0; p < flow->nplate; p++)
         if (fw_text_same(flow->plate[p].id, id)) return &flow->plate[p];
@@ -132,7 +145,10 @@ static void check_alignment(fw_diags *diags, const fw_process_flow *flow,
 
 void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
     check_coupons(diags, flow, table);
-    if (table->nplate > 1) check_order(diags, flow, table);
+    if (table->nplate > 1)
+        check_order(diags, flow, table);
+    else
+        check_only(diags, flow, table);
     check_rows(diags, flow, table);
     check_lengths(diags, flow, table);
     if (table->nplate > 1) check_alignment(diags, flow, table);

@@ -181,6 +181,7 @@ static const struct {
      fw_process_lint_thicknesses, true},
     {"is nobody alone with what is dangerous, and is there first aid?", lint_people, false},
     {"does every liquid say what it reacts as?", fw_process_lint_reactivity, false},
+    {"is every bath a liquid at its temperature?", fw_process_lint_warmth, true},
     {"do chemicals stay apart that must not meet?", lint_chemicals, false},
     {"is what a step changes on the wafer?", fw_process_lint_absent, false},
     {"is resist exposed through a mask before it is developed?", fw_process_lint_exposure, false},

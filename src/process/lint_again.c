@@ -469,6 +469,63 @@ static void lint_back(fw_process_pack *pack, int i) {
     }
 }
 
+bool fw_process_step_sets(const fw_process_step *s, const fw_quantity *q) {
+    for (int k = 0; k < s->nsetting; k++)
+        if (s->setting[k].q == q) return true;
+    return false;
+}
+
+/* Liquids take all directions alike, but for bases in silicon, whose planes they find. */
+static void lint_profile(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_process_hazard *in = fw_process_step_liquid(s);
+    if (!in || !fw_process_step_in_liquid(s)) return;
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k];
+        if (strcmp(c->kind, "remove") != 0 || !c->anisotropy) continue;
+        if (fw_words_hold(in->reacts_as, " ", "base") && strncmp(c->material, "silicon", 7) == 0)
+            continue;
+        fw_diag_error(pack->diags, 540, c->place,
+                      "step %s etches '%s' in '%s' and calls that anisotropic, but this bath takes "
+                      "as much sideways as down; write profile=\"isotropic\"",
+                      s->id, c->material, in->id);
+    }
+}
+
+/* A layer that is etched or plated by a clock that does not know its thickness: no window, no over-etch, and no other
+   time for another thickness. */
+static void lint_clock(fw_process_pack *pack, const fw_process_step *s) {
+    static const char by_rate[] = "anodise dry-etch plate wet-etch";
+    const fw_process_law *law = fw_process_law_find(s->law);
+    if (!law || !law->stated || !fw_words_hold(by_rate, " ", s->op)) return;
+    for (int k = 0; k < s->nchange; k++)
+        if (s->change[k].thickness || s->change[k].reach) {
+            const bool current =
+                fw_process_step_is_op(s, "plate") || fw_process_step_is_op(s, "anodise");
+            fw_diag_error(
+                pack->diags, 541, s->place,
+                "step %s (%s) takes the time '%s', whatever the thickness '%s' is; write the law "
+                "%s with its %s, unknown where nobody knows it, and give a time to plan with by "
+                "--planned",
+                s->id, s->op, s->nargument ? s->argument[0].q->id : "",
+                s->change[k].thickness ? s->change[k].thickness->id : s->change[k].reach->id,
+                current ? "\"faraday\"" : "\"rate\" or \"arrhenius\"",
+                current ? "current density" : "rate");
+            return;
+        }
+}
+
+/* a plasma is set by its pressure before anything else; a value that nobody knows is a blank on the sheet */
+static void lint_plasma(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_quantity_dimension pressure = FW_DIM(-1, 1, -2, 0, 0, 0, 0);
+    if (!fw_process_step_is_op(s, "dry-etch")) return;
+    for (int k = 0; k < s->nsetting; k++)
+        if (fw_quantity_dimension_equal(s->setting[k].q->dimension, pressure)) return;
+    fw_diag_error(pack->diags, 542, s->place,
+                  "step %s (dry-etch) does not say at which pressure: nobody can run it, and its "
+                  "rate means nothing; add a <set> of it, with an unknown value if need be",
+                  s->id);
+}
+
 fw_status fw_process_lint_kind(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
@@ -479,6 +536,9 @@ fw_status fw_process_lint_kind(fw_process_pack *pack) {
         lint_spin(pack, s);
         lint_back(pack, i);
         lint_rate(pack, i);
+        lint_profile(pack, s);
+        lint_clock(pack, s);
+        lint_plasma(pack, s);
         FW_TRY(lint_reworks(pack, i));
     }
     return FW_OK;

@@ -309,6 +309,43 @@ static void lint_between(fw_process_pack *pack, const fw_process_step *s) {
                   s->id, least->id, most->id);
 }
 
+/* The fastest that a kind of step is known to work; a rate beyond it is a slip of the unit. Wider than what records say. */
+static const struct {
+    const char *op;
+    double um_per_min;
+    const char *why;
+} fastest[] = {
+    {"wet-etch", 150, "the fastest bath, hydrofluoric with nitric acid on silicon, takes some 100"},
+    {"dry-etch", 60, "deep etchers of silicon reach 30 to 50"},
+    {"deposit", 60, "the fastest evaporators reach a micrometre in a second"},
+    {"displace", 10, "displacement gives some 0.1"},
+    {"plate", 50, "fast baths give some 10"},
+    {"strip", 200, "solvents take resist at some 10 to 100"},
+    {"release", 200, "the fastest release, of porous silicon, takes some 100"},
+};
+
+static void lint_fast(fw_process_pack *pack, const fw_process_step *s,
+                      const fw_process_argument *argument, int n) {
+    for (int i = 0; i < n; i++) {
+        const fw_quantity *q = argument[i].q;
+        if (q->unknown || strcmp(argument[i].name, "rate") != 0 ||
+            !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_SPEED))
+            continue;
+        for (size_t k = 0; k < sizeof fastest / sizeof fastest[0]; k++) {
+            char is[32], most[32];
+            if (!fw_process_step_is_op(s, fastest[k].op) ||
+                q->value <= fastest[k].um_per_min * 1e-6 / 60)
+                continue;
+            fw_diag_error(pack->diags, 544, q->replaced ? q->place : s->place,
+                          "step %s (%s) computes with a rate of %s um/min (%s), but none is above "
+                          "%s: %s; correct the value or its unit",
+                          s->id, s->op, fw_number_text(is, sizeof is, q->value * 60e6, 4), q->id,
+                          fw_number_text(most, sizeof most, fastest[k].um_per_min, 4),
+                          fastest[k].why);
+        }
+    }
+}
+
 fw_status fw_process_lint_settings(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
@@ -318,9 +355,12 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
             lint_accept(pack, s, &s->accept[k]);
         lint_between(pack, s);
         lint_pairs(pack, s, s->argument, s->nargument);
+        lint_fast(pack, s, s->argument, s->nargument);
         if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);
-        for (int k = 0; k < s->nderive; k++)
+        for (int k = 0; k < s->nderive; k++) {
             lint_pairs(pack, s, s->derive[k].argument, s->derive[k].nargument);
+            lint_fast(pack, s, s->derive[k].argument, s->derive[k].nargument);
+        }
         for (int k = 0; k < s->naccept; k++)
             limits_cross(pack, s, s->accept[k].measure, bound_of(s->accept[k].low),
                          bound_of(s->accept[k].high), s->accept[k].place);
@@ -517,6 +557,13 @@ static void aligned(fw_process_pack *pack, const fw_process_flow *f, int at) {
                       "step %s aligns mask %s to '%s', which no earlier step has exposed; name a "
                       "mask that is on the wafer by then",
                       s->id, s->mask, s->align.to);
+    for (int k = 0; k < s->nchange; k++)
+        if (strcmp(s->change[k].kind, "pattern") == 0 && s->change[k].back != s->align.back)
+            fw_diag_error(pack->diags, 373, s->align.place,
+                          "step %s exposes the %s (its <change>), and aligns a plate of the %s; "
+                          "write the same side in both",
+                          s->id, s->change[k].back ? "back" : "front",
+                          s->align.back ? "back" : "front");
 }
 
 fw_status fw_process_lint_plates(fw_process_pack *pack) {

@@ -67,6 +67,7 @@ fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication
 /* the mask or a step computes it: no laboratory states it */
 bool fw_process_quantity_computed(const fw_quantity *q);
 /* what the law of a step's time takes under this name; NULL: nothing */
+bool fw_process_step_sets(const fw_process_step *step, const fw_quantity *q);
 const fw_quantity *fw_process_step_argument(const fw_process_step *step, const char *name);
 /* the flow's quantity with this id, to be filled in; NULL: it has none */
 fw_quantity *fw_process_flow_own_quantity(const fw_process_flow *flow, const char *id);
@@ -135,6 +136,7 @@ unsigned fw_process_reacts_as(const char *words); /* a bit for each group that i
 /* what happens where the two meet, in words; NULL: nothing that is known, or one is NULL */
 const char *fw_process_reaction(const fw_process_hazard *a, const fw_process_hazard *b);
 fw_status fw_process_lint_reactivity(fw_process_pack *pack);
+fw_status fw_process_lint_warmth(fw_process_pack *pack);
 
 /* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN
    when an input is not known */

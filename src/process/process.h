@@ -489,6 +489,8 @@ fw_process_drying fw_process_flow_drying(const fw_process_flow *flow);
    way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
+/* does it expose the wafer's back? By its <align>, or by what it changes: a first plate has nothing to align to */
+bool fw_process_step_on_back(const fw_process_step *step);
 /* once for all wafers together, whatever the machine takes */
 bool fw_process_step_is_of_lot(const fw_process_step *step);
 /* does step `index` handle the dies of each wafer, because one before it parted them? */

@@ -9,6 +9,7 @@
    Determining the Compatibility of Hazardous Wastes, EPA-600/2-80-076 (1980), chart of binary combinations, its groups 1
    to 4, 10, 11, 15, 19 and 104, not re-read at its source and not all of its pairs; ammonium salts with bases, iodine with
    ammonia and hypochlorite with ammonia: common textbook knowledge. Test: test_lint.c liquids_react_by_their_groups. */
+#include "base/constants.h"
 #include "base/text.h"
 #include "process/pack.h"
 #include <string.h>
@@ -131,6 +132,69 @@ fw_status fw_process_lint_reactivity(fw_process_pack *pack) {
                     "hazard '%s' reacts as '%.*s', which is no group that is known; there "
                     "are: %s",
                     h->id, (int)word.length, word.at, known);
+    }
+    return FW_OK;
+}
+
+/* ---- how warm a liquid can be ---- */
+
+/* The first row of which the liquid has a group holds; K. Below the least it freezes, above the most it boils or drives
+   its vapour out; open baths, at the pressure of a room. Mixtures lie between, so that rows are wide. Sources: melting and
+   boiling points of acetone -95 and 56 Cel, isopropyl alcohol -89 and 82 Cel, water; phosphoric acid is used at 160 to
+   180 Cel, piranha at 120 to 140 Cel, potassium hydroxide of 50 % boils at 145 Cel (handbooks, typical). */
+static const struct {
+    unsigned groups;
+    double least_K, most_K;
+    const char *why;
+} bearable[] = {
+    {1u << KETONE, 178, 329.4, "acetone freezes at -95 Cel and boils at 56 Cel"},
+    {1u << FLUORIDE, FW_ICE_POINT_K, 353.15,
+     "it is of water, and gives off hydrogen fluoride when warm"},
+    {1u << ALCOHOL, 184, 355.5, "isopropyl alcohol freezes at -89 Cel and boils at 82 Cel"},
+    {1u << AMMONIA, FW_ICE_POINT_K, 363.15, "it is of water, and loses its ammonia when warm"},
+    {1u << BASE, FW_ICE_POINT_K, 423.15,
+     "it is of water, which freezes at 0 Cel, and boils at 150 Cel"},
+    {~0u, FW_ICE_POINT_K, 473.15,
+     "it is of water, which freezes at 0 Cel; no bath of acid is above 200 Cel"},
+};
+
+static void lint_warmth(fw_process_pack *pack, const fw_process_step *s,
+                        const fw_process_hazard *in, const char *name, const fw_quantity *q,
+                        fw_place place) {
+    size_t row = 0;
+    if (q->unknown || !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1}))
+        return;
+    while (!(bearable[row].groups & (in->reacts | 1u << GROUPS)))
+        row++;
+    if (q->value >= bearable[row].least_K && q->value <= bearable[row].most_K) return;
+    char is[32];
+    fw_diag_error(pack->diags, 543, q->replaced ? q->place : place,
+                  "step %s is done in '%s' with '%s' at %s %s (%s), where it is no liquid: %s; "
+                  "correct the value",
+                  s->id, in->id, name, fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 4),
+                  q->unit, q->id ? q->id : "q", bearable[row].why);
+}
+
+/* what is set is told there */
+static void warm_arguments(fw_process_pack *pack, const fw_process_step *s,
+                           const fw_process_hazard *in, const fw_process_argument *argument,
+                           int n) {
+    for (int k = 0; k < n; k++)
+        if (!fw_process_step_sets(s, argument[k].q))
+            lint_warmth(pack, s, in, argument[k].name, argument[k].q, s->place);
+}
+
+/* is every bath warm enough to be one, and not too warm? FW-D543 */
+fw_status fw_process_lint_warmth(fw_process_pack *pack) {
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        const fw_process_step *s = &pack->flow->step[i];
+        const fw_process_hazard *in = fw_process_step_liquid(s);
+        if (!in || !fw_process_step_in_liquid(s)) continue;
+        for (int k = 0; k < s->nsetting; k++)
+            lint_warmth(pack, s, in, s->setting[k].name, s->setting[k].q, s->setting[k].place);
+        warm_arguments(pack, s, in, s->argument, s->nargument);
+        for (int k = 0; k < s->nderive; k++)
+            warm_arguments(pack, s, in, s->derive[k].argument, s->derive[k].nargument);
     }
     return FW_OK;
 }

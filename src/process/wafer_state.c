@@ -34,6 +34,13 @@ bool fw_process_step_is_op(const fw_process_step *s, const char *op) {
     return strcmp(s->op, op) == 0;
 }
 
+bool fw_process_step_on_back(const fw_process_step *s) {
+    bool back = s->align.to && s->align.back;
+    for (int k = 0; k < s->nchange; k++)
+        back = back || (strcmp(s->change[k].kind, "pattern") == 0 && s->change[k].back);
+    return back;
+}
+
 const fw_process_hazard *fw_process_step_liquid(const fw_process_step *s) {
     for (int i = s->nhazard - 1; i >= 0; i--)
         if (s->hazard[i]->wets) return s->hazard[i];

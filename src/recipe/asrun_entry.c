@@ -86,7 +86,8 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     }
     if (!word) {
         fw_recipe_asrun_values v;
-        const fw_quantity any = {0};
+        /* a difference may be below 0 where its limits are */
+        const fw_quantity any = {.range = a->low[0] == '-' ? "edge" : NULL};
         FW_TRY(fw_recipe_asrun_values_read(r, name, value, a->sites, &v));
         FW_TRY(fw_recipe_asrun_values_in(r, name, a->unit, &any, &v));
         memcpy(m.site, v.site, sizeof m.site);

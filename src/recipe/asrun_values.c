@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "process/calibrate.h"
 #include "recipe/asrun_parts.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
 
@@ -84,7 +85,7 @@ fw_status fw_recipe_asrun_values_read(const fw_recipe_asrun_reader *r, const cha
     for (size_t n; *at && !wrong; at += n + strspn(at + n, " ")) {
         n = strcspn(at, " ");
         if (one(v, &s, at, n, &wrong)) continue;
-        FW_NEED(v->unit = fw_arena_strdup(r->arena, at));
+        FW_NEED(v->unit = fw_recipe_unit_of_printed(r->arena, at));
         break;
     }
     if (!wrong && v->n == 0) wrong = "give a number in the unit of the run sheet, or yes or no";

@@ -102,13 +102,22 @@ static void source_of(const fw_process_flow *flow, const char *source, fw_text *
 }
 
 /* how the mask comes to lie on what is there */
-static void alignment(const fw_process_step *s, fw_text *out) {
+static void alignment(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
     const fw_process_align *a = &s->align;
     if (!a->to) return;
+    bool below = false; /* what it is aligned to */
+    for (const fw_process_step *to = flow->step; to < s; to++)
+        if (strcmp(to->mask, a->to) == 0) below = fw_process_step_on_back(to);
+    const bool back = fw_process_step_on_back(s);
     fw_text_add(out, "<p><b>Align</b> plate ");
     fw_text_escaped(out, s->mask);
-    fw_text_add(out, a->back ? " on the back, mirrored, to " : " to ");
+    fw_text_add(out, back ? " on the back, mirrored, to " : " to ");
     fw_text_escaped(out, a->to);
+    if (below != back)
+        fw_text_printf(out, " on the %s, seen through the wafer or from below",
+                       below ? "back" : "front");
+    else if (back)
+        fw_text_add(out, " on the same side");
     if (a->marks[0]) {
         const char *mark = a->marks;
         fw_text_add(out, " by the marks ");
@@ -160,7 +169,7 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
     fw_text_add(out, picture ? "<div class=\"pair\"><div><p>" : "<p>");
     fw_text_escaped(out, s->purpose);
     fw_text_add(out, "</p>\n");
-    alignment(s, out);
+    alignment(flow, s, out);
     ways(flow, s, out);
     if (s->equipment) {
         fw_text_add(out, "<p class=\"small\"><b>Equipment:</b> ");

@@ -447,6 +447,23 @@ static void films(const fw_recipe_cross_section *p, fw_json *out) {
     fw_json_end(out);
 }
 
+/* films that lie beside the cut: the view of the wafer shows them */
+static void elsewhere(const fw_recipe_cross_section *p, fw_json *out) {
+    fw_json_list(out, "elsewhere");
+    for (int i = 0; i < p->films.n; i++) {
+        const fw_process_film *f = &p->films.film[i];
+        bool cut = false;
+        for (int k = 0; k < p->n; k++)
+            cut = cut || p->patch[k].film == f;
+        if (cut) continue;
+        fw_json_object(out, NULL);
+        words(out, "material", f->material);
+        number(out, "thickness_m", f->thickness_m);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
 static fw_status section(fw_recipe_slicer *slicer, const fw_process_flow *flow, int index,
                          fw_json *out) {
     const fw_process_step *s = &flow->step[index];
@@ -458,6 +475,7 @@ static fw_status section(fw_recipe_slicer *slicer, const fw_process_flow *flow, 
     if (fw_process_step_changes(s)) { /* else as before */
         FW_TRY(fw_recipe_cross_section_of(slicer, flow, index, &p));
         films(&p, out);
+        elsewhere(&p, out);
         fw_json_list(out, "notes");
         for (int i = 0; i < p.films.nnote; i++)
             words(out, NULL, p.films.note[i]);

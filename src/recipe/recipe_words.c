@@ -93,6 +93,30 @@ void fw_recipe_put_unit(fw_text *out, const char *unit) {
     }
 }
 
+/* the other code points that keyboards have for what is printed */
+static const char *typed(const char *word) {
+    static const char *const same[][2] = {
+        {"μm", "um"}, {"μN", "uN"}, {"\xe2\x84\xa6", "ohm"}, {"\xe2\x84\xab", "Ao"}};
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; i++)
+        if (strcmp(word, same[i][0]) == 0) return same[i][1];
+    for (size_t i = 0; i < sizeof symbols / sizeof symbols[0]; i++)
+        if (strcmp(word, symbols[i].to) == 0) return symbols[i].from;
+    return word;
+}
+
+const char *fw_recipe_unit_of_printed(fw_arena *arena, const char *unit) {
+    fw_text text = fw_text_new(arena);
+    while (*unit) {
+        const size_t n = strcspn(unit, " /.*");
+        const char *word = fw_arena_strndup(arena, unit, n);
+        if (!word) return NULL;
+        fw_text_add(&text, typed(word));
+        unit += n;
+        if (*unit) fw_text_bytes(&text, unit++, 1);
+    }
+    return fw_text_end(&text) == FW_OK ? text.data : NULL;
+}
+
 const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time) {
     fw_text list = fw_text_new(arena);
     fw_text_add(&list, "");

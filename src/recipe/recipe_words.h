@@ -29,6 +29,8 @@ void fw_recipe_put_uncertainty(fw_text *out, double value);
 void fw_recipe_put_value(fw_text *out, double value); /* up to 6 significant digits */
 /* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
 void fw_recipe_put_unit(fw_text *out, const char *unit);
+/* "um" for what a sheet prints as "µm": people type what they read; NULL: no memory */
+const char *fw_recipe_unit_of_printed(fw_arena *arena, const char *unit);
 /* NULL: no memory */
 const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time);
 

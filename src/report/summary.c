@@ -124,9 +124,7 @@ static fw_status reasons_of(fw_arena *arena, const fw_verdict *v, fw_verdict_dec
     return FW_OK;
 }
 
-/* what rejects comes first */
-static fw_status reasons(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
-    FW_TRY(reasons_of(arena, v, FW_REJECT, "rejected because", s));
+static fw_status undecided(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     return reasons_of(arena, v, FW_INCONCLUSIVE, "inconclusive because", s);
 }
 
@@ -261,10 +259,14 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     FW_TRY(layout_faults(arena, in->layout, s));
     const bool drawn = !in->layout || in->layout->nfault == 0;
     if (drawn && v->decision != FW_REJECT) FW_TRY(unmade(arena, in, s));
-    FW_TRY(reasons(arena, v, s));
+    const bool rejected =
+        v->decision == FW_REJECT; /* what rejects comes before what is not known */
+    FW_TRY(reasons_of(arena, v, FW_REJECT, "rejected because", s));
+    if (!rejected) FW_TRY(undecided(arena, v, s));
     FW_TRY(hinges(arena, v, s));
     FW_TRY(advice(arena, v, in->layout && in->layout->nfault > 0, s));
+    if (rejected) FW_TRY(undecided(arena, v, s));
     FW_TRY(required(arena, v, s));
     FW_TRY(nearest(arena, v, s));
-    return v->decision == FW_REJECT ? FW_OK : guarantees(arena, in, s);
+    return rejected ? FW_OK : guarantees(arena, in, s);
 }

@@ -236,6 +236,97 @@ static fw_status name_operators(fw_arena *arena, const fw_schedule_shop *shop, f
     return FW_OK;
 }
 
+/* ---- wafers in their order ----
+   One wafer is as good as another, so that the order in which a search has found them means nothing. Two wafers exchange
+   all their runs from a step on, until one that is done to several at once, where the one with the larger number is the
+   earlier one and their windows stay kept: nothing of machines, people or ends changes. Test: test_schedule.c */
+
+typedef struct order {
+    const fw_schedule_shop *shop;
+    fw_schedule_run *run;
+    int *at; /* (ntask x wafers) the run of a task that a wafer is in */
+} order;
+
+static fw_schedule_run *run_of(const order *o, int task, int wafer) {
+    return &o->run[o->at[(size_t)task * (size_t)o->shop->wafers + (size_t)wafer]];
+}
+
+static bool keeps_windows(const order *o, int wafer) {
+    const fw_schedule_shop *shop = o->shop;
+    const double slack = 1e-6;
+    for (int i = 0; i + 1 < shop->ntask; i++)
+        if (run_of(o, i, wafer)->end_s > run_of(o, i + 1, wafer)->start_s + slack) return false;
+    for (int i = 0; i < shop->nhold; i++) {
+        const fw_schedule_hold *h = &shop->hold[i];
+        const double wait = run_of(o, h->to, wafer)->start_s - run_of(o, h->from, wafer)->end_s;
+        if (h->first_only && wafer > 0) continue;
+        if (wait < h->min_s - slack || wait > h->max_s + slack) return false;
+    }
+    return true;
+}
+
+static void exchange(order *o, int from, int to, int u, int v) {
+    const size_t n = (size_t)o->shop->wafers;
+    for (int task = from; task < to; task++) {
+        int *a = &o->at[(size_t)task * n + (size_t)u], *b = &o->at[(size_t)task * n + (size_t)v];
+        const int was = *a;
+        *a = *b;
+        *b = was;
+        run_of(o, task, u)->first = u;
+        run_of(o, task, v)->first = v;
+    }
+}
+
+static bool waits(const fw_schedule_run *r) {
+    return r->waits_for == FW_WAIT_FLOW || r->waits_for == FW_WAIT_HOLD;
+}
+
+/* u < v; from: the first task that each is in by itself; -> the first one behind it that it is not */
+static int alone_until(const order *o, int from, int u, int v) {
+    int to = from;
+    while (to < o->shop->ntask && run_of(o, to, u)->count == 1 && run_of(o, to, v)->count == 1 &&
+           !o->shop->task[to].lot)
+        to++;
+    return to;
+}
+
+static bool sort_pair(order *o, int u, int v) {
+    bool any = false;
+    for (int from = 0; from < o->shop->ntask; from++) {
+        const int to = alone_until(o, from, u, v);
+        if (to == from) continue;
+        const bool together = from == 0 || run_of(o, from - 1, u) == run_of(o, from - 1, v) ||
+                              (!waits(run_of(o, from, u)) && !waits(run_of(o, from, v))),
+                   after = to == o->shop->ntask || run_of(o, to, u) == run_of(o, to, v) ||
+                           (!waits(run_of(o, to, u)) && !waits(run_of(o, to, v)));
+        if (!together || !after || run_of(o, from, u)->start_s <= run_of(o, from, v)->start_s)
+            continue;
+        exchange(o, from, to, u, v);
+        if (keeps_windows(o, u) && keeps_windows(o, v))
+            any = true;
+        else
+            exchange(o, from, to, u, v);
+    }
+    return any;
+}
+
+/* each exchange takes away an inversion of the first of its tasks and changes none before it: it ends */
+static fw_status wafers_in_order(fw_arena *arena, const fw_schedule_shop *shop,
+                                 fw_schedule_run *run, int n) {
+    order o = {shop, run, fw_arena_array(arena, int, (size_t)shop->ntask *(size_t)shop->wafers)};
+    FW_NEED(o.at);
+    for (int i = 0; i < n; i++)
+        for (int w = run[i].first; w < run[i].first + run[i].count; w++)
+            o.at[(size_t)run[i].task * (size_t)shop->wafers + (size_t)w] = i;
+    for (bool any = true; any;) {
+        any = false;
+        for (int v = 1; v < shop->wafers; v++)
+            for (int u = 0; u < v; u++)
+                any = sort_pair(&o, u, v) || any;
+    }
+    return FW_OK;
+}
+
 static int usual_effort(const fw_schedule_shop *shop) {
     int runs = shop->ntask * shop->wafers;
     int n = shop->wafers == 1 ? 100 : 250000 / (runs > 0 ? runs : 1);
@@ -279,6 +370,7 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     measure(out);
     qsort(s.best.run, (size_t)s.best.nrun, sizeof *s.best.run, by_start);
     out->run = s.best.run;
+    FW_TRY(wafers_in_order(arena, shop, s.best.run, s.best.nrun));
     return name_operators(arena, shop, s.best.run, s.best.nrun);
 }
 

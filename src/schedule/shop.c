@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shop of a computed flow. */
+#include "process/process_law.h"
 #include "schedule/place.h"
 #include <math.h>
 #include <string.h>
@@ -78,12 +79,22 @@ static fw_status planned_one(making *m, const char *part, size_t n) {
     double value;
     if (!fw_number_parse(number, digits, &value) || !(value >= 0.0) ||
         !fw_quantity_unit_parse(unit_text, (size_t)(end - unit_text), &unit, NULL, NULL) ||
-
         !fw_quantity_dimension_equal(unit.dimension, (fw_quantity_dimension){.s = 1}))
         return wrong(m, part, n, "is not a time with its unit, for example S03=90 min");
     double seconds = fw_quantity_unit_to_si(&unit, value);
     fw_schedule_task *t = &m->task[step];
     if (!(seconds <= 30.0 * 86400.0)) return wrong(m, part, n, "is longer than 30 days");
+    const fw_process_law *law = fw_process_law_find(m->flow->step[step].law);
+    if (!t->unknown && law && !law->stated) {
+        char given[32], computed[32];
+        fw_diag_warning(m->diags, 199, m->flow->step[step].place,
+                        "the planning time of step %s, %s min, takes the place of a computed one "
+                        "of %s min in schedule and calendar; the sheet keeps the computed window: "
+                        "leave the planning time out, or correct what it is computed from",
+                        m->flow->step[step].id,
+                        fw_number_text(given, sizeof given, seconds / 60, 4),
+                        fw_number_text(computed, sizeof computed, t->duration_s / 60, 4));
+    }
     t->duration_s = t->latest_s = fmax(seconds, t->attended_s);
     t->unknown = false;
     t->stated = true;

@@ -297,6 +297,16 @@ static bool beyond_limits(const fw_mechanism *m, const fw_dynamics_motion *x) {
     return false;
 }
 
+/* Beyond this angle a joint's hinge is at three times its limit at least, whichever it is: a verdict needs no more of an
+   exact beam, and one that tumbles costs minutes. HUGE_VAL: joints without a flexure turn freely. Test: test_program.py,
+   far_beyond */
+static double hopeless_rad(const fw_mechanism *m) {
+    double most = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        most = fmax(most, 3 * m->hinge[k].closed_form.limit_angle_rad);
+    return m->nhinge == m->npin && most > 0 ? most : HUGE_VAL;
+}
+
 /* the level is looked at in the row nearest the largest of these */
 static void rows_of_peaks(const fw_mechanism *m, const fw_dynamics_motion *x) {
     for (int k = 0; x->late && k < m->nhinge; k++)
@@ -379,8 +389,12 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
             continue;
         }
         if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
-        if (status == FW_SOLVER && fw_statics_level_goes_on(mechanism, asked, &own, &o.effects))
+        if (status == FW_SOLVER && fw_statics_level_goes_on(mechanism, asked, &own, &o.effects)) {
+            if (options->within_limits)
+                o.most_angle_rad = fmin(o.most_angle_rad > 0 ? o.most_angle_rad : HUGE_VAL,
+                                        hopeless_rad(mechanism));
             continue;
+        }
         if (!higher && !tried) fw_diags_take(diags, &own);
         FW_TRY(status);
         rows_of_peaks(mechanism, found);

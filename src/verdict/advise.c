@@ -2,6 +2,7 @@
 /* What to change, and by how much: every declared parameter alone; longer flexures, else wider
    ones; less load or smaller required poses; several values together. Every proposal has been run
    as its settings say and accepted; the least change comes first. */
+#include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
 #include "verdict/advice.h"
@@ -457,6 +458,12 @@ static fw_status change_all(advice *a) {
 /* ---- which changes are tried, and what is said ---- */
 
 /* no change of a flexure can help */
+static bool turned(const fw_dynamics_motion *motion) {
+    for (int i = 0; i < motion->npin; i++)
+        if (fabs(motion->peak[i].angle_rad) > 0.99 * FW_TURN) return true;
+    return false;
+}
+
 static const char *hopeless(const fw_device *device, const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
@@ -464,7 +471,7 @@ static const char *hopeless(const fw_device *device, const fw_verdict *verdict) 
             return "part of the required workspace is out of reach, and no flexure can change "
                    "that: make the links longer or the workspace smaller";
         for (int k = 0; k < device->nscene; k++)
-            if (v->motion[k] && v->motion[k]->ended)
+            if (v->motion[k] && v->motion[k]->ended && turned(v->motion[k]))
                 return "a scene turns a joint by more than a whole turn, and no flexure can "
                        "follow: lower its load";
     }

@@ -98,7 +98,7 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     out->utilisation = strain->strain / out->strain_limit;
     out->force_share = out->utilisation > by_angle ? 1.0 - by_angle / out->utilisation : 0.0;
     out->t_s = strain->t_s;
-    /* a run that was ended went a whole turn: no error of its own changes that */
+    /* a run that was ended went a whole turn, or to several times a limit: no error of its own changes that */
     double numeric = motion->ended
                          ? 0.0
                          : out->angle_error_rad / c->limit_angle_rad +
@@ -184,15 +184,19 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     collide(by->drawn, out);
 }
 
-/* a hinge that has turned once is past every limit: the rest of the scene is not needed */
+/* a hinge that has turned once, or to several times its limit, is past it: the rest of the scene is not needed */
 
 static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *motion,
                        fw_diags *diags) {
-    char t[32];
+    char t[32], turned[32];
+    double most = 0;
+    for (int i = 0; i < motion->npin; i++)
+        most = fmax(most, fabs(motion->peak[i].angle_rad));
     fw_diag_warning(diags, 205, scene->place,
-                    "scene %s was ended after %s ms, when a joint had turned by more than a whole "
-                    "turn: the load is far beyond what these hinges can take; lower it",
-                    scene->name, fw_number_text(t, sizeof t, motion->end_s * 1e3, 4));
+                    "scene %s was ended after %s ms, when a joint had turned by %s deg: the load "
+                    "is far beyond what these hinges can take; lower it",
+                    scene->name, fw_number_text(t, sizeof t, motion->end_s * 1e3, 4),
+                    fw_number_text(turned, sizeof turned, most * 180 / FW_PI, 3));
 }
 
 /* The band holds what the model of the hinges is computed to be off by. A better one than the first of

@@ -148,6 +148,23 @@ class Flowback(unittest.TestCase):
         self.expect(self.command("--entry", clean, "--wafer", "1-2", "--wafers", "1-2,1,2", "-q"))
         self.assertEqual(len(self.log.read_text().splitlines()), 2)
 
+    def test_what_the_sheet_prints_can_be_typed(self):
+        """its signs for units, and differences below 0"""
+        for number, unit in enumerate(("um", "µm", "μm")):
+            self.log = self.here / f"unit{number}.log"
+            self.expect(self.command("--entry", "S01; start=2026-11-02T08:00; end=2026-11-02T08:08; by=AB; thickness=50.1 50.2 50 49.9 50.3 "
+                                     + unit, "--wafer", "1", "--wafers", "1", "-q"))
+            self.expect(self.command("--entry", "S08; start=2026-11-02T10:00; end=2026-11-02T10:02; by=AB", "--setting",
+                                     "temperature=100 " + ("°C" if number else "Cel"), "--wafer", "1", "-q"))
+            self.expect(self.command("--entry", "S12; start=2026-11-02T12:00; end=2026-11-02T12:08; by=AB; "
+                                     f"resist width against the mask=-0.2 0.1 -0.1 0 -0.2 {unit}", "--wafer", "1", "-q"))
+            done = json.loads(self.expect(self.command("--json")).stdout)
+            sites = {s["id"]: s["measured"][0]["sites"]["centre"] for s in done["steps"] if s["id"] in ("S01", "S12")}
+            self.assertEqual(sites, {"S01": 50.1, "S12": -0.2})
+        said = self.expect(self.command("--entry", "S12; start=2026-11-02T12:00; end=2026-11-02T12:08; by=AB; "
+                                        "resist width against the mask=-0.2 m", "--wafer", "1"), 3)
+        self.assertIn("FW-D278", said.stderr)
+
     def test_a_day_at_once(self):
         day = self.here / "day.txt"
         lines = ["# Monday", ""] + [f"S01; start=2026-11-02T08:{w}0; end=2026-11-02T08:{w}8; by=AB; wafer={w}; instrument=gauge; "

@@ -21,6 +21,26 @@ DEVICE = ROOT / "docs/gallery/reference-six-bar/device.xml"
 FAST = ("--corners", "none", "--measurements", "none", "--advice", "none", "-q", "--wafers", "2")
 
 
+def seen(a, b):
+    """do they differ in what a sheet prints, four digits?"""
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)) and not isinstance(a, bool):
+        return abs(a - b) > 1e-3 * max(abs(a), abs(b))
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() != b.keys() or any(seen(a[k], b[k]) for k in a)
+    if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)):
+        return len(a) != len(b) or any(map(seen, a, b))
+    return a != b
+
+
+def device_for(flow):
+    """the six-bar, whose silicon is made in that flow where it does not name it"""
+    text = DEVICE.read_text()
+    if flow in text:
+        return text
+    # holes, so that what etches from below is through within a working day
+    return text.replace("al-masked-rie", flow).replace("<die ", '<die release-pitch="60 um" ')
+
+
 def inputs(flow):
     """(id, value, unit) of all that has a value of its own"""
     root = tree.parse(ROOT / f"processes/{flow}.xml").getroot()
@@ -81,7 +101,9 @@ class Inputs(unittest.TestCase):
                            'status="typical" src="lab"/></process>')
             more = ("--lab", lab)
         out = self.here / name
-        result = run("recipe", DEVICE, "--flow", flow, "-o", out, *FAST, *more)
+        device = self.here / "device.xml"
+        device.write_text(device_for(flow))
+        result = run("recipe", device, "--flow", flow, "-o", out, *FAST, *more)
         if result.returncode == 3:
             return None
         self.assertIn(result.returncode, (0, 1), result.stderr)
@@ -102,6 +124,7 @@ class Inputs(unittest.TestCase):
 
     def check(self, flow, share):
         first = self.recipe(flow, "first")
+        self.assertIsNotNone(first, "the device as it is")
         self.agree(first)
         tried = refused = 0
         texts = {s.get("id"): tree.tostring(s).decode() for s in tree.parse(ROOT / f"processes/{flow}.xml").getroot().iter(SPACE + "step")}
@@ -123,7 +146,7 @@ class Inputs(unittest.TestCase):
                     moved = {k for k in keys if first.quantity[k] != now.quantity.get(k)}
                     written = {k for k in keys if first.table.get(k) != now.table.get(k)}
                     self.assertEqual(moved, written)
-                    if moved or first.json[step]["time_s"] != now.json[step]["time_s"]:
+                    if any(seen(first.quantity[k], now.quantity.get(k)) for k in moved) or seen(first.json[step]["time_s"], now.json[step]["time_s"]):
                         self.assertNotEqual(first.sheet[step], now.sheet[step], f"the sheet of {step} stays")
                     if first.json[step] == now.json[step] and "{" not in texts[step]:  # which no other file has
                         self.assertEqual(first.sheet[step], now.sheet[step], f"the sheet of {step} alone changes")

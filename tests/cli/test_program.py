@@ -139,6 +139,17 @@ class Plan(InTemporary):
         result = self.expect(run("check", GALLERY, "--set", "flexure[A]/@angle=330 deg", *QUIET), 4)
         self.assertIn("FW-D204", result.stderr)
 
+    def test_required_poses_stay_off_the_frame(self):
+        """an eyelet of the platform stands 70 um below the frame in the least pose of a box of +40 um, and meets it at +150 um"""
+        eyelet = ('<tendon id="T" pull="1 uN"><eyelet on="CD" y="0.4 mm"/><eyelet on="ground" x="4.05 mm" y="2.9 mm"/></tendon></scene>')
+        only = re.sub(r'\s*<(scene name="gentle-step".*?</scene>|(flow ref|workspace flow)="copper[^>]*>)', "", GALLERY_TEXT, flags=re.S)
+        for top, status in ((40, 0), (150, 1)):
+            text = (only.replace("</scene>", eyelet).replace('height="5 mm"', 'height="4.4 mm"')
+                        .replace('y-min="-60 um" y-max="60 um"', f'y-min="-20 um" y-max="{top} um"'))
+            said = self.expect(run("check", self.device(text), "--corners", "none", "--advice", "none"), status)
+            self.assertEqual("platform CD and frame, upper half meet in the required pose" in said.stdout, bool(status))
+            self.assertEqual("nearest: platform CD and frame, upper half" in said.stdout, not status)
+
     def test_loads_are_never_left_out(self):
         heavy = self.device(GALLERY_TEXT.replace('fx="0.25 mN"', 'fx="0.9 mN"'))
         for effects in ("auto", "all", "gravity,inertia"):
@@ -148,6 +159,18 @@ class Plan(InTemporary):
         for effects in ("none", "gravity"):
             checked = run("check", heavy, "--advice", "none", "--effects", effects)
             self.assertIn("FW-D254", self.expect(checked, 1).stderr)
+
+    def test_far_beyond(self):
+        """loads under which flexures tumble are rejected in seconds, and told by how much to lower"""
+        for force, ended in (("0.04 N", True), ("40 N", False)):
+            heavy = self.device(GALLERY_TEXT.replace('fx="0.25 mN"', f'fx="{force}"'))
+            said = run("check", heavy, "--corners", "none")
+            self.expect(said, 1)
+            self.assertEqual("FW-D205" in said.stderr, ended)
+            self.assertNotRegex(said.stdout, "every hinge stays|full circle")
+            self.assertRegex(said.stdout.splitlines()[1], "^rejected because: |^as drawn: hinge [A-F] uses [0-9]{3,}")
+            sets = proposals(said.stdout)[0]
+            self.expect(run("check", heavy, "--corners", "none", *[a for s in sets for a in ("--set", s)]), 0)
 
     def test_advice_of_many_kinds_is_followed(self):
         def lengths(factor, names="ABCDEF"):

@@ -81,6 +81,36 @@ static void mistakes_of_a_flow(void **state) {
          "step S07 would spin at"},
         {SILICON, "id=\"resist.d0\" value=\"1.40\"", "id=\"resist.d0\" value=\"9\"", 563,
          "step S07 would spin at"},
+        /* a liquid takes all directions alike; a base in silicon does not: below */
+        {SILICON, "where=\"field\" profile=\"isotropic\"", "where=\"field\" profile=\"anisotropic\" anisotropy=\"rie.A\"",
+         540, "step S14 etches 'aluminium' in 'h.pan'"},
+        /* the plate of one side on the other */
+        {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>",
+         "<align to=\"M1\" side=\"back\" overlay=\"litho.gap\"/><change kind=\"pattern\" material=\"resist\" where=\"field\"/>", 373,
+         "aligns a plate of the back"},
+        /* a clock that does not know how thick the layer is */
+        {SILICON,
+         "<time law=\"arrhenius\" overrun=\"al.overetch\" k=\"2\"><arg name=\"thickness\" q=\"al.d\"/><arg name=\"rate\" q=\"pan.R\"/>"
+         "<arg name=\"activation_energy\" q=\"pan.Ea\"/><arg name=\"reference_temperature\" q=\"pan.T-reference\"/>"
+         "<arg name=\"temperature\" q=\"pan.T\"/></time>",
+         "<time law=\"const\" overrun=\"0.1\" k=\"2\"><arg name=\"time\" q=\"strip.t\"/></time>", 541, "takes the time 'strip.t'"},
+        {COPPER, "<time law=\"rate\" overrun=\"0.2\" k=\"2\"><arg name=\"thickness\" q=\"seed.d\"/><arg name=\"rate\" q=\"seed.R\"/></time>",
+         "<time law=\"const\" overrun=\"0.1\" k=\"2\"><arg name=\"time\" q=\"strip.t\"/></time>", 541, "step C25"},
+        {SILICON, "<set name=\"pressure\" q=\"rie.p\" tol-lo=\"78\" tol-hi=\"82\"/>", "", 542, "step S18"},
+        /* frozen, boiling, and too warm for what it loses */
+        {SILICON, "id=\"pan.T\" unknown=\"true\"", "id=\"pan.T\" value=\"-22\" u=\"1\"", 543, "step S14 is done in 'h.pan'"},
+        {SILICON, "id=\"pan.T-reference\" value=\"22\"", "id=\"pan.T-reference\" value=\"220\"", 543, "220 Cel (pan.T-reference)"},
+        {SILICON, "name=\"bath temperature\" q=\"clean.T\" tol-lo=\"70\" tol-hi=\"80\"", "name=\"bath temperature\" q=\"peb.T\" tol-lo=\"\" tol-hi=\"\"",
+         543, "loses its ammonia"},
+        {SILICON, "id=\"pan.T-warm\" value=\"27\"", "id=\"pan.T-warm\" value=\"-27\"", 543, "-27 Cel (pan.T-warm)"},
+        {COPPER, "id=\"ps.T\" value=\"22\"", "id=\"ps.T\" value=\"-22\"", 543, "step C05 is done in 'h.hf-organic'"},
+        /* lengths that nobody computes a layer from */
+        {SILICON, "id=\"read.si.d\" value=\"0.15\"", "id=\"read.si.d\" value=\"-0.15\"", 278, "'read.si.d' is -0.15 um"},
+        {COPPER, "id=\"cu.layer\" value=\"116\"", "id=\"cu.layer\" value=\"-116\"", 278, "'cu.layer' is -116 um"},
+        /* of orientation, too */
+        {SILICON, "id=\"al.R-example\" value=\"40\" urel=\"0.1\" unit=\"nm/min\"",
+         "id=\"al.R-example\" value=\"400\" urel=\"0.1\" unit=\"um/min\"", 544, "a rate of 400 um/min (al.R-example)"},
+        {COPPER, "id=\"release.R\" unknown=\"true\"", "id=\"release.R\" value=\"400\" urel=\"0.1\"", 544, "step C26"},
         /* etched from below, through carrier and paste */
         {SILICON, "thickness=\"si.d\" where=\"field\" profile",
          "thickness=\"si.d\" side=\"back\" where=\"field\" profile", 564, "'thermal-paste' covers"},

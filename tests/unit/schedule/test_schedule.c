@@ -46,6 +46,12 @@ static void greedy_reference(void **state) {
                 assert_true(s.feasible);
                 assert_true(s.makespan_s <= want + 1e-6);
                 check_schedule(&s);
+                int next = 0; /* wafers come in as they are numbered, where no load behind holds them apart */
+                for (int k = 0; k < s.nrun; k++)
+                    if (flow && s.run[k].task == 0) {
+                        assert_int_equal(s.run[k].first, next);
+                        next += s.run[k].count;
+                    }
                 if (wafers[i] == 1) assert_true(s.optimal);
             }
 }
