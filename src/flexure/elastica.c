@@ -79,8 +79,9 @@ static void report(fw_flexure_elastica *e, const fw_flexure_newton *n, const fw_
     double value[6];
     for (int i = 0; i < 6; i++)
         value[i] = n->end.value[i];
-    for (int i = 0; i < 3; i++)
-        value[g->given[i]] = g->value[i];
+    for (int i = 0; i < 3; i++) /* of a place that is eased only a part is given */
+        if (!g->eased || (g->given[i] != FW_END_UX && g->given[i] != FW_END_UY))
+            value[g->given[i]] = g->value[i];
     for (int i = 0; i < 6; i++)
         e->last[i] = value[i];
     for (int i = 0; i < 3; i++) {
