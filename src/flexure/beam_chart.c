@@ -96,10 +96,21 @@ static void legendre(double th, double w, double v, const double g[3], const dou
     out->h[2][2] = -soft;
 }
 
+/* at rest errors are relative to nothing */
+static bool at_rest(fw_flexure_chart *x, point *out) {
+    static const double none[3] = {0};
+    fw_flexure_elastica_result r;
+    fw_flexure_elastica_of_twist(x->solver, none, solved_to, false, &r);
+    *out = (point){0};
+    legendre(0, 0, 0, none, r.stiffness, out);
+    return isfinite(out->h[0][0]) && isfinite(out->h[1][2]);
+}
+
 static bool solve_at(fw_flexure_chart *x, const double at[AXES], point *out) {
     double th = at[0], w = at[1], F = at[2], u[2], moment, pull, c = cos(0.5 * th), s = sin(0.5 * th);
     fw_flexure_hinge_bent near;
     fw_flexure_elastica_result r;
+    if (th == 0 && w == 0 && F == 0) return at_rest(x, out);
     if (!fw_flexure_hinge_law_held(x->law, &x->rest, th, F, w, u, &moment, &pull)) return false;
     fw_flexure_hinge_law_bend(x->law, &x->rest, (const double[3]){th, w, u[1]}, false, &near);
     double G = near.gradient[1], v = u[1];
