@@ -428,11 +428,12 @@ fw_status fw_dynamics_integrator_back(fw_dynamics_run *r, long steps, bool *chan
     r->control.integrator = &fw_maths_dop853_row;
     r->record.motion->integrator = r->control.integrator->name;
     r->control.patience = r->control.implicit_cost = r->control.chosen_cost = 0;
-    FW_NEED(r->record.motion->reason = fw_arena_printf(
-                r->problem.arena,
-                "auto: implicit steps pass over what is fast, but the tolerance needs %.0f of them, "
-                "each %s times as expensive as an explicit one, of which stability needs %.0f",
-                most, fw_number_text(times, sizeof times, paid / most, 2), explicit_));
+    FW_NEED(
+        r->record.motion->reason = fw_arena_printf(
+            r->problem.arena,
+            "auto: implicit steps pass over what is fast, but the tolerance needs %.0f of them, "
+            "each %s times as expensive as an explicit one, of which stability needs %.0f",
+            most, fw_number_text(times, sizeof times, paid / most, 2), explicit_));
     return FW_OK;
 }
 

@@ -345,8 +345,9 @@ void fw_effects_hinge_sources_at(void *data, const double *q, const double *load
 /* The levels at which hinges can be taken, and the way from one to the next. Theory:
    docs/theory/hinge-models.md. */
 
-/* measured like the rows' costs: a solution of the beam, for force or tangent */
-static const double exact_cost = 21000;
+/* measured like the rows' costs: a force from the lattice, as motions have it; a solution of the beam
+   itself takes 21000 */
+static const double exact_cost = 3000;
 
 static const struct {
     const char *name, *summary;
@@ -470,7 +471,7 @@ fw_status fw_effects_hinge_settle(const fw_effect_case *c, const fw_effect_choic
         FW_TRY(why_climbed(c, choice, &ledger->hinge.why));
     FW_TRY(report_pins(c, &ledger->hinge.why));
     if (ledger->hinge.used != FW_HINGE_ELASTICA) return FW_OK;
-    ledger->hinge.error = fw_effects_exact_tolerance;
+    ledger->hinge.error = fw_effects_exact_error;
     if (entry) entry->cost = exact_cost * could(c);
     return fw_effects_hinges_exact(c->arena, c->mechanism, loads);
 }

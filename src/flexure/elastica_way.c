@@ -456,9 +456,9 @@ void fw_flexure_elastica_along(fw_flexure_elastica *e, int n, const double *part
         for (; i < n && (last || part[i] < before + el->h); i++) {
             double phi, moment, z = fmin(fmax((part[i] - before) / el->h, 0), 1);
             on_curve(&e->rule, &c, z, &phi, &moment);
-            double psi = e->pose[el->piece].psi_rad + phi + /* as made: a line or an arc */
-                         e->beam->piece[el->piece].curvature_per_m * e->length_m *
-                             (el->from + z * el->h);
+            double psi =
+                e->pose[el->piece].psi_rad + phi + /* as made: a line or an arc */
+                e->beam->piece[el->piece].curvature_per_m * e->length_m * (el->from + z * el->h);
             moment_Nm[i] = moment / e->soft;
             axial_N[i] = fx * cos(psi) + fy * sin(psi);
         }
