@@ -87,7 +87,7 @@ bool fw_effects_exact_is_known(const fw_mechanism_hinge *hinge);
 fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *hinge,
                                fw_effects_exact **out);
 extern const fw_effects_element_class fw_effects_exact_class;
-extern const double fw_effects_exact_error; /* relative, of its forces while a motion is followed */
+extern const double fw_effects_exact_tolerance; /* relative, of its forces */
 
 /* How a choice of level enters the decision on effects (hinge_source.c). */
 

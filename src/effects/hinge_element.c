@@ -289,8 +289,7 @@ const fw_effects_element_class fw_effects_flexed_class = {.effect = "nonlinear-h
    a lattice of solutions answers. Cost 6 us per pose, 0.4 us then. Source:
    docs/theory/hinge-models.md. Test: test_hinge_exact.c, test_hinge_models.c. */
 
-const double fw_effects_exact_error = 1e-6;
-static const double exact_tolerance = 1e-8;
+const double fw_effects_exact_tolerance = 1e-8, fw_effects_followed_error = 1e-6;
 /* where rounding leaves more than the tolerance, as in a beam that is hardly bent or a leaf that is
    stiff along its chord: of the wrench that deflects it by a thousandth of itself */
 static const double rough = 1e-6, deflected = 1e-3;
@@ -333,7 +332,7 @@ fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *h,
     fw_flexure_elastica_result r;
     FW_TRY(fw_flexure_elastica_new(arena, &x->beam, pin, false, &x->solver));
     x->length_m = fw_flexure_elastica_linear(x->solver)->length_m;
-    fw_flexure_elastica_of_twist(x->solver, none, exact_tolerance, false, &r);
+    fw_flexure_elastica_of_twist(x->solver, none, fw_effects_exact_tolerance, false, &r);
     take_stiffness(&r, x->rest);
     *out = x;
     return FW_OK;
@@ -420,7 +419,7 @@ static bool solve(const fw_effects_flexed *h, const double twist[3], bool tangen
     fw_flexure_hinge_law_wrench(&h->law, &h->rest, twist, near, NULL);
     const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
                                            {twist[0], twist[1], twist[2]}};
-    fw_flexure_elastica_near(x->solver, &task, twist, near, exact_tolerance, &r);
+    fw_flexure_elastica_near(x->solver, &task, twist, near, fw_effects_exact_tolerance, &r);
     x->held = good(&r, x->length_m);
     memcpy(x->wrench, r.wrench, sizeof x->wrench);
     take_stiffness(&r, x->k);

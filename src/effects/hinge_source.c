@@ -471,7 +471,7 @@ fw_status fw_effects_hinge_settle(const fw_effect_case *c, const fw_effect_choic
         FW_TRY(why_climbed(c, choice, &ledger->hinge.why));
     FW_TRY(report_pins(c, &ledger->hinge.why));
     if (ledger->hinge.used != FW_HINGE_ELASTICA) return FW_OK;
-    ledger->hinge.error = fw_effects_exact_error;
+    ledger->hinge.error = fw_effects_exact_tolerance;
     if (entry) entry->cost = exact_cost * could(c);
     return fw_effects_hinges_exact(c->arena, c->mechanism, loads);
 }
