@@ -13,7 +13,7 @@
    continuous, and it is a potential, so that it conserves what the beam conserves. F follows from v
    by Newton's method on -dP/dF = v.
    In: rad, m; out: as fw_flexure_hinge_law_bend. The lattice is the beam's alone, so that the force
-   is a function of the pose, to the last bit. Valid: where the beam has solutions at all corners of
+   is a function of the pose, to the last bit, until so many corners are made that new ones are refused. Valid: where the beam has solutions at all corners of
    the cell; a cell whose forces off its middle are farther than 1e-6 from the beam's own is not used.
    Error: 1e-7 of the forces as a rule, 5e-6 at most. Cost 0.3 us where the cell is there, 0.1 ms a new
    corner (seven solutions). Source:
@@ -26,16 +26,15 @@
 #include <string.h>
 
 enum { AXES = 3, ORDERS = 3, BASIS = 2 * ORDERS, NODE = 27, CELL = BASIS * BASIS * BASIS };
-/* kept cells and corners: a box of that many is free of collisions */
-enum {
-    CELLS_TURN = 8,
-    CELLS_ALONG = 4,
-    CELLS_FORCE = 4,
-    CELLS = CELLS_TURN * CELLS_ALONG * CELLS_FORCE
-};
-enum { NODES = 2 * CELLS_TURN * CELLS_ALONG * CELLS_FORCE };
-/* steps of the lattice: rad, lengths, EI/L^2 */
-static const double step_of[AXES] = {0.08, 0.025, 1};
+/* kept cells and corners, by a rank-1 lattice of their places: long tubes and small boxes are free of
+   collisions */
+enum { CELLS = 256, NODES = 1024 };
+/* corners that may be made before, and for each of so many, questions are counted: where a motion
+   goes to other places all the time the beam itself is cheaper */
+enum { FREE_NODES = 400, QUESTIONS = 20 };
+/* Steps of the lattice: rad, lengths, and of t in F = widen EI/L^2 sinh t: even where a strip is
+   pressed or hardly pulled, in proportion to F where it is pulled hard */
+static const double step_of[AXES] = {0.08, 0.025, 0.05}, widen = 20;
 /* what a point beside a corner is away, in steps: differences of tangents */
 static const double beside = 0.04;
 /* of a corner's solution, and what a cell may be off, of the forces: the first one less */
@@ -60,7 +59,9 @@ struct fw_flexure_chart {
     const fw_flexure_hinge_law *law;
     fw_flexure_hinge_rest rest;
     fw_flexure_elastica *solver;
-    double step[AXES]; /* rad, m, N */
+    double step[AXES]; /* rad, m, of t */
+    double force_N;    /* F = force_N sinh t */
+    long asked, made;  /* questions, corners */
     int last;          /* cell along F where the last answer was */
     cell cell[CELLS];
     node node[NODES];
@@ -102,6 +103,15 @@ static void legendre(double th, double w, double v, const double g[3], const dou
     out->h[2][2] = -soft;
 }
 
+/* derivatives by F become those by t */
+static void by_stretched(const fw_flexure_chart *x, double t, point *p) {
+    double one = x->force_N * cosh(t), two = x->force_N * sinh(t);
+    p->h[2][2] = p->h[2][2] * one * one + p->g[2] * two;
+    for (int i = 0; i < 2; i++)
+        p->h[i][2] = p->h[2][i] = p->h[i][2] * one;
+    p->g[2] *= one;
+}
+
 /* at rest errors are relative to nothing */
 static bool at_rest(fw_flexure_chart *x, point *out) {
     static const double none[3] = {0};
@@ -109,12 +119,13 @@ static bool at_rest(fw_flexure_chart *x, point *out) {
     fw_flexure_elastica_of_twist(x->solver, none, solved_to, false, &r);
     *out = (point){0};
     legendre(0, 0, 0, none, r.stiffness, out);
+    by_stretched(x, 0, out);
     return isfinite(out->h[0][0]) && isfinite(out->h[1][2]);
 }
 
 static bool solve_at(fw_flexure_chart *x, const double at[AXES], point *out) {
-    double th = at[0], w = at[1], F = at[2], u[2], moment, pull, c = cos(0.5 * th),
-           s = sin(0.5 * th);
+    double th = at[0], w = at[1], F = x->force_N * sinh(at[2]), u[2], moment, pull;
+    double c = cos(0.5 * th), s = sin(0.5 * th);
     fw_flexure_hinge_bent near;
     fw_flexure_elastica_result r;
     if (th == 0 && w == 0 && F == 0) return at_rest(x, out);
@@ -131,6 +142,7 @@ static bool solve_at(fw_flexure_chart *x, const double at[AXES], point *out) {
     out->value = fw_flexure_elastica_energy_J(x->solver) - F * v;
     out->g[0] = g[0], out->g[1] = G, out->g[2] = -v;
     legendre(th, w, v, g, r.stiffness, out);
+    by_stretched(x, at[2], out);
     return isfinite(out->value) && isfinite(out->h[0][0]) && isfinite(out->h[1][2]);
 }
 
@@ -171,6 +183,7 @@ static void make_node(fw_flexure_chart *x, node *n) {
     for (int a = 0; a < AXES; a++)
         at[a] = n->at[a] * x->step[a];
     n->made = true;
+    x->made++;
     n->sound = solve_at(x, at, &p);
     if (!n->sound) return;
     n->d[0] = p.value;
@@ -195,11 +208,12 @@ static void make_node(fw_flexure_chart *x, node *n) {
                     pow(x->step[0], i) * pow(x->step[1], j) * pow(x->step[2], k);
 }
 
+static inline int slot_in(int size, const int at[AXES]) {
+    return (at[0] + 11 * at[2] + 101 * at[1]) & (size - 1);
+}
+
 static const node *node_at(fw_flexure_chart *x, const int at[AXES]) {
-    int slot =
-        (at[0] & (2 * CELLS_TURN - 1)) +
-        2 * CELLS_TURN * ((at[1] & (CELLS_ALONG - 1)) + CELLS_ALONG * (at[2] & (CELLS_FORCE - 1)));
-    node *n = &x->node[slot];
+    node *n = &x->node[slot_in(NODES, at)];
     if (n->made && memcmp(n->at, at, sizeof n->at) == 0) return n;
     memcpy(n->at, at, sizeof n->at);
     make_node(x, n);
@@ -298,9 +312,7 @@ static void make_cell(fw_flexure_chart *x, cell *c, double most) {
 }
 
 static cell *slot_of(fw_flexure_chart *x, const int at[AXES]) {
-    return &x->cell[(at[0] & (CELLS_TURN - 1)) +
-                    CELLS_TURN *
-                        ((at[1] & (CELLS_ALONG - 1)) + CELLS_ALONG * (at[2] & (CELLS_FORCE - 1)))];
+    return &x->cell[slot_in(CELLS, at)];
 }
 
 static bool is_at(const cell *c, const int at[AXES]) {
@@ -310,6 +322,7 @@ static bool is_at(const cell *c, const int at[AXES]) {
 static const cell *cell_at(fw_flexure_chart *x, const int at[AXES]) {
     cell *c = slot_of(x, at);
     if (is_at(c, at)) return c;
+    if (x->made > FREE_NODES + x->asked / QUESTIONS) return NULL;
     memcpy(c->at, at, sizeof c->at);
     make_cell(x, c, allowed);
     return c;
@@ -318,11 +331,13 @@ static const cell *cell_at(fw_flexure_chart *x, const int at[AXES]) {
 /* ---- the law ---- */
 
 /* -dP/dF = v in steps of the cell, from its middle: the same bits whichever cell was looked at first */
-static double force_in(const rows *r, double v, double step) {
+static double force_in(const fw_flexure_chart *x, const rows *r, int k, double v) {
     double b[BASIS], d[BASIS], dd[BASIS], t = 0.5;
     for (int i = 0; i < 30; i++) {
         hermite(t, b, d, dd);
-        double off = v * step + dot(r->p, d), slope = dot(r->p, dd);
+        double step = x->step[2], F = x->force_N * sinh((k + t) * step);
+        double one = sqrt(F * F + x->force_N * x->force_N) * step; /* dF/dt of the cell */
+        double off = v * one + dot(r->p, d), slope = v * F * step * step + dot(r->p, dd);
         double to = slope < 0 ? t - off / slope : (double)NAN;
         if (!(to > -1 && to < 2)) return to; /* another cell, or none */
         if (fabs(to - t) < 1e-15) return to;
@@ -336,7 +351,7 @@ static int first_cell(fw_flexure_chart *x, int at[AXES], const double state[3]) 
     if (is_at(slot_of(x, at), at)) return at[2];
     fw_flexure_hinge_bent near;
     fw_flexure_hinge_law_bend(x->law, &x->rest, state, false, &near);
-    double k = floor(near.pull_N / x->step[2]);
+    double k = floor(asinh(near.pull_N / x->force_N) / x->step[2]);
     return fabs(k) < 1e6 ? (int)k : 0;
 }
 
@@ -346,6 +361,7 @@ bool fw_flexure_chart_bend(fw_flexure_chart *x, const double state[3], bool hess
     double place[2], t = (double)NAN, b[BASIS], d[BASIS], dd[BASIS];
     int at[AXES];
     rows r;
+    x->asked++;
     for (int a = 0; a < 2; a++) {
         double scaled = state[a] / x->step[a];
         if (!(fabs(scaled) < 1e6)) return false;
@@ -355,9 +371,9 @@ bool fw_flexure_chart_bend(fw_flexure_chart *x, const double state[3], bool hess
     at[2] = first_cell(x, at, state);
     for (int i = 0; i < TRIES; i++) {
         const cell *c = cell_at(x, at);
-        if (!c->sound) return false;
+        if (!c || !c->sound) return false;
         contract(c, place[0], place[1], hessian, &r);
-        t = force_in(&r, state[2], x->step[2]);
+        t = force_in(x, &r, at[2], state[2]);
         if (t >= 0 && t < 1) break;
         if (isnan(t)) return false;
         at[2] += (int)fmax(-8, fmin(8, floor(t)));
@@ -365,15 +381,16 @@ bool fw_flexure_chart_bend(fw_flexure_chart *x, const double state[3], bool hess
     if (!(t >= 0 && t < 1)) return false;
     x->last = at[2];
     hermite(t, b, d, dd);
-    double F = (at[2] + t) * x->step[2];
+    double F = x->force_N * sinh((at[2] + t) * x->step[2]);
     out->pull_N = out->gradient[2] = F;
     out->energy_J = dot(r.p, b) + F * state[2];
     out->gradient[0] = dot(r.by_th, b) / x->step[0];
     out->gradient[1] = dot(r.by_w, b) / x->step[1];
     out->holds = true;
     if (!hessian) return true;
-    double s0 = x->step[0], s1 = x->step[1], s2 = x->step[2];
-    double stiff = -s2 * s2 / dot(r.p, dd);
+    double s0 = x->step[0], s1 = x->step[1];
+    double s2 = x->step[2] * sqrt(F * F + x->force_N * x->force_N); /* dF/dt of the cell */
+    double stiff = -s2 * s2 / (dot(r.p, dd) + state[2] * F * x->step[2] * x->step[2]);
     const double with_F[2] = {dot(r.by_th, d) / (s0 * s2), dot(r.by_w, d) / (s1 * s2)};
     const double own[2][2] = {{dot(r.th_th, b) / (s0 * s0), dot(r.th_w, b) / (s0 * s1)},
                               {dot(r.th_w, b) / (s0 * s1), dot(r.w_w, b) / (s1 * s1)}};
@@ -395,8 +412,9 @@ fw_status fw_flexure_chart_new(fw_arena *arena, const fw_flexure_hinge_law *law,
     x->solver = solver;
     double L = law->length_m;
     x->step[0] = step_of[0], x->step[1] = step_of[1] * L;
-    x->step[2] = step_of[2] * L / (8 * law->bend_m_per_N); /* EI/L^2 = L/(8 bend) */
-    for (int i = 0; i < HALVINGS; i++) {                   /* until the cell beside rest is good */
+    x->step[2] = step_of[2];
+    x->force_N = widen * L / (8 * law->bend_m_per_N); /* EI/L^2 = L/(8 bend) */
+    for (int i = 0; i < HALVINGS; i++) {              /* until the cell beside rest is good */
         make_cell(x, &x->cell[0], first_allowed);
         if (x->cell[0].sound) break;
         for (int a = 0; a < AXES; a++)

@@ -92,6 +92,8 @@ static void forces_are_the_beam_s(void **state) {
             double at[3], twist[3], near[3], wrench[3], tangent[3][3];
             fw_flexure_elastica_result r;
             fw_flexure_hinge_bent b;
+            if (n % 6 == 0) /* places all over: each lattice has room for some */
+                assert_int_equal(fw_flexure_chart_new(s.arena, &s.law, s.own, &s.chart), FW_OK);
             if (!place(&s, &seed, at)) continue;
             twist_of(at, twist);
             fw_flexure_hinge_law_wrench(&s.law, &s.rest, twist, near, NULL);
@@ -225,11 +227,32 @@ static void not_beyond_buckling(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* where every question is about another place there is an end of corners, and the beam is asked: what
+   was found before stays */
+static void an_end_of_corners(void **state) {
+    (void)state;
+    unsigned seed = 5;
+    int late = 0;
+    strip s;
+    double first[3] = {0.01, 0, 0}, at[3];
+    fw_flexure_hinge_bent b, again;
+    shape_new(&s, 3);
+    assert_true(fw_flexure_chart_bend(s.chart, first, false, &b));
+    for (int n = 0; n < 300; n++)
+        if (place(&s, &seed, at) && fw_flexure_chart_bend(s.chart, at, false, &again) && n >= 200) late++;
+    assert_true(late < 50);
+    for (int n = 0; n < 200000; n++) /* who asks often is answered */
+        (void)fw_flexure_chart_bend(s.chart, first, false, &again);
+    assert_true(fw_flexure_chart_bend(s.chart, first, false, &again));
+    assert_memory_equal(again.gradient, b.gradient, sizeof b.gradient);
+    fw_arena_free(s.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forces_are_the_beam_s), cmocka_unit_test(one_potential),
         cmocka_unit_test(no_steps_at_faces),     cmocka_unit_test(the_place_alone),
-        cmocka_unit_test(not_beyond_buckling),
+        cmocka_unit_test(not_beyond_buckling),   cmocka_unit_test(an_end_of_corners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
