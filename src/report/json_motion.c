@@ -305,7 +305,7 @@ static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_stat
     fw_json_real(json, "damping_ratio", m->damping_ratio);
     fw_json_real(json, "stiffness_per_s2", m->stiffness_per_s2);
     fw_json_real(json, "modal_mass_kg_m2", m->modal_mass_kg_m2);
-    fw_json_real(json, "frequency_error", fw_statics_mode_error(modes, m));
+    fw_json_real(json, "frequency_error", fw_statics_mode_error(m));
     fw_json_text(json, "bodies", m->bodies);
     fw_report_json_velocities(json, "shape", mechanism, modes->q, m->shape);
     complex_shape(json, mechanism, modes->q, m->damped);

@@ -182,12 +182,14 @@ typedef struct fw_statics_mode {
                                       real ones, the larger first */
     double damping_ratio;          /* -re / |eigenvalue|; NaN for free and unstable motions */
     double modal_mass_kg_m2;       /* of the undamped shape as normalised below */
-    double stiffness_error;        /* relative: what flexures may be off, by their part of it */
-    double *shape;                 /* (3 nbody) undamped, m and rad per unit; the largest of
+    /* relative: what flexures may be off, by their part of it; what the next model of the hinges
+       changes of the frequency, NaN: not known */
+    double stiffness_error, model_error;
+    double *shape;    /* (3 nbody) undamped, m and rad per unit; the largest of
                                       |rotation| and |displacement| / unit_length_m is 1 */
-    double *damped;                /* (6 nbody) shape of eigenvalue_per_s[0]: real, then imaginary
+    double *damped;   /* (6 nbody) shape of eigenvalue_per_s[0]: real, then imaginary
                                       parts, normalised likewise and with the largest entry real */
-    const char *body;              /* moves most; `bodies`: all that take part */
+    const char *body; /* moves most; `bodies`: all that take part */
     const char *bodies;
     double *frame; /* (FW_MODE_FRAMES x 3 nbody) m, rad: one period at a visible amplitude, joints
                       closed; NULL beyond `drawn` */
@@ -212,7 +214,7 @@ typedef struct fw_statics_modes {
 } fw_statics_modes;
 
 /* of one frequency, as frequency_error */
-double fw_statics_mode_error(const fw_statics_modes *modes, const fw_statics_mode *mode);
+double fw_statics_mode_error(const fw_statics_mode *mode);
 /* FW_SOLVER: no equilibrium (FW-D111), or the eigenvalues were not found */
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene,

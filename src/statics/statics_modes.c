@@ -450,21 +450,24 @@ static double mode_error(const fw_mechanism *m, const fw_statics_modes *found,
     return off > 0 ? off / fmax(whole, 0.1 * all) : 0;
 }
 
-double fw_statics_mode_error(const fw_statics_modes *modes, const fw_statics_mode *mode) {
-    return modes->frequency_error + 0.5 * (mode->stiffness_error - modes->stiffness_error);
+double fw_statics_mode_error(const fw_statics_mode *mode) {
+    return mode->model_error + 0.5 * mode->stiffness_error;
 }
 
-static void set_errors(const fw_mechanism *m, fw_statics_modes *modes) {
+/* each: what the next level changes; NULL: not compared by mode */
+static void set_errors(const fw_mechanism *m, const double *each, fw_statics_modes *modes) {
+    const double level = m->nhinge > 0 ? modes->ledger.hinge.error : 0;
     double first = 0;
     modes->stiffness_error = 0;
     for (int k = modes->count - 1; k >= 0; k--) {
         modes->mode[k].stiffness_error = mode_error(m, modes, &modes->mode[k]);
+        modes->mode[k].model_error = each && m->nhinge > 0 ? each[k] * (1 + each[k]) : level;
         if (modes->mode[k].kind == FW_MODE_OSCILLATION) first = modes->mode[k].stiffness_error;
     }
     for (int k = 0; k < m->nhinge; k++) /* any of the slow ones may live in one alone */
         if (!m->hinge[k].stated) first = fmax(first, m->hinge[k].closed_form.error.stiffness);
     modes->stiffness_error = first;
-    modes->frequency_error = 0.5 * first + (m->nhinge > 0 ? modes->ledger.hinge.error : 0);
+    modes->frequency_error = 0.5 * first + level;
 }
 
 static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
@@ -489,11 +492,12 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
     for (;;) {
         fw_statics_equilibrium w;
         double relative;
+        const double *each = NULL;
         const fw_statics_modes *found;
         fw_diags own = fw_diags_new(arena);
         fw_status status =
             modes_at(arena, mechanism, scene, options, &choice, tried ? &own : diags, &w, &found);
-        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &relative);
+        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &relative, &each);
         bool pins_do = status == FW_OK && relative < stated;
         if (tried && !pins_do && (status == FW_OK || status == FW_SOLVER || status == FW_INPUT)) {
             choice = options->effects, tried = false; /* as if they had not been tried */
@@ -510,7 +514,7 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
         *to = *found;
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
-        set_errors(w.mechanism, to);
+        set_errors(w.mechanism, each, to);
         *modes = to;
         return FW_OK;
     }
