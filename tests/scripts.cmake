@@ -97,6 +97,7 @@ fw_script_test(clearance.between COMMAND ${Python3_EXECUTABLE} tests/clearance/b
                $<TARGET_FILE:clearance_outlines>)
 fw_script_test(clearance.cases COMMAND ${Python3_EXECUTABLE} tests/clearance/cases.py ${FW_PROGRAM})
 fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples.py ${FW_PROGRAM})
+fw_script_test(judge.frequencies COMMAND ${Python3_EXECUTABLE} tests/judge/frequencies.py ${FW_PROGRAM} $<TARGET_FILE:judge>)
 fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
 fw_script_test(release.distances COMMAND tests/release/distances.py ${FW_PROGRAM} 1 8 TIMEOUT 900)
 set_tests_properties(release.distances PROPERTIES SKIP_RETURN_CODE 77)

@@ -486,7 +486,12 @@ fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mec
     FW_TRY(fw_dynamics_run_prepare(&r, loads));
     FW_TRY(fw_dynamics_integrator_choose(&r, loads, options->integrator));
     if (options->late_rows) FW_TRY(fw_dynamics_record_late(&r.record));
-    FW_TRY(solve(&r));
+    FW_TRY(fw_effects_hinges_follow(arena, loads));
+    if (result->ledger.hinge.used == FW_HINGE_ELASTICA)
+        result->ledger.hinge.error = fw_effects_followed_error;
+    fw_status status = solve(&r);
+    FW_TRY(fw_effects_hinges_follow(NULL, loads));
+    FW_TRY(status);
     FW_TRY(report_method(&r.record));
     fw_dynamics_motion_widen(result);
     *motion = result;

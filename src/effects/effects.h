@@ -371,6 +371,11 @@ fw_status fw_effects_hinges_up(fw_arena *arena, const fw_mechanism *mechanism,
                                fw_effects_hinge_model used, fw_effects_loads *up,
                                fw_effects_hinge_model *next);
 
+/* Before a motion: exact beams answer from lattices of their solutions (flexure/finite.h), taken from
+   the arena; NULL, after it: each by itself again */
+fw_status fw_effects_hinges_follow(fw_arena *arena, const fw_effects_loads *loads);
+extern const double fw_effects_followed_error; /* relative, of their forces then */
+
 /* the ledger of equilibria: neither inertia nor what acts on velocities has a part in them */
 void fw_effects_in_equilibrium(fw_effect_ledger *ledger);
 /* a copy in the arena that the arrays are in; NULL: out of memory */

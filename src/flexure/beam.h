@@ -151,9 +151,13 @@ void fw_flexure_elastica_of_twist(fw_flexure_elastica *e, const double twist[3],
 void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
                               const double twist[3], const double wrench[3], double tolerance,
                               fw_flexure_elastica_result *out);
+/* From the last solution on its own mesh, for the state inside alone: of the same ends, values near
+   those. Error that of the last that said it; false: ask afresh. A third of the cost. */
+bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
+                               double tolerance);
 /* Where other flexures hold the bodies: given are the rotation, the displacement along a direction
    (unit vector) and the force across it; twist and wrench have these, and the rest of another law.
-   Only near that; section forces are those of the state, the result's twist across is not. */
+   Only near that. */
 void fw_flexure_elastica_held(fw_flexure_elastica *e, const double twist[3], const double wrench[3],
                               const double along[2], double tolerance,
                               fw_flexure_elastica_result *out);

@@ -5,6 +5,7 @@
 #include "maths/dense.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* ---- the result ---- */
 
@@ -79,8 +80,9 @@ static void report(fw_flexure_elastica *e, const fw_flexure_newton *n, const fw_
     double value[6];
     for (int i = 0; i < 6; i++)
         value[i] = n->end.value[i];
-    for (int i = 0; i < 3; i++)
-        value[g->given[i]] = g->value[i];
+    for (int i = 0; i < 3; i++) /* of a place that is eased only a part is given */
+        if (!g->eased || (g->given[i] != FW_END_UX && g->given[i] != FW_END_UY))
+            value[g->given[i]] = g->value[i];
     for (int i = 0; i < 6; i++)
         e->last[i] = value[i];
     for (int i = 0; i < 3; i++) {
@@ -91,6 +93,7 @@ static void report(fw_flexure_elastica *e, const fw_flexure_newton *n, const fw_
         for (int j = 0; j < 3; j++)
             out->stiffness[i][j] = k[i][j] * unit(e, 3 + i) / unit(e, j);
     }
+    e->judged[0] = fabs(value[0]), e->judged[1] = hypot(value[4], value[5]);
     out->start_Nm = e->hinged ? 0 : e->p[0] * unit(e, 3);
     out->start_rad = e->hinged ? e->p[0] : 0;
     out->error = err->whole;
@@ -257,6 +260,26 @@ void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_
     double guess[6];
     without_units(e, twist, wrench, guess);
     find(e, task, tolerance, false, guess, NULL, out);
+}
+
+/* of the last solution whose error is known: for half as much again the mesh is as good */
+static const double more = 1.5, more_turn = 0.02, more_force = 1;
+
+bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
+                               double tolerance) {
+    fw_flexure_goal g = {.eased = false};
+    fw_flexure_newton n = {
+        .tolerance = 0.1 * tolerance, .last = 1e-3, .contract = 0.4, .sign = e->sign};
+    if (e->solved < 0 || !sensible(task, &g, e)) return false;
+    for (int i = 0; i < 3; i++)
+        if (e->kind[i] != g.given[i]) return false;
+    if (!fw_flexure_newton_run(e, e->solved, &g, &n)) {
+        e->solved = -1;
+        return false;
+    }
+    memcpy(e->last, n.end.value, sizeof e->last);
+    return fabs(e->last[0]) <= more * e->judged[0] + more_turn &&
+           hypot(e->last[4], e->last[5]) <= more * e->judged[1] + more_force;
 }
 
 void fw_flexure_elastica_held(fw_flexure_elastica *e, const double twist[3], const double wrench[3],

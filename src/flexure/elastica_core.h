@@ -71,6 +71,7 @@ struct fw_flexure_elastica {
     double p[FW_UNKNOWN], kept[FW_UNKNOWN]; /* moment (hinged: rotation) at the start, Fx, Fy */
     int solved;                             /* level of the last solution, -1: none */
     double last[6];                         /* its twist and wrench */
+    double judged[2]; /* rotation and force of the last one whose error was looked at */
     double sign;                            /* of its determinant over `unloaded` */
     fw_flexure_elastica_end kind[3];        /* for which `unloaded` was worked out */
     double unloaded;                        /* determinant of the unloaded beam; 0: none is held */

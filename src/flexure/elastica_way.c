@@ -385,14 +385,15 @@ void fw_flexure_elastica_at(fw_flexure_elastica *e, double s_m, fw_flexure_elast
     describe(e, el, part, &at, out);
 }
 
-/* at the nodes of an element of the solution, by the collocation polynomial */
+/* at the nodes of an element of the solution, by the collocation polynomial; and its slope there */
 static void moment_at_nodes(const fw_flexure_elastica *e, const fw_flexure_element *el,
-                            double start, fw_nodes *out) {
+                            double start, fw_nodes *out, double slope[FW_NODES]) {
     fw_nodes moment = (fw_nodes){0} + start;
     for (int j = 0; j < FW_NODES; j++) {
         double psi = el->psi[j] + el->phi[j], c = cos(psi), s = sin(psi);
         double N = e->p[1] * c + e->p[2] * s, V = e->p[2] * c - e->p[1] * s;
-        moment -= el->h * (1 + (el->axial[j] - el->shear[j]) * N) * V * e->rule.column[j];
+        slope[j] = -(1 + (el->axial[j] - el->shear[j]) * N) * V;
+        moment += el->h * slope[j] * e->rule.column[j];
     }
     *out = moment;
 }
@@ -403,16 +404,21 @@ typedef struct curve { /* rotation and moment over one element */
     double phi[PLACES], moment[PLACES];
 } curve;
 
-/* *carried goes from the start of the element to its end */
-static curve curve_of(fw_flexure_elastica *e, int n, fw_flexure_carried *carried) {
-    const fw_flexure_element *el = &e->mesh[e->solved].element[n];
-    curve c = {.phi = {carried->value[PHI]}, .moment = {carried->value[MOMENT]}};
-    fw_nodes moment;
-    moment_at_nodes(e, el, carried->value[MOMENT], &moment);
-    for (int i = 0; i < FW_NODES; i++)
-        c.phi[1 + i] = el->phi[i], c.moment[1 + i] = moment[i];
-    fw_flexure_solved_pass(e, n, carried);
-    c.phi[PLACES - 1] = carried->value[PHI], c.moment[PLACES - 1] = carried->value[MOMENT];
+/* *phi and *moment go from the start of the element to its end: the rotations are those of the
+   solution, moments follow from them */
+static curve curve_of(const fw_flexure_elastica *e, int n, double *phi, double *moment) {
+    const fw_flexure_mesh *mesh = &e->mesh[e->solved];
+    const fw_flexure_element *el = &mesh->element[n];
+    curve c = {.phi = {*phi}, .moment = {*moment}};
+    double slope[FW_NODES];
+    fw_nodes at;
+    moment_at_nodes(e, el, *moment, &at, slope);
+    for (int i = 0; i < FW_NODES; i++) {
+        c.phi[1 + i] = el->phi[i], c.moment[1 + i] = at[i];
+        *moment += el->once_end[i] * slope[i];
+    }
+    *phi = n + 1 < mesh->count ? el[1].start : mesh->end;
+    c.phi[PLACES - 1] = *phi, c.moment[PLACES - 1] = *moment;
     return c;
 }
 
@@ -442,19 +448,17 @@ void fw_flexure_elastica_along(fw_flexure_elastica *e, int n, const double *part
     const fw_flexure_mesh *mesh = e->solved < 0 ? NULL : &e->mesh[e->solved];
     double before = 0, fx = e->p[1] / (e->soft * e->length_m),
            fy = e->p[2] / (e->soft * e->length_m);
-    fw_flexure_carried at;
-    if (mesh) fw_flexure_elastica_begin(e, &at);
+    double turned = e->hinged ? e->p[0] : e->root[0] * e->p[0], bent = e->hinged ? 0 : e->p[0];
     for (int i = 0, k = 0; mesh && k < mesh->count; before += mesh->element[k++].h) {
         const fw_flexure_element *el = &mesh->element[k];
         bool last = k == mesh->count - 1;
-        const curve c = curve_of(e, k, &at);
+        const curve c = curve_of(e, k, &turned, &bent);
         for (; i < n && (last || part[i] < before + el->h); i++) {
-            fw_flexure_beam_section made;
             double phi, moment, z = fmin(fmax((part[i] - before) / el->h, 0), 1);
             on_curve(&e->rule, &c, z, &phi, &moment);
-            fw_flexure_beam_at(e->beam, el->piece, &e->pose[el->piece],
-                               e->length_m * (el->from + z * el->h), &made);
-            double psi = made.pose.psi_rad + phi;
+            double psi =
+                e->pose[el->piece].psi_rad + phi + /* as made: a line or an arc */
+                e->beam->piece[el->piece].curvature_per_m * e->length_m * (el->from + z * el->h);
             moment_Nm[i] = moment / e->soft;
             axial_N[i] = fx * cos(psi) + fy * sin(psi);
         }
@@ -465,8 +469,9 @@ void fw_flexure_elastica_along(fw_flexure_elastica *e, int n, const double *part
 static void at_places(const fw_flexure_elastica *e, const fw_flexure_element *el,
                       const fw_flexure_carried *start, fw_flexure_elastica_state *out) {
     enum { LAST = FW_NODES + 1 };
+    double slope[FW_NODES];
     fw_nodes moment;
-    moment_at_nodes(e, el, start->value[MOMENT], &moment);
+    moment_at_nodes(e, el, start->value[MOMENT], &moment, slope);
     for (int i = 0; i < FW_NODES; i++) {
         const fw_flexure_carried at = {.value = {el->phi[i], moment[i], 0, 0}};
         describe(e, el, e->rule.node[i], &at, &out[1 + i]);
@@ -538,8 +543,9 @@ double fw_flexure_elastica_energy_J(fw_flexure_elastica *e) {
     double sum = e->hinged ? 0 : e->root[0] * at.value[MOMENT] * at.value[MOMENT];
     for (int n = 0; n < mesh->count; n++) {
         fw_flexure_element *el = &mesh->element[n];
+        double slope[FW_NODES];
         fw_nodes moment, stretch;
-        moment_at_nodes(e, el, at.value[MOMENT], &moment);
+        moment_at_nodes(e, el, at.value[MOMENT], &moment, slope);
         for (int j = 0; j < FW_NODES; j++) {
             double psi = el->psi[j] + el->phi[j], c = cos(psi), s = sin(psi);
             double N = e->p[1] * c + e->p[2] * s, V = e->p[2] * c - e->p[1] * s;

@@ -85,6 +85,21 @@ bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure
    gradient of the energy by the twist, and its symmetric tangent (NULL: not asked for); SI */
 void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                  const double twist[3], double wrench[3], double tangent[3][3]);
+/* the same from a state (th, w, v) of the frame half turned, and that of a twist */
+void fw_flexure_hinge_half_turned(const double twist[3], double at[3]);
+void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *bent, const double at[3],
+                                double wrench[3], double tangent[3][3]);
+/* ---- beam_chart.c: the exact beam's own law, by a lattice of its solutions ---- */
+
+typedef struct fw_flexure_chart fw_flexure_chart;
+struct fw_flexure_elastica;
+/* law: the same flexure's, where solutions begin. Both must live as long; some 300 kB */
+fw_status fw_flexure_chart_new(fw_arena *arena, const fw_flexure_hinge_law *law,
+                               struct fw_flexure_elastica *solver, fw_flexure_chart **out);
+/* at (th, w, v), as fw_flexure_hinge_law_bend without the stiffnesses of no force; false: the lattice
+   does not know, ask the beam */
+bool fw_flexure_chart_bend(fw_flexure_chart *chart, const double at[3], bool hessian,
+                           fw_flexure_hinge_bent *out);
 /* does the law hold at this rotation? not where the flexure is wound up to a full circle */
 bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double rotation_rad);
 /* How a hinge's axis drifts, and where its conjugate surfaces meet: by a pure moment and under a

@@ -404,13 +404,17 @@ bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure
 /* w = c ux + s uy, v = c uy - s ux with c, s = cos, sin(th/2):  dw/dth = v/2,  dv/dth = -w/2
    in: rad, m; out: N m, N and their derivatives, symmetric. Test: test_finite_force.c
    wrench_and_tangent */
-void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
-                                 const double twist[3], double wrench[3], double tangent[3][3]) {
-    fw_flexure_hinge_bent b;
-    double th = twist[0], c = cos(0.5 * th), s = sin(0.5 * th);
-    double w = c * twist[1] + s * twist[2], v = c * twist[2] - s * twist[1];
-    fw_flexure_hinge_law_bend(law, rest, (const double[3]){th, w, v}, tangent != NULL, &b);
-    const double *g = b.gradient;
+void fw_flexure_hinge_half_turned(const double twist[3], double at[3]) {
+    double c = cos(0.5 * twist[0]), s = sin(0.5 * twist[0]);
+    at[0] = twist[0];
+    at[1] = c * twist[1] + s * twist[2];
+    at[2] = c * twist[2] - s * twist[1];
+}
+
+void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *b, const double at[3],
+                                double wrench[3], double tangent[3][3]) {
+    double th = at[0], w = at[1], v = at[2], c = cos(0.5 * th), s = sin(0.5 * th);
+    const double *g = b->gradient;
     const double j[3][3] = {
         {1, 0, 0}, {0.5 * v, c, s}, {-0.5 * w, -s, c}}; /* d(th, w, v)/d twist */
     for (int i = 0; i < 3; i++) {
@@ -424,12 +428,21 @@ void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexu
             tangent[i][m] = 0;
             for (int k = 0; k < 3; k++)
                 for (int l = 0; l < 3; l++)
-                    tangent[i][m] += j[k][i] * b.hessian[k][l] * j[l][m];
+                    tangent[i][m] += j[k][i] * b->hessian[k][l] * j[l][m];
         }
     tangent[0][0] -= 0.25 * (g[1] * w + g[2] * v);
     const double wx = -0.5 * s, wy = 0.5 * c; /* d2w/dth du; of v: -wy, wx */
     tangent[0][1] += g[1] * wx - g[2] * wy, tangent[0][2] += g[1] * wy + g[2] * wx;
     tangent[1][0] = tangent[0][1], tangent[2][0] = tangent[0][2];
+}
+
+void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                                 const double twist[3], double wrench[3], double tangent[3][3]) {
+    fw_flexure_hinge_bent b;
+    double at[3];
+    fw_flexure_hinge_half_turned(twist, at);
+    fw_flexure_hinge_law_bend(law, rest, at, tangent != NULL, &b);
+    fw_flexure_hinge_wrench_of(&b, at, wrench, tangent);
 }
 
 /* ---- how a hinge's axis drifts, and where its conjugate surfaces meet ----

@@ -453,7 +453,9 @@ double fw_probe_small(const fw_probe *p, const fw_statics_modes *modes) {
 }
 
 double fw_probe_small_error(const fw_probe *p, const fw_statics_modes *modes) {
-    double error = modes->frequency_error;
+    int n = p->asked->mode;
+    bool one = p->kind->takes == FW_PROBE_MODE && n >= 1 && n <= modes->count;
+    double error = one ? fw_statics_mode_error(&modes->mode[n - 1]) : modes->frequency_error;
     if (isnan(error)) return (double)INFINITY;
     return p->kind->takes == FW_PROBE_MODE ? error : 2 * error;
 }

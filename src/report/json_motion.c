@@ -293,7 +293,7 @@ static void complex_shape(fw_json *json, const fw_mechanism *m, const double *q,
     fw_json_end(json);
 }
 
-static void one_mode(fw_json *json, const fw_mechanism *mechanism, const double *q,
+static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_statics_modes *modes,
                      const fw_statics_mode *m) {
     const double(*e)[2] = m->eigenvalue_per_s;
     fw_json_object(json, NULL);
@@ -305,9 +305,10 @@ static void one_mode(fw_json *json, const fw_mechanism *mechanism, const double 
     fw_json_real(json, "damping_ratio", m->damping_ratio);
     fw_json_real(json, "stiffness_per_s2", m->stiffness_per_s2);
     fw_json_real(json, "modal_mass_kg_m2", m->modal_mass_kg_m2);
+    fw_json_real(json, "frequency_error", fw_statics_mode_error(m));
     fw_json_text(json, "bodies", m->bodies);
-    fw_report_json_velocities(json, "shape", mechanism, q, m->shape);
-    complex_shape(json, mechanism, q, m->damped);
+    fw_report_json_velocities(json, "shape", mechanism, modes->q, m->shape);
+    complex_shape(json, mechanism, modes->q, m->damped);
     fw_json_end(json);
 }
 
@@ -353,7 +354,7 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_sc
     fw_report_json_centres(&json, mechanism, modes->q);
     fw_json_list(&json, "modes");
     for (int i = 0; i < modes->count; i++)
-        one_mode(&json, mechanism, modes->q, &modes->mode[i]);
+        one_mode(&json, mechanism, modes, &modes->mode[i]);
     fw_json_end(&json);
     fw_probe *probe;
     fw_mechanism_plates plates;

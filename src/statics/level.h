@@ -37,8 +37,9 @@ struct fw_statics_equilibrium;
 fw_status fw_statics_level_of_equilibrium(struct fw_statics_equilibrium *w,
                                           const fw_statics_level_step **step);
 /* the next level's tangent at the pose of modes: largest relative change of a frequency among those
-   that both have; NaN: not computed */
-fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *relative);
+   that both have; NaN: not computed. each: of every mode, NaN where the two do not compare; or NULL */
+fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *relative,
+                                    const double **each);
 
 /* Where every flexure's stiffness is stated and its axis known, auto tries pins before anything
    else: the statement is of the rotation, the pin is its model, and it costs a tenth. They stay

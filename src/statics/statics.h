@@ -182,11 +182,14 @@ typedef struct fw_statics_mode {
                                       real ones, the larger first */
     double damping_ratio;          /* -re / |eigenvalue|; NaN for free and unstable motions */
     double modal_mass_kg_m2;       /* of the undamped shape as normalised below */
-    double *shape;                 /* (3 nbody) undamped, m and rad per unit; the largest of
+    /* relative: what flexures may be off, by their part of it; what the next model of the hinges
+       changes of the frequency, NaN: not known */
+    double stiffness_error, model_error;
+    double *shape;    /* (3 nbody) undamped, m and rad per unit; the largest of
                                       |rotation| and |displacement| / unit_length_m is 1 */
-    double *damped;                /* (6 nbody) shape of eigenvalue_per_s[0]: real, then imaginary
+    double *damped;   /* (6 nbody) shape of eigenvalue_per_s[0]: real, then imaginary
                                       parts, normalised likewise and with the largest entry real */
-    const char *body;              /* moves most; `bodies`: all that take part */
+    const char *body; /* moves most; `bodies`: all that take part */
     const char *bodies;
     double *frame; /* (FW_MODE_FRAMES x 3 nbody) m, rad: one period at a visible amplitude, joints
                       closed; NULL beyond `drawn` */
@@ -201,14 +204,17 @@ typedef struct fw_statics_modes {
     double out_of_rest;    /* what a Newton step to equilibrium would move at most, rad or unit
                              lengths; 0 within round-off at an equilibrium, infinite: there is
                              none */
-    /* Relative, of every frequency: what the next model of the hinges changes, and half of the error
-       of a flexure's stiffness against solids (0 where all are stated), since a frequency goes with
-       the root of it. Masses are taken as exact. NaN: not known, infinite never; 0: no flexures */
+    /* Relative, of the lowest frequencies: what the next model of the hinges changes, and half of the
+       error of a flexure's stiffness against solids, since a frequency goes with the root of it: the
+       larger of the first oscillation's and of any K that is not stated. Faster ones have their own.
+       Masses are taken as exact. NaN: not known, infinite never; 0: no flexures */
     double frequency_error, stiffness_error;
     fw_statics_row_rank rank;
     fw_effect_ledger ledger;
 } fw_statics_modes;
 
+/* of one frequency, as frequency_error */
+double fw_statics_mode_error(const fw_statics_mode *mode);
 /* FW_SOLVER: no equilibrium (FW-D111), or the eigenvalues were not found */
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene,

@@ -316,9 +316,10 @@ fw_status fw_statics_level_of_equilibrium(fw_statics_equilibrium *w,
     return step->why_not ? FW_OK : climb(w, &high, none, step);
 }
 
-fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative) {
+fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative,
+                                    const double **each) {
     fw_statics_equilibrium high;
-    *relative = (double)NAN;
+    *relative = (double)NAN, *each = NULL;
     if (!w->loads || w->mechanism->nhinge == 0) return FW_OK;
     fw_statics_level_step *step = begin(w->arena, w->mechanism, &w->ledger, (double)NAN);
     FW_NEED(step);
@@ -337,13 +338,17 @@ fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative)
     int own = b->dof - 2 * high.model->nreleased;
     if (own != a->dof - 2 * w->model->nreleased || own < 1) own = a->dof == b->dof ? a->dof : 0;
     if (own == 0) return FW_OK;
-    for (int k = 0; k < own; k++) {
+    const int both = a->dof == b->dof ? a->dof : own;
+    double *change;
+    FW_NEED(change = fw_arena_array(w->arena, double, (size_t)a->dof));
+    for (int k = 0; k < a->dof; k++) {
         double x = a->value[k] * fw_statics_equilibrium_per_s2(w),
-               y = b->value[k] * fw_statics_equilibrium_per_s2(&high);
-        if (x <= 0 || y <= 0) return FW_OK;
-        worst = fmax(worst, fabs(sqrt(y / x) - 1));
+               y = k < both ? b->value[k] * fw_statics_equilibrium_per_s2(&high) : 0;
+        change[k] = x > 0 && y > 0 ? fabs(sqrt(y / x) - 1) : (double)NAN;
+        if (k < own && isnan(change[k])) return FW_OK;
+        if (k < own) worst = fmax(worst, change[k]);
     }
-    *relative = worst;
+    *relative = worst, *each = change;
     return FW_OK;
 }
 

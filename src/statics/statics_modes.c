@@ -396,12 +396,78 @@ fw_status fw_statics_equilibrium_modes(fw_statics_equilibrium *w,
     return FW_OK;
 }
 
-/* the largest of any flexure: a mode may live in that one alone */
-static double stiffness_error(const fw_mechanism *m) {
-    double most = 0;
-    for (int k = 0; k < m->nhinge; k++)
-        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
-    return most;
+/* ---- what flexures' errors do to frequencies ---- */
+
+/* of rotation, along and across the axis: stated stiffnesses are what they are, what the strip gives
+   besides is the closed form's */
+static void errors_of(const fw_mechanism_hinge *h, bool pins, double e[3]) {
+    const fw_flexure_error *own = &h->closed_form.error;
+    e[0] = h->stated ? 0 : own->stiffness;
+    e[1] = pins ? 0 : own->kx, e[2] = pins ? 0 : own->ky;
+}
+
+/* turn and displacement of a hinge in a mode, along and across its axis */
+static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
+                        const double *shape, double out[3]) {
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    double ux = 0, uy = 0, axis = h->axis_rad;
+    out[0] = 0;
+    for (int side = 0; side < 2; side++) {
+        const int b = side ? pin->body_b : pin->body_a;
+        const double x = side ? pin->bx_m : pin->ax_m, y = side ? pin->by_m : pin->ay_m;
+        const double sign = side ? 1 : -1;
+        if (b == FW_GROUND) continue;
+        const double c = cos(q[3 * b + 2]), s = sin(q[3 * b + 2]), *u = shape + 3 * b;
+        ux += sign * (u[0] - u[2] * (s * x + c * y)), uy += sign * (u[1] + u[2] * (c * x - s * y));
+        out[0] += sign * u[2];
+        axis += 0.5 * (q[3 * b + 2] - m->body[b].phi_rad);
+    }
+    out[1] = cos(axis) * ux + sin(axis) * uy, out[2] = cos(axis) * uy - sin(axis) * ux;
+}
+
+/* Of a mode's stiffness, by the energy that each flexure has of it:  e = sum k d^2 e_k/(omega^2 M),
+   with k and e_k of rotation, along and across, d as deformed in the mode, M its modal mass; of one
+   that loads make soft no more than ten times its share. Source: Rayleigh's quotient is stationary.
+   Test: test_rest.py, test_modes.c errors_go_with_energy */
+static double mode_error(const fw_mechanism *m, const fw_statics_modes *found,
+                         const fw_statics_mode *mode) {
+    const bool pins = found->ledger.hinge.used == FW_HINGE_REVOLUTE;
+    double all = 0, off = 0, whole = mode->stiffness_per_s2 * mode->modal_mass_kg_m2;
+    for (int i = 0; i < m->nhinge; i++) {
+        const fw_mechanism_hinge *h = &m->hinge[i];
+        double d[3], e[3];
+        fw_flexure_hinge_at at;
+        deformation(m, h, found->q, mode->shape, d);
+        errors_of(h, pins || !isfinite(h->axis_rad), e);
+        fw_flexure_hinge_law_at(&h->law, 0, &at);
+        const double k[3] = {m->pin[h->pin].stiffness_Nm_per_rad, at.kx_N_per_m.value,
+                             at.ky_N_per_m.value};
+        for (int n = 0; n < 3; n++) {
+            if (n > 0 && !(e[n] > 0)) continue;
+            all += k[n] * d[n] * d[n], off += k[n] * d[n] * d[n] * e[n];
+        }
+    }
+    return off > 0 ? off / fmax(whole, 0.1 * all) : 0;
+}
+
+double fw_statics_mode_error(const fw_statics_mode *mode) {
+    return mode->model_error + 0.5 * mode->stiffness_error;
+}
+
+/* each: what the next level changes; NULL: not compared by mode */
+static void set_errors(const fw_mechanism *m, const double *each, fw_statics_modes *modes) {
+    const double level = m->nhinge > 0 ? modes->ledger.hinge.error : 0;
+    double first = 0;
+    modes->stiffness_error = 0;
+    for (int k = modes->count - 1; k >= 0; k--) {
+        modes->mode[k].stiffness_error = mode_error(m, modes, &modes->mode[k]);
+        modes->mode[k].model_error = each && m->nhinge > 0 ? each[k] * (1 + each[k]) : level;
+        if (modes->mode[k].kind == FW_MODE_OSCILLATION) first = modes->mode[k].stiffness_error;
+    }
+    for (int k = 0; k < m->nhinge; k++) /* any of the slow ones may live in one alone */
+        if (!m->hinge[k].stated) first = fmax(first, m->hinge[k].closed_form.error.stiffness);
+    modes->stiffness_error = first;
+    modes->frequency_error = 0.5 * first + level;
 }
 
 static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
@@ -426,11 +492,12 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
     for (;;) {
         fw_statics_equilibrium w;
         double relative;
+        const double *each = NULL;
         const fw_statics_modes *found;
         fw_diags own = fw_diags_new(arena);
         fw_status status =
             modes_at(arena, mechanism, scene, options, &choice, tried ? &own : diags, &w, &found);
-        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &relative);
+        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &relative, &each);
         bool pins_do = status == FW_OK && relative < stated;
         if (tried && !pins_do && (status == FW_OK || status == FW_SOLVER || status == FW_INPUT)) {
             choice = options->effects, tried = false; /* as if they had not been tried */
@@ -447,9 +514,7 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
         *to = *found;
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
-        to->stiffness_error = stiffness_error(mechanism);
-        to->frequency_error =
-            0.5 * to->stiffness_error + (mechanism->nhinge > 0 ? to->ledger.hinge.error : 0);
+        set_errors(w.mechanism, each, to);
         *modes = to;
         return FW_OK;
     }

@@ -45,6 +45,10 @@ static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *re
     bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
     bool held = (!under || pull < pressed) && apart_m &&
                 fw_flexure_hinge_law_held(&h->law, rest, th, along[1], *apart_m, u, &moment, &pull);
+    if (under && pull >= pressed && fw_flexure_elastica_again(beam, &task, tolerance)) {
+        fw_flexure_strip_strain_exact(&h->section, beam, out);
+        return true;
+    }
     if (under || held) {
         const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
         const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task.value[1],
