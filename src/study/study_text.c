@@ -284,8 +284,12 @@ static void say_yield(fw_text *out, const fw_study *study) {
 }
 
 fw_status fw_study_text(const fw_study *study, fw_text *out) {
-    fw_text_printf(out, "study %s of %s: %s\n", study->asked->name, study->device_name,
-                   fw_device_study_kind_text(study->asked->kind));
+    fw_text_printf(out, "study %s of %s: %s%s\n", study->asked->name, study->device_name,
+                   fw_device_study_kind_text(study->asked->kind),
+                   study->asked->judge == FW_JUDGE_HINGES
+                       ? ", of hinges and requirements as drawn alone (not of clearances, plates, "
+                         "adhesion)"
+                       : "");
     say_samples(out, study);
     switch (study->asked->kind) {
     case FW_STUDY_IS_sweep:
