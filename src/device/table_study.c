@@ -17,8 +17,10 @@ static const char *const points[] = {[FW_POINTS_GRID] = "grid",
                                      [FW_POINTS_LIST] = "list",
                                      [FW_POINTS_SOBOL] = "sobol",
                                      [FW_POINTS_SOBOL + 1] = NULL};
-static const char *const judged[] = {
-    [FW_JUDGE_DRAWN] = "drawn", [FW_JUDGE_MADE] = "made", [FW_JUDGE_MADE + 1] = NULL};
+static const char *const judged[] = {[FW_JUDGE_DRAWN] = "drawn",
+                                     [FW_JUDGE_MADE] = "made",
+                                     [FW_JUDGE_HINGES] = "hinges",
+                                     [FW_JUDGE_HINGES + 1] = NULL};
 static const char *const spreads[] = {
     [FW_SPREAD_NORMAL] = "normal",     [FW_SPREAD_LOGNORMAL] = "lognormal",
     [FW_SPREAD_UNIFORM] = "uniform",   [FW_SPREAD_TRUNCATED] = "truncated",
@@ -62,7 +64,10 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
          .sentence = "Of a sweep: every combination of the values; the values of all inputs side " \
                      "by side, as many as each has; or a Sobol' sequence over the ranges."},       \
         {"as", .kind = FW_KIND_WORD, .words = judged, .fallback = "made",                          \
-         .sentence = "How each device is judged: as drawn, or also as its flows make it."},        \
+         .sentence =                                                                               \
+             "How each device is judged: as drawn, or also as its flows make it; or only the "     \
+             "hinges "                                                                             \
+             "and requirements of the drawing, and nothing of clearances, plates and adhesion."},  \
         {"samples",                                                                                \
          D_PURE,                                                                                   \
          WHOLE,                                                                                    \

@@ -273,6 +273,14 @@ static fw_status take_responses(fw_study *study) {
         fw_status one = fw_study_response_parse(study->arena, &asked->respond[k], &study->diags,
                                                 &study->response[k]);
         if (one != FW_OK) status = one;
+        if (one == FW_OK && asked->judge == FW_JUDGE_HINGES &&
+            !fw_study_response_of_hinges(&study->response[k]))
+            status = fw_diag_error(&study->diags, 576, asked->respond[k].place,
+                                   "response '%s' (%s): as=\"hinges\" judges hinges and "
+                                   "requirements alone, and this is about something else; take "
+                                   "as=\"drawn\", or ask for governing, hinges, requirements, "
+                                   "hinge_model or failure_probability",
+                                   asked->respond[k].name, asked->respond[k].value);
         if (one == FW_OK) study->stages |= fw_study_documents[study->response[k].document].stages;
     }
     /* a yield and a size ask what check says */
@@ -378,7 +386,7 @@ static void settle_options(fw_study *study) {
     fw_design_options *o = &study->options.design;
     o->advice = "none";
     o->measurements = "none";
-    if (study->asked->judge == FW_JUDGE_DRAWN || study->asked->kind == FW_STUDY_IS_yield)
+    if (study->asked->judge != FW_JUDGE_MADE || study->asked->kind == FW_STUDY_IS_yield)
         o->corners = "none";
 }
 

@@ -59,18 +59,9 @@ void fw_study_engines_close(fw_study *study) {
 
 /* ---- one design after the other ---- */
 
-/* are all responses about hinges and requirements? */
 static bool asks_for_no_clearance(const fw_study *study) {
-    static const char *const key[] = {"governing.", "hinges[", "requirements[", "hinge_model[",
-                                      "failure_probability"};
-    for (int k = 0; k < study->nresponse; k++) {
-        const fw_study_response *r = &study->response[k];
-        bool is = false;
-        if (fw_study_documents[r->document].document != FW_DOCUMENT_VERDICT_JSON) return false;
-        for (size_t i = 0; i < sizeof key / sizeof key[0]; i++)
-            is = is || strncmp(r->path, key[i], strlen(key[i])) == 0;
-        if (!is) return false;
-    }
+    for (int k = 0; k < study->nresponse; k++)
+        if (!fw_study_response_of_hinges(&study->response[k])) return false;
     return true;
 }
 

@@ -49,6 +49,8 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
     *status = FW_STATUS_NOMEM;
     if (!design) return NULL;
     fw_plan_design_cancel_with(design, cancel);
+    fw_plan_design_plan(design)->options.verdict.hinges_only =
+        study->asked && study->asked->judge == FW_JUDGE_HINGES;
     fw_plan_design_plan(design)->options.lab_text = study->options.lab_text;
     fw_plan_design_plan(design)->options.nlab_text = study->options.nlab_text;
     *status = FW_STATUS_OK;

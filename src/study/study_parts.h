@@ -32,6 +32,8 @@ extern const int fw_study_document_count;
 /* "modes:modes[0].frequency_Hz": document, path and unit of a response; FW_INPUT: said in diags */
 fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *asked, fw_diags *diags,
                                   fw_study_response *response);
+/* is it about hinges and requirements, and nothing else of the verdict? */
+bool fw_study_response_of_hinges(const fw_study_response *response);
 /* The number at the response's path of a document that was read. false: there is none, and `why` (n
    bytes) says which key is missing and which there are. A number that is null is NaN, and found. */
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,

@@ -273,6 +273,16 @@ static void go(walk *w, const json_t *node, const char *path) {
         into_object(w, node, path);
 }
 
+bool fw_study_response_of_hinges(const fw_study_response *response) {
+    static const char *const key[] = {"governing.", "hinges[", "requirements[", "hinge_model[",
+                                      "failure_probability"};
+    bool is = false;
+    if (fw_study_documents[response->document].document != FW_DOCUMENT_VERDICT_JSON) return false;
+    for (size_t i = 0; i < sizeof key / sizeof key[0]; i++)
+        is = is || strncmp(response->path, key[i], strlen(key[i])) == 0;
+    return is;
+}
+
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
                             char *why, size_t n) {
     walk w = {.response = response, .value = (double)NAN, .why = why, .n = n};

@@ -49,9 +49,15 @@ static void seconds(fw_text *out, double s) {
 
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     const fw_device_study *a = study->asked;
-    fw_text_printf(out, "study %s of %s: %s, each device judged as %s\n", a->name,
-                   study->device_name, fw_device_study_kind_text(a->kind),
-                   a->kind == FW_STUDY_IS_yield ? "made" : fw_device_study_judge_text(a->judge));
+    fw_text_printf(out, "study %s of %s: %s, ", a->name, study->device_name,
+                   fw_device_study_kind_text(a->kind));
+    if (a->judge == FW_JUDGE_HINGES)
+        fw_text_add(out, "hinges and requirements of each device judged as drawn, and nothing of "
+                         "clearances, plates and adhesion: ask check of what is chosen\n");
+    else
+        fw_text_printf(out, "each device judged as %s\n",
+                       a->kind == FW_STUDY_IS_yield ? "made"
+                                                    : fw_device_study_judge_text(a->judge));
     for (int k = 0; k < study->ninput; k++)
         range_of(out, study, k);
     for (int r = 0; r < study->nresponse; r++) {
@@ -278,8 +284,12 @@ static void say_yield(fw_text *out, const fw_study *study) {
 }
 
 fw_status fw_study_text(const fw_study *study, fw_text *out) {
-    fw_text_printf(out, "study %s of %s: %s\n", study->asked->name, study->device_name,
-                   fw_device_study_kind_text(study->asked->kind));
+    fw_text_printf(out, "study %s of %s: %s%s\n", study->asked->name, study->device_name,
+                   fw_device_study_kind_text(study->asked->kind),
+                   study->asked->judge == FW_JUDGE_HINGES
+                       ? ", of hinges and requirements as drawn alone (not of clearances, plates, "
+                         "adhesion)"
+                       : "");
     say_samples(out, study);
     switch (study->asked->kind) {
     case FW_STUDY_IS_sweep:

@@ -62,10 +62,12 @@ static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
         for (int k = 0; is_of(&layout->piece[i], body) && k < c->count; k++) {
             const fw_geometry_segment *s = &c->segment[k];
             int parts = parts_of(s);
-            for (int j = 0; j < parts; j++)
-                g->line[g->nline++] = (line){fw_geometry_segment_point(s, (double)j / parts),
-                                             fw_geometry_segment_point(s, (double)(j + 1) / parts),
-                                             !(s->flags & FW_SEGMENT_JOINT), i};
+            fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
+            for (int j = 0; j < parts; j++) {
+                fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);
+                g->line[g->nline++] = (line){from, to, !(s->flags & FW_SEGMENT_JOINT), i};
+                from = to;
+            }
         }
     }
     for (int i = 0; i < g->nline; i++) {
@@ -75,12 +77,6 @@ static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
         g->box = i == 0 ? box : fw_box_join(g->box, box);
     }
     return FW_OK;
-}
-
-static double distance_squared(const line *l, fw_geometry_vec2 at) {
-    double t;
-    fw_geometry_vec2 off = vec_sub(vec_line_foot(l->a, l->b, at, &t), at);
-    return vec_dot(off, off);
 }
 
 /* ---- cells ---- */
@@ -260,59 +256,64 @@ static fw_status lay(grid *g, double cell) {
 
 /* ---- the stiffest ways ---- */
 
+typedef struct queued {
+    double key;
+    int cell;
+} queued;
+
 typedef struct queue {
-    int *cell;
-    double *key;
+    queued *item;
     int n;
 } queue;
 
 static void push(queue *q, int cell, double key) {
     int i = q->n++;
-    for (; i > 0 && q->key[(i - 1) / 2] > key; i = (i - 1) / 2)
-        q->key[i] = q->key[(i - 1) / 2], q->cell[i] = q->cell[(i - 1) / 2];
-    q->key[i] = key, q->cell[i] = cell;
+    for (; i > 0 && q->item[(i - 1) / 2].key > key; i = (i - 1) / 2)
+        q->item[i] = q->item[(i - 1) / 2];
+    q->item[i] = (queued){key, cell};
 }
 
-static int pop(queue *q, double *key) {
-    int top = q->cell[0], last = q->cell[--q->n], i = 0;
-    double moved = q->key[q->n];
-    *key = q->key[0];
-    for (;;) {
-        int child = 2 * i + 1;
-        if (child >= q->n) break;
-        if (child + 1 < q->n && q->key[child + 1] < q->key[child]) child++;
-        if (q->key[child] >= moved) break;
-        q->key[i] = q->key[child], q->cell[i] = q->cell[child];
-        i = child;
+static queued pop(queue *q) {
+    const queued top = q->item[0], last = q->item[--q->n];
+    int i = 0;
+    for (int child; (child = 2 * i + 1) < q->n; i = child) {
+        if (child + 1 < q->n && q->item[child + 1].key < q->item[child].key) child++;
+        if (q->item[child].key >= last.key) break;
+        q->item[i] = q->item[child];
     }
-    q->key[i] = moved, q->cell[i] = last;
+    q->item[i] = last;
     return top;
 }
 
 /* along columns and rows, and across */
 static const int step_x[8] = {1, -1, 0, 0, 1, 1, -1, -1}, step_y[8] = {0, 0, 1, -1, 1, -1, 1, -1};
 
-static fw_status spread(grid *g, int middle) {
+/* until the ways to all goals are known. The cost of a cell outside is below all others, so that no way goes there. */
+static fw_status spread(grid *g, int middle, const int *goal, int ngoal) {
     size_t n = (size_t)g->nx * (size_t)g->ny,
            most = 1; /* a cell of the material has 8 neighbours */
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
+        g->cost[i] = g->inside[i] ? HUGE_VAL : -1;
         most += g->inside[i] ? 8 : 0;
-    queue q = {fw_arena_array(g->arena, int, most), fw_arena_array(g->arena, double, most), 0};
-    FW_NEED(q.cell && q.key ? q.cell : NULL);
-    for (size_t i = 0; i < n; i++)
-        g->cost[i] = HUGE_VAL;
+    }
+    queue q = {fw_arena_raw(g->arena, most * sizeof(queued)), 0};
+    FW_NEED(q.item);
     g->cost[middle] = 0;
     g->from[middle] = -1;
     push(&q, middle, 0);
-    while (q.n > 0) {
-        double key;
-        int at = pop(&q, &key), x = at % g->nx, y = at / g->nx;
-        if (key > g->cost[at]) continue;
+    while (q.n > 0 && ngoal > 0) {
+        const queued now = pop(&q);
+        const int at = now.cell, x = at % g->nx, y = at / g->nx;
+        if (now.key > g->cost[at]) continue;
+        for (int k = 0, all = ngoal; k < all; k++)
+            ngoal -= goal[k] == at;
+        const bool inner = x > 0 && y > 0 && x < g->nx - 1 && y < g->ny - 1;
         for (int k = 0; k < 8; k++) {
             int i = x + step_x[k], j = y + step_y[k], to = j * g->nx + i;
-            if (i < 0 || j < 0 || i >= g->nx || j >= g->ny || !g->inside[to]) continue;
+            if (!inner && (i < 0 || j < 0 || i >= g->nx || j >= g->ny)) continue;
+            if (g->cost[to] <= now.key) continue;
             double far = k < 4 ? 1 : sqrt(2),
-                   cost = key + 0.5 * far * (g->stiff[at] + g->stiff[to]);
+                   cost = now.key + 0.5 * far * (g->stiff[at] + g->stiff[to]);
             if (cost >= g->cost[to]) continue;
             g->cost[to] = cost;
             g->from[to] = at;
@@ -329,7 +330,9 @@ static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
     double best = HUGE_VAL;
     for (int i = 0; i < g->nx * g->ny; i++) {
         if (!g->inside[i]) continue;
-        double d = vec_distance(place(g, i), at) - deep * g->away[i];
+        fw_geometry_vec2 off = vec_sub(place(g, i), at);
+        if (deep == 0 && vec_dot(off, off) > 1.000001 * best * best) continue; /* no root */
+        double d = vec_length(off) - (deep > 0 ? deep * g->away[i] : 0);
         if (d < best) best = d, found = i;
     }
     return found;
@@ -337,15 +340,44 @@ static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
 
 /* ---- along a way ---- */
 
-typedef struct edges { /* those around a place */
-    int *line;         /* (n) */
-    double *off;       /* (nline) squared distances from it */
+/* lines for all of which one thing is computed: their ends, each number in a row */
+typedef struct flat {
+    double *ax, *ay, *bx, *by; /* (n, and up to 3 more that say nothing) */
     int n;
-    int *wide; /* (nwide) those that may be around any place up to FARTHER cells from `centre` */
-    int nwide;
+} flat;
+enum { TOGETHER = 4, FARTHER = 12 };
+
+typedef struct edges {
+    flat all, near; /* near: those around a place */
+    flat wide;      /* those that may be around any place up to FARTHER cells from `centre` */
+    double *off;    /* squared distances from a place */
     fw_geometry_vec2 centre;
 } edges;
-enum { FARTHER = 12 };
+
+static fw_status flat_new(fw_arena *arena, int n, flat *to) {
+    const size_t room = (size_t)n + TOGETHER;
+    double *all = fw_arena_array(arena, double, 4 * room);
+    FW_NEED(all);
+    *to = (flat){all, all + room, all + 2 * room, all + 3 * room, 0};
+    return FW_OK;
+}
+
+static void flat_add(flat *to, double ax, double ay, double bx, double by) {
+    const int i = to->n++;
+    to->ax[i] = ax, to->ay[i] = ay, to->bx[i] = bx, to->by[i] = by;
+}
+
+static fw_status edges_new(const grid *g, edges *to) {
+    FW_TRY(flat_new(g->arena, g->nline, &to->all));
+    FW_TRY(flat_new(g->arena, g->nline, &to->near));
+    FW_TRY(flat_new(g->arena, g->nline, &to->wide));
+    FW_NEED(to->off = fw_arena_array(g->arena, double, (size_t)g->nline + TOGETHER));
+    for (int i = 0; i < g->nline; i++) {
+        const line *l = &g->line[i];
+        if (l->edge) flat_add(&to->all, l->a.x, l->a.y, l->b.x, l->b.y);
+    }
+    return FW_OK;
+}
 
 /* in one of the pieces: a line to the right crosses it an odd number of times */
 static bool is_inside(const grid *g, fw_geometry_vec2 p) {
@@ -362,48 +394,75 @@ static bool is_inside(const grid *g, fw_geometry_vec2 p) {
     return in;
 }
 
-/* of `from` (n) those that are no farther from a place than the nearest and `more` */
-static int within(const grid *g, fw_geometry_vec2 at, const int *from, int n, double more,
-                  double *off, int *to) {
-    double least = HUGE_VAL;
-    for (int i = 0; i < n; i++) {
-        off[i] = distance_squared(&g->line[from[i]], at);
-        least = fw_lesser(least, off[i]);
+/* Squared distances from a place, four lines in a register, each with the operations of vec_line_foot in their
+   order, so that every processor has the same bits */
+__attribute__((always_inline)) static inline void squares_of(const flat *l, fw_geometry_vec2 at,
+                                                             double *off) {
+    typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef long long mask __attribute__((vector_size(32), aligned(8), may_alias));
+    for (int i = 0; i < l->n; i += TOGETHER) {
+        const four ax = *(const four *)(l->ax + i), ay = *(const four *)(l->ay + i),
+                   bx = *(const four *)(l->bx + i), by = *(const four *)(l->by + i);
+        const four way_x = bx - ax, way_y = by - ay, square = way_x * way_x + way_y * way_y;
+        four here = ((at.x - ax) * way_x + (at.y - ay) * way_y) / square;
+        here = (four)((mask)here & (square > 0));
+        const mask first = here <= 0.5, between = (here > 0) & (here < 1); /* else an end itself */
+        const four t = (four)((((mask)here & first) | ((mask)(here - 1) & ~first)) & between);
+        const four x = (four)(((mask)ax & first) | ((mask)bx & ~first)) + t * way_x - at.x,
+                   y = (four)(((mask)ay & first) | ((mask)by & ~first)) + t * way_y - at.y;
+        *(four *)(off + i) = x * x + y * y;
     }
-    double most = sqrt(least) + more;
-    int found = 0;
-    for (int i = 0; i < n; i++)
-        if (off[i] <= most * most) to[found++] = from[i];
-    return found;
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) static void squares_avx2(const flat *l, fw_geometry_vec2 at,
+                                                         double *off) {
+    squares_of(l, at, off);
+}
+#endif
+
+static double least_square(const flat *l, fw_geometry_vec2 at, double *off) {
+    double least = HUGE_VAL;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2"))
+        squares_avx2(l, at, off);
+    else
+#endif
+        squares_of(l, at, off);
+    for (int i = 0; i < l->n; i++)
+        least = fw_lesser(least, off[i]);
+    return least;
+}
+
+/* of `from` those that are no farther from a place than the nearest and `more` */
+static void within(const flat *from, fw_geometry_vec2 at, double more, double *off, flat *to) {
+    double most = sqrt(least_square(from, at, off)) + more;
+    to->n = 0;
+    for (int i = 0; i < from->n; i++)
+        if (off[i] <= most * most) flat_add(to, from->ax[i], from->ay[i], from->bx[i], from->by[i]);
 }
 
 /* the edges that may be the nearest of any place within a cell and a half */
 static void look_around(const grid *g, fw_geometry_vec2 at, edges *around) {
-    if (around->nwide == 0 || vec_distance(at, around->centre) > FARTHER * g->cell) {
-        around->nwide = 0;
-        for (int i = 0; i < g->nline; i++)
-            if (g->line[i].edge) around->wide[around->nwide++] = i;
+    if (around->wide.n == 0 || vec_distance(at, around->centre) > FARTHER * g->cell) {
         around->centre = at;
-        around->nwide = within(g, at, around->wide, around->nwide, (2 * FARTHER + 4) * g->cell,
-                               around->off, around->wide);
+        within(&around->all, at, (2 * FARTHER + 4) * g->cell, around->off, &around->wide);
     }
-    around->n = within(g, at, around->wide, around->nwide, 3 * g->cell, around->off, around->line);
+    within(&around->wide, at, 3 * g->cell, around->off, &around->near);
 }
 
-static double distance(const grid *g, const edges *around, fw_geometry_vec2 at) {
-    double least = HUGE_VAL;
-    for (int i = 0; i < around->n; i++)
-        least = fw_lesser(least, distance_squared(&g->line[around->line[i]], at));
-    return sqrt(least);
+static double distance(edges *around, fw_geometry_vec2 at) {
+    return sqrt(least_square(&around->near, at, around->off));
 }
 
-static bool is_cut(const grid *g, const edges *around, fw_geometry_vec2 p, fw_geometry_vec2 q) {
+static bool is_cut(const edges *around, fw_geometry_vec2 p, fw_geometry_vec2 q) {
     fw_geometry_vec2 along = vec_sub(q, p);
-    for (int i = 0; i < around->n; i++) {
-        const line *l = &g->line[around->line[i]];
-        fw_geometry_vec2 edge = vec_sub(l->b, l->a);
-        double a = vec_cross(along, vec_sub(l->a, p)), b = vec_cross(along, vec_sub(l->b, p));
-        double c = vec_cross(edge, vec_sub(p, l->a)), d = vec_cross(edge, vec_sub(q, l->a));
+    const flat *l = &around->near;
+    for (int i = 0; i < l->n; i++) {
+        const fw_geometry_vec2 from = {l->ax[i], l->ay[i]}, to = {l->bx[i], l->by[i]},
+                               edge = vec_sub(to, from);
+        double a = vec_cross(along, vec_sub(from, p)), b = vec_cross(along, vec_sub(to, p));
+        double c = vec_cross(edge, vec_sub(p, from)), d = vec_cross(edge, vec_sub(q, from));
         if ((a > 0) != (b > 0) && (c > 0) != (d > 0)) return true;
     }
     return false;
@@ -414,57 +473,24 @@ static bool is_cut(const grid *g, const edges *around, fw_geometry_vec2 p, fw_ge
 static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geometry_vec2 side) {
     const fw_geometry_vec2 from = *at;
     look_around(g, from, around);
-    double best = distance(g, around, from), where = 0;
+    double best = distance(around, from), where = 0;
     for (double step = 0.5; step * g->cell > 0.02 * best; step /= 2) {
         const double middle = where;
         for (int k = step < 0.5 ? 1 : 2; k != 0; k = k > 0 ? -k : -k - 1) {
             double to = middle + k * step;
             fw_geometry_vec2 p = vec_along(from, to * g->cell, side);
-            double d = distance(g, around, p);
-            if (d > best && !is_cut(g, around, from, p)) best = d, where = to, *at = p;
+            double d = distance(around, p);
+            if (d > best && !is_cut(around, from, p)) best = d, where = to, *at = p;
         }
     }
     return 2 * best;
 }
 
-/* of a piece of the way around a place */
-static void add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
-                fw_geometry_vec2 from, fw_geometry_vec2 until, double w) {
-    double length = vec_distance(from, until);
-    if (!(length > 0)) return;
-    fw_geometry_vec2 along = vec_unit(vec_sub(until, from));
-    fw_geometry_vec2 r = vec_sub(at, pin), side = vec_left(along);
-    /* moment, axial and shear force of M, Fx, Fy there */
-    const double m[3] = {1, -r.y, r.x}, a[3] = {0, along.x, along.y}, s[3] = {0, side.x, side.y};
-    const int row_of[6] = {0, 0, 0, 1, 1, 2}, column_of[6] = {0, 1, 2, 1, 2, 2};
-    for (int k = 0; k < 6; k++) {
-        int i = row_of[k], j = column_of[k];
-        arm->give[k] +=
-            length * (12 * m[i] * m[j] / (w * w * w) + (a[i] * a[j] + 3.2 * s[i] * s[j]) / w);
-    }
-    const double n[3] = {-(along.y * -r.y - along.x * r.x), -along.y, along.x},
-                 t[3] = {along.x * -r.y + along.y * r.x, along.x, along.y};
-    for (int k = 0; k < 6; k++) {
-        int i = row_of[k], j = column_of[k];
-        arm->bend[k] += length * n[i] * n[j] / w;
-        arm->twist[k] += length * t[i] * t[j] / w;
-        arm->twist3[k] += length * t[i] * t[j] / (w * w * w);
-    }
-    arm->slide += length / w;
-    arm->length_m += length;
-    if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
-    double edge = 6 * vec_length(r) / (w * w) + 1 / w;
-    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at;
-    arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
-}
-
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
    root is in its closed form: the way begins where it is a cell inside */
 static fw_status follow(const grid *g, int begin, fw_geometry_vec2 pin, fw_verdict_arm *arm) {
-    edges around = {.line = fw_arena_array(g->arena, int, (size_t)g->nline),
-                    .off = fw_arena_array(g->arena, double, (size_t)g->nline),
-                    .wide = fw_arena_array(g->arena, int, (size_t)g->nline)};
-    FW_NEED(around.line && around.off && around.wide ? around.line : NULL);
+    edges around;
+    FW_TRY(edges_new(g, &around));
     arm->known = true;
     arm->narrow_m = HUGE_VAL;
     fw_geometry_vec2 from = place(g, begin), here = from;
@@ -477,10 +503,10 @@ static fw_status follow(const grid *g, int begin, fw_geometry_vec2 pin, fw_verdi
         if (!is_inside(g, next)) next = p;
         double wide = widest(g, &around, &next, vec_left(vec_unit(off)));
         fw_geometry_vec2 until = w > 0 ? vec_along(here, 0.5, vec_sub(next, here)) : from;
-        add(arm, pin, here, from, until, w);
+        fw_verdict_arm_add(arm, pin, here, from, until, w);
         from = until, here = next, at = to;
         w = fw_greater(wide, 1e-3 * g->cell);
-        if (g->from[at] < 0) add(arm, pin, here, from, place(g, at), w);
+        if (g->from[at] < 0) fw_verdict_arm_add(arm, pin, here, from, place(g, at), w);
     }
     return FW_OK;
 }
@@ -514,6 +540,8 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
     if (g.nline == 0) return FW_OK;
     double across = vec_length((fw_geometry_vec2){g.box.x1 - g.box.x0, g.box.y1 - g.box.y0});
     double cell = fw_greater(across / ACROSS, fw_least_cell);
+    int *begins = fw_arena_array(scratch, int, (size_t)n);
+    FW_NEED(begins);
     fw_mark lines = fw_arena_mark(scratch);
     bool all = false;
     for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
@@ -523,11 +551,13 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
         FW_TRY(lay(&g, cell));
         int middle = cell_at(&g, layout->body[body].centroid, 2);
         if (middle < 0) continue;
-        FW_TRY(spread(&g, middle));
+        for (int i = 0; i < n; i++)
+            begins[i] = cell_at(&g, ends[i].root, 0);
+        FW_TRY(spread(&g, middle, begins, n));
         all = true;
         for (int i = 0; i < n; i++) {
             fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
-            int begin = cell_at(&g, ends[i].root, 0);
+            const int begin = begins[i];
             *to = (fw_verdict_arm){.known = false};
             if (g.cost[begin] < HUGE_VAL) FW_TRY(follow(&g, begin, ends[i].pin, to));
             if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
@@ -551,27 +581,4 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
         FW_TRY(status);
     }
     return FW_OK;
-}
-
-void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
-                                 double thickness_m, double *c) {
-    static const int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    const double h = thickness_m, h3 = h * h * h, G = youngs_Pa / (2 * (1 + poisson));
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            int k = at[i][j];
-            c[3 * i + j] += 12 * arm->bend[k] / (youngs_Pa * h3) +
-                            3 / 0.42 * (arm->twist[k] / h3 + arm->twist3[k] / h) / G;
-        }
-    c[0] += 1.2 * arm->slide / (G * h);
-}
-
-double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
-                               double fx_N, double fy_N, const fw_verdict_turn *turn) {
-    double c = turn->cosine, s = turn->sine;
-    double x = c * fx_N + s * fy_N, y = c * fy_N - s * fx_N, m = moment_Nm;
-    const double *g = arm->give;
-    return (g[0] * m * m + 2 * m * (g[1] * x + g[2] * y) + g[3] * x * x + 2 * g[4] * x * y +
-            g[5] * y * y) /
-           (2 * stiff_N);
 }

@@ -243,7 +243,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
-    FW_TRY(fw_verdict_clearance_begin(arena, layout, m, !brief && !v->corner, watch, v));
+    FW_TRY(fw_verdict_clearance_begin(arena, options->hinges_only ? NULL : layout, m,
+                                      !brief && !v->corner, watch, v));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
@@ -443,8 +444,9 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_requirements_list(arena, m, v));
     FW_TRY(fw_verdict_bending_begin(arena, layout, m, v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
-    FW_TRY(fw_verdict_out_of_plane_judge(arena, m, is_brief(options, v) || v->corner, v));
-    FW_TRY(fw_verdict_stiction_judge(arena, m, is_brief(options, v) || v->corner, v));
+    const bool brief = is_brief(options, v) || v->corner || options->hinges_only;
+    FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, v));
+    if (!options->hinges_only) FW_TRY(fw_verdict_stiction_judge(arena, m, brief, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,

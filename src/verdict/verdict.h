@@ -374,6 +374,8 @@ typedef struct fw_verdict_options {
     /* as drawn, only hinges and requirements are read: clearances are bounded where that is enough to accept them, and
        tethers are not watched: for studies */
     bool bounded;
+    bool
+        hinges_only; /* nothing is judged but hinges, requirements and whether motions are to be relied on */
     bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
     fw_verdict_restated restated; /* with NULL: no advice */
     fw_verdict_fabricated_of fabricated_of;

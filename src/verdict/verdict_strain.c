@@ -3,9 +3,67 @@
    beam, and on two neighbouring levels of hinges. */
 #include "verdict/strain.h"
 #include "base/constants.h"
+#include "geometry/segment.h"
 #include "verdict/verdict.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- a way through a body, as a beam (body_arms.c) ---- */
+
+void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
+                        fw_geometry_vec2 from, fw_geometry_vec2 until, double w) {
+    double length = vec_distance(from, until);
+    if (!(length > 0)) return;
+    fw_geometry_vec2 along = vec_unit(vec_sub(until, from));
+    fw_geometry_vec2 r = vec_sub(at, pin), side = vec_left(along);
+    /* moment, axial and shear force of M, Fx, Fy there */
+    const double m[3] = {1, -r.y, r.x}, a[3] = {0, along.x, along.y}, s[3] = {0, side.x, side.y};
+    const int row_of[6] = {0, 0, 0, 1, 1, 2}, column_of[6] = {0, 1, 2, 1, 2, 2};
+    for (int k = 0; k < 6; k++) {
+        int i = row_of[k], j = column_of[k];
+        arm->give[k] +=
+            length * (12 * m[i] * m[j] / (w * w * w) + (a[i] * a[j] + 3.2 * s[i] * s[j]) / w);
+    }
+    const double n[3] = {-(along.y * -r.y - along.x * r.x), -along.y, along.x},
+                 t[3] = {along.x * -r.y + along.y * r.x, along.x, along.y};
+    for (int k = 0; k < 6; k++) {
+        int i = row_of[k], j = column_of[k];
+        arm->bend[k] += length * n[i] * n[j] / w;
+        arm->twist[k] += length * t[i] * t[j] / w;
+        arm->twist3[k] += length * t[i] * t[j] / (w * w * w);
+    }
+    arm->slide += length / w;
+    arm->length_m += length;
+    if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
+    double edge = 6 * vec_length(r) / (w * w) + 1 / w;
+    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at;
+    arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
+}
+
+void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
+                                 double thickness_m, double *c) {
+    static const int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    const double h = thickness_m, h3 = h * h * h, G = youngs_Pa / (2 * (1 + poisson));
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int k = at[i][j];
+            c[3 * i + j] += 12 * arm->bend[k] / (youngs_Pa * h3) +
+                            3 / 0.42 * (arm->twist[k] / h3 + arm->twist3[k] / h) / G;
+        }
+    c[0] += 1.2 * arm->slide / (G * h);
+}
+
+double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
+                               double fx_N, double fy_N, const fw_verdict_turn *turn) {
+    double c = turn->cosine, s = turn->sine;
+    double x = c * fx_N + s * fy_N, y = c * fy_N - s * fx_N, m = moment_Nm;
+    const double *g = arm->give;
+    return (g[0] * m * m + 2 * m * (g[1] * x + g[2] * y) + g[3] * x * x + 2 * g[4] * x * y +
+            g[5] * y * y) /
+           (2 * stiff_N);
+}
+
+/* ---- strain ---- */
 
 static const double tolerance = 1e-8;
 /* directions that are looked at where the axis is not known; between two of them no part of the

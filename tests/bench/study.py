@@ -3,7 +3,7 @@
 """What a device of a study costs beside `check` of the same device, and how far one machine is from a million of them.
 
     tests/bench/study.py build/flexwright [--designs 1000] [--checks 30] [--rounds 3] [--jobs N]
-    tests/bench/study.py build/flexwright --instructions 10
+    tests/bench/study.py build/flexwright --instructions 10 [--as hinges]
 
 The reference six-bar as drawn, the width and the arc of every hinge at random, a step load, accuracy 1e-3, the
 verdict of every hinge. Rounds take turns, so that all meet the same noise; times are of the processor, user and
@@ -32,12 +32,12 @@ def device():
     return text.replace(' flow="al-masked-rie"', "").replace('angle="arc"', 'angle="240 deg"')
 
 
-def study(designs):
+def study(designs, judged):
     rows = "".join(f'<vary what="flexure[{h}]/@width" from="{0.8 * w:g} um" to="{1.2 * w:g} um"/>'
                    f'<vary what="flexure[{h}]/@angle" from="200 deg" to="250 deg"/>\n' for h, w in WIDTHS.items())
     hinges = "".join(f'<respond name="{h}" value="hinges[{h}].utilisation"/>' for h in WIDTHS)
-    return ('<study xmlns="urn:flexwright:study:1" name="six-bars" kind="sweep" as="drawn" points="sobol" '
-            f'samples="{designs}" device="device.xml">\n{rows}{hinges}</study>\n')
+    return ('<study xmlns="urn:flexwright:study:1" name="six-bars" kind="sweep" points="sobol" '
+            f'as="{judged}" samples="{designs}" device="device.xml">\n{rows}{hinges}</study>\n')
 
 
 def run(*command):
@@ -57,9 +57,9 @@ STAGES = {"motions": "fw_statics_move_scene", "of that, integrated and looked at
           "documents": "fw_study_responses_take"}
 
 
-def count(program, place, designs):
+def count(program, place, designs, judged):
     """instructions of a study, and of those below each of STAGES"""
-    (place / "count.xml").write_text(study(designs))
+    (place / "count.xml").write_text(study(designs, judged))
     out = place / f"callgrind-{designs}"
     subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", str(program), "study",
                     str(place / "count.xml"), "-o", str(place / f"count-{designs}"), "--jobs", "1"], check=True,
@@ -76,8 +76,8 @@ def count(program, place, designs):
     return total, {what: spent.get(name, 0) for what, name in STAGES.items()}
 
 
-def instructions(program, place, designs):
-    few, many = count(program, place, 2), count(program, place, designs + 2)
+def instructions(program, place, designs, judged):
+    few, many = (count(program, place, n, judged) for n in (2, designs + 2))
     print(f"{'a device of a study':38} {(many[0] - few[0]) / designs / 1e6:9.2f} million instructions")
     for what in STAGES:
         print(f"  {what:36} {(many[1][what] - few[1][what]) / designs / 1e6:9.2f}")
@@ -89,6 +89,7 @@ def main():
     for name, usual in (("designs", 1000), ("checks", 30), ("rounds", 3), ("jobs", 1)):
         ask.add_argument(f"--{name}", type=int, default=usual)
     ask.add_argument("--instructions", type=int, default=0, metavar="DESIGNS")
+    ask.add_argument("--as", dest="judged", choices=("drawn", "hinges"), default="drawn")
     given = ask.parse_args()
     program = given.program.resolve()
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -96,10 +97,10 @@ def main():
         place = pathlib.Path(name)
         (place / "device.xml").write_text(device())
         if given.instructions:
-            instructions(program, place, given.instructions)
+            instructions(program, place, given.instructions, given.judged)
             return
         for n in (2, given.designs):
-            (place / f"study-{n}.xml").write_text(study(n))
+            (place / f"study-{n}.xml").write_text(study(n, given.judged))
         each, checks, walls, memory = [], [], [], 0
         for turn in range(given.rounds):
             few = run(program, "study", place / "study-2.xml", "-o", place / f"two-{turn}", "--jobs", given.jobs)

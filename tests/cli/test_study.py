@@ -171,6 +171,18 @@ class Study(unittest.TestCase):
         self.assertEqual([r["flexure[C]/@width"] for r in failed], ["300 um"] * 2)
         self.assertTrue(all(r["why"] and not r["U"] for r in failed))
 
+    def test_hinges_alone_are_said(self):
+        rows = ('<vary what="arc" values="230 deg; 240 deg"/>'
+                '<respond name="U" value="governing.utilisation"/>')
+        file, place = self.write(study("alone", "sweep", rows, **{"as": "hinges"})), self.place / "alone"
+        plan = run("study", file, "--plan", *FLOW)
+        self.assertIn("nothing of clearances", plan.stdout)
+        done = run("study", file, "-o", place, *FLOW)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("of hinges and requirements as drawn alone", done.stdout)
+        self.assertIn("of hinges and requirements as drawn alone", (place / "study.html").read_text())
+        self.assertEqual(json.loads((place / "study.json").read_text())["judged_as"], "hinges")
+
     def test_mistakes_are_said_at_their_places(self):
         vary = '<vary what="arc" from="200 deg" to="260 deg"/>'
         respond = '<respond name="U" value="governing.utilisation"/>'
@@ -183,6 +195,9 @@ class Study(unittest.TestCase):
             ("sweep", vary + respond.replace("governing", "hinges[Q]"), "FW-D492", "it has A B C D E F"),
             ("sweep", vary + respond.replace("governing.", "hinges[*]."), "FW-D492", "take="),
             ("sweep", vary + respond.replace("governing", "masses:x"), "FW-D492", "no document 'masses'"),
+            ("sweep\" as=\"hinges", vary + respond.replace("governing.utilisation", "clearances[0].clearance_m"), "FW-D576",
+             "about something else"),
+            ("size\" as=\"hinges", vary + respond.replace("/>", ' goal="minimise"/>'), "FW-D490", "hinges alone do not say"),
             ("sweep", vary, "FW-D490", "nothing is asked"),
             ("sweep", respond, "FW-D490", "at least one &lt;vary&gt;"),
             ("size", vary + respond, "FW-D490", "goal="),

@@ -188,6 +188,52 @@ static void random_six_bars(void **state) {
     room_free(&r);
 }
 
+/* What a verdict of hinges alone says of hinges is what the whole verdict says, whether they are accepted or not; and
+   what the whole one accepts or hinges reject is decided alike. Links as wide as here collide in some. */
+static void hinges_alone(void **state) {
+    (void)state;
+    const int n = test_fewest(test_cases(60, 16), 4);
+    const char *rows = "<vary what=\"push\" from=\"0.1 mN\" to=\"0.9 mN\"/>"
+                       "<vary what=\"flexure[A]/@width\" from=\"4 um\" to=\"14 um\"/>"
+                       "<vary what=\"link\" from=\"100 um\" to=\"600 um\"/>";
+    room r = room_new("");
+    fw_study *whole = open_study(&r, r.device, "drawn", rows, any);
+    fw_study *alone = open_study(&r, r.device, "hinges", rows, any);
+    fw_study_sample a, b;
+    int accepted = 0, beside = 0;
+    compare(alone, test_fewest(6, 2));
+    assert_int_equal(fw_study_sample_new(whole->arena, whole, &a), FW_OK);
+    assert_int_equal(fw_study_sample_new(alone->arena, alone, &b), FW_OK);
+    for (int i = 0; i < n; i++) {
+        bool changed = false;
+        for (int k = 0; k < whole->ninput; k++)
+            assert_int_equal(fw_study_input_at(&whole->input[k],
+                                               fw_chance_uniform(81, (uint64_t)i, (uint64_t)k), 6,
+                                               a.text[k], &a.value[k]),
+                             FW_OK);
+        fw_study_sample_copy(whole, &a, &b);
+        assert_int_equal(fw_study_evaluate(whole, NULL, &a, &changed), FW_OK);
+        assert_int_equal(fw_study_evaluate(alone, NULL, &b, &changed), FW_OK);
+        assert_int_equal(a.run, b.run);
+        if (!a.run) continue;
+        /* a hinge that is undecided is looked at again, unless something else has rejected the device */
+        if (a.decision != 1 || b.decision == 1) {
+            for (int k = 0; k < whole->nresponse; k++)
+                assert_true(same_number(a.response[k], b.response[k]));
+        }
+        if (a.decision == 0) assert_int_equal(b.decision, a.decision);
+        if (b.decision != 0) assert_int_not_equal(a.decision, 0);
+        accepted += a.decision == 0;
+        beside += a.decision != b.decision;
+    }
+    print_message("%d designs: %d accepted, %d decided by something beside hinges\n", n, accepted,
+                  beside);
+    assert_true(n < 30 || (accepted > 0 && beside > 0));
+    fw_study_free(whole);
+    fw_study_free(alone);
+    room_free(&r);
+}
+
 /* with a flow, whose judgement is part of the decision; asked for more than hinges; as the flow makes it */
 static void flows_and_clearances(void **state) {
     (void)state;
@@ -267,7 +313,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_six_bars), cmocka_unit_test(flows_and_clearances),
         cmocka_unit_test(strange_ones),    cmocka_unit_test(of_the_gallery),
-        cmocka_unit_test(changed_files),
+        cmocka_unit_test(changed_files),    cmocka_unit_test(hinges_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
