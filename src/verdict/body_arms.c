@@ -10,6 +10,7 @@
    nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
    circle is largest to a hundredth of it, and there w is exact. */
 #include "verdict/strain.h"
+#include "base/sort.h"
 #include "geometry/segment.h"
 #include <string.h>
 
@@ -454,7 +455,7 @@ static void add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
     arm->length_m += length;
     if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
     double edge = 6 * vec_length(r) / (w * w) + 1 / w;
-    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at;
+    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at, arm->along = along;
     arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
 }
 
@@ -507,6 +508,45 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
     return n;
 }
 
+/* The median of what the cut leaves is the place about which its integral of distances is least */
+static void sum_cut(const double *at, int n, double *middle, fw_verdict_arm *arm) {
+    double passed = 0;
+    for (int k = 0; k < n; k += 2)
+        arm->cut_m += at[k + 1] - at[k];
+    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
+        *middle = at[k] + 0.5 * arm->cut_m - passed;
+        passed += at[k + 1] - at[k];
+    }
+    for (int k = 0; k < n; k += 2) {
+        const double a = at[k] - *middle, b = at[k + 1] - *middle;
+        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
+    }
+}
+
+/* whatever the stress is, over a cut it comes to what hinges put on either side */
+static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
+                             fw_verdict_arm *arm) {
+    double *at, middle = 0;
+    int count = 0;
+    const double inward = vec_dot(vec_sub(arm->edge, ends[hinge].root), arm->along) < 0 ? -1 : 1;
+    const fw_geometry_vec2 across = vec_scale(inward, arm->along), along = vec_left(across);
+    for (int k = 0; k < n; k++)
+        if ((vec_dot(vec_sub(ends[k].root, arm->edge), across) < 0) != (k == hinge)) return FW_OK;
+    FW_NEED(at = fw_arena_array(g->arena, double, (size_t)g->nline + 1));
+    for (int i = 0; i < g->nline; i++) {
+        const fw_geometry_vec2 a = vec_sub(g->line[i].a, arm->edge),
+                               b = vec_sub(g->line[i].b, arm->edge);
+        const double from = vec_dot(a, across), to = vec_dot(b, across);
+        if ((from > 0) == (to > 0)) continue;
+        at[count++] = vec_dot(vec_along(a, from / (from - to), vec_sub(b, a)), along);
+    }
+    if (count % 2 != 0) return FW_OK;
+    fw_sort_doubles(at, (size_t)count);
+    sum_cut(at, count, &middle, arm);
+    arm->cut = vec_along(arm->edge, middle, along);
+    return FW_OK;
+}
+
 static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, const end *ends,
                          int n, fw_verdict_arm *arm) {
     grid g = {.arena = scratch};
@@ -533,6 +573,10 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
             if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }
+    for (int i = 0; i < n; i++) {
+        fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
+        if (to->known) FW_TRY(cut_at_edge(&g, ends, n, i, to));
+    }
     return FW_OK;
 }
 
@@ -551,27 +595,4 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
         FW_TRY(status);
     }
     return FW_OK;
-}
-
-void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
-                                 double thickness_m, double *c) {
-    static const int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    const double h = thickness_m, h3 = h * h * h, G = youngs_Pa / (2 * (1 + poisson));
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            int k = at[i][j];
-            c[3 * i + j] += 12 * arm->bend[k] / (youngs_Pa * h3) +
-                            3 / 0.42 * (arm->twist[k] / h3 + arm->twist3[k] / h) / G;
-        }
-    c[0] += 1.2 * arm->slide / (G * h);
-}
-
-double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
-                               double fx_N, double fy_N, const fw_verdict_turn *turn) {
-    double c = turn->cosine, s = turn->sine;
-    double x = c * fx_N + s * fy_N, y = c * fy_N - s * fx_N, m = moment_Nm;
-    const double *g = arm->give;
-    return (g[0] * m * m + 2 * m * (g[1] * x + g[2] * y) + g[3] * x * x + 2 * g[4] * x * y +
-            g[5] * y * y) /
-           (2 * stiff_N);
 }
