@@ -61,7 +61,6 @@ CASES = {
     "Ranges that a pack does not know": (LEAF, None, "check", "0.99 to 1 is assumed, and the verdict holds there only"),
     "Motion and strain of bodies with release holes": (SIX, ('<die width="5.6 mm"', '<die release-pitch="30 um" width="5.6 mm"'),
                                                "mask --corners none --advice none", "no hole can be opened near.*FW-D189"),
-    "Hollows below the test die": (COMB, None, "recipe", "the test die of this flow has no hollows"),
     "Times of handling steps": (SIX, None, "recipe --flow al-masked-rie", r'class="tag assumed"'),
     "What the release reaches": (SIX, None, "recipe --flow copper-on-porous-silicon", "NOT COMPUTABLE, missing: "),
 }
