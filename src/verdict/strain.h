@@ -7,7 +7,7 @@
 #include "flexure/beam.h"
 #include "flexure/limit.h"
 #include "layout/layout.h"
-#include "maths/rainflow.h"
+#include "maths/functions.h"
 #include "mechanism/mechanism.h"
 #include "probe/probe.h"
 
