@@ -248,6 +248,15 @@ class Cells(unittest.TestCase):
             self.assertIn("FW-D144" if k else "FW-D145", done.stderr)
             self.assertNotIn("FW-D152", done.stderr)
 
+    def test_what_lies_inside_of_a_cell_is_not_cut_out_of_it(self):
+        klayout("import pya\nfor n, a in (('small', 20000), ('large', 90000)):\n  l = pya.Layout(); l.dbu = 0.001; c = l.create_cell('C')\n"
+                "  c.shapes(l.layer(1, 0)).insert(pya.Box(-a, -a, a, a)); l.write(n + '.gds')\npya.Application.instance().exit(0)\n", self.where)
+        cell = '<cell id="%s" file="%s.gds" x="-0.7 mm" y="3.4 mm" layers="1/0>mask"/>'
+        done = self.make("around", cell % ("s", "small") + cell % ("l", "large"))
+        self.assertIn("FW-D152", done.stderr)
+        done = self.make("within", cell % ("l", "large") + cell % ("s", "small"))
+        self.assertNotIn("FW-D152", done.stderr)
+
 
 if __name__ == "__main__":
     if not shutil.which("klayout"):
