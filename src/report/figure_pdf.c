@@ -540,16 +540,27 @@ static bool in_text(const converter *c, const char *s) {
     }
     while (s > c->svg && *s != '<')
         s--;
-    return strncmp(s, "<text", 5) == 0 || strncmp(s, "<tspan", 6) == 0 ||
-           strncmp(s, "</tspan", 7) == 0;
+    const tag t = tag_at(s);
+    return is_named(&t, "tspan") || (is_named(&t, "text") && !t.closes);
+}
+
+/* the first element of a name; NULL: there is none */
+static const char *first_of(const char *s, const char *name) {
+    while ((s = strchr(s, '<'))) {
+        const tag t = tag_at(s);
+        if (is_named(&t, name) && !t.closes) return s;
+        s++;
+    }
+    return NULL;
 }
 
 fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, fw_text *pdf,
                                const char **unknown) {
     fw_text page = fw_text_new(arena);
-    const char *start = strstr(svg, "<svg"), *sheet = strstr(svg, "<style>");
+    const char *start = first_of(svg, "svg"), *sheet = first_of(svg, "style");
     converter c = {.arena = arena, .svg = svg, .out = &page, .unknown = unknown};
-    c.rules = sheet ? sheet + 7 : NULL;
+    c.rules = sheet ? sheet + strcspn(sheet, ">") : NULL;
+    if (c.rules && *c.rules) c.rules++;
     c.stack[0] = (style){.fill = {true, 0},
                          .width = 1,
                          .fill_opacity = 1,
