@@ -279,7 +279,7 @@ static bool path(fw_text *out, const char *d, const char *end) {
         const char upper = relative ? (char)(way - 32) : way;
         if (upper == 'Z') {
             fw_text_add(out, "h\n");
-            at[0] = first[0], at[1] = first[1];
+            at[0] = first[0], at[1] = first[1], way = 0;
             continue;
         }
         const int n = upper == 'A' ? 7 : upper == 'M' || upper == 'L' ? 2 : upper ? 1 : 0;

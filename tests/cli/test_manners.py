@@ -147,7 +147,7 @@ class Manners(unittest.TestCase):
                         self.assertIn(word.encode().hex(), page, svg)
             for bad, says in (("<svg width='1' height='1'/>", "no picture"), ('<svg width="9" height="9"><image/></svg>', "image"),
                               ('<svg width="9" height="9"><text x="1">\u6f22</text></svg>', "\u6f22"), ("<svg", "no picture"),
-                              ('<svg width="9" height="9"><g transform="rotate', None), ('<svg width="9" height="9"><text x="1" text-anchor="end">a<tspan', None)):
+                              ('<svg width="9" height="9"><path d="M1 1Z5"/></svg>', "path"), ('<svg width="9" height="9"><g transform="rotate', None), ('<svg width="9" height="9"><text x="1" text-anchor="end">a<tspan', None)):
                 path = pathlib.Path(where, "bad.svg")
                 path.write_text(bad, encoding="utf-8")
                 done = run("figure", str(path), "-o", where + "/bad.pdf")
