@@ -428,7 +428,7 @@ static void accuracy(fw_json *json, const fw_verdict *v) {
 }
 
 static void advice(fw_json *json, const fw_verdict *v) {
-    static const char *const kind[] = {"parameter", "flexures", "loads", "several"};
+    static const char *const kind[] = {"parameter", "flexures", "holes", "loads", "several"};
     fw_json_list(json, "advice");
     for (int i = 0; i < v->nproposal; i++) {
         const fw_verdict_proposal *p = &v->proposal[i];
