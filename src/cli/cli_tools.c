@@ -4,6 +4,7 @@
 #include "base/output.h"
 #include "cli/session.h"
 #include "continuum/continuum.h"
+#include "report/report.h"
 #include "serve/serve.h"
 #include <fcntl.h>
 #include <jansson.h>
@@ -122,6 +123,40 @@ int fw_cli_command_init(fw_cli_options *options) {
            "<device xmlns=\"urn:flexwright:device:1\" name=\"%s\">\n%s",
            name, starter);
     return 0;
+}
+
+/* ---- figure ---- */
+
+enum { MOST_FIGURE = 64 << 20 };
+
+static fw_status write_figure(fw_arena *arena, const fw_cli_options *options, fw_diags *diags) {
+    char *svg;
+    size_t n;
+    const char *unknown;
+    fw_text pdf = fw_text_new(arena);
+    FW_TRY(fw_input_read(arena, options->device, MOST_FIGURE, diags, &svg, &n));
+    const fw_status status = fw_report_figure_pdf(arena, svg, &pdf, &unknown);
+    if (status == FW_INPUT)
+        return fw_diag_error(
+            diags, 549, (fw_place){options->device, 0, 0},
+            "it has '%s', which pictures of this program have not; convert it with "
+            "another program",
+            unknown ? unknown : "?");
+    FW_TRY(status);
+    return fw_output_single(arena, options->output ? options->output : "-", pdf.data, pdf.length,
+                            diags);
+}
+
+int fw_cli_command_figure(fw_cli_options *options) {
+    fw_arena *arena = fw_arena_new(0);
+    if (!arena) return fw_status_exit(FW_NOMEM);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_status status = write_figure(arena, options, &diags);
+    fw_text said = fw_text_new(arena);
+    fw_diags_print(&diags, &said, options->device, NULL, 0, 0);
+    if (said.length > 0) fputs(said.data, stderr);
+    fw_arena_free(arena);
+    return fw_status_exit(status);
 }
 
 /* ---- explain ---- */

@@ -463,6 +463,7 @@ static const fw_cli_option_row table[] = {
      FW_OPT_PLAN, take_lab},
     {"output", 'o', "FILE", "the laboratory pack; default standard output", FW_OPT_CALIBRATE,
      take_output},
+    {"output", 'o', "FILE", "the PDF; default standard output", FW_OPT_FIGURE, take_output},
     {"flow", 0, "NAME", "the process flow that the coupons went through", FW_OPT_CALIBRATE,
      take_flow},
     {"scene", 0, "NAME", "the scene; default the first",

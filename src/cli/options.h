@@ -78,7 +78,8 @@ enum { /* option groups */
        FW_OPT_TRADEOFF = 4096,
        FW_OPT_SERVE = 8192,
        FW_OPT_VERDICT = 16384,
-       FW_OPT_STUDY = 32768
+       FW_OPT_STUDY = 32768,
+       FW_OPT_FIGURE = 65536
 };
 
 /* the program with its arguments: the exit status of the contract */

@@ -438,3 +438,59 @@ double fw_geometry_contour_clearance(const fw_geometry_contour *contour, bool in
                                      int *j) {
     return fw_geometry_contour_clearance_below(contour, inside, HUGE_VAL, i, j);
 }
+
+/* ---- many lines at once ---- */
+
+fw_status fw_geometry_lines_new(fw_arena *arena, int n, fw_geometry_lines *to) {
+    const size_t room = (size_t)n + FW_GEOMETRY_LINES_TOGETHER;
+    double *all = fw_arena_array(arena, double, 4 * room);
+    FW_NEED(all);
+    *to = (fw_geometry_lines){all, all + room, all + 2 * room, all + 3 * room, 0};
+    return FW_OK;
+}
+
+void fw_geometry_lines_add(fw_geometry_lines *to, double ax, double ay, double bx, double by) {
+    const int i = to->n++;
+    to->ax[i] = ax, to->ay[i] = ay, to->bx[i] = bx, to->by[i] = by;
+}
+
+/* four lines in a register, each with the operations of vec_line_foot in their order, so that every
+   processor has the same bits */
+__attribute__((always_inline)) static inline void squares_of(const fw_geometry_lines *l,
+                                                             fw_geometry_vec2 at, double *off) {
+    typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef long long mask __attribute__((vector_size(32), aligned(8), may_alias));
+    for (int i = 0; i < l->n; i += FW_GEOMETRY_LINES_TOGETHER) {
+        const four ax = *(const four *)(l->ax + i), ay = *(const four *)(l->ay + i),
+                   bx = *(const four *)(l->bx + i), by = *(const four *)(l->by + i);
+        const four way_x = bx - ax, way_y = by - ay, square = way_x * way_x + way_y * way_y;
+        four here = ((at.x - ax) * way_x + (at.y - ay) * way_y) / square;
+        here = (four)((mask)here & (square > 0));
+        const mask first = here <= 0.5, between = (here > 0) & (here < 1); /* else an end itself */
+        const four t = (four)((((mask)here & first) | ((mask)(here - 1) & ~first)) & between);
+        const four x = (four)(((mask)ax & first) | ((mask)bx & ~first)) + t * way_x - at.x,
+                   y = (four)(((mask)ay & first) | ((mask)by & ~first)) + t * way_y - at.y;
+        *(four *)(off + i) = x * x + y * y;
+    }
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) static void squares_avx2(const fw_geometry_lines *l,
+                                                         fw_geometry_vec2 at, double *off) {
+    squares_of(l, at, off);
+}
+#endif
+
+double fw_geometry_lines_least_square(const fw_geometry_lines *l, fw_geometry_vec2 at,
+                                      double *off) {
+    double least = HUGE_VAL;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2"))
+        squares_avx2(l, at, off);
+    else
+#endif
+        squares_of(l, at, off);
+    for (int i = 0; i < l->n; i++)
+        least = fw_lesser(least, off[i]);
+    return least;
+}

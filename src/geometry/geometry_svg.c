@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "geometry/geometry_svg.h"
+#include "geometry/contour.h"
 #include <math.h>
 
 int fw_geometry_arc_parts(const fw_geometry_segment *s, double most_rad) {

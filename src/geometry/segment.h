@@ -128,6 +128,21 @@ double fw_geometry_concentric_gap(const fw_geometry_segment *p, const fw_geometr
                                   fw_geometry_vec2 *along);
 double fw_geometry_segment_distance(const fw_geometry_segment *p, const fw_geometry_segment *q,
                                     fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q);
+/* lines for all of which one thing is computed: their ends, each number in a row */
+enum { FW_GEOMETRY_LINES_TOGETHER = 4 };
+typedef struct fw_geometry_lines {
+    double *ax, *ay, *bx,
+        *by; /* (n, and as many more as are computed together, which say nothing) */
+    int n;
+} fw_geometry_lines;
+/* room for n lines, without any */
+fw_status fw_geometry_lines_new(fw_arena *arena, int n, fw_geometry_lines *to);
+void fw_geometry_lines_add(fw_geometry_lines *to, double ax, double ay, double bx, double by);
+/* off (n, and FW_GEOMETRY_LINES_TOGETHER more): the squared distances of a place from the lines; returns
+   the least, HUGE_VAL where there is none. Same bits on every processor. Cost 8 operations a line and place.
+   Test: test_body_arms.c */
+double fw_geometry_lines_least_square(const fw_geometry_lines *lines, fw_geometry_vec2 at,
+                                      double *off);
 
 /* turns of the contour about the point, counter-clockwise positive */
 int fw_geometry_contour_winding(const fw_geometry_contour *contour, fw_geometry_vec2 point);

@@ -154,6 +154,8 @@ typedef struct fw_layout {
 
 /* the cell that a piece is of; NULL: of none */
 const fw_layout_cell *fw_layout_cell_of(const fw_layout *layout, const fw_layout_piece *piece);
+/* does a part of it lie on frame or bases? Then it is one with them on the mask (mask/mask_cells.c) */
+bool fw_layout_cell_is_held(const fw_layout *layout, const fw_layout_cell *cell);
 /* pieces of cells behind those of a list: of *layout, whose pieces and cells they become (layout_cells.c) */
 fw_status fw_layout_cells_add(fw_arena *arena, const fw_device_cell *cell, int ncell,
                               fw_layout *layout, int *capacity);

@@ -79,6 +79,18 @@ static bool meet(const fw_layout_piece *p, const fw_layout_piece *q, fw_geometry
            TOUCH_M;
 }
 
+bool fw_layout_cell_is_held(const fw_layout *layout, const fw_layout_cell *cell) {
+    fw_geometry_vec2 at;
+    for (int i = 0; i < layout->npiece; i++)
+        for (int k = 0; layout->piece[i].label == cell->label && k < layout->npiece; k++) {
+            const fw_layout_piece *q = &layout->piece[k];
+            if (q->body == FW_GROUND && fw_layout_is_wall(q) && !fw_layout_cell_of(layout, q) &&
+                meet(&layout->piece[i], q, &at))
+                return true;
+        }
+    return false;
+}
+
 static fw_status check_touch(const fw_layout *l, const fw_layout_cell *c, const fw_layout_piece *p,
                              fw_diags *diags) {
     for (int i = 0; i < l->npiece; i++) {

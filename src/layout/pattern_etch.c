@@ -228,21 +228,29 @@ const fw_layout_pattern_kind fw_layout_pattern_holes = {
 /* cantilevers: beams of rising length, free at one end. A gradient G of stress through the
    thickness curls a beam that came free to the radius E/G, so that the tip of one of length L
    stands h = G L^2/(2 E) above its root (small slopes; E/(1 - nu) for beams much wider than thick).
-   In: sizes (lengths), width, space, m. Source: beam with constant initial curvature, h = L^2/(2
-   R). Test: test_patterns.c. Holds where the root does: the bar must be wider than twice what the
-   release reaches. */
+   In: sizes (lengths), width, space, m; where the carrier stays below, hollow: how far a hollow of it goes
+   beyond the beams on every side, below their bar too, so that what the two plates are off by moves no root.
+   Source: beam with constant initial curvature, h = L^2/(2 R). Test: test_patterns.c. Holds where the root
+   does: the bar must be wider than twice what the release reaches, or than the hollow goes below it. */
 
-enum { CANTILEVERS_WIDTH, CANTILEVERS_SPACE };
+enum { CANTILEVERS_WIDTH, CANTILEVERS_SPACE, CANTILEVERS_HOLLOW };
 
 static fw_status draw_cantilevers(fw_layout_pen *pen) {
-    double width = fw_layout_pen_value(pen, CANTILEVERS_WIDTH), x = 0;
+    double width = fw_layout_pen_value(pen, CANTILEVERS_WIDTH), longest = 0;
+    const double beyond = fw_layout_pen_value(pen, CANTILEVERS_HOLLOW);
+    double x = beyond;
     const fw_layout_pattern *p = pen->pattern;
     for (int i = 0; i < p->nsize; i++) {
+        longest = fmax(longest, p->size_m[i]);
         double length = p->size_m[i], middle = x + 0.5 * width;
         FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_STRUCTURE, "cantilever", x, 0, x + width, length));
         FW_TRY(fw_layout_pen_chord(pen, "beam", middle, 0, middle, length, FW_PEN_SIZE));
         x += width + fw_layout_pen_value(pen, CANTILEVERS_SPACE);
     }
+    if (beyond > 0)
+        FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_CAVITY, "hollow below cantilevers", 0, -beyond,
+                                 x - fw_layout_pen_value(pen, CANTILEVERS_SPACE) + beyond,
+                                 longest + beyond));
     fw_layout_pen_figure(pen, "width", width * 1e6, "um");
     pen->coupon->formula = "height of the tip over the root: G = 2 E h/L^2";
     return FW_OK;
@@ -251,8 +259,10 @@ static fw_status draw_cantilevers(fw_layout_pen *pen) {
 const fw_layout_pattern_kind fw_layout_pattern_cantilevers = {
     .name = "cantilevers",
     .what = "beams of rising length: stress gradient from the height of their tips",
-    .parameter = {{"width", 12e-6, 2e-6, 200e-6, false}, {"space", 60e-6, 4e-6, 500e-6, false}},
-    .nparameter = 2,
+    .parameter = {{"width", 12e-6, 2e-6, 200e-6, false},
+                  {"space", 60e-6, 4e-6, 500e-6, false},
+                  {"hollow", 0, 0, 100e-6, false}},
+    .nparameter = 3,
     .sizes = "lengths of the beams",
     .draw = draw_cantilevers,
 };

@@ -42,11 +42,12 @@ static fw_status add_piece(fw_layout_pen *pen, fw_layout_role role, const char *
                            const fw_geometry_contour *contour) {
     fw_layout_coupon *c = pen->coupon;
     fw_geometry_box b = fw_geometry_contour_box(contour);
-    if (b.x0 < -1e-12 || b.y0 < -1e-12) return FW_GEOMETRY;
+    const bool below = role == FW_ROLE_CAVITY; /* another plate, under the bar, too */
+    if (b.x0 < -1e-12 || (b.y0 < -1e-12 && !below)) return FW_GEOMETRY;
     c->width_m = fmax(c->width_m, b.x1);
     c->height_m = fmax(c->height_m, b.y1);
-    bool mark = role == FW_ROLE_MARK || role == FW_ROLE_BACK || role == FW_ROLE_TEXT ||
-                role == FW_ROLE_METAL;
+    const bool mark = below || role == FW_ROLE_MARK || role == FW_ROLE_BACK ||
+                      role == FW_ROLE_TEXT || role == FW_ROLE_METAL;
     fw_layout_piece piece = {role, mark ? FW_NONE - 1 : FW_GROUND, FW_NONE, label, *contour};
     return fw_layout_add(pen->arena, piece, &c->piece, &c->npiece, &c->piece_room);
 }

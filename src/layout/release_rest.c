@@ -56,11 +56,14 @@ typedef struct place {
     double closed_m; /* and then this */
 } place;
 
+enum { BLOCK = 256 };
+
 typedef struct rest {
     grid *g;
     double need_m; /* of a hole's middle from edges and holes' edges */
-    place *place;
+    place *place;  /* in rows from below */
     int n, room;
+    int *best;                        /* of every BLOCK places the farthest; FW_NONE: not known */
     int *first, *next, columns, rows; /* of the grid's holes, by squares */
     int *row, nrow;                   /* edges near the row that is looked at */
 } rest;
@@ -154,14 +157,31 @@ static bool clear_of_flexures(const grid *g, fw_geometry_vec2 p, double need) {
     return true;
 }
 
-static fw_status look_at(rest *r, fw_geometry_vec2 p) {
+/* how many points of a lattice lie less than so far behind one */
+static int within_m(double far_m, double step) {
+    return far_m > 0.0 ? (int)(far_m / step * (1.0 - 1e-9)) : 0;
+}
+
+/* Distances change by no more than the way: *skip: so many points behind this one in its row have no hole for the same
+   reason; *inside: so many lie inside of the body, as this one does */
+static fw_status look_at(rest *r, fw_geometry_vec2 p, double step, int *inside, int *skip) {
     grid *g = r->g;
-    double seam, open = to_holes(r, p);
+    const double holes = to_holes(r, p);
+    double seam;
+    *skip = within_m(r->need_m - holes, step);
+    if (holes < r->need_m) return FW_OK;
+    const double edges = to_edges(r, p, g->pitch_m, r->need_m, &seam), open = fmin(holes, edges);
+    *skip = within_m(r->need_m - edges, step);
     if (open < r->need_m) return FW_OK;
-    open = fmin(open, to_edges(r, p, g->pitch_m, r->need_m, &seam));
-    if (open < r->need_m || seam < 0.5 * g->hole_m + SEAM_M ||
-        !fw_geometry_contour_contains(&g->before, p) || !clear_of_flexures(g, p, r->need_m))
-        return FW_OK;
+    if (*inside <= 0) {
+        const int same = within_m(fmin(edges, seam), step);
+        if (!fw_geometry_contour_contains(&g->before, p)) {
+            *skip = same;
+            return FW_OK;
+        }
+        *inside = same + 1;
+    }
+    if (seam < 0.5 * g->hole_m + SEAM_M || !clear_of_flexures(g, p, r->need_m)) return FW_OK;
     if (r->n == r->room) {
         int more = r->room ? 4 * r->room : 256;
         FW_NEED(r->place = fw_arena_grow(g->d->arena, r->place, (size_t)r->n, (size_t)more,
@@ -179,9 +199,11 @@ static fw_status find_places(rest *r) {
         rows = (int)ceil((g->box.y1 - g->box.y0) / step);
     FW_NEED(r->row = fw_arena_array(g->d->arena, int, (size_t)g->before.count));
     for (int j = 0; j < rows; j++) {
+        int inside = 0, skip = 0;
         list_row(r, g->box.y0 + (j + 0.5) * step);
-        for (int i = 0; i < columns; i++)
-            FW_TRY(look_at(r, fw_v(g->box.x0 + (i + 0.5) * step, g->box.y0 + (j + 0.5) * step)));
+        for (int i = 0; i < columns; i += 1 + skip, inside -= 1 + skip)
+            FW_TRY(look_at(r, fw_v(g->box.x0 + (i + 0.5) * step, g->box.y0 + (j + 0.5) * step),
+                           step, &inside, &skip));
     }
     return FW_OK;
 }
@@ -325,20 +347,57 @@ static fw_status open_hole(grid *g, fw_geometry_vec2 middle, const way *w) {
     return fw_layout_note_hole(g, middle);
 }
 
-/* the farthest place that is left; -1: none needs a hole */
-static int farthest(const rest *r) {
+/* ---- the farthest place that is left ---- */
+
+static int farther(const rest *r, int best, int i) {
+    const bool needs = r->place[i].open_m >= r->need_m;
+    return needs && (best < 0 || r->place[i].open_m > r->place[best].open_m) ? i : best;
+}
+
+/* the first of those that are equally far; -1: none needs a hole */
+static int farthest(rest *r) {
     int best = -1;
-    for (int i = 0; i < r->n; i++)
-        if (r->place[i].open_m >= r->need_m &&
-            (best < 0 || r->place[i].open_m > r->place[best].open_m))
-            best = i;
+    for (int b = 0; b * BLOCK < r->n; b++) {
+        if (r->best[b] == FW_NONE) {
+            int own = -1;
+            for (int i = b * BLOCK; i < r->n && i < (b + 1) * BLOCK; i++)
+                own = farther(r, own, i);
+            r->best[b] = own < 0 ? r->n : own; /* r->n: none */
+        }
+        if (r->best[b] < r->n) best = farther(r, best, r->best[b]);
+    }
     return best;
+}
+
+/* a new hole: places are at most the pitch from what is open already, so that only those of the rows beside it are nearer
+   to it */
+static void count_hole(rest *r, fw_geometry_vec2 at) {
+    const double radius = 0.5 * r->g->hole_m, reach = r->g->pitch_m + radius;
+    int low = 0, high = r->n;
+    while (low < high) {
+        const int middle = low + (high - low) / 2;
+        if (r->place[middle].at.y < at.y - reach)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (int k = low; k < r->n && r->place[k].at.y <= at.y + reach; k++) {
+        place *p = &r->place[k];
+        if (fabs(p->at.x - at.x) > reach) continue;
+        const double far = fw_norm(fw_sub(p->at, at)) - radius;
+        if (far < p->open_m) r->best[k / BLOCK] = FW_NONE;
+        p->open_m = fmin(p->open_m, far);
+        p->closed_m = fmin(p->closed_m, far);
+    }
 }
 
 fw_status fw_layout_release_rest(grid *g) {
     rest r = {.g = g, .need_m = 0.5 * g->hole_m + g->rim_m};
     FW_TRY(sort_holes(&r));
     FW_TRY(find_places(&r));
+    FW_NEED(r.best = fw_arena_array(g->d->arena, int, (size_t)r.n / BLOCK + 1));
+    for (int b = 0; b * BLOCK < r.n; b++)
+        r.best[b] = FW_NONE;
     for (int made = 0; made < MOST_HOLES; made++) {
         int i = farthest(&r);
         way w;
@@ -347,14 +406,11 @@ fw_status fw_layout_release_rest(grid *g) {
         if (!find_way(g, at, &w)) {
             r.place[i].closed_m = r.place[i].open_m; /* a neighbour may have a way */
             r.place[i].open_m = 0.0;
+            r.best[i / BLOCK] = FW_NONE;
             continue;
         }
         FW_TRY(open_hole(g, at, &w));
-        for (int k = 0; k < r.n; k++) {
-            double far = fw_norm(fw_sub(r.place[k].at, at)) - 0.5 * g->hole_m;
-            r.place[k].open_m = fmin(r.place[k].open_m, far);
-            r.place[k].closed_m = fmin(r.place[k].closed_m, far);
-        }
+        count_hole(&r, at);
     }
     for (int k = 0; k < r.n; k++)
         if (r.place[k].closed_m >= r.need_m && r.place[k].closed_m > g->far_m)

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Layers that the cells of a description go to, in the layer tables of the flows. */
+/* Layers that the cells of a description go to, in the layer tables of the flows; and cells upon the frame. */
 #include "base/text.h"
+#include "geometry/segment.h"
 #include "mask/mask.h"
+#include "mask/mask_polygons.h"
 #include "mask/mask_table.h"
 #include "mask/mask_writers.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -153,4 +156,198 @@ void fw_mask_cells_order_text(const fw_mask *mask, fw_text *out) {
         char gds[FW_MASK_GDS_TEXT];
         fw_text_printf(out, "%s  %s  %s\n", c->of->name, c->of->file, gds_of(mask, c, gds));
     }
+}
+
+/* ---- cells upon the frame ----
+   What a cell has in common with the frame, a base or another cell on a layer of the device is taken off the cell, exactly,
+   and the edge that they then share becomes a joint of both, so that together they are one region: its area counts once, the
+   rules see no edge between them, and nothing is counted as an overlap. After the bias: the frame is as it is on the
+   mask, its arcs near a cell as chords. What cannot be united so (a part of the frame wholly inside of a cell) stays as it
+   is, and the rules refuse it (FW-D152). Cost: pairs of cells and pieces whose boxes meet. Test: tests/klayout/cells.py */
+
+typedef struct uniter {
+    fw_arena *arena;
+    const fw_layout *layout;
+    double tolerance_m;
+    fw_mask_shape *shape;
+    int n, room;
+} uniter;
+
+static const double ONE_PLACE_M = 1e-12; /* of the boolean */
+
+static bool stands(const uniter *u, int k) {
+    const fw_layout_piece *p = u->shape[k].piece;
+    return p->body == FW_GROUND && (p->role == FW_ROLE_STRUCTURE || p->role == FW_ROLE_FRAME);
+}
+
+static bool near_to(fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    return vec_distance(p, q) <= ONE_PLACE_M;
+}
+
+/* how far along a line a point of it lies; NaN: it is off the line or beyond its ends */
+static double on_line(const fw_geometry_segment *s, fw_geometry_vec2 p) {
+    const double length = vec_distance(s->a, s->b);
+    const fw_geometry_vec2 u = vec_scale(1 / length, vec_sub(s->b, s->a)), r = vec_sub(p, s->a);
+    const double t = vec_dot(r, u);
+    return fabs(vec_cross(u, r)) <= ONE_PLACE_M && t >= -ONE_PLACE_M && t <= length + ONE_PLACE_M
+               ? t
+               : (double)NAN;
+}
+
+/* puts the part from b to a, which a cell has from a to b, into edge i of an outline as a joint */
+static fw_status split(fw_arena *arena, fw_geometry_contour *c, int i, fw_geometry_vec2 a,
+                       fw_geometry_vec2 b) {
+    const fw_geometry_segment s = c->segment[i];
+    fw_geometry_segment *list = fw_arena_array(arena, fw_geometry_segment, (size_t)c->count + 2);
+    int n = 0;
+    FW_NEED(list);
+    for (int k = 0; k < c->count; k++) {
+        if (k != i) {
+            list[n++] = c->segment[k];
+            continue;
+        }
+        fw_geometry_segment part = s;
+        if (!near_to(s.a, b)) part.b = b, list[n++] = part;
+        part = s;
+        part.a = near_to(s.a, b) ? s.a : b, part.b = near_to(s.b, a) ? s.b : a;
+        part.flags |= FW_SEGMENT_JOINT;
+        list[n++] = part;
+        part = s;
+        if (!near_to(s.b, a)) part.a = a, list[n++] = part;
+    }
+    *c = (fw_geometry_contour){.segment = list, .count = n};
+    return FW_OK;
+}
+
+/* the edge of `q` that an edge of what is left of a cell lies on, the other way round; -1: none */
+static int edge_under(const fw_geometry_contour *q, const fw_geometry_segment *s) {
+    for (int i = 0; i < q->count; i++) {
+        const fw_geometry_segment *t = &q->segment[i];
+        if (t->kind != FW_LINE || t->flags & FW_SEGMENT_JOINT) continue;
+        const double a = on_line(t, s->a), b = on_line(t, s->b);
+        if (a > b) return i; /* false where one is NaN */
+    }
+    return -1;
+}
+
+/* nothing of the other lies wholly inside of the cell */
+static bool can_meet(const fw_geometry_region *left) {
+    for (int k = 0; k < left->count; k++)
+        if (fw_geometry_contour_area(&left->contour[k]) < 0) return false;
+    return true;
+}
+
+/* joints are lines: arcs near a cell become chords within the tolerance, as they are on the mask */
+static fw_status straighten(uniter *u, fw_geometry_contour *q, fw_geometry_box near) {
+    int most = 0, n = 0;
+    for (int i = 0; i < q->count; i++) {
+        const fw_geometry_segment *s = &q->segment[i];
+        most += s->kind == FW_ARC && fw_box_gap(fw_segment_box(s), near) <= ONE_PLACE_M;
+    }
+    if (most == 0) return FW_OK;
+    enum { CHORDS = 512 };
+    fw_geometry_segment *list =
+        fw_arena_array(u->arena, fw_geometry_segment, (size_t)q->count + CHORDS * (size_t)most);
+    FW_NEED(list);
+    for (int i = 0; i < q->count; i++) {
+        const fw_geometry_segment *s = &q->segment[i];
+        const bool bends = s->kind == FW_ARC && fw_box_gap(fw_segment_box(s), near) <= ONE_PLACE_M;
+        const double turn = 2 * acos(fmax(1 - u->tolerance_m / s->radius, -1));
+        const int parts = bends ? (int)fmin(ceil(fabs(s->sweep_rad) / turn), CHORDS) : 1;
+        fw_geometry_vec2 from = s->a;
+        for (int k = 1; k <= parts; k++) {
+            fw_geometry_segment part = *s;
+            if (bends) part = (fw_geometry_segment){.kind = FW_LINE, .flags = s->flags};
+            part.a = from;
+            part.b = from = k < parts ? fw_geometry_segment_point(s, (double)k / parts) : s->b;
+            list[n++] = part;
+        }
+    }
+    *q = (fw_geometry_contour){.segment = list, .count = n};
+    return FW_OK;
+}
+
+/* joints of both along the edges that they share now; ends of edges take the bits of those of the other */
+static fw_status join_edges(uniter *u, fw_geometry_contour *q, fw_geometry_contour *c,
+                            int *joined) {
+    for (int i = 0; i < c->count; i++) {
+        fw_geometry_segment *s = &c->segment[i];
+        const int under = s->kind == FW_LINE ? edge_under(q, s) : -1;
+        if (under < 0) continue;
+        const fw_geometry_segment *t = &q->segment[under];
+        fw_geometry_segment *before = &c->segment[(i + c->count - 1) % c->count],
+                            *after = &c->segment[(i + 1) % c->count];
+        if (near_to(s->a, t->b)) s->a = before->b = t->b;
+        if (near_to(s->b, t->a)) s->b = after->a = t->a;
+        s->flags |= FW_SEGMENT_JOINT;
+        ++*joined;
+        FW_TRY(split(u->arena, q, under, s->a, s->b));
+    }
+    return FW_OK;
+}
+
+static fw_status add_shape(uniter *u, const fw_mask_shape *shape) {
+    if (u->n == u->room) {
+        const int more = 2 * u->room;
+        FW_NEED(u->shape = fw_arena_grow(u->arena, u->shape, (size_t)u->n, (size_t)more,
+                                         sizeof *u->shape));
+        u->room = more;
+    }
+    u->shape[u->n++] = *shape;
+    return FW_OK;
+}
+
+/* takes what q has in common with cell k off it. *gone: nothing is left */
+static fw_status take_off(uniter *u, int k, int q, bool *gone) {
+    fw_geometry_region left;
+    fw_geometry_contour together = u->shape[q].contour;
+    FW_TRY(straighten(u, &together, fw_geometry_contour_box(&u->shape[k].contour)));
+    const fw_geometry_region cell = {&u->shape[k].contour, 1}, other = {&together, 1};
+    int joined = 0;
+    const fw_status status =
+        fw_geometry_region_boolean(u->arena, &cell, &other, FW_DIFFERENCE, &left);
+    *gone = status == FW_OK && left.count == 0;
+    if (status == FW_GEOMETRY || *gone) return FW_OK;
+    FW_TRY(status);
+    if (!can_meet(&left)) return FW_OK;
+    for (int i = 0; i < left.count; i++)
+        FW_TRY(join_edges(u, &together, &left.contour[i], &joined));
+    if (joined == 0) return FW_OK;
+    u->shape[q].contour = together;
+    for (int i = 0; i < left.count; i++) {
+        fw_mask_shape own = u->shape[k];
+        own.contour = left.contour[i];
+        if (i == 0)
+            u->shape[k] = own;
+        else
+            FW_TRY(add_shape(u, &own));
+    }
+    return FW_OK;
+}
+
+static void drop(uniter *u, int k) {
+    for (u->n--; k < u->n; k++)
+        u->shape[k] = u->shape[k + 1];
+}
+
+fw_status fw_mask_cells_unite(fw_arena *arena, const fw_layout *layout, fw_mask *mask) {
+    uniter u = {arena, layout, mask->tolerance_m, mask->shape, mask->nshape, mask->nshape};
+    if (layout->ncell == 0) return FW_OK;
+    for (int k = 0; k < u.n; k++) {
+        bool gone = false;
+        if (!fw_layout_cell_of(layout, u.shape[k].piece) || !stands(&u, k)) continue;
+        for (int q = 0; q < u.n && !gone; q++) {
+            const bool later = fw_layout_cell_of(layout, u.shape[q].piece) && q >= k;
+            if (later || u.shape[q].layer != u.shape[k].layer || !stands(&u, q) ||
+                u.shape[q].piece->label == u.shape[k].piece->label ||
+                fw_box_gap(fw_geometry_contour_box(&u.shape[q].contour),
+                           fw_geometry_contour_box(&u.shape[k].contour)) > ONE_PLACE_M)
+                continue;
+            FW_TRY(take_off(&u, k, q, &gone));
+        }
+        if (gone) drop(&u, k--);
+    }
+    mask->shape = u.shape;
+    mask->nshape = u.n;
+    return FW_OK;
 }

@@ -30,10 +30,10 @@ static int next_joint(const fw_geometry_contour *c, int from) {
     return -1;
 }
 
-/* bias keeps the JOINT segments and their order, so that the k-th drawn one is the k-th biased one
- */
-static fw_status list_joints(fw_arena *arena, const fw_mask_shape *shape, int nshape, joint **out,
-                             int *count) {
+/* Partners are found by ends: by those that are drawn, until both have the same bits after the bias. Bias keeps the
+   JOINT segments and their order, so that the k-th drawn one is the k-th biased one. */
+static fw_status list_joints(fw_arena *arena, const fw_mask_shape *shape, int nshape,
+                             bool drawn_ends, joint **out, int *count) {
     int n = 0;
     for (int s = 0; s < nshape; s++)
         for (int i = next_joint(&shape[s].contour, 0); i >= 0;
@@ -43,7 +43,8 @@ static fw_status list_joints(fw_arena *arena, const fw_mask_shape *shape, int ns
     FW_NEED(list);
     *count = 0;
     for (int s = 0; s < nshape; s++) {
-        const fw_geometry_contour *drawn = &shape[s].piece->contour, *biased = &shape[s].contour;
+        const fw_geometry_contour *biased = &shape[s].contour,
+                                  *drawn = drawn_ends ? &shape[s].piece->contour : biased;
         int i = next_joint(drawn, 0), k = next_joint(biased, 0);
         for (; i >= 0 && k >= 0; i = next_joint(drawn, i + 1), k = next_joint(biased, k + 1))
             list[(*count)++] = (joint){s, k, drawn->segment[i].a, drawn->segment[i].b, -1};
@@ -90,7 +91,7 @@ fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_dia
     joint *list;
     int count;
     size_t errors = diags->errors;
-    FW_TRY(list_joints(arena, shape, nshape, &list, &count));
+    FW_TRY(list_joints(arena, shape, nshape, true, &list, &count));
     pair_up(shape, list, count);
     for (int i = 0; i < count; i++) {
         const joint *p = &list[i];
@@ -141,7 +142,7 @@ fw_status fw_mask_check_joints(fw_arena *arena, const fw_mask_shape *shape, int 
     joint *list;
     int count;
     size_t errors = diags->errors;
-    FW_TRY(list_joints(arena, shape, nshape, &list, &count));
+    FW_TRY(list_joints(arena, shape, nshape, false, &list, &count));
     pair_up(shape, list, count);
     for (int i = 0; i < count; i++) {
         const joint *p = &list[i];

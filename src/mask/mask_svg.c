@@ -2,7 +2,7 @@
 /* Which outlines are another one, moved: letters, combs, marks. */
 #include "mask/mask_writers.h"
 #include "base/constants.h"
-#include "geometry/geometry_svg.h"
+#include "geometry/contour.h"
 #include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>

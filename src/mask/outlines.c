@@ -2,7 +2,7 @@
 #include "mask/mask.h"
 #include "mask/mask_writers.h"
 #include "base/constants.h"
-#include "geometry/geometry_svg.h"
+#include "geometry/contour.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/rainflow.h"
+#include "maths/functions.h"
 #include <math.h>
 
 static void push(fw_maths_turning *t, fw_arena *arena, double value) {

@@ -350,6 +350,7 @@ static void warn_of_loose_cells(fw_plan *plan, const fw_plan_flow *pf) {
     for (int i = 0; i < l->ncell; i++)
         for (int k = 0; k < l->npiece; k++) {
             if (l->piece[k].label != l->cell[i].label || !fw_layout_is_wall(&l->piece[k])) continue;
+            if (fw_layout_cell_is_held(l, &l->cell[i])) break;
             fw_diag_warning(
                 &plan->diags, 574, l->cell[i].of->layers_place,
                 "%s hangs together with nothing in flow %s, which has no insulating carrier: it "

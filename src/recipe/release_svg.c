@@ -3,7 +3,7 @@
    what stays bonded after it; the last place that comes free and the first that is lost; and below, in words,
    what is free when and what must hold, for whoever stands at the bench. */
 #include "base/svg.h"
-#include "geometry/geometry_svg.h"
+#include "geometry/contour.h"
 #include "process/process.h"
 #include "recipe/recipe.h"
 #include <math.h>

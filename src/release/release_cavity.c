@@ -5,6 +5,7 @@
 #include "release/release_cavity.h"
 #include "release/release_field.h"
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 /* ---- square cells over a drawing ----
@@ -91,79 +92,125 @@ static void cells_touch(const cell_grid *cells, const fw_geometry_contour *outli
 }
 
 /* Adds the cells with their middle in the outline that are not in `edge`, a set that holds all that the outline touches.
-   Neighbours in a row that no edge parts lie on one side of the outline, so that one of them is asked. */
+   Neighbours that no edge parts, in a row or one above the other, lie on one side of the outline, so that one of them is
+   asked. */
 static fw_status cells_inside(fw_arena *arena, const cell_grid *cells,
                               const fw_geometry_contour *outline, const unsigned char *edge,
                               unsigned char *set) {
-    (void)arena;
-    span a = span_of(cells, fw_geometry_contour_box(outline), 0.0);
+    enum { UNKNOWN, OUT, IN };
+    const span a = span_of(cells, fw_geometry_contour_box(outline), 0.0);
+    fw_mark mark = fw_arena_mark(arena);
+    unsigned char *below = fw_arena_array(arena, unsigned char, (size_t)cells->columns);
+    FW_NEED(below);
     for (int r = a.r0; r <= a.r1; r++) {
-        bool known = false, in = false;
-        for (int c = a.c0; c <= a.c1; c++) {
-            size_t at = (size_t)r * (size_t)cells->columns + (size_t)c;
-            if (edge[at]) {
-                known = false;
+        const size_t row = (size_t)r * (size_t)cells->columns;
+        for (int c = a.c0, to; c <= a.c1; c = to) {
+            to = c + 1;
+            if (edge[row + (size_t)c]) {
+                below[c] = UNKNOWN;
                 continue;
             }
-            if (!known) in = fw_geometry_contour_contains(outline, middle(cells, c, r));
-            known = true;
-            if (in) set[at] = 1;
+            const unsigned char *end = memchr(edge + row + c, 1, (size_t)a.c1 + 1 - (size_t)c);
+            to = end ? (int)(end - (edge + row)) : a.c1 + 1;
+            unsigned char is = UNKNOWN;
+            for (int k = c; k < to && is == UNKNOWN; k++)
+                is = below[k];
+            if (is == UNKNOWN)
+                is = fw_geometry_contour_contains(outline, middle(cells, c, r)) ? IN : OUT;
+            memset(below + c, is, (size_t)(to - c));
+            if (is == IN) memset(set + row + c, 1, (size_t)(to - c));
         }
     }
-    return FW_OK;
-}
-
-/* along a row or a column: a cell is set where one of the k before or behind it is */
-static void grow_line(unsigned char *line, size_t stride, int n, int k, unsigned char *old) {
-    int last = -1; /* the last one that was set, seen from the left, then from the right */
-    for (int i = 0; i < n; i++)
-        old[i] = line[(size_t)i * stride];
-    for (int i = 0; i < n; i++) {
-        if (old[i]) last = i;
-        if (last >= 0 && i - last <= k) line[(size_t)i * stride] = 1;
-    }
-    last = -1;
-    for (int i = n - 1; i >= 0; i--) {
-        if (old[i]) last = i;
-        if (last >= 0 && last - i <= k) line[(size_t)i * stride] = 1;
-    }
-}
-
-/* every cell within k columns and rows of one of the set; k < 0: away from those that are not in it */
-static fw_status cells_grow(fw_arena *arena, const cell_grid *cells, int k, unsigned char *set) {
-    size_t n = number_of(cells);
-    int longest = cells->columns > cells->rows ? cells->columns : cells->rows;
-    fw_mark mark = fw_arena_mark(arena);
-    unsigned char *old = fw_arena_array(arena, unsigned char, (size_t)longest);
-    FW_NEED(old);
-    for (size_t i = 0; k < 0 && i < n; i++)
-        set[i] = !set[i];
-    for (int r = 0; r < cells->rows; r++)
-        grow_line(set + (size_t)r * (size_t)cells->columns, 1, cells->columns, k < 0 ? -k : k, old);
-    for (int c = 0; c < cells->columns; c++)
-        grow_line(set + c, (size_t)cells->columns, cells->rows, k < 0 ? -k : k, old);
-    for (size_t i = 0; k < 0 && i < n; i++)
-        set[i] = !set[i];
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }
 
-/* the largest square within the set, the first from below; side 0: the set is empty */
-static fw_status cells_square(fw_arena *arena, const cell_grid *cells, const unsigned char *set,
-                              fw_geometry_box *square) {
+/* eight cells at once: to[i] = from[i] | from[i + by], i from below, so that both may be the same list */
+static void join_shifted(unsigned char *to, const unsigned char *from, size_t by, size_t n) {
+    size_t i = 0;
+    uint64_t a, b;
+    for (; i + sizeof a <= n; i += sizeof a) {
+        memcpy(&a, from + i, sizeof a);
+        memcpy(&b, from + i + by, sizeof b);
+        a |= b;
+        memcpy(to + i, &a, sizeof a);
+    }
+    for (; i < n; i++)
+        to[i] = from[i] | from[i + by];
+}
+
+static void join_sets(unsigned char *to, const unsigned char *other, size_t n) {
+    size_t i = 0;
+    uint64_t a, b;
+    for (; i + sizeof a <= n; i += sizeof a) {
+        memcpy(&a, to + i, sizeof a);
+        memcpy(&b, other + i, sizeof b);
+        a |= b;
+        memcpy(to + i, &a, sizeof a);
+    }
+    for (; i < n; i++)
+        to[i] |= other[i];
+}
+
+static void turn_round(unsigned char *set, size_t n) {
+    size_t i = 0;
+    uint64_t a;
+    for (; i + sizeof a <= n; i += sizeof a) {
+        memcpy(&a, set + i, sizeof a);
+        a ^= UINT64_C(0x0101010101010101);
+        memcpy(set + i, &a, sizeof a);
+    }
+    for (; i < n; i++)
+        set[i] ^= 1;
+}
+
+/* each cell of a list becomes the sum of it and the `reach` that follow at every `stride`, by doubling; n: of the list,
+   behind which nothing is read */
+static void join_following(unsigned char *list, size_t n, size_t reach, size_t stride) {
+    size_t have = 1, want = reach + 1;
+    for (; 2 * have <= want; have *= 2)
+        join_shifted(list, list, have * stride, n - have * stride);
+    if (have < want) join_shifted(list, list, (want - have) * stride, n - (want - have) * stride);
+}
+
+/* Every cell within k columns and rows of one of the set; k < 0: away from those that are not in it. On a wider list with
+   k empty cells on every side, so that no row runs into the next. */
+static fw_status cells_grow(fw_arena *arena, const cell_grid *cells, int k, unsigned char *set) {
+    const size_t by = (size_t)(k < 0 ? -k : k), across = (size_t)cells->columns,
+                 wide = across + 2 * by, n = wide * ((size_t)cells->rows + 2 * by);
+    unsigned char *padded;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(padded = fw_arena_array(arena, unsigned char, n));
+    if (k < 0) turn_round(set, number_of(cells));
+    for (size_t r = 0; r < (size_t)cells->rows; r++)
+        memcpy(padded + (r + by) * wide + by, set + r * across, across);
+    join_following(padded, n, 2 * by, 1);
+    join_following(padded, n, 2 * by, wide);
+    for (size_t r = 0; r < (size_t)cells->rows; r++)
+        memcpy(set + r * across, padded + r * wide, across);
+    if (k < 0) turn_round(set, number_of(cells));
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* the largest square within the set, the first from below, which has no cell outside of a span; side 0: the set is empty */
+static fw_status cells_square(fw_arena *arena, const cell_grid *cells, span a,
+                              const unsigned char *set, fw_geometry_box *square) {
     fw_mark mark = fw_arena_mark(arena);
     int n = cells->columns, best = 0, at_c = 0, at_r = 0, *below, *own;
     FW_NEED(below = fw_arena_array(arena, int, (size_t)n + 1));
     FW_NEED(own = fw_arena_array(arena, int, (size_t)n + 1));
-    for (int r = 0; r < cells->rows; r++) { /* side of the largest with its upper right cell here */
-        for (int c = 0; c < n; c++) {
+    for (int r = a.r0; r <= a.r1; r++) { /* side of the largest with its upper right cell here */
+        const unsigned char *row = set + (size_t)r * (size_t)n;
+        for (int c = a.c0; c <= a.c1; c++) {
             int least = below[c] < below[c + 1] ? below[c] : below[c + 1];
             if (own[c] < least) least = own[c];
-            own[c + 1] = set[(size_t)r * (size_t)n + (size_t)c] ? least + 1 : 0;
+            own[c + 1] = row[c] ? least + 1 : 0;
             if (own[c + 1] > best) best = own[c + 1], at_c = c, at_r = r;
         }
-        memcpy(below, own, ((size_t)n + 1) * sizeof *own);
-        own[0] = 0;
+        int *free = below;
+        below = own, own = free;
+        own[a.c0] = 0;
     }
     fw_arena_rewind(arena, mark);
     double s = cells->step_m, x1 = cells->from.x + (at_c + 1) * s,
@@ -172,31 +219,84 @@ static fw_status cells_square(fw_arena *arena, const cell_grid *cells, const uns
     return FW_OK;
 }
 
-/* numbers of connected parts (over edges) of the cells whose byte is `value`, from 1; others 0 */
-static fw_status cells_label(fw_arena *arena, const cell_grid *cells, const unsigned char *set,
-                             unsigned char value, int **label, int *count) {
-    int columns = cells->columns, n = columns * cells->rows, *stack;
-    *count = 0;
-    FW_NEED(*label = fw_arena_array(arena, int, (size_t)n));
-    FW_NEED(stack = fw_arena_array(arena, int, (size_t)n));
-    for (int first = 0; first < n; first++) {
-        if (set[first] != value || (*label)[first]) continue;
-        int top = 0;
-        (*label)[first] = ++*count;
-        stack[top++] = first;
-        while (top > 0) {
-            int at = stack[--top], c = at % columns;
-            const int next[] = {c > 0 ? at - 1 : -1, c < columns - 1 ? at + 1 : -1, at - columns,
-                                at + columns};
-            for (int k = 0; k < 4; k++) {
-                if (next[k] < 0 || next[k] >= n || set[next[k]] != value || (*label)[next[k]])
-                    continue;
-                (*label)[next[k]] = *count;
-                stack[top++] = next[k];
-            }
+/* ---- connected parts ----
+   of a set and of what is not in it, over edges, by the runs of every row. */
+
+typedef struct run {         /* from <= column < to of a row, whose value changes at both */
+    int from, to, row, part; /* part: a run of the same part, lower or itself */
+    bool set;
+} run;
+
+typedef struct runs { /* of all rows from below, each from the left */
+    run *item;
+    int n, room;
+} runs;
+
+static int part_of(const runs *all, int i) {
+    while (all->item[i].part != i)
+        i = all->item[i].part = all->item[all->item[i].part].part;
+    return i;
+}
+
+static void unite(const runs *all, int i, int j) {
+    i = part_of(all, i), j = part_of(all, j);
+    all->item[i < j ? j : i].part = i < j ? i : j;
+}
+
+static fw_status add_row(fw_arena *arena, const cell_grid *cells, const unsigned char *row, int r,
+                         runs *all) {
+    for (int c = 0; c < cells->columns;) {
+        const unsigned char *end = memchr(row + c, !row[c], (size_t)cells->columns - (size_t)c);
+        const int to = end ? (int)(end - row) : cells->columns;
+        if (all->n == all->room) {
+            int more = 2 * all->room + 256;
+            FW_NEED(all->item = fw_arena_grow(arena, all->item, (size_t)all->room, (size_t)more,
+                                              sizeof *all->item));
+            all->room = more;
         }
+        all->item[all->n] = (run){c, to, r, all->n, row[c]};
+        all->n++;
+        c = to;
     }
     return FW_OK;
+}
+
+typedef struct parts { /* of a set and of what is not in it; a part is named by its first run */
+    runs all;
+    int outside;        /* the part of the lower left corner: the drawing has room around it */
+    bool *outer, *gone; /* (all.n) of hollows beside it; of ground within others */
+} parts;
+
+/* all runs that share an edge: of one row, and of two rows one above the other */
+static void each_pair(parts *p, void (*visit)(parts *p, int i, int j)) {
+    const run *a = p->all.item;
+    for (int i = 0, up = 0; i < p->all.n; i++) {
+        const int above = a[i].row + 1;
+        if (i + 1 < p->all.n && a[i + 1].row == a[i].row) visit(p, i, i + 1);
+        while (up < p->all.n &&
+               (a[up].row < above || (a[up].row == above && a[up].to <= a[i].from)))
+            up++;
+        for (int j = up; j < p->all.n && a[j].row == above && a[j].from < a[i].to; j++)
+            visit(p, i, j);
+    }
+}
+
+static void unite_alike(parts *p, int i, int j) {
+    if (p->all.item[i].set == p->all.item[j].set) unite(&p->all, i, j);
+}
+
+static void mark_outer(parts *p, int i, int j) {
+    if (p->all.item[i].set == p->all.item[j].set) return;
+    const int hollow = part_of(&p->all, p->all.item[i].set ? i : j),
+              ground = part_of(&p->all, p->all.item[i].set ? j : i);
+    if (ground == p->outside) p->outer[hollow] = true;
+}
+
+static void mark_gone(parts *p, int i, int j) {
+    if (p->all.item[i].set == p->all.item[j].set) return;
+    const int hollow = part_of(&p->all, p->all.item[i].set ? i : j),
+              ground = part_of(&p->all, p->all.item[i].set ? j : i);
+    if (!p->outer[hollow]) p->gone[ground] = true;
 }
 
 /* ---- outlines ---- */
@@ -304,8 +404,7 @@ static fw_status cover(maker *m, bool (*wanted)(const maker *m, int piece), unsi
     for (int i = 0; i < m->layout->npiece; i++)
         if (wanted(m, i))
             FW_TRY(cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge, set));
-    for (size_t i = 0; i < m->n; i++)
-        set[i] = set[i] || edge[i];
+    join_sets(set, edge, m->n);
     fw_arena_rewind(m->arena, mark);
     return FW_OK;
 }
@@ -318,6 +417,7 @@ static fw_status join_corners(maker *m) {
         for (int r = 0; r + 1 < m->cells.rows; r++)
             for (int c = 0; c + 1 < columns; c++) {
                 unsigned char *p = &m->hollow[(size_t)r * (size_t)columns + (size_t)c];
+                if (p[0] == p[1] || p[columns] == p[columns + 1]) continue;
                 bool one = p[0] && p[columns + 1] && !p[1] && !p[columns];
                 bool other = p[1] && p[columns] && !p[0] && !p[columns + 1];
                 if (!one && !other) continue;
@@ -330,32 +430,22 @@ static fw_status join_corners(maker *m) {
 
 /* a hollow beside ground that is itself surrounded: that ground goes */
 static fw_status flatten_nested(maker *m) {
-    int *ground, *hole, nground, nhole, columns = m->cells.columns;
+    parts p = {0};
+    const size_t columns = (size_t)m->cells.columns;
     fw_mark mark = fw_arena_mark(m->arena);
-    FW_TRY(cells_label(m->arena, &m->cells, m->hollow, 0, &ground, &nground));
-    FW_TRY(cells_label(m->arena, &m->cells, m->hollow, 1, &hole, &nhole));
-    bool *outer = fw_arena_array(m->arena, bool, (size_t)nhole + 1);
-    bool *gone = fw_arena_array(m->arena, bool, (size_t)nground + 1);
-    FW_NEED(outer && gone ? gone : NULL);
-    int outside = ground[0]; /* the drawing has room around it */
-    for (size_t i = 0; i + (size_t)columns < m->n; i++) {
-        size_t beside[] = {i + 1, i + (size_t)columns};
-        for (int k = 0; k < 2; k++) {
-            size_t j = beside[k];
-            if (ground[i] == outside && hole[j]) outer[hole[j]] = true;
-            if (ground[j] == outside && hole[i]) outer[hole[i]] = true;
-        }
+    for (int r = 0; r < m->cells.rows; r++)
+        FW_TRY(add_row(m->arena, &m->cells, m->hollow + (size_t)r * columns, r, &p.all));
+    FW_NEED(p.outer = fw_arena_array(m->arena, bool, (size_t)p.all.n));
+    FW_NEED(p.gone = fw_arena_array(m->arena, bool, (size_t)p.all.n));
+    each_pair(&p, unite_alike);
+    p.outside = part_of(&p.all, 0);
+    each_pair(&p, mark_outer);
+    each_pair(&p, mark_gone);
+    for (int i = 0; i < p.all.n; i++) {
+        const run *a = &p.all.item[i];
+        if (p.gone[part_of(&p.all, i)])
+            memset(m->hollow + (size_t)a->row * columns + a->from, 1, (size_t)(a->to - a->from));
     }
-    for (size_t i = 0; i + (size_t)columns < m->n; i++) {
-        size_t beside[] = {i + 1, i + (size_t)columns};
-        for (int k = 0; k < 2; k++) {
-            size_t j = beside[k];
-            if (ground[i] && hole[j] && !outer[hole[j]]) gone[ground[i]] = true;
-            if (ground[j] && hole[i] && !outer[hole[i]]) gone[ground[j]] = true;
-        }
-    }
-    for (size_t i = 0; i < m->n; i++)
-        if (ground[i] && gone[ground[i]]) m->hollow[i] = 1;
     fw_arena_rewind(m->arena, mark);
     return FW_OK;
 }
@@ -388,9 +478,24 @@ static fw_status find_openings(maker *m) {
     return FW_OK;
 }
 
-/* cells that lie whole in a part, less those of a set */
-static fw_status whole_cells(maker *m, int part, const unsigned char *without, unsigned char *set) {
+/* the columns and rows in which cells of a part may lie */
+static span span_of_part(const maker *m, int part) {
+    fw_geometry_box box = {0};
+    bool any = false;
+    for (int i = 0; i < m->layout->npiece; i++) {
+        if (m->part_of[i] != part) continue;
+        const fw_geometry_box own = fw_geometry_contour_box(&m->layout->piece[i].contour);
+        box = any ? fw_box_join(box, own) : own;
+        any = true;
+    }
+    return any ? span_of(&m->cells, box, 0.0) : (span){0, -1, 0, -1};
+}
+
+/* cells that lie whole in a part, less those of a set; none is outside of its span */
+static fw_status whole_cells(maker *m, int part, span a, const unsigned char *without,
+                             unsigned char *set) {
     unsigned char *edge;
+    const size_t columns = (size_t)m->cells.columns;
     FW_TRY(cells_set(m->arena, &m->cells, &edge));
     memcpy(edge, m->opening, m->n);
     for (int i = 0; i < m->layout->npiece; i++)
@@ -398,12 +503,14 @@ static fw_status whole_cells(maker *m, int part, const unsigned char *without, u
     for (int i = 0; i < m->layout->npiece; i++)
         if (m->part_of[i] == part)
             FW_TRY(cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge, set));
-    for (size_t i = 0; i < m->n; i++)
-        if (without && without[i]) set[i] = 0;
+    for (int r = a.r0; without && r <= a.r1; r++)
+        for (int c = a.c0; c <= a.c1; c++)
+            set[(size_t)r * columns + (size_t)c] &= !without[(size_t)r * columns + (size_t)c];
     return FW_OK;
 }
 
 static fw_status find_ground(maker *m, fw_release_cavity *cavity) {
+    const size_t columns = (size_t)m->cells.columns;
     FW_NEED(cavity->ground = fw_arena_array(m->arena, fw_release_ground, (size_t)m->npart));
     FW_TRY(find_openings(m));
     for (int part = 0; part < m->npart; part++) {
@@ -413,15 +520,22 @@ static fw_status find_ground(maker *m, fw_release_cavity *cavity) {
         *g = (fw_release_ground){
             .label = p->label, .role = p->role, .body = p->body, .area_m2 = p->area_m2};
         unsigned char *set;
+        const span a = span_of_part(m, part);
         fw_mark mark = fw_arena_mark(m->arena);
         FW_TRY(cells_set(m->arena, &m->cells, &set));
-        FW_TRY(whole_cells(m, part, m->hollow, set));
-        for (size_t i = 0; i < m->n; i++)
-            g->bonded_m2 += set[i] ? m->cells.step_m * m->cells.step_m : 0.0;
-        FW_TRY(cells_square(m->arena, &m->cells, set, &g->square));
+        FW_TRY(whole_cells(m, part, a, m->hollow, set));
+        for (int r = a.r0; r <= a.r1; r++)
+            for (int c = a.c0; c <= a.c1; c++)
+                if (set[(size_t)r * columns + (size_t)c])
+                    g->bonded_m2 += m->cells.step_m * m->cells.step_m;
+        FW_TRY(cells_square(m->arena, &m->cells, a, set, &g->square));
         fw_arena_rewind(m->arena, mark);
     }
     return FW_OK;
+}
+
+static span all_of(const maker *m) {
+    return (span){0, m->cells.columns - 1, 0, m->cells.rows - 1};
 }
 
 static fw_status start(fw_arena *arena, const fw_layout *layout, double room_m, double step_m,
@@ -446,7 +560,7 @@ fw_status fw_release_cavity_make(fw_arena *arena, const fw_layout *layout,
     FW_TRY(join_corners(&m));
     FW_TRY(flatten_nested(&m));
     FW_TRY(sort_outlines(&m, cavity));
-    FW_TRY(cells_square(arena, &m.cells, m.hollow, &cavity->widest));
+    FW_TRY(cells_square(arena, &m.cells, all_of(&m), m.hollow, &cavity->widest));
     return find_ground(&m, cavity);
 }
 
@@ -460,9 +574,9 @@ fw_status fw_release_square_in(fw_arena *arena, const fw_layout *layout, int pie
     FW_TRY(start(arena, &own, 2.0 * step_m, step_m, &m));
     FW_TRY(find_openings(&m));
     FW_TRY(cells_set(arena, &m.cells, &set));
-    FW_TRY(whole_cells(&m, m.part_of[piece], NULL, set));
+    FW_TRY(whole_cells(&m, m.part_of[piece], all_of(&m), NULL, set));
     FW_TRY(cells_grow(arena, &m.cells, -(int)ceil(clear_m / step_m - 1e-9), set));
-    FW_TRY(cells_square(arena, &m.cells, set, square));
+    FW_TRY(cells_square(arena, &m.cells, all_of(&m), set, square));
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Colours, the view that holds a device, and its drawing: what all pictures of the room share. */
-#include "geometry/geometry_svg.h"
+#include "geometry/contour.h"
 #include "report/figure.h"
 #include "report/report_page.h"
 #include <math.h>

@@ -350,7 +350,10 @@ static void hinge_models(fw_json *json, const fw_report_input *in) {
             fw_report_json_hinge_model(json, v->mechanism, &x->ledger.hinge, x->level);
             fw_json_real(json, "model_error", fw_verdict_motion_model_error(v->mechanism, x));
             fw_json_real(json, "bodies_give", fw_verdict_bending_share(x));
-            fw_json_real(json, "hole_rims", fw_verdict_bending_rims(v->mechanism, x, NULL));
+            int at[2];
+            const fw_verdict_band rims = fw_verdict_bending_rims(v->mechanism, x, at);
+            fw_json_real(json, "hole_rims", rims.high);
+            fw_json_real(json, "hole_rims_least", rims.low);
             fw_json_text(json, "scene", in->device->scene[k].name);
             fw_json_text(json, "flow", flow_of(v));
             fw_json_end(json);
@@ -425,7 +428,7 @@ static void accuracy(fw_json *json, const fw_verdict *v) {
 }
 
 static void advice(fw_json *json, const fw_verdict *v) {
-    static const char *const kind[] = {"parameter", "flexures", "loads", "several"};
+    static const char *const kind[] = {"parameter", "flexures", "holes", "loads", "several"};
     fw_json_list(json, "advice");
     for (int i = 0; i < v->nproposal; i++) {
         const fw_verdict_proposal *p = &v->proposal[i];

@@ -270,4 +270,17 @@ typedef struct fw_report_summary {
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *input,
                               fw_report_summary *summary);
 
+/* ---- figure_pdf_file.c: for figures as PDF ---- */
+
+typedef struct fw_report_letter {
+    int font; /* 1, 2: Helvetica, bold; 3: Symbol */
+    unsigned char code;
+    double width; /* of the size */
+} fw_report_letter;
+/* false: none of them has it */
+bool fw_report_letter_of(unsigned u, bool bold, fw_report_letter *letter);
+/* the file around a page of so many points; state: opacities of fills and lines, named G0, G1, ... in it */
+void fw_report_pdf_file(const fw_text *page, double wide, double high, const double (*state)[2],
+                        int nstate, fw_text *pdf);
+
 #endif

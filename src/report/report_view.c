@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The view of a device: from metres to the coordinates of a picture. */
-#include "geometry/geometry_svg.h"
+#include "geometry/contour.h"
 #include "report/report_page.h"
 #include <math.h>
 

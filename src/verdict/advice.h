@@ -76,6 +76,15 @@ typedef fw_status fw_verdict_propose(void *context, bool *accepted);
 fw_status fw_verdict_least_change(fw_verdict_trial *trial, double most_work,
                                   fw_verdict_propose *propose, void *context, bool *added);
 
+struct fw_verdict_variable;
+/* least_change.c: the least change of one value, towards the one end that it has room to, that is accepted where the
+   drawing goes in steps with it. *x: as typed, where *found */
+fw_status fw_verdict_least_step(fw_verdict_trial *trial, const struct fw_verdict_variable *variable,
+                                double most_work, double *x, bool *found);
+
+/* the least change first */
+void fw_verdict_sort_proposals(fw_verdict *verdict);
+
 /* parameters.c: every declared parameter alone */
 fw_status fw_verdict_change_parameters(fw_verdict_trial *trial, fw_verdict *out);
 
@@ -139,6 +148,10 @@ fw_status fw_verdict_variable_of_loads(fw_verdict_trial *trial, int scene,
                                        fw_verdict_variable *variable, bool *ok);
 fw_status fw_verdict_variable_of_box(fw_verdict_trial *trial, int box,
                                      fw_verdict_variable *variable, bool *ok);
+
+/* pitch and diameter of release holes; none where no rim of them speaks against the device */
+fw_status fw_verdict_variables_of_holes(fw_verdict_trial *trial, fw_verdict_variable **variable,
+                                        int *count);
 
 /* settings of all that differ from what they are now */
 fw_status fw_verdict_variables_settings(fw_arena *arena, const fw_verdict_variable *variable,

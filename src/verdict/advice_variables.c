@@ -282,6 +282,44 @@ fw_status fw_verdict_variables_of_attributes(fw_verdict_trial *trial,
     return FW_OK;
 }
 
+/* only rims that may not bear ask for fewer or smaller holes */
+static bool rims_speak(const fw_verdict *verdict) {
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        const fw_verdict_fabricated_verdict *made = v->fabricated;
+        for (int k = 0; k < v->nreason; k++)
+            if (v->reason[k].number == FW_VERDICT_RIMS) return true;
+        for (int k = 0; made && k < made->ncorner; k++)
+            if (made->corner[k].number == FW_VERDICT_RIMS) return true;
+    }
+    return false;
+}
+
+/* how many times the pitch, and which share of the diameter, are looked at; no hole is smaller than that */
+static const double fw_farthest_holes = 4, fw_smallest_share = 0.3, fw_smallest_hole_m = 8e-6;
+
+fw_status fw_verdict_variables_of_holes(fw_verdict_trial *trial, fw_verdict_variable **variable,
+                                        int *count) {
+    const fw_device *d = trial->device;
+    const double pitch = d->release_pitch_m,
+                 hole = d->release_hole_m > 0 ? d->release_hole_m : 0.3 * pitch;
+    const double least = fmax(fw_smallest_share, fw_smallest_hole_m / hole);
+    *count = 0;
+    FW_NEED(*variable = fw_arena_array(trial->arena, fw_verdict_variable, 2));
+    if (!(pitch > 0) || !rims_speak(trial->verdict)) return FW_OK;
+    (*variable)[(*count)++] = (fw_verdict_variable){
+        .kind = FW_PROPOSE_HOLES,
+        .name = "pitch of release holes",
+        .value = micrometres("die/@release-pitch", pitch, 1, fw_farthest_holes)};
+    if (!(d->release_hole_m > 0) || !(least < 1)) return FW_OK; /* it goes with the pitch */
+    fw_verdict_variable *v = &(*variable)[(*count)++];
+    *v = (fw_verdict_variable){.kind = FW_PROPOSE_HOLES,
+                               .name = "diameter of release holes",
+                               .value = micrometres("die/@release-hole", hole, least, 1)};
+    v->value.range = v->value.now - v->value.low;
+    return FW_OK;
+}
+
 /* ---- as settings, and in words ---- */
 
 /* "112.5 uN": the prefix that leaves one to three digits before the point */

@@ -3,7 +3,6 @@
    ones; less load or smaller required poses; several values together. Every proposal has been run
    as its settings say and accepted; the least change comes first. */
 #include "base/constants.h"
-#include "base/sort.h"
 #include "effects/effects.h"
 #include "verdict/advice.h"
 #include <math.h>
@@ -445,6 +444,30 @@ static fw_status change_parameters_together(advice *a) {
     return propose_several(a, variable, count);
 }
 
+/* fewer or smaller: a way of its own, as flexures and loads are, which stands beside a smaller change of something else */
+static fw_status change_holes(advice *a) {
+    fw_verdict_trial *trial = a->trial;
+    fw_verdict_variable *v;
+    int count;
+    double x;
+    bool found;
+    FW_TRY(fw_verdict_variables_of_holes(trial, &v, &count));
+    if (count == 0 || !may_begin(a, "fewer and smaller release holes")) return FW_OK;
+    for (int i = 0; i < count; i++) {
+        fw_verdict_proposal proposal = {.kind = FW_PROPOSE_HOLES};
+        FW_TRY(start_again(a));
+        FW_TRY(fw_verdict_least_step(
+            trial, &v[i], fmin(trial->work + most_work_together, trial->most_work), &x, &found));
+        if (!found) continue;
+        FW_TRY(fw_verdict_variables_settings(trial->arena, &v[i], 1, &x, &proposal.set,
+                                             &proposal.nset));
+        FW_TRY(fw_verdict_variables_text(trial->arena, &v[i], 1, &x, &proposal.text));
+        proposal.change = fw_verdict_variable_size(&v[i], x);
+        add(a, proposal);
+    }
+    return FW_OK;
+}
+
 static fw_status change_all(advice *a) {
     fw_verdict_variable *variable;
     int count;
@@ -538,15 +561,6 @@ static fw_status conclude(advice *a, const char *why) {
     return FW_OK;
 }
 
-/* to a thousandth; of the same size parameters go first */
-static int by_change(const void *a, const void *b) {
-    const fw_verdict_proposal *p = a, *q = b;
-    int order = fw_order_doubles(nearbyint(1e3 * p->change), nearbyint(1e3 * q->change));
-    if (order == 0) order = fw_order_wholes((int)p->kind, (int)q->kind);
-    if (order == 0) order = fw_order_wholes(p->nset, q->nset);
-    return order ? order : strcmp(p->text, q->text);
-}
-
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict) {
     if (verdict->decision == FW_ACCEPT || !options->with_advice || !options->restated.with)
@@ -563,13 +577,14 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
     const char *why = hopeless(device, verdict);
     bool added = false;
     FW_NEED(verdict->proposal =
-                fw_arena_array(arena, fw_verdict_proposal, (size_t)device->nparameter + 4));
+                fw_arena_array(arena, fw_verdict_proposal, (size_t)device->nparameter + 6));
     FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
     trial.most_work = most_work_in_all;
     if (device->nparameter > 0 && may_begin(&a, "every parameter alone"))
         FW_TRY(fw_verdict_change_parameters(&trial, verdict));
     FW_TRY(propose_parameters(&a));
     const bool lacks = lacks_part(verdict);
+    if (!lacks) FW_TRY(change_holes(&a));
     if (!why && !lacks) FW_TRY(change_by(&a, "longer flexures", lengthen, propose_lengths, &added));
     if (!why && !lacks && !added)
         FW_TRY(change_by(&a, "wider flexures", widen, propose_widths, &added));
@@ -577,6 +592,6 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
         FW_TRY(change_by(&a, "smaller loads and required poses", lighten, propose_shares, &added));
     FW_TRY(change_parameters_together(&a));
     if (!lacks) FW_TRY(change_all(&a));
-    qsort(verdict->proposal, (size_t)verdict->nproposal, sizeof *verdict->proposal, by_change);
+    fw_verdict_sort_proposals(verdict);
     return conclude(&a, why);
 }

@@ -10,6 +10,7 @@
    nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
    circle is largest to a hundredth of it, and there w is exact. */
 #include "verdict/strain.h"
+#include "base/sort.h"
 #include "geometry/segment.h"
 #include <string.h>
 
@@ -340,41 +341,25 @@ static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
 
 /* ---- along a way ---- */
 
-/* lines for all of which one thing is computed: their ends, each number in a row */
-typedef struct flat {
-    double *ax, *ay, *bx, *by; /* (n, and up to 3 more that say nothing) */
-    int n;
-} flat;
-enum { TOGETHER = 4, FARTHER = 12 };
+enum { FARTHER = 12 };
 
 typedef struct edges {
-    flat all, near; /* near: those around a place */
-    flat wide;      /* those that may be around any place up to FARTHER cells from `centre` */
-    double *off;    /* squared distances from a place */
+    fw_geometry_lines all, near; /* near: those around a place */
+    fw_geometry_lines
+        wide;    /* those that may be around any place up to FARTHER cells from `centre` */
+    double *off; /* squared distances from a place */
     fw_geometry_vec2 centre;
 } edges;
 
-static fw_status flat_new(fw_arena *arena, int n, flat *to) {
-    const size_t room = (size_t)n + TOGETHER;
-    double *all = fw_arena_array(arena, double, 4 * room);
-    FW_NEED(all);
-    *to = (flat){all, all + room, all + 2 * room, all + 3 * room, 0};
-    return FW_OK;
-}
-
-static void flat_add(flat *to, double ax, double ay, double bx, double by) {
-    const int i = to->n++;
-    to->ax[i] = ax, to->ay[i] = ay, to->bx[i] = bx, to->by[i] = by;
-}
-
 static fw_status edges_new(const grid *g, edges *to) {
-    FW_TRY(flat_new(g->arena, g->nline, &to->all));
-    FW_TRY(flat_new(g->arena, g->nline, &to->near));
-    FW_TRY(flat_new(g->arena, g->nline, &to->wide));
-    FW_NEED(to->off = fw_arena_array(g->arena, double, (size_t)g->nline + TOGETHER));
+    FW_TRY(fw_geometry_lines_new(g->arena, g->nline, &to->all));
+    FW_TRY(fw_geometry_lines_new(g->arena, g->nline, &to->near));
+    FW_TRY(fw_geometry_lines_new(g->arena, g->nline, &to->wide));
+    FW_NEED(to->off =
+                fw_arena_array(g->arena, double, (size_t)g->nline + FW_GEOMETRY_LINES_TOGETHER));
     for (int i = 0; i < g->nline; i++) {
         const line *l = &g->line[i];
-        if (l->edge) flat_add(&to->all, l->a.x, l->a.y, l->b.x, l->b.y);
+        if (l->edge) fw_geometry_lines_add(&to->all, l->a.x, l->a.y, l->b.x, l->b.y);
     }
     return FW_OK;
 }
@@ -394,52 +379,14 @@ static bool is_inside(const grid *g, fw_geometry_vec2 p) {
     return in;
 }
 
-/* Squared distances from a place, four lines in a register, each with the operations of vec_line_foot in their
-   order, so that every processor has the same bits */
-__attribute__((always_inline)) static inline void squares_of(const flat *l, fw_geometry_vec2 at,
-                                                             double *off) {
-    typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
-    typedef long long mask __attribute__((vector_size(32), aligned(8), may_alias));
-    for (int i = 0; i < l->n; i += TOGETHER) {
-        const four ax = *(const four *)(l->ax + i), ay = *(const four *)(l->ay + i),
-                   bx = *(const four *)(l->bx + i), by = *(const four *)(l->by + i);
-        const four way_x = bx - ax, way_y = by - ay, square = way_x * way_x + way_y * way_y;
-        four here = ((at.x - ax) * way_x + (at.y - ay) * way_y) / square;
-        here = (four)((mask)here & (square > 0));
-        const mask first = here <= 0.5, between = (here > 0) & (here < 1); /* else an end itself */
-        const four t = (four)((((mask)here & first) | ((mask)(here - 1) & ~first)) & between);
-        const four x = (four)(((mask)ax & first) | ((mask)bx & ~first)) + t * way_x - at.x,
-                   y = (four)(((mask)ay & first) | ((mask)by & ~first)) + t * way_y - at.y;
-        *(four *)(off + i) = x * x + y * y;
-    }
-}
-
-#if defined(__x86_64__)
-__attribute__((target("avx2"))) static void squares_avx2(const flat *l, fw_geometry_vec2 at,
-                                                         double *off) {
-    squares_of(l, at, off);
-}
-#endif
-
-static double least_square(const flat *l, fw_geometry_vec2 at, double *off) {
-    double least = HUGE_VAL;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2"))
-        squares_avx2(l, at, off);
-    else
-#endif
-        squares_of(l, at, off);
-    for (int i = 0; i < l->n; i++)
-        least = fw_lesser(least, off[i]);
-    return least;
-}
-
 /* of `from` those that are no farther from a place than the nearest and `more` */
-static void within(const flat *from, fw_geometry_vec2 at, double more, double *off, flat *to) {
-    double most = sqrt(least_square(from, at, off)) + more;
+static void within(const fw_geometry_lines *from, fw_geometry_vec2 at, double more, double *off,
+                   fw_geometry_lines *to) {
+    double most = sqrt(fw_geometry_lines_least_square(from, at, off)) + more;
     to->n = 0;
     for (int i = 0; i < from->n; i++)
-        if (off[i] <= most * most) flat_add(to, from->ax[i], from->ay[i], from->bx[i], from->by[i]);
+        if (off[i] <= most * most)
+            fw_geometry_lines_add(to, from->ax[i], from->ay[i], from->bx[i], from->by[i]);
 }
 
 /* the edges that may be the nearest of any place within a cell and a half */
@@ -452,12 +399,12 @@ static void look_around(const grid *g, fw_geometry_vec2 at, edges *around) {
 }
 
 static double distance(edges *around, fw_geometry_vec2 at) {
-    return sqrt(least_square(&around->near, at, around->off));
+    return sqrt(fw_geometry_lines_least_square(&around->near, at, around->off));
 }
 
 static bool is_cut(const edges *around, fw_geometry_vec2 p, fw_geometry_vec2 q) {
     fw_geometry_vec2 along = vec_sub(q, p);
-    const flat *l = &around->near;
+    const fw_geometry_lines *l = &around->near;
     for (int i = 0; i < l->n; i++) {
         const fw_geometry_vec2 from = {l->ax[i], l->ay[i]}, to = {l->bx[i], l->by[i]},
                                edge = vec_sub(to, from);
@@ -533,6 +480,45 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
     return n;
 }
 
+/* The median of what the cut leaves is the place about which its integral of distances is least */
+static void sum_cut(const double *at, int n, double *middle, fw_verdict_arm *arm) {
+    double passed = 0;
+    for (int k = 0; k < n; k += 2)
+        arm->cut_m += at[k + 1] - at[k];
+    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
+        *middle = at[k] + 0.5 * arm->cut_m - passed;
+        passed += at[k + 1] - at[k];
+    }
+    for (int k = 0; k < n; k += 2) {
+        const double a = at[k] - *middle, b = at[k + 1] - *middle;
+        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
+    }
+}
+
+/* whatever the stress is, over a cut it comes to what hinges put on either side */
+static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
+                             fw_verdict_arm *arm) {
+    double *at, middle = 0;
+    int count = 0;
+    const double inward = vec_dot(vec_sub(arm->edge, ends[hinge].root), arm->along) < 0 ? -1 : 1;
+    const fw_geometry_vec2 across = vec_scale(inward, arm->along), along = vec_left(across);
+    for (int k = 0; k < n; k++)
+        if ((vec_dot(vec_sub(ends[k].root, arm->edge), across) < 0) != (k == hinge)) return FW_OK;
+    FW_NEED(at = fw_arena_array(g->arena, double, (size_t)g->nline + 1));
+    for (int i = 0; i < g->nline; i++) {
+        const fw_geometry_vec2 a = vec_sub(g->line[i].a, arm->edge),
+                               b = vec_sub(g->line[i].b, arm->edge);
+        const double from = vec_dot(a, across), to = vec_dot(b, across);
+        if ((from > 0) == (to > 0)) continue;
+        at[count++] = vec_dot(vec_along(a, from / (from - to), vec_sub(b, a)), along);
+    }
+    if (count % 2 != 0) return FW_OK;
+    fw_sort_doubles(at, (size_t)count);
+    sum_cut(at, count, &middle, arm);
+    arm->cut = vec_along(arm->edge, middle, along);
+    return FW_OK;
+}
+
 static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, const end *ends,
                          int n, fw_verdict_arm *arm) {
     grid g = {.arena = scratch};
@@ -562,6 +548,10 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
             if (g.cost[begin] < HUGE_VAL) FW_TRY(follow(&g, begin, ends[i].pin, to));
             if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
         }
+    }
+    for (int i = 0; i < n; i++) {
+        fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
+        if (to->known) FW_TRY(cut_at_edge(&g, ends, n, i, to));
     }
     return FW_OK;
 }

@@ -71,6 +71,7 @@ static fw_status take_reason(const fw_verdict_search *s, const fw_verdict_varian
     for (int i = 0; i < now->nreason && !why; i++) {
         if (now->reason[i].decision == FW_ACCEPT) continue;
         why = now->reason[i].text;
+        corner->number = now->reason[i].number;
         corner->scene = now->reason[i].scene;
         corner->keep = now->reason[i].keep;
         corner->not_by_loads = now->reason[i].not_by_loads;

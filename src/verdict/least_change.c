@@ -17,8 +17,11 @@
    beyond most_work evaluations of hinges the change that was accepted is proposed as it is.
    Test: tests/cli/test_advice.py, test_lengths_are_the_least. */
 #include "verdict/advice.h"
+#include "base/sort.h"
 #include "effects/effects.h"
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { MOST_GLANCES = 14, MOST_JUDGED = 8 };
 static const double known_to = 0.01; /* of the change */
@@ -147,4 +150,64 @@ fw_status fw_verdict_least_change(fw_verdict_trial *trial, double most_work,
         trial->ended = spent(&w);
     }
     return FW_OK;
+}
+
+/* ---- one value, in steps ---- */
+
+/* Drawings go in steps with some values, as holes with their pitch, so that nothing is to be learnt from slopes: a
+   dozen steps to the end of its range, then halves of the last one. */
+enum { MOST_STEPS = 12, MOST_HALVES = 3 };
+static const double near_limit = 1.03; /* of a glance that a whole verdict may still accept */
+
+static fw_status accepts(fw_verdict_trial *trial, const fw_verdict_variable *v, double z, double *x,
+                         bool *yes) {
+    *x = fw_verdict_variable_typed(v, fw_verdict_variable_x(v, z));
+    const char *value = fw_verdict_value_text(trial->arena, &v->value, *x, 12);
+    FW_NEED(value);
+    const fw_device_set set = {v->value.path, value};
+    *yes = false;
+    if (*x == v->value.now) return FW_OK;
+    FW_TRY(fw_verdict_trial_restate(trial, &set, 1, FW_LOOK_GLANCE));
+    if (!trial->drawn || trial->decision == FW_REJECT ||
+        fw_verdict_trial_excess(trial) > near_limit)
+        return FW_OK;
+    FW_TRY(fw_verdict_trial_restate(trial, &set, 1, FW_LOOK_WHOLE));
+    *yes = trial->drawn && trial->decision == FW_ACCEPT;
+    return FW_OK;
+}
+
+fw_status fw_verdict_least_step(fw_verdict_trial *trial, const fw_verdict_variable *v,
+                                double most_work, double *x, bool *found) {
+    const double end = v->value.low < v->value.now ? v->value.low : v->value.high,
+                 whole = fw_verdict_variable_z(v, end);
+    double not_yet = 0, enough = 0, at;
+    bool yes;
+    *found = false;
+    for (int k = 1; k <= MOST_STEPS && !*found && trial->work < most_work; k++) {
+        const double z = whole * pow((double)k / MOST_STEPS, 1.5);
+        FW_TRY(accepts(trial, v, z, x, found));
+        *(*found ? &enough : &not_yet) = z;
+    }
+    for (int k = 0; *found && k < MOST_HALVES && trial->work < most_work; k++) {
+        const double z = 0.5 * (not_yet + enough);
+        FW_TRY(accepts(trial, v, z, &at, &yes));
+        *(yes ? &enough : &not_yet) = z;
+        if (yes) *x = at;
+    }
+    return FW_OK;
+}
+
+/* ---- the least change first ---- */
+
+/* to a thousandth; of the same size parameters go first */
+static int by_change(const void *a, const void *b) {
+    const fw_verdict_proposal *p = a, *q = b;
+    int order = fw_order_doubles(nearbyint(1e3 * p->change), nearbyint(1e3 * q->change));
+    if (order == 0) order = fw_order_wholes((int)p->kind, (int)q->kind);
+    if (order == 0) order = fw_order_wholes(p->nset, q->nset);
+    return order ? order : strcmp(p->text, q->text);
+}
+
+void fw_verdict_sort_proposals(fw_verdict *verdict) {
+    qsort(verdict->proposal, (size_t)verdict->nproposal, sizeof *verdict->proposal, by_change);
 }

@@ -7,7 +7,7 @@
 #include "flexure/beam.h"
 #include "flexure/limit.h"
 #include "layout/layout.h"
-#include "maths/rainflow.h"
+#include "maths/functions.h"
 #include "mechanism/mechanism.h"
 #include "probe/probe.h"
 
@@ -25,9 +25,14 @@ typedef struct fw_verdict_arm {
     double length_m, narrow_m; /* of the way; where it is narrowest, */
     fw_geometry_vec2 narrow;   /* and the place, world */
     /* of the way, as if it bore everything alone: the largest 6/w^2, and 6 r/w^2 + 1/w with r from the pin, by
-       which a moment and a force are multiplied to be stress times thickness; where the latter is */
+       which a moment and a force are multiplied to be stress times thickness; where the latter is, and how the way
+       runs there */
     double edge_m2, edge_m;
-    fw_geometry_vec2 edge;
+    fw_geometry_vec2 edge, along;
+    /* a straight cut there, square to the way, that parts this hinge from the body's others: a point of
+       it, what it leaves of the body (0: there is none), and the integral over that of the distance from the point */
+    fw_geometry_vec2 cut;
+    double cut_m, cut_m2;
 } fw_verdict_arm;
 
 /* arm: (2 nhinge) of hinge k in body a, in body b. In: outlines of the layout in the drawn pose. Range:
@@ -112,6 +117,11 @@ typedef struct fw_verdict_bending {
     double *
         hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
                                   force squared, and moment */
+    double *
+        cut_N_per_m; /* (2 nhinge) the most that stress is at least across the cut of an arm, times thickness;
+                            NULL: no holes */
+    double *
+        put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
 } fw_verdict_bending;
 /* arm NULL: nobody asks */
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,

@@ -277,10 +277,8 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
     *trial = (fw_verdict_trial){
         .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
     size_t n = (size_t)verdict->nvariant;
-    size_t scenes = (size_t)device->nscene, asked = (size_t)device->nrequirement * (scenes + 1);
-    size_t most = (size_t)device->nrevolute +
-                  n * (FW_REASONS * scenes + asked + (size_t)device->nworkspace +
-                       (size_t)device->nrevolute + 3 + (size_t)fw_verdict_missing_most(device));
+    const int asked = device->nrequirement * (device->nscene + 1);
+    size_t most = (size_t)device->nrevolute + n * (fw_verdict_reasons_most(device, asked) + 1);
     FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_FABRICATION_INPUTS));
     FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
     FW_NEED(trial->hinge = fw_arena_array(arena, fw_verdict_trial_hinge, most));

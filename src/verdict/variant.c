@@ -217,6 +217,16 @@ static bool is_brief(const fw_verdict_options *options, const fw_verdict_variant
     return (options->decision_only || v->like) && !options->values;
 }
 
+size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
+    size_t most =
+        FW_REASONS * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
+        (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
+        8; /* strips; out of reach or badly held, what hinges give, as made, riders; stiction */
+    for (int i = 0; i < d->nscene; i++)
+        most += (size_t)d->scene[i].ncontact;
+    return most;
+}
+
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_mechanism *m, const fw_verdict_options *options,
@@ -234,12 +244,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
                                       : fw_hinges_good);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
-                     (size_t)device->nrevolute +
-                     7; /* strips; out of reach or badly held, as made, riders; stiction */
-    for (size_t i = 0; i < n; i++)
-        reasons += (size_t)m->device->scene[i].ncontact;
-    reasons += (size_t)fw_verdict_missing_most(device);
+    const size_t reasons = fw_verdict_reasons_most(device, v->nrequirement);
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
@@ -273,6 +278,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
+        FW_TRY(fw_verdict_bending_judge(arena, m, scene, v->motion[i], v));
         FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief || options->bounded,
                                           diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);

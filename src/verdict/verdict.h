@@ -175,6 +175,7 @@ typedef struct fw_verdict_fabricated_corner {
     /* (nhinge) worst over the scenes; utilisation 0 where `why` says that nothing was run */
     fw_verdict_hinge_verdict *hinge;
     const char *why;                     /* what speaks against it beside its hinges, or NULL */
+    int number;                          /* FW-Dnnn of `why`; 0: it has none */
     const char *scene;                   /* of `why`; NULL: of none (a flexure is gone) */
     double keep;                         /* share of its loads that it may bear */
     bool not_by_loads, not_by_width;     /* of `why`, as in fw_verdict_reason */
@@ -285,6 +286,7 @@ enum { FW_CHECK_HINGES = 1, FW_CHECK_REQUIREMENTS = 2 };
 typedef enum fw_verdict_proposal_kind {
     FW_PROPOSE_PARAMETER, /* one alone */
     FW_PROPOSE_FLEXURES,  /* lengths, or widths */
+    FW_PROPOSE_HOLES,     /* fewer, or smaller ones */
     FW_PROPOSE_LOADS,     /* less of them, or smaller required poses */
     FW_PROPOSE_SEVERAL    /* parameters, or whatever the file states, together */
 } fw_verdict_proposal_kind;
@@ -395,11 +397,14 @@ extern const double fw_verdict_first_accuracy;
    share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
    verdict, or NULL */
 double fw_verdict_bending_share(const fw_dynamics_motion *motion);
-/* What the rims of release holes bear at most in a motion, over what the material is allowed: three times
-   (Kirsch) the stress of a strip between holes that bears everything alone. NaN: there are no holes. *at: 2 times the
-   number of the hinge, and 1 for its second body; NULL allowed */
-double fw_verdict_bending_rims(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
-                               int *at);
+enum {
+    FW_VERDICT_RIMS = 575
+}; /* FW-Dnnn: rims of release holes do not bear, or are not known to */
+/* What the rims of release holes bear in a motion, over what the material is allowed. At most three times (Kirsch) the
+   stress of a strip between holes that bears everything alone; at least what equilibrium asks of a cut through the whole
+   body. NaN: there are no holes. at: for low and high 2 times the number of the hinge, and 1 for its second body */
+fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *mechanism,
+                                        const fw_dynamics_motion *motion, int at[2]);
 /* the same where hinges turn, else 0: bands of clearances have it */
 double fw_verdict_bending_turning(const fw_dynamics_motion *motion);
 /* that above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */

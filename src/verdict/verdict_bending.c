@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- along a motion ---- */
+
 static double turned(const fw_verdict_bending *b, int body) {
     return body == FW_GROUND ? 0 : b->turn[body].rad;
 }
@@ -45,6 +47,54 @@ static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
             b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
 }
 
+/* what a hinge puts on its body at a side, in the axes in which that was drawn */
+typedef struct put {
+    fw_geometry_vec2 force_N;
+    double moment_Nm;
+} put;
+
+static put of_side(const fw_verdict_bending *b, const fw_mechanism_pin *pin, int j, int side,
+                   const fw_dynamics_instant *now) {
+    const int body = side ? pin->body_b : pin->body_a;
+    const double sign = side ? 1 : -1, *force = now->reaction_N + 2 * j;
+    const fw_geometry_vec2 f = {sign * force[0], sign * force[1]};
+    return (put){fw_geometry_vec_rotate(f, -turned(b, body)),
+                 -sign * pin->stiffness_Nm_per_rad * now->angle_rad[j]};
+}
+
+/* Stress across a cut is somewhere at least what equilibrium asks of it: force over what is left, and
+   moment over the integral of the distances. What else acts on the body, its inertia or a load, is what its hinges
+   put on it together, and may act on either side. */
+static void record_cuts(fw_verdict_bending *b, const fw_mechanism *m,
+                        const fw_dynamics_instant *now) {
+    for (int i = 0; i < 3 * m->nbody; i++)
+        b->put[i] = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < 2 * m->nhinge; i++) {
+            const int j = m->hinge[i / 2].pin, side = i % 2;
+            const fw_mechanism_pin *pin = &m->pin[j];
+            const int body = side ? pin->body_b : pin->body_a;
+            const fw_verdict_arm *arm = &b->arm[i];
+            if (body == FW_GROUND) continue;
+            const put one = of_side(b, pin, j, side, now);
+            const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, side),
+                                   middle = {m->drawn[body].x_m, m->drawn[body].y_m};
+            double *all = b->put + 3 * body;
+            if (pass == 0) {
+                all[0] += one.force_N.x, all[1] += one.force_N.y;
+                all[2] += one.moment_Nm + vec_cross(vec_sub(at, middle), one.force_N);
+                continue;
+            }
+            if (!arm->known || !(arm->cut_m > 0)) continue;
+            const fw_geometry_vec2 rest = {all[0], all[1]};
+            const double here = one.moment_Nm + vec_cross(vec_sub(at, arm->cut), one.force_N),
+                         there = all[2] + vec_cross(vec_sub(middle, arm->cut), rest);
+            const double force = (vec_length(one.force_N) - vec_length(rest)) / arm->cut_m,
+                         moment = (fabs(here) - fabs(there)) / arm->cut_m2;
+            b->cut_N_per_m[i] = fmax(b->cut_N_per_m[i], fmax(force, moment));
+        }
+}
+
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (!now) { /* the run starts over */
@@ -53,6 +103,8 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->hardest_N[k] = 0;
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
+        for (int i = 0; b->cut_N_per_m && i < 2 * m->nhinge; i++)
+            b->cut_N_per_m[i] = 0;
         return;
     }
     double hinges = 0, bodies = 0, turning = 0, *each = b->body_J + m->nbody;
@@ -79,6 +131,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         }
     }
     record_forces(b, m, now);
+    if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
     b->turning_J = fmax(b->turning_J, turning);
@@ -95,6 +148,9 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
     FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
+    if (!(m->device->release_pitch_m > 0)) return FW_OK;
+    FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
+    FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     return FW_OK;
 }
 
@@ -135,50 +191,75 @@ double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
     return share > fw_verdict_bending_told ? share : 0;
 }
 
+/* ---- rims of release holes ---- */
+
 static const double fw_verdict_rim = 3; /* Kirsch: of a hole in a wide plate that is pulled */
 
-double fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion, int *at) {
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    double worst = 0;
-    if (!(m->device->release_pitch_m > 0) || !saw || !saw->bending.arm) return (double)NAN;
-    const fw_verdict_bending *b = &saw->bending;
+/* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
+   every strip, and of the narrowest one most; walls farther out leave more */
+static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
+    const fw_verdict_arm *arm = &b->arm[i];
+    if (!arm->known || !limit) return (fw_verdict_band){0, 0};
     const double *most = b->hardest_N + 2 * m->nhinge;
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
-        const fw_verdict_arm *arm = &b->arm[i];
-        if (!arm->known || !limit) continue;
-        double strain = fw_verdict_rim *
+    const double allowed_N_per_m =
+        limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
+    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
+    const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
+    const double high = fw_verdict_rim *
                         (most[i / 2 * 2 + 1] * arm->edge_m2 + sqrt(most[i / 2 * 2]) * arm->edge_m) /
-                        b->stiff_N;
-        double allowed =
-            limit->allowable_Pa / m->device->safety_factor / m->variant->material.youngs.value;
-        if (strain <= worst * allowed) continue;
-        worst = strain / allowed;
-        if (at) *at = i;
-    }
-    return worst;
+                        (fmin(made, 1) * fmin(made, 1));
+    const double low = b->cut_N_per_m[i] / (fmax(made, 1) * fmax(made, 1));
+    return (fw_verdict_band){low / allowed_N_per_m, high / allowed_N_per_m};
 }
 
-static void tell_rims(const fw_mechanism *m, const fw_device_scene *scene,
-                      const fw_dynamics_motion *motion, fw_diags *diags) {
-    int at = 0;
-    const double share = fw_verdict_bending_rims(m, motion, &at);
-    char percent[32], x[32], y[32];
-    if (!(share > 1)) return;
+fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                                        int at[2]) {
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    fw_verdict_band worst = {0, 0};
+    if (!saw || !saw->bending.arm || !saw->bending.cut_N_per_m)
+        return (fw_verdict_band){(double)NAN, (double)NAN};
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_verdict_band here = rims_of(m, &saw->bending, i);
+        if (here.low > worst.low) worst.low = here.low, at[0] = i;
+        if (here.high > worst.high) worst.high = here.high, at[1] = i;
+    }
+    const double off = fw_verdict_motion_model_error(m, motion);
+    return (fw_verdict_band){worst.low * fmax(1 - off, 0), worst.high * (1 + off)};
+}
+
+fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_mechanism *m,
+                                   const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                   fw_verdict_variant_verdict *v) {
+    int at[2] = {0, 0};
+    const fw_verdict_band band = fw_verdict_bending_rims(m, motion, at);
+    char low[32], high[32], x[32], y[32];
+    if (!(band.high > 1)) return FW_OK;
+    const bool breaks = band.low > 1;
+    const int i = at[breaks ? 0 : 1];
     const fw_verdict_strain_monitor *saw = motion->observed;
-    const fw_verdict_arm *arm = &saw->bending.arm[at];
-    const fw_mechanism_pin *pin = &m->pin[m->hinge[at / 2].pin];
-    const int body = at % 2 ? pin->body_b : pin->body_a;
-    fw_diag_warning(
-        diags, 575, m->device->body[body].place,
-        "in scene %s the rims of release holes of body %s are not known to bear what hinge %s "
-        "brings: the bound, three times the stress of a strip that bears it alone, is %s %% of "
-        "what is allowed, near (%s, %s) um; a wider body, smaller holes or a larger pitch there "
-        "lower it",
-        scene->name, m->device->body[body].id, pin->id,
-        fw_number_text(percent, sizeof percent, 100 * share, 2),
+    const fw_verdict_arm *arm = &saw->bending.arm[i];
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+    const char *text = fw_arena_printf(
+        arena,
+        "in scene %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
+        "to %s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
+        "smaller holes (release-hole), a wider body there or less load lowers it",
+        scene->name, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
+        breaks ? "do not bear" : "are not known to bear", pin->id,
+        fw_number_text(low, sizeof low, 100 * band.low, 2),
+        fw_number_text(high, sizeof high, 100 * band.high, 3),
         fw_number_text(x, sizeof x, 1e6 * arm->edge.x, 4),
         fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4));
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene->name,
+                                                  .flow = m->variant->flow,
+                                                  .number = FW_VERDICT_RIMS,
+                                                  .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
+                                                  .keep = fmin(fmax(0.98 / band.high, 1e-3), 0.99),
+                                                  .not_by_width = true,
+                                                  .text = text};
+    return FW_OK;
 }
 
 static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,
@@ -199,7 +280,6 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
     const double share = fw_verdict_bending_counted(motion);
     char all[32], one[32], width[32], x[32], y[32];
     int most = 0;
-    tell_rims(m, scene, motion, diags);
     if (share == 0) return;
     for (int i = 1; i < m->nbody; i++)
         if (b->body_J[i] > b->body_J[most]) most = i;

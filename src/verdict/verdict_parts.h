@@ -29,7 +29,9 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 9 }; /* of one scene at most */
+enum { FW_REASONS = 10 }; /* of one scene at most, contacts apart */
+/* of one flow at most */
+size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 
 /* scene i of the device: motion[i] (NULL where electrodes touch, or where the formula of another
    effect ends), pull_in[i], and reasons of v */
@@ -42,6 +44,10 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
 /* v->arm, where it is not known of a device much like it */
 fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
                                    const fw_mechanism *mechanism, fw_verdict_variant_verdict *v);
+/* a reason of v where rims of release holes may not bear the scene (FW-D575) */
+fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                   fw_verdict_variant_verdict *v);
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);
 

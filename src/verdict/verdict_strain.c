@@ -36,7 +36,7 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     arm->length_m += length;
     if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
     double edge = 6 * vec_length(r) / (w * w) + 1 / w;
-    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at;
+    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at, arm->along = along;
     arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
 }
 

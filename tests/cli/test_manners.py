@@ -107,6 +107,58 @@ class Manners(unittest.TestCase):
         self.assertIn("did you mean 'name'?", first["message"])
         self.assertEqual(json.loads(run("check", SIX_BAR, "--json").stdout)["schema"], "flexwright.verdict/1")
 
+    def test_figures_as_pdf(self):
+        """every kind of picture becomes one page with all its shapes and letters, the same bytes twice; a file whose parts are
+        where its table says; what is not ours is named"""
+        leaf, comb = (str(ROOT / "docs/gallery" / n / "device.xml") for n in ("leaf-four-bar", "comb-stage"))
+        with tempfile.TemporaryDirectory() as where:
+            run("plan", leaf, "-o", where + "/plan", "--corners", "none", "-q")
+            run("modes", leaf, "-o", where + "/modes", "-q")
+            run("statics", comb, "-o", where + "/statics", "-q")
+            run("workspace", SIX_BAR, "-o", where + "/workspace", "-q")
+            figures = [p for p in sorted(pathlib.Path(where).rglob("*.svg")) if p.parent.name != "masks"]
+            self.assertGreaterEqual(len(figures), 8)
+            for svg in figures:
+                pdf = svg.with_suffix(".pdf")
+                for out in (pdf, svg.with_suffix(".again")):
+                    done = run("figure", str(svg), "-o", str(out))
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), svg)
+                data = pdf.read_bytes()
+                self.assertEqual(data, svg.with_suffix(".again").read_bytes())
+                self.assertNotRegex(data, b"Date|ID|" + where.encode())
+                table = int(re.search(rb"startxref\n(\d+)", data).group(1))
+                rows = data[table:].split(b"\n")
+                for number in range(1, 8):
+                    at = int(rows[2 + number].split()[0])
+                    self.assertTrue(data[at:].startswith(b"%d 0 obj" % number), (svg, number))
+                length, start = re.search(rb"4 0 obj<</Length (\d+)>>stream\n", data).group(1), data.index(b"stream\n") + 7
+                page = data[start:start + int(length)].decode("ascii")
+                self.assertEqual(data[start + int(length):][:10], b"\nendstream")
+                known = set("m l c h re W n S f B f* B* rg RG w J d gs cm q Q BT ET Tr Tm Tf Tj".split())
+                for word in re.sub(r"\[[^\]]*\]|<[0-9a-f]*>", "0", page).split():
+                    self.assertTrue(word in known or re.fullmatch(r"-?[0-9.]+|/[GF][0-9]+", word), (svg, word))
+                self.assertEqual(page.split().count("q"), page.split().count("Q"))
+                text = re.sub(r"(?s)<(title|desc|style)\b.*?</\1>", "", svg.read_text(encoding="utf-8"))
+                shapes = len(re.findall(r"<(?:path|rect|circle|line)\b(?![^>]*visibility=\"hidden\")", text))
+                drawn = sum(word in ("S", "f", "B", "f*", "B*", "n") for word in page.split()) - page.count("re W n")
+                self.assertLessEqual(abs(drawn - shapes), text.count("hidden"), svg)
+                for word in ("leaf-four-bar", "Schedule"):
+                    if re.search(r">[^<]*%s" % word, text):
+                        self.assertIn(word.encode().hex(), page, svg)
+            for bad, says in (("<svg width='1' height='1'/>", "no picture"), ('<svg width="9" height="9"><image/></svg>', "image"),
+                              ('<svg width="9" height="9"><text x="1">\u6f22</text></svg>', "\u6f22"), ("<svg", "no picture"),
+                              ('<svg width="9" height="9"><path d="M1 1Z5"/></svg>', "path"), ('<svg width="9" height="9"><g transform="rotate', None), ('<svg width="9" height="9"><text x="1" text-anchor="end">a<tspan', None)):
+                path = pathlib.Path(where, "bad.svg")
+                path.write_text(bad, encoding="utf-8")
+                done = run("figure", str(path), "-o", where + "/bad.pdf")
+                if says:
+                    self.assertEqual(done.returncode, 3, (bad, done.stderr))
+                    self.assertIn("FW-D549", done.stderr)
+                    self.assertIn(says, done.stderr)
+                    self.assertFalse(pathlib.Path(where, "bad.pdf").exists())
+                self.assertIn(done.returncode, (0, 3), bad)
+                pathlib.Path(where, "bad.pdf").unlink(missing_ok=True)
+
     def test_doctor_knows_every_flow(self):
         listed = run("doctor").stdout
         for pack in (ROOT / "processes").glob("*.xml"):

@@ -85,7 +85,8 @@ def main():
             if result.returncode != 0:
                 problems.append("%s %s: exit status %d: %s" % (device, how, result.returncode, result.stderr))
                 continue
-            for gds in sorted((out / "masks").glob("*.gds")):
+            dies = [gds for gds in sorted((out / "masks").glob("*.gds")) if "-plate" not in gds.name and "-wafer" not in gds.name]
+            for gds in dies:  # plates have the certificates of what is on them
                 why = refused(gds.with_suffix(".json"))
                 if why:
                     problems.append("%s %s: %s" % (device, how, why))

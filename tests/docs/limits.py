@@ -61,7 +61,6 @@ CASES = {
     "Ranges that a pack does not know": (LEAF, None, "check", "0.99 to 1 is assumed, and the verdict holds there only"),
     "Motion and strain of bodies with release holes": (SIX, ('<die width="5.6 mm"', '<die release-pitch="30 um" width="5.6 mm"'),
                                                "mask --corners none --advice none", "no hole can be opened near.*FW-D189"),
-    "Hollows below the test die": (COMB, None, "recipe", "the test die of this flow has no hollows"),
     "Times of handling steps": (SIX, None, "recipe --flow al-masked-rie", r'class="tag assumed"'),
     "What the release reaches": (SIX, None, "recipe --flow copper-on-porous-silicon", "NOT COMPUTABLE, missing: "),
 }
@@ -72,7 +71,7 @@ SILENT = ["Breaking tethers", "Stiffness of contacts", "Residual stress that var
           "Leaves that bend out between",
           "Contacts and weight in the picture", "Studies on the page", "Browsers other than Chromium", "Wide kernels and FMA"]
 # looked at by another test
-ELSEWHERE = {"Cells that are united": "tests/klayout/cells.py", "OASIS as cells": "tests/klayout/cells.py",
+ELSEWHERE = {"Cells that go around": "tests/klayout/cells.py", "OASIS as cells": "tests/klayout/cells.py",
              "Lettering and leaning walls": "tests/accept/step.py",
              "The full judgement while a slider": "tests/docs/json_keys.py",
              "How wafers of different lots": "tests/unit/process/test_wafers.c",

@@ -7,7 +7,9 @@ as they are (GDSII) and within the tolerance of arcs (DXF); every format and the
 not be touched, is too large, damaged or misplaced is refused with the line of the device file and the byte of the drawing, and nothing is written."""
 import hashlib
 import json
+import math
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -206,10 +208,54 @@ class Cells(unittest.TestCase):
             self.assertTrue(lines[0].startswith("bad.xml:%d:" % line), (cell, lines[0]))
             self.assertFalse((self.where / "bad").exists())
 
+    def test_it_becomes_one_with_the_frame(self):
+        """random pads, rings and stars over edges, corners and the seam of the frame: on the mask their union, each place once; a
+        layer of the cell's own has the cell whole"""
+        rng = random.Random(16)
+        cells, parts, script = "", [["plain/masks/%s.gds" % FLOW, [1, 0]]], "import pya\nl = pya.Layout(); l.dbu = 0.001; a = l.layer(1, 0)\n"
+        for k, (x, y) in enumerate(((-897, 3000), (-895, 3690), (200, 3697), (3300, 3690), (4000, 2400), (-897, 1548), (-900, 700), (2500, -500), (4001, 400))):
+            rays = rng.randint(4, 9)
+            star = [(round(1e3 * r * math.cos(w)), round(1e3 * r * math.sin(w))) for r, w in
+                    ((rng.uniform(45, 75), 2 * math.pi * (n + rng.uniform(-0.2, 0.2)) / rays) for n in range(rays))]
+            script += "c = l.create_cell('T%d'); r = pya.Region(pya.Polygon([pya.Point(x, y) for x, y in %r]))\n" % (k, star)
+            if k % 2:
+                script += "r -= pya.Region(pya.Polygon.ellipse(pya.Box(-22000, -22000, 22000, 22000), 24))\n"
+            script += "c.shapes(a).insert(r); o = pya.Layout(); o.dbu = 0.001; t = o.create_cell('T%d'); t.shapes(o.layer(1, 0)).insert(r); o.write('t%d.gds')\n" % (k, k)
+            at = (x + rng.uniform(-30, 30), y + rng.uniform(-30, 30))
+            at = [round(1e3 * v) for v in at]
+            cells += '<cell file="stars.gds" cell="T%d" x="%d nm" y="%d nm" layers="1/0>mask; 1/0>77/3"/>' % (k, *at)
+            parts.append(["t%d.gds" % k, [1, 0], [*at, 0, False]])
+        klayout(script + "l.write('stars.gds')\npya.Application.instance().exit(0)\n", self.where)
+        done = self.make("united", cells)
+        self.assertNotIn("FW-D152", done.stderr)
+        self.assertNotIn("FW-D146", done.stderr)
+        self.assertNotIn("FW-D574", done.stderr)
+        file = "united/masks/%s.gds" % FLOW
+        (area, off, thick), (own, off_own, _) = self.compare([[file, [1, 0], parts], [file, [77, 3], parts[1:]]])
+        self.assertLess(off, 20000)  # nm2: where a leaning edge ends on the frame it turns by less than 1 nm
+        self.assertEqual((thick, off_own), (0, 0))
+        layers = {y["gds"]: y for y in json.loads((self.where / "united/masks" / (FLOW + ".json")).read_text())["layers"]}
+        self.assertAlmostEqual(layers["1/0"]["polygon_area_um2"], 1e-6 * area, delta=1e-3)  # counted once
+
     def test_rules_hold_for_it(self):
-        done = self.make("near", '<cell file="logo.gds" cell="LEAF" x="-0.9 mm" y="3.6 mm" layers="1/0>mask"/>', options=())
-        self.assertIn("cell LEAF", done.stderr)
-        self.assertIn("FW-D152", done.stderr)  # it lies on the frame
+        """two micrometres beside the frame: refused; a strip of the frame of two micrometres that sticks out of it, too"""
+        for k, at in enumerate(("-0.8952 mm", "-0.9 mm")):
+            klayout("import pya\nl = pya.Layout(); l.dbu = 0.001; c = l.create_cell('BAR')\n"
+                    "c.shapes(l.layer(1, 0)).insert(pya.Box(0, 0, 60000, %d))\nl.write('bar.gds')\npya.Application.instance().exit(0)\n"
+                    % (2000 if k else 40000), self.where)
+            done = self.make("near", '<cell file="bar.gds" x="%s" y="3.0 mm" layers="1/0>mask"/>' % at, options=())
+            self.assertIn("cell BAR", done.stderr)
+            self.assertIn("FW-D144" if k else "FW-D145", done.stderr)
+            self.assertNotIn("FW-D152", done.stderr)
+
+    def test_what_lies_inside_of_a_cell_is_not_cut_out_of_it(self):
+        klayout("import pya\nfor n, a in (('small', 20000), ('large', 90000)):\n  l = pya.Layout(); l.dbu = 0.001; c = l.create_cell('C')\n"
+                "  c.shapes(l.layer(1, 0)).insert(pya.Box(-a, -a, a, a)); l.write(n + '.gds')\npya.Application.instance().exit(0)\n", self.where)
+        cell = '<cell id="%s" file="%s.gds" x="-0.7 mm" y="3.4 mm" layers="1/0>mask"/>'
+        done = self.make("around", cell % ("s", "small") + cell % ("l", "large"))
+        self.assertIn("FW-D152", done.stderr)
+        done = self.make("within", cell % ("l", "large") + cell % ("s", "small"))
+        self.assertNotIn("FW-D152", done.stderr)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
-#include "geometry/geometry_svg.h"
+#include "geometry/contour.h"
 #include <math.h>
 
 /* a half disc, flat side below: 1 mm radius */

@@ -476,6 +476,45 @@ static void pointer_turns_as_a_frame_of_beams_does(void **state) {
     fw_arena_free(d->arena);
 }
 
+/* Beams over a hollow of another plate: 20 um beyond them on every side, below their bar, too; without it nothing
+   changes but where they begin. */
+static void beams_hang_over_a_hollow(void **state) {
+    (void)state;
+    const double lengths[] = {200, 350};
+    for (int hollow = 0; hollow < 2; hollow++) {
+        drawn *d = start("cantilevers");
+        sizes(d, lengths, 2);
+        if (hollow) set(d, "hollow", 20 * UM);
+        draw(d);
+        const double from = hollow ? 20 * UM : 0;
+        fw_geometry_box below = {0};
+        int hollows = 0, beams = 0;
+        for (int i = 0; i < d->c.npiece; i++) {
+            const fw_layout_piece *p = &d->c.piece[i];
+            const fw_geometry_box b = fw_geometry_contour_box(&p->contour);
+            if (p->role == FW_ROLE_CAVITY) {
+                below = b;
+                hollows++;
+                assert_int_equal(p->body, FW_NONE - 1);
+                continue;
+            }
+            assert_true(fabs(b.x0 - (from + beams * 72 * UM)) < 1e-12);
+            assert_true(fabs(b.y1 - (lengths[beams++] * UM)) < 1e-12);
+        }
+        assert_int_equal(beams, 2);
+        assert_int_equal(hollows, hollow);
+        assert_true(fabs(d->c.width_m - (84 * UM + 2 * from)) < 1e-12);
+        assert_true(fabs(d->c.height_m - (350 * UM + from)) < 1e-12);
+        if (hollow) {
+            assert_true(fabs(below.x0 - (0)) < 1e-12);
+            assert_true(fabs(below.x1 - (124 * UM)) < 1e-12);
+            assert_true(fabs(below.y0 - (-20 * UM)) < 1e-12);
+            assert_true(fabs(below.y1 - (370 * UM)) < 1e-12);
+        }
+        fw_arena_free(d->arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind),
@@ -489,6 +528,7 @@ int main(void) {
         cmocka_unit_test(plates_with_holes),
         cmocka_unit_test(fill_density),
         cmocka_unit_test(pointer_turns_as_a_frame_of_beams_does),
+        cmocka_unit_test(beams_hang_over_a_hollow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/rainflow.h"
+#include "maths/functions.h"
 #include "test.h"
 
 static double counted(const fw_maths_cycle *c, size_t n, double range) {

@@ -2,6 +2,7 @@
 /* How bodies give between their hinges, against beams in closed form. */
 #include "verdict/strain.h"
 #include "geometry/segment.h"
+#include "verdict/verdict_parts.h"
 #include "test.h"
 
 enum { MOST = 12 };
@@ -171,12 +172,72 @@ static void a_hole_counts_and_its_cut_does_not(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* A bar of 60 um with a square hole of 40 um beside the way's narrowest place, between two hinges that turn it against
+   each other (M, -M) and pull it (F): over the cut, of two strips of 10 um, equilibrium asks for M over the integral of
+   the distances, and F over the two strips. What the hinges put on the body together is taken off. */
+static void a_cut_bears_what_equilibrium_asks(void **state) {
+    (void)state;
+    static const double pierced[MOST][2] = {{0, 0},       {0.28, 0},     {0.28, 0.01}, {0.26, 0.01},
+                                            {0.26, 0.05}, {0.30, 0.05},  {0.30, 0.01}, {0.28, 0.01},
+                                            {0.28, 0},    {1, 0},        {1, 0.06},    {0, 0.06}};
+    for (int turn = 0; turn < 3; turn++) {
+        scene s = body(MOST, pierced, 1u << 9 | 1u << 11, 0.7 * turn);
+        fw_device device = {.release_pitch_m = 100e-6, .safety_factor = 2};
+        fw_device_body *own = fw_arena_one(s.arena, fw_device_body);
+        own->id = "bar";
+        device.body = own, device.nbody = 1;
+        fw_mechanism_variant variant = {.thickness_m = 10e-6, .material.youngs.value = 1e11};
+        fw_flexure_limit *limit = fw_arena_one(s.arena, fw_flexure_limit);
+        limit->allowable_Pa = 1e9;
+        s.m.device = &device, s.m.variant = &variant;
+        for (int k = 0; k < 2; k++) {
+            s.m.pin[k].stiffness_Nm_per_rad = 1e-6;
+            s.m.pin[k].id = k ? "left" : "right";
+            s.m.hinge[k].limits.item[0] = *limit;
+            s.m.hinge[k].limits.governing = 0;
+        }
+        const fw_verdict_arm *left = &s.arm[3], *right = &s.arm[1]; /* ends of edges 11 and 9 */
+        assert_relative(left->cut_m, 20e-6, 0.05); /* square to the way, which leans in its cells */
+        assert_relative(left->cut_m2, 2 * 10e-6 * 25e-6, 0.1);
+        assert_true(right->cut_m > 0);
+        fw_verdict_strain_monitor seen = {.mechanism = &s.m, .arena = s.arena};
+        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, &seen.bending), FW_OK);
+        for (int load = 0; load < 3; load++) {
+            const double moment = load == 1 ? 0 : 4e-6, force = load == 0 ? 0 : 0.1;
+            const double along[2] = {cos(0.7 * turn), sin(0.7 * turn)};
+            const double q[3] = {0, 0, 0}, angle[2] = {moment / 1e-6, load == 2 ? 0 : -moment / 1e-6};
+            const double reaction[4] = {force * along[0], force * along[1], -force * along[0],
+                                        -force * along[1]};
+            const fw_dynamics_instant now = {.q = q, .angle_rad = angle, .reaction_N = reaction};
+            fw_verdict_bending_record(&seen.bending, &s.m, NULL);
+            fw_verdict_bending_record(&seen.bending, &s.m, &now);
+            /* load 2: one moment alone, which may act on either side, so that the force is left */
+            const double asked = load == 0 ? moment / left->cut_m2 : force / left->cut_m;
+            assert_relative(seen.bending.cut_N_per_m[3], asked, 1e-9);
+            const fw_dynamics_motion motion = {
+                .observed = &seen, .ledger.hinge.used = FW_HINGE_ELASTICA};
+            int at[2];
+            const fw_verdict_band band = fw_verdict_bending_rims(&s.m, &motion, at);
+            assert_true(band.low <= asked / (1e9 / 2 * 10e-6) && band.low > 0);
+            assert_true(band.high > 3 * band.low);
+            const fw_device_scene pull = {.name = "pull"};
+            fw_verdict_reason reason[1];
+            fw_verdict_variant_verdict v = {.reason = reason};
+            assert_int_equal(fw_verdict_bending_judge(s.arena, &s.m, &pull, &motion, &v), FW_OK);
+            assert_int_equal(v.nreason, 1);
+            assert_int_equal(reason[0].decision, load == 0 ? FW_REJECT : FW_INCONCLUSIVE);
+        }
+        fw_arena_free(s.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_bar_is_a_beam),
         cmocka_unit_test(forces_turn_with_the_body),
         cmocka_unit_test(what_is_narrow_is_found),
         cmocka_unit_test(a_hole_counts_and_its_cut_does_not),
+        cmocka_unit_test(a_cut_bears_what_equilibrium_asks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
