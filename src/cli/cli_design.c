@@ -23,7 +23,6 @@ int fw_cli_command_check(fw_cli_options *options) {
     if (!design) return exit_status;
     int status = fw_cli_session_target(design, options->output);
     if (status == FW_STATUS_OK) status = judge(design, options);
-    if (status == FW_STATUS_OK) status = (int)fw_plan_examine_masks(fw_plan_design_plan(design));
     if (status == FW_STATUS_OK && options->output)
         status = fw_design_write(design, options->output, FW_DESIGN_VERDICT);
     if (status == FW_STATUS_OK)

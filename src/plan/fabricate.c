@@ -420,12 +420,6 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     return fw_process_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
 }
 
-fw_status fw_plan_examine_masks(fw_plan *plan) {
-    for (int i = 0; i < plan->nflow && plan->verdict.decision != FW_REJECT; i++)
-        if (plan->flow[i].flow) FW_TRY(build_mask(plan, &plan->flow[i], false));
-    return FW_OK;
-}
-
 fw_status fw_plan_masks(fw_plan *plan) {
     bool rejected = plan->verdict.decision == FW_REJECT;
     for (int i = 0; i < plan->nflow; i++) {

@@ -145,9 +145,6 @@ fw_status fw_plan_load(fw_plan *plan, const char *path);
 fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, size_t n);
 /* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows */
 fw_status fw_plan_judge(fw_plan *plan);
-/* in place of fabricating, for who wants the verdict alone: what the masks of a design that is not rejected refuse is among
-   the reasons of its flows, as it is after fw_plan_fabricate */
-fw_status fw_plan_examine_masks(fw_plan *plan);
 /* masks with each flow's bias; a rejected design gets none unless forced */
 fw_status fw_plan_fabricate(fw_plan *plan);
 
