@@ -103,7 +103,7 @@ static fw_status repeats_of(fw_arena *arena, const fw_mask *mask, int layer,
 
 /* Exact outlines with true arcs: 1 user unit = 1 um, six decimals (1 pm). What is around them comes
    from the canvas (base/svg.h); the outlines themselves, of which there may be millions, have their
-   own tight loop and only share the parts of arcs with other pictures (geometry/geometry_svg.h). */
+   own tight loop and only share the parts of arcs with other pictures (geometry/contour.h). */
 
 static const double MARGIN_UM = 150, LEGEND_UM = 150, BAR_UM = 10;
 
