@@ -71,8 +71,8 @@ static void twist_of(const double at[3], double twist[3]) {
 
 static const struct shape {
     double angle_deg, slender, fillet, crystal;
-} shapes[] = {{0, 1 / 120.0, 0.5, NAN}, {0, 1 / 20.0, 0.5, NAN},   {90, 1 / 30.0, 0.5, NAN},
-              {180, 1 / 40.0, -1, NAN}, {270, 1 / 20.0, 0.5, 0.4}, {270, 1 / 60.0, 0.5, NAN}};
+} shapes[] = {{0, 1 / 120.0, 0.5, (double)NAN}, {0, 1 / 20.0, 0.5, (double)NAN},   {90, 1 / 30.0, 0.5, (double)NAN},
+              {180, 1 / 40.0, -1, (double)NAN}, {270, 1 / 20.0, 0.5, 0.4}, {270, 1 / 60.0, 0.5, (double)NAN}};
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 
 static void shape_new(strip *s, int i) {
