@@ -393,10 +393,9 @@ static bool hardly_bent(fw_effects_exact *x) {
 
 static bool charted(fw_effects_exact *x) {
     fw_flexure_hinge_bent b;
-    double at[3];
-    fw_flexure_hinge_half_turned(x->twist, at);
-    if (!fw_flexure_chart_bend(x->chart, at, x->stiff, &b)) return false;
-    fw_flexure_hinge_wrench_of(&b, at, x->wrench, x->stiff ? x->k : NULL);
+    const fw_flexure_half_turned state = fw_flexure_hinge_half_turned(x->twist);
+    if (!fw_flexure_chart_bend(x->chart, state.at, x->stiff, &b)) return false;
+    fw_flexure_hinge_wrench_of(&b, &state, x->wrench, x->stiff ? x->k : NULL);
     x->energy_J = b.energy_J;
     return x->weighed = true;
 }

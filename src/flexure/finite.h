@@ -85,10 +85,14 @@ bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure
    gradient of the energy by the twist, and its symmetric tangent (NULL: not asked for); SI */
 void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                  const double twist[3], double wrench[3], double tangent[3][3]);
-/* the same from a state (th, w, v) of the frame half turned, and that of a twist */
-void fw_flexure_hinge_half_turned(const double twist[3], double at[3]);
-void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *bent, const double at[3],
-                                double wrench[3], double tangent[3][3]);
+/* the same from what is bent at a state (th, w, v) of the frame half turned, and that of a twist */
+typedef struct fw_flexure_half_turned {
+    double at[3], cosine, sine; /* of th/2 */
+} fw_flexure_half_turned;
+fw_flexure_half_turned fw_flexure_hinge_half_turned(const double twist[3]);
+void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *bent,
+                                const fw_flexure_half_turned *half, double wrench[3],
+                                double tangent[3][3]);
 /* ---- beam_chart.c: the exact beam's own law, by a lattice of its solutions ---- */
 
 typedef struct fw_flexure_chart fw_flexure_chart;

@@ -404,16 +404,15 @@ bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure
 /* w = c ux + s uy, v = c uy - s ux with c, s = cos, sin(th/2):  dw/dth = v/2,  dv/dth = -w/2
    in: rad, m; out: N m, N and their derivatives, symmetric. Test: test_finite_force.c
    wrench_and_tangent */
-void fw_flexure_hinge_half_turned(const double twist[3], double at[3]) {
-    double c = cos(0.5 * twist[0]), s = sin(0.5 * twist[0]);
-    at[0] = twist[0];
-    at[1] = c * twist[1] + s * twist[2];
-    at[2] = c * twist[2] - s * twist[1];
+fw_flexure_half_turned fw_flexure_hinge_half_turned(const double twist[3]) {
+    const double c = cos(0.5 * twist[0]), s = sin(0.5 * twist[0]);
+    return (fw_flexure_half_turned){
+        {twist[0], c * twist[1] + s * twist[2], c * twist[2] - s * twist[1]}, c, s};
 }
 
-void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *b, const double at[3],
+void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *b, const fw_flexure_half_turned *half,
                                 double wrench[3], double tangent[3][3]) {
-    double th = at[0], w = at[1], v = at[2], c = cos(0.5 * th), s = sin(0.5 * th);
+    const double w = half->at[1], v = half->at[2], c = half->cosine, s = half->sine;
     const double *g = b->gradient;
     const double j[3][3] = {
         {1, 0, 0}, {0.5 * v, c, s}, {-0.5 * w, -s, c}}; /* d(th, w, v)/d twist */
@@ -439,10 +438,9 @@ void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *b, const double at[
 void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                  const double twist[3], double wrench[3], double tangent[3][3]) {
     fw_flexure_hinge_bent b;
-    double at[3];
-    fw_flexure_hinge_half_turned(twist, at);
-    fw_flexure_hinge_law_bend(law, rest, at, tangent != NULL, &b);
-    fw_flexure_hinge_wrench_of(&b, at, wrench, tangent);
+    const fw_flexure_half_turned half = fw_flexure_hinge_half_turned(twist);
+    fw_flexure_hinge_law_bend(law, rest, half.at, tangent != NULL, &b);
+    fw_flexure_hinge_wrench_of(&b, &half, wrench, tangent);
 }
 
 /* ---- how a hinge's axis drifts, and where its conjugate surfaces meet ----

@@ -5,6 +5,7 @@
 #include "flexure/beam.h"
 #include "flexure/finite.h"
 #include "flexure/path.h"
+#include "strip_input.h"
 #include "test.h"
 #include <math.h>
 #include <string.h>
@@ -27,19 +28,9 @@ static double random_(unsigned *seed) { /* in [-1, 1) */
 }
 
 static void strip_new(strip *s, double angle_deg, double slender, double fillet, double crystal) {
-    double L = 1e-3, t = slender * L, angle = angle_deg * M_PI / 180;
+    const double L = 1e-3;
     *s = (strip){.arena = fw_arena_new(0)};
-    s->in = (fw_flexure_input){.kind = angle > 0 ? FW_FLEXURE_CSFH : FW_FLEXURE_LEAF,
-                               .length_m = L,
-                               .angle_rad = angle,
-                               .radius_m = angle > 0 ? L / angle : 0,
-                               .width_m = t,
-                               .fillet_m = fillet * t,
-                               .depth_m = 20e-6,
-                               .youngs_Pa = 150e9,
-                               .poisson = 0.25,
-                               .strength_Pa = 1e9,
-                               .safety_factor = 1};
+    s->in = strip_input(L, angle_deg, slender, fillet);
     if (!isnan(crystal)) s->in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, crystal);
     fw_flexure_closed_form(&s->in, &s->closed);
     fw_flexure_hinge_law_of(&s->in, &s->closed, &s->law);
@@ -104,7 +95,8 @@ static void forces_are_the_beam_s(void **state) {
             asked++;
             if (!fw_flexure_chart_bend(s.chart, at, true, &b)) continue;
             known++;
-            fw_flexure_hinge_wrench_of(&b, at, wrench, tangent);
+            const fw_flexure_half_turned half = fw_flexure_hinge_half_turned(twist);
+            fw_flexure_hinge_wrench_of(&b, &half, wrench, tangent);
             double ky = b.hessian[2][2], slack = 1e-10 * s.in.length_m * ky;
             for (int k = 0; k < 3; k++) {
                 double arm = k == 0 ? s.in.length_m : 1, far = k == 0 ? 0.1 : 1;

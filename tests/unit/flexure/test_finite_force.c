@@ -4,6 +4,7 @@
 #include "flexure/beam.h"
 #include "flexure/finite.h"
 #include "flexure/path.h"
+#include "strip_input.h"
 #include "test.h"
 #include <math.h>
 
@@ -21,18 +22,7 @@ typedef struct strip { /* of length 1 mm, with its law and its beam */
 /* slender: t/L; fillet_m below 0: rigid ends */
 static strip strip_of(double angle_deg, double slender, double fillet) {
     strip s = {.arena = fw_arena_new(0)};
-    double L = 1e-3, t = slender * L;
-    s.in = (fw_flexure_input){.kind = angle_deg > 0 ? FW_FLEXURE_CSFH : FW_FLEXURE_LEAF,
-                              .length_m = L,
-                              .angle_rad = angle_deg * degree,
-                              .radius_m = angle_deg > 0 ? L / (angle_deg * degree) : 0,
-                              .width_m = t,
-                              .fillet_m = fillet * t,
-                              .depth_m = 20e-6,
-                              .youngs_Pa = 150e9,
-                              .poisson = 0.25,
-                              .strength_Pa = 1e9,
-                              .safety_factor = 1};
+    s.in = strip_input(1e-3, angle_deg, slender, fillet);
     fw_flexure_closed_form(&s.in, &s.closed);
     fw_flexure_hinge_law_of(&s.in, &s.closed, &s.law);
     s.rest = fw_flexure_hinge_rest_of(&s.law);

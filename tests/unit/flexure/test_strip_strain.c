@@ -2,6 +2,7 @@
 /* Strain along a strip: the closed form's section forces against those of the exact beam, and the
    concentration of tension against its solids. */
 #include "flexure/path.h"
+#include "strip_input.h"
 #include "test.h"
 #include <math.h>
 #include <string.h>
@@ -20,18 +21,7 @@ static void tension(void **state) {
 }
 
 static fw_flexure_input strip_of(double angle_deg, double slender, double fillet) {
-    double L = 500e-6, t = slender * L;
-    return (fw_flexure_input){.kind = angle_deg > 0 ? FW_FLEXURE_CSFH : FW_FLEXURE_LEAF,
-                              .length_m = L,
-                              .angle_rad = angle_deg * degree,
-                              .radius_m = angle_deg > 0 ? L / (angle_deg * degree) : 0,
-                              .width_m = t,
-                              .fillet_m = fillet * t,
-                              .depth_m = 20e-6,
-                              .youngs_Pa = 150e9,
-                              .poisson = 0.25,
-                              .strength_Pa = 1e9,
-                              .safety_factor = 1};
+    return strip_input(500e-6, angle_deg, slender, fillet);
 }
 
 typedef struct strip { /* of the closed form, with what its strains need */

@@ -130,6 +130,16 @@ typedef struct tally {
     int by_itself;
 } tally;
 
+/* sample i of a sequence of random ones */
+static void draw(const fw_study *study, uint64_t sequence, int i, fw_study_sample *sample) {
+    for (int k = 0; k < study->ninput; k++)
+        assert_int_equal(
+            fw_study_input_at(&study->input[k],
+                              fw_chance_uniform(sequence, (uint64_t)i, (uint64_t)k), 6,
+                              sample->text[k], &sample->value[k]),
+            FW_OK);
+}
+
 /* n random samples, each by both ways */
 static tally compare(fw_study *study, int n) {
     tally t = {{0}, 0};
@@ -138,11 +148,7 @@ static tally compare(fw_study *study, int n) {
     assert_int_equal(fw_study_sample_new(study->arena, study, &other), FW_OK);
     for (int i = 0; i < n; i++) {
         bool changed = false;
-        for (int k = 0; k < study->ninput; k++)
-            assert_int_equal(fw_study_input_at(&study->input[k],
-                                               fw_chance_uniform(22, (uint64_t)i, (uint64_t)k), 6,
-                                               one.text[k], &one.value[k]),
-                             FW_OK);
+        draw(study, 22, i, &one);
         one.i = i;
         fw_study_sample_copy(study, &one, &other);
         assert_int_equal(fw_study_evaluate(study, NULL, &one, &changed), FW_OK);
@@ -206,11 +212,7 @@ static void hinges_alone(void **state) {
     assert_int_equal(fw_study_sample_new(alone->arena, alone, &b), FW_OK);
     for (int i = 0; i < n; i++) {
         bool changed = false;
-        for (int k = 0; k < whole->ninput; k++)
-            assert_int_equal(fw_study_input_at(&whole->input[k],
-                                               fw_chance_uniform(81, (uint64_t)i, (uint64_t)k), 6,
-                                               a.text[k], &a.value[k]),
-                             FW_OK);
+        draw(whole, 81, i, &a);
         fw_study_sample_copy(whole, &a, &b);
         assert_int_equal(fw_study_evaluate(whole, NULL, &a, &changed), FW_OK);
         assert_int_equal(fw_study_evaluate(alone, NULL, &b, &changed), FW_OK);
