@@ -136,12 +136,16 @@ static fw_status write_figure(fw_arena *arena, const fw_cli_options *options, fw
     fw_text pdf = fw_text_new(arena);
     FW_TRY(fw_input_read(arena, options->device, MOST_FIGURE, diags, &svg, &n));
     const fw_status status = fw_report_figure_pdf(arena, svg, &pdf, &unknown);
+    const fw_place place = {options->device, 0, 0};
+    if (status == FW_INPUT && !unknown)
+        return fw_diag_error(diags, 549, place,
+                             "this is no picture: it has no element svg with a width and height; name "
+                             "a .svg file that this program wrote");
     if (status == FW_INPUT)
-        return fw_diag_error(
-            diags, 549, (fw_place){options->device, 0, 0},
-            "it has '%s', which pictures of this program have not; convert it with "
-            "another program",
-            unknown ? unknown : "?");
+        return fw_diag_error(diags, 549, place,
+                             "'%s' in it is nothing that the pictures of this program have; "
+                             "convert it with another program",
+                             unknown);
     FW_TRY(status);
     return fw_output_single(arena, options->output ? options->output : "-", pdf.data, pdf.length,
                             diags);

@@ -568,7 +568,7 @@ fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, fw_text *pdf,
                          .opacity = 1,
                          .size = 16,
                          .anchor = -1};
-    *unknown = "no picture";
+    *unknown = NULL;
     if (!start) return FW_INPUT;
     const tag root = tag_at(start);
     double size[2] = {number_of(&root, "width", 0), number_of(&root, "height", 0)};

@@ -285,7 +285,7 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
 void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_json *out);
 
 /* A figure that this program wrote, as PDF (figure_pdf.c). svg: its whole text. FW_INPUT: *unknown is what of it the writer
-   does not know */
+   does not know; NULL: it is no picture of a stated size */
 fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, fw_text *pdf,
                                const char **unknown);
 
