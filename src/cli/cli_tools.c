@@ -138,9 +138,10 @@ static fw_status write_figure(fw_arena *arena, const fw_cli_options *options, fw
     const fw_status status = fw_report_figure_pdf(arena, svg, &pdf, &unknown);
     const fw_place place = {options->device, 0, 0};
     if (status == FW_INPUT && !unknown)
-        return fw_diag_error(diags, 549, place,
-                             "this is no picture: it has no element svg with a width and height; name "
-                             "a .svg file that this program wrote");
+        return fw_diag_error(
+            diags, 549, place,
+            "this is no picture: it has no element svg with a width and height; name "
+            "a .svg file that this program wrote");
     if (status == FW_INPUT)
         return fw_diag_error(diags, 549, place,
                              "'%s' in it is nothing that the pictures of this program have; "
