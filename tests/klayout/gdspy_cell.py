@@ -38,7 +38,7 @@ def main():
         done = subprocess.run([sys.argv[1], "mask", DEVICE, "--force", "--corners", "none", "--advice", "none", "--mask-format", "gds", "-q", "-o",
                                pathlib.Path(where, "out")], capture_output=True, text=True, check=False)
         masks = pathlib.Path(where, "out/masks")
-        files = [p for p in sorted(masks.glob("*.gds")) if (masks / (p.stem + ".json")).exists() and not p.stem.endswith("-coupons")]
+        files = [p for p in sorted(masks.glob("*.gds")) if (masks / (p.stem + ".json")).exists() and not p.stem.endswith(("-coupons", "-wafer"))]
         if not files:
             sys.exit(done.stderr)
         for file in files:
