@@ -189,7 +189,7 @@ FW_API int fw_design_judge(fw_design *design);
 /* The answer, as the exit status of the program: 0 accepted, 1 rejected (also when a flow cannot
    make the device), 4 inconclusive (the error band straddles
    the limit, or a scene may pull in or stays where it is not stable); -1 before fw_design_judge.
-   After fw_design_fabricate it also knows of masks that could not be made. */
+   Masks that break rules count as what a flow cannot make; they are drawn while judging. */
 FW_API int fw_design_decision(const fw_design *design);
 
 /* Masks with each flow's bias, after judging. A rejected design gets none unless `force`: that is

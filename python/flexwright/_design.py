@@ -150,14 +150,19 @@ class Design:
             finally:
                 ended.release()
 
-        _thread.start_new_thread(work, ())
         raised: Optional[BaseException] = None
-        while True:
+        try:
+            _thread.start_new_thread(work, ())
+            ended.acquire()
+        except BaseException as error:
+            if isinstance(error, RuntimeError) and "start new thread" in str(error):
+                raise
+            raised = error
+            lib.fw_design_cancel(self._pointer)
+        while not answer:  # what a handler raises may come when the work has just ended: no lock is given up twice
             try:
                 ended.acquire()
-                break
-            except BaseException as error:
-                raised = raised or error
+            except BaseException:
                 lib.fw_design_cancel(self._pointer)
         if raised is not None:
             raise raised

@@ -109,7 +109,8 @@ static void remove_below(int fd) {
     ssize_t got;
     while ((got = getdents64(fd, room, sizeof room)) > 0)
         for (ssize_t at = 0; at < got;) {
-            const struct dirent64 *e = (const struct dirent64 *)(room + at);
+            /* the kernel pads every entry, so that the next is aligned */
+            const struct dirent64 *e = (const void *)(room + at);
             if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0)
                 fw_output_remove_tree(fd, e->d_name);
             at += e->d_reclen;

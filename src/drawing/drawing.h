@@ -138,6 +138,35 @@ const char *fw_drawing_flaw_text(fw_arena *arena, const fw_drawing_flaw *flaw);
 
 /* ---- between the files of the readers of GDSII: records, and what a cell is flattened to ---- */
 
+/* kinds of records of the GDSII stream format, release 6 */
+enum {
+    FW_DRAWING_UNITS = 0x03,
+    FW_DRAWING_ENDLIB = 0x04,
+    FW_DRAWING_BGNSTR = 0x05,
+    FW_DRAWING_STRNAME = 0x06,
+    FW_DRAWING_ENDSTR = 0x07,
+    FW_DRAWING_BOUNDARY = 0x08,
+    FW_DRAWING_PATH = 0x09,
+    FW_DRAWING_SREF = 0x0a,
+    FW_DRAWING_AREF = 0x0b,
+    FW_DRAWING_TEXT = 0x0c,
+    FW_DRAWING_LAYER = 0x0d,
+    FW_DRAWING_DATATYPE = 0x0e,
+    FW_DRAWING_WIDTH = 0x0f,
+    FW_DRAWING_XY = 0x10,
+    FW_DRAWING_ENDEL = 0x11,
+    FW_DRAWING_SNAME = 0x12,
+    FW_DRAWING_COLROW = 0x13,
+    FW_DRAWING_NODE = 0x15,
+    FW_DRAWING_STRANS = 0x1a,
+    FW_DRAWING_MAG = 0x1b,
+    FW_DRAWING_ANGLE = 0x1c,
+    FW_DRAWING_PATHTYPE = 0x21,
+    FW_DRAWING_BOX = 0x2d,
+    FW_DRAWING_BOXTYPE = 0x2e,
+    FW_DRAWING_BGNEXTN = 0x30,
+    FW_DRAWING_ENDEXTN = 0x31
+};
 typedef struct fw_drawing_record {
     int kind;
     size_t offset; /* of its first byte in the file */

@@ -10,32 +10,6 @@
 #include <string.h>
 
 enum {
-    UNITS = 0x03,
-    ENDLIB = 0x04,
-    BGNSTR = 0x05,
-    STRNAME = 0x06,
-    ENDSTR = 0x07,
-    BOUNDARY = 0x08,
-    PATH = 0x09,
-    SREF = 0x0a,
-    AREF = 0x0b,
-    TEXT = 0x0c,
-    LAYER = 0x0d,
-    DATATYPE = 0x0e,
-    WIDTH = 0x0f,
-    XY = 0x10,
-    ENDEL = 0x11,
-    SNAME = 0x12,
-    COLROW = 0x13,
-    NODE = 0x15,
-    STRANS = 0x1a,
-    MAG = 0x1b,
-    ANGLE = 0x1c,
-    PATHTYPE = 0x21,
-    BOX = 0x2d,
-    BOXTYPE = 0x2e,
-    BGNEXTN = 0x30,
-    ENDEXTN = 0x31,
     NAME_MOST = 255,
     LISTED = 160 /* bytes of a list of names in a message */
 };
@@ -117,32 +91,35 @@ static fw_status read_units(library *l, const fw_drawing_record *r) {
 }
 
 static bool begins_element(int kind) {
-    return kind == BOUNDARY || kind == PATH || kind == SREF || kind == AREF || kind == TEXT ||
-           kind == NODE || kind == BOX;
+    return kind == FW_DRAWING_BOUNDARY || kind == FW_DRAWING_PATH || kind == FW_DRAWING_SREF ||
+           kind == FW_DRAWING_AREF || kind == FW_DRAWING_TEXT || kind == FW_DRAWING_NODE ||
+           kind == FW_DRAWING_BOX;
 }
 
 /* of one record, in what it may stand: 0 the library, 1 a cell without its name yet, 2 a cell, 3 an element */
 static fw_status take_record(library *l, const fw_drawing_record *r, size_t behind, int *within) {
-    bool outer = r->kind == BGNSTR || r->kind == ENDSTR || r->kind == STRNAME || r->kind == ENDLIB;
-    bool wrong = (*within == 0 && (r->kind == ENDSTR || r->kind == STRNAME)) ||
-                 (*within == 1 && r->kind != STRNAME) ||
-                 (*within == 2 && (r->kind == BGNSTR || r->kind == ENDLIB)) ||
-                 (*within == 3 && (outer || begins_element(r->kind))) ||
-                 (*within != 3 && r->kind == ENDEL) || (*within != 2 && begins_element(r->kind));
+    bool outer = r->kind == FW_DRAWING_BGNSTR || r->kind == FW_DRAWING_ENDSTR ||
+                 r->kind == FW_DRAWING_STRNAME || r->kind == FW_DRAWING_ENDLIB;
+    bool wrong =
+        (*within == 0 && (r->kind == FW_DRAWING_ENDSTR || r->kind == FW_DRAWING_STRNAME)) ||
+        (*within == 1 && r->kind != FW_DRAWING_STRNAME) ||
+        (*within == 2 && (r->kind == FW_DRAWING_BGNSTR || r->kind == FW_DRAWING_ENDLIB)) ||
+        (*within == 3 && (outer || begins_element(r->kind))) ||
+        (*within != 3 && r->kind == FW_DRAWING_ENDEL) || (*within != 2 && begins_element(r->kind));
     if (wrong) return damaged(l, r->offset, "a record stands where it does not belong");
-    if (r->kind == BGNSTR) {
+    if (r->kind == FW_DRAWING_BGNSTR) {
         *within = 1;
         if (!(l->unit_nm > 0)) return damaged(l, r->offset, "there is no UNITS before a cell");
-    } else if (r->kind == STRNAME && *within == 1) {
+    } else if (r->kind == FW_DRAWING_STRNAME && *within == 1) {
         *within = 2;
         return add_cell(l, r, behind);
-    } else if (r->kind == ENDSTR)
+    } else if (r->kind == FW_DRAWING_ENDSTR)
         *within = 0;
     else if (begins_element(r->kind))
         *within = 3;
-    else if (r->kind == ENDEL)
+    else if (r->kind == FW_DRAWING_ENDEL)
         *within = 2;
-    else if (r->kind == UNITS && *within == 0)
+    else if (r->kind == FW_DRAWING_UNITS && *within == 0)
         return read_units(l, r);
     return FW_OK;
 }
@@ -172,7 +149,7 @@ static fw_status list_cells(library *l) {
         const char *wrong = fw_drawing_record_next(l->data, l->n, &at, &r);
         if (wrong) return damaged(l, r.offset, wrong);
         FW_TRY(take_record(l, &r, at, &within));
-    } while (r.kind != ENDLIB);
+    } while (r.kind != FW_DRAWING_ENDLIB);
     if (l->ncell > 0) qsort(l->cell, (size_t)l->ncell, sizeof *l->cell, by_name);
     for (int i = 1; i < l->ncell; i++)
         if (by_name(&l->cell[i - 1], &l->cell[i]) == 0)
@@ -180,9 +157,9 @@ static fw_status list_cells(library *l) {
                 l->flat->diags, 565, l->flat->asked->place,
                 "%s has two cells '%.64s', and readers differ in which one they take; rename one",
                 l->flat->asked->file, l->cell[i].name);
-    for (at = 0, r.kind = 0; r.kind != ENDLIB;) {
+    for (at = 0, r.kind = 0; r.kind != FW_DRAWING_ENDLIB;) {
         r = again(l, &at);
-        if (r.kind != SNAME) continue;
+        if (r.kind != FW_DRAWING_SNAME) continue;
         char name[NAME_MOST + 1];
         cell *c = find(l, name_of(&r, name));
         if (c) c->below = true;
@@ -267,48 +244,50 @@ static fw_status take_part(library *l, const fw_drawing_record *r, element *e) {
     static const struct {
         int kind;
         size_t length;
-    } needs[] = {{LAYER, 2},   {DATATYPE, 2}, {BOXTYPE, 2}, {PATHTYPE, 2}, {WIDTH, 4}, {BGNEXTN, 4},
-                 {ENDEXTN, 4}, {COLROW, 4},   {STRANS, 2},  {MAG, 8},      {ANGLE, 8}};
+    } needs[] = {{FW_DRAWING_LAYER, 2},    {FW_DRAWING_DATATYPE, 2}, {FW_DRAWING_BOXTYPE, 2},
+                 {FW_DRAWING_PATHTYPE, 2}, {FW_DRAWING_WIDTH, 4},    {FW_DRAWING_BGNEXTN, 4},
+                 {FW_DRAWING_ENDEXTN, 4},  {FW_DRAWING_COLROW, 4},   {FW_DRAWING_STRANS, 2},
+                 {FW_DRAWING_MAG, 8},      {FW_DRAWING_ANGLE, 8}};
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++)
         if (r->kind == needs[i].kind && r->length != needs[i].length)
             return damaged(l, r->offset, "a record has not the length of its kind");
     switch (r->kind) {
-    case LAYER:
+    case FW_DRAWING_LAYER:
         e->layer = (int)fw_drawing_u16(r->data);
         break;
-    case DATATYPE:
-    case BOXTYPE:
+    case FW_DRAWING_DATATYPE:
+    case FW_DRAWING_BOXTYPE:
         e->type = (int)fw_drawing_u16(r->data);
         break;
-    case PATHTYPE:
+    case FW_DRAWING_PATHTYPE:
         e->ends = (int)fw_drawing_u16(r->data);
         break;
-    case WIDTH:
+    case FW_DRAWING_WIDTH:
         e->width = fw_drawing_i32(r->data);
         break;
-    case BGNEXTN:
+    case FW_DRAWING_BGNEXTN:
         e->begin = fw_drawing_i32(r->data);
         break;
-    case ENDEXTN:
+    case FW_DRAWING_ENDEXTN:
         e->end = fw_drawing_i32(r->data);
         break;
-    case COLROW:
+    case FW_DRAWING_COLROW:
         e->columns = (int)fw_drawing_u16(r->data);
         e->rows = (int)fw_drawing_u16(r->data + 2);
         break;
-    case STRANS:
+    case FW_DRAWING_STRANS:
         e->transform = fw_drawing_u16(r->data);
         break;
-    case MAG:
+    case FW_DRAWING_MAG:
         e->scale = fw_drawing_real8(r->data);
         break;
-    case ANGLE:
+    case FW_DRAWING_ANGLE:
         e->angle_deg = fw_drawing_real8(r->data);
         break;
-    case SNAME:
+    case FW_DRAWING_SNAME:
         e->name = *r;
         break;
-    case XY:
+    case FW_DRAWING_XY:
         if (e->xy.data) return damaged(l, r->offset, "an element has several XY records");
         if (r->length == 0 || r->length % 8 != 0)
             return damaged(l, r->offset, "XY has not pairs of numbers");
@@ -408,7 +387,7 @@ static fw_status follow(library *l, cell *c, const frame *f, int depth, size_t o
 
 static fw_status add_references(library *l, const element *e, const frame *f, int depth) {
     const fw_drawing_cell_asked *a = l->flat->asked;
-    bool array = e->kind == AREF;
+    bool array = e->kind == FW_DRAWING_AREF;
     size_t points = e->xy.length / 8;
     if (points != (array ? 3u : 1u))
         return damaged(l, e->offset, "a reference has not the points it needs");
@@ -468,17 +447,18 @@ static fw_status take_element(library *l, const fw_drawing_record *first, size_t
                  .rows = 1,
                  .scale = 1,
                  .offset = first->offset};
-    for (fw_drawing_record r = again(l, at); r.kind != ENDEL; r = again(l, at))
+    for (fw_drawing_record r = again(l, at); r.kind != FW_DRAWING_ENDEL; r = again(l, at))
         FW_TRY(take_part(l, &r, &e));
     if (++l->work > FW_DRAWING_SHAPES_MOST) return too_large(l, e.offset);
-    bool area = e.kind == BOUNDARY || e.kind == BOX || e.kind == PATH;
-    if (!area && e.kind != SREF && e.kind != AREF) return FW_OK;
+    bool area =
+        e.kind == FW_DRAWING_BOUNDARY || e.kind == FW_DRAWING_BOX || e.kind == FW_DRAWING_PATH;
+    if (!area && e.kind != FW_DRAWING_SREF && e.kind != FW_DRAWING_AREF) return FW_OK;
     if (!e.xy.data) return damaged(l, e.offset, "an element has no XY");
     if (!area) return add_references(l, &e, f, depth);
     if (e.layer < 0 || e.type < 0)
         return damaged(l, e.offset, "a polygon or path has no layer or data type");
     if (!is_wanted(l, &e)) return FW_OK;
-    return e.kind == PATH ? add_path(l, &e, f) : add_boundary(l, &e, f);
+    return e.kind == FW_DRAWING_PATH ? add_path(l, &e, f) : add_boundary(l, &e, f);
 }
 
 static fw_status follow(library *l, cell *c, const frame *f, int depth, size_t offset) {
@@ -495,7 +475,7 @@ static fw_status follow(library *l, cell *c, const frame *f, int depth, size_t o
             offset, (int)FW_DRAWING_DEEPEST);
     c->open = true;
     size_t at = c->begin;
-    for (fw_drawing_record r = again(l, &at); r.kind != ENDSTR; r = again(l, &at)) {
+    for (fw_drawing_record r = again(l, &at); r.kind != FW_DRAWING_ENDSTR; r = again(l, &at)) {
         if (++l->work > FW_DRAWING_SHAPES_MOST) return too_large(l, r.offset);
         if (begins_element(r.kind)) FW_TRY(take_element(l, &r, &at, f, depth));
     }

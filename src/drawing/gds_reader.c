@@ -9,22 +9,6 @@
 #include <string.h>
 
 enum {
-    UNITS = 0x03,
-    ENDLIB = 0x04,
-    BGNSTR = 0x05,
-    STRNAME = 0x06,
-    ENDSTR = 0x07,
-    BOUNDARY = 0x08,
-    PATH = 0x09,
-    SREF = 0x0a,
-    AREF = 0x0b,
-    TEXT = 0x0c,
-    LAYER = 0x0d,
-    DATATYPE = 0x0e,
-    XY = 0x10,
-    ENDEL = 0x11,
-    BOX = 0x2d,
-    BOXTYPE = 0x2e,
     NAME_MOST = 256,
 };
 #define FARTHEST_M 0.3
@@ -175,9 +159,9 @@ static fw_status add_polygon(reader *r, const element *e, fw_drawing *out) {
 }
 
 static fw_status take_element(reader *r, const element *e, fw_drawing *out) {
-    bool area = e->kind == BOUNDARY || e->kind == BOX;
-    if (e->kind == TEXT || !r->taken) return FW_OK;
-    if (e->kind == SREF || e->kind == AREF)
+    bool area = e->kind == FW_DRAWING_BOUNDARY || e->kind == FW_DRAWING_BOX;
+    if (e->kind == FW_DRAWING_TEXT || !r->taken) return FW_OK;
+    if (e->kind == FW_DRAWING_SREF || e->kind == FW_DRAWING_AREF)
         return fw_diag_error(r->diags, 315, place_of(r),
                              "record %d: cell %s holds other cells, which are not read; flatten it",
                              e->number, r->cell);
@@ -196,14 +180,16 @@ static fw_status read_element(reader *r, fw_drawing *out) {
     for (;;) {
         FW_TRY(next(r));
         const record *now = &r->now;
-        if (now->kind == ENDEL) break;
-        if (now->kind == LAYER && now->length == 2)
+        if (now->kind == FW_DRAWING_ENDEL) break;
+        if (now->kind == FW_DRAWING_LAYER && now->length == 2)
             e.layer = (int)fw_drawing_u16(now->data);
-        else if ((now->kind == DATATYPE || now->kind == BOXTYPE) && now->length == 2)
+        else if ((now->kind == FW_DRAWING_DATATYPE || now->kind == FW_DRAWING_BOXTYPE) &&
+                 now->length == 2)
             e.type = (int)fw_drawing_u16(now->data);
-        else if (now->kind == XY)
+        else if (now->kind == FW_DRAWING_XY)
             e.xy = *now;
-        else if (now->kind == ENDSTR || now->kind == ENDLIB || now->kind == BGNSTR)
+        else if (now->kind == FW_DRAWING_ENDSTR || now->kind == FW_DRAWING_ENDLIB ||
+                 now->kind == FW_DRAWING_BGNSTR)
             return damaged(r, "an element does not end");
     }
     return take_element(r, &e, out);
@@ -267,29 +253,29 @@ fw_status fw_drawing_read_gds(fw_arena *arena, const char *data, size_t n,
     do {
         FW_TRY(next(&r));
         switch (r.now.kind) {
-        case UNITS:
+        case FW_DRAWING_UNITS:
             FW_TRY(read_units(&r));
             break;
-        case BGNSTR:
+        case FW_DRAWING_BGNSTR:
             r.in_cell = true, r.taken = false;
             break;
-        case ENDSTR:
+        case FW_DRAWING_ENDSTR:
             r.in_cell = false;
             break;
-        case STRNAME:
+        case FW_DRAWING_STRNAME:
             if (r.in_cell) FW_TRY(begin_cell(&r));
             break;
-        case BOUNDARY:
-        case BOX:
-        case PATH:
-        case SREF:
-        case AREF:
-        case TEXT:
+        case FW_DRAWING_BOUNDARY:
+        case FW_DRAWING_BOX:
+        case FW_DRAWING_PATH:
+        case FW_DRAWING_SREF:
+        case FW_DRAWING_AREF:
+        case FW_DRAWING_TEXT:
             if (!(r.dbu_m > 0)) return damaged(&r, "there is no UNITS before the first cell");
             FW_TRY(read_element(&r, out));
             break;
         }
-    } while (r.now.kind != ENDLIB);
+    } while (r.now.kind != FW_DRAWING_ENDLIB);
     return out->count > 0 ? FW_OK : nothing_there(&r);
 }
 

@@ -40,6 +40,7 @@ typedef struct fw_plan_options {
     const fw_device_set *set;   /* (nset) */
     int nset;
     bool force; /* masks and recipes of a rejected design too */
+    bool without_masks; /* the verdict does not ask whether masks can be drawn: for studies */
     int dies;   /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
     bool at_equilibrium; /* modes: not about rest */
     bool path;           /* statics: follow the load path */
@@ -64,6 +65,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     fw_mechanism_variant variant;
     fw_process_flow *flow; /* NULL: none */
     fw_mask_table *table;  /* with rows for cells on layers of their own */
+    bool mask_examined; /* mask, violated and mask_error say what the rules say */
     const fw_mask *mask;
     const fw_mask *violated; /* the mask where it breaks rules or nearly does, to look at; NULL: it
                                 has no findings */
@@ -143,7 +145,8 @@ fw_status fw_plan_load(fw_plan *plan, const char *path);
 /* the same from n bytes that a NUL follows and that live as long as the plan; `file` names them.
    Drawings lie in options.directory */
 fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, size_t n);
-/* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows */
+/* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows, with what the masks of a
+   design that is not rejected refuse */
 fw_status fw_plan_judge(fw_plan *plan);
 /* masks with each flow's bias; a rejected design gets none unless forced */
 fw_status fw_plan_fabricate(fw_plan *plan);

@@ -74,6 +74,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
     if (verdict->decision == FW_REJECT)
         FW_TRY(fw_verdict_rejections(plan->arena, verdict, &plan->because, &plan->nbecause));
     FW_TRY(fw_plan_compute_flows(plan));
+    if (!plan->options.without_masks) FW_TRY(fw_plan_masks_examine(plan));
     for (int i = 0; i < plan->nflow; i++)
         FW_TRY(find_tethers(plan, &verdict->variant[i], &plan->flow[i].tethers));
     return fw_plan_measurements_find(plan, false);

@@ -64,6 +64,8 @@ fw_status fw_plan_compute_wafers(fw_plan *plan);
 /* masks and test dies of the flows, as fw_plan_fabricate says; and who does what when, of every
    flow that will be written */
 fw_status fw_plan_masks(fw_plan *plan);
+/* their first half, which belongs to the verdict: draws and examines the mask of every flow of a design that is not rejected */
+fw_status fw_plan_masks_examine(fw_plan *plan);
 fw_status fw_plan_schedules(fw_plan *plan);
 
 /* ---- steps of a wafer's sweeps ---- */

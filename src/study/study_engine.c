@@ -164,7 +164,10 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
             e->set[n++] = (fw_device_set){study->input[i].what, sample->text[i]};
     FW_TRY(fw_plan_kept_again(&e->kept, e->set, n, done));
     if (!*done) return FW_OK;
-    fw_plan_design_plan(e->design)->options.verdict.bounded = may_be_bounded(e);
+    fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
+    options->verdict.bounded = may_be_bounded(e);
+    /* what sizing proposes has a mask */
+    options->without_masks = options->verdict.bounded && study->asked->kind != FW_STUDY_IS_size;
     fw_status status = (fw_status)fw_study_answers_take(study, e->design, sample);
     return fw_plan_is_final(status) ? status : FW_OK;
 }

@@ -198,7 +198,7 @@ static fw_status variant_texts(const fw_wafer *w, fw_arena *a, const char ***out
         FW_NEED(values);
         fw_percent_text(used, sizeof used, u->utilisation);
         FW_NEED(text[v] = fw_arena_printf(
-                    a, "%d  %s%s%d dies, %s%s%s%s", v + 1, values, *values ? ": " : "", u->dies,
+                    a, "%d: %s%s%d dies, %s%s%s%s", v + 1, values, *values ? ", " : "", u->dies,
                     u->decision ? u->decision : "not judged", isfinite(u->utilisation) ? ", " : "",
                     isfinite(u->utilisation) ? used : "",
                     isfinite(u->utilisation) ? " % of limit" : ""));

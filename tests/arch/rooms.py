@@ -8,6 +8,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOMS = re.search(r"set\(FW_ROOMS ([^)]*)\)", (ROOT / "cmake/rooms.cmake").read_text()).group(1).split()
+CAST = set(re.search(r"set\(FW_ROOMS_CAST ([^)]*)\)", (ROOT / "cmake/rooms.cmake").read_text()).group(1).split())
+BY_VOID = re.compile(r"\*\)\s*\((const )?void \*\)|[^=]= \((const )?void \*\)")
 FLOOR = {room: i for i, room in enumerate(ROOMS)}
 ALLOWED = {  # header prefix -> rooms that may include it
     "libxml/": {"xml"},
@@ -70,6 +72,8 @@ def problems():
         plain = re.sub(r"'(\\.|[^'\\\n])'", "0", code)
         for number, member in defaults(plain):
             yield f"{name}:{number}: a switch over an enum of ours ({member}) has a default; name every member, and return behind it"
+        if room not in CAST and BY_VOID.search(plain):
+            yield f"{name}: casts a pointer by way of void; add '{room}' to FW_ROOMS_CAST, so that the sanitizers look at its alignment"
         for number, line in enumerate(lines, 1):
             include = re.match(r'\s*#\s*include\s+([<"])([^>"]+)', line)
             if not include:

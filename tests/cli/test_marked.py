@@ -137,6 +137,8 @@ class Marked(unittest.TestCase):
         lines = result.stdout.splitlines()
         self.assertEqual(lines[0], "neck: ACCEPT, but cannot be made in al-masked-rie")
         self.assertRegex(lines[1], r"^cannot be made: in al-masked-rie: its mask: link p .* width of .* at \(99\.\d*, 600\) um.* \[FW-D144\]")
+        checked = run("check", self.here / "device.xml", "--advice", "none", "--corners", "none")  # the same without a file
+        self.assertEqual((checked.returncode, checked.stdout.splitlines()[:2]), (1, lines[:2]), checked.stderr)
         top = json.loads((out / "verdict.json").read_text())["summary"]
         self.assertEqual(top[0]["label"], "cannot be made")
         self.assertIn("But it cannot be made in al-masked-rie", (out / "report.html").read_text())

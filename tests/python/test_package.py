@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """test_package.py BUILD: the Python package against the documents of the program."""
 import csv
+import faulthandler
 import gc
 import io
 import json
@@ -17,12 +18,13 @@ import tempfile
 import threading
 import time
 import unittest
+from unittest import mock
 
 import common  # first: it names the library
 import flexwright
 import numpy as np
 from common import GALLERY, PROGRAM, ROOT, SIX_BAR
-from flexwright import _library
+from flexwright import _design, _library
 
 COMB = str(GALLERY / "comb-stage" / "device.xml")
 GRIPPER = str(GALLERY / "free-form-gripper" / "device.xml")
@@ -436,6 +438,32 @@ class Working(unittest.TestCase):
                 flexwright.Device(SIX_BAR).simulate(**self.slow)
         finally:
             signal.signal(signal.SIGALRM, before)
+
+    def test_an_interrupt_when_the_work_has_just_ended(self):
+        """Ctrl-C between the end of the work and the next line of the call that waits for it"""
+        class Lock:
+            asked = 0
+
+            def __init__(self):
+                self.lock = threading.Lock()
+                self.release = self.lock.release
+
+            def acquire(self):
+                self.lock.acquire()
+                Lock.asked += 1
+                if Lock.asked == 2:  # the first is before the work begins
+                    raise KeyboardInterrupt
+
+        d = flexwright.Device(SIX_BAR)
+        faulthandler.dump_traceback_later(120, exit=True)
+        try:
+            with mock.patch.object(_design._thread, "allocate_lock", Lock):
+                with self.assertRaises(KeyboardInterrupt):
+                    d.simulate(samples=11)
+        finally:
+            faulthandler.cancel_dump_traceback_later()
+        self.assertEqual(Lock.asked, 2)
+        self.assertTrue(d.check(advice="none", corners="none").accepted)
 
     def test_lock_is_given_up(self):
         count, stop = [0], threading.Event()
