@@ -295,11 +295,13 @@ const fw_xml_element_row fw_device_table_effects[] = {
      .sentence =
          "Surfaces that touch and push back, without friction of their own: the conjugate "
          "surfaces of a hinge (on), or two round things (a, b). A jaw that holds a bead of "
-         "radius r: a is the jaw and a-x, a-y the point of its face that touches, or the "
-         "centre of a tooth of radius R; b is what carries the bead (ground where it stands "
-         "still; the other jaw with its face where the bead goes with both) and b-x, b-y its "
-         "centre; side is outside, distance r, with a tooth r + R, and between two faces the "
-         "bead's diameter. Parts of the two bodies may then meet, unless one of two points "
+         "radius r: a is the jaw and a-x, a-y the centre of a tooth of radius R, or the point "
+         "of a face that turns by less than a degree while it presses, since the force goes "
+         "along the line between the two points; a flat face that turns is a tooth of R = 20 mm, "
+         "whose centre lies so far behind the face. b is what carries the bead (ground where it "
+         "stands still; the other jaw with its face where the bead goes with both) and b-x, b-y "
+         "its centre; side is outside, distance r + R, of a point r, and between the points of "
+         "two faces the bead's diameter. Parts of the two bodies may then meet, unless one of two points "
          "outside lies farther than the distance and 10 um from what is drawn of its body, as a "
          "bead in the open."},
     {"material-damping", "scene", .once = true, ROWS(damping_rows),

@@ -4,6 +4,7 @@
 #include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 static fw_status actives(const fw_statics_equilibrium *w, fw_statics *out) {
     const fw_multibody_model *m = w->model;
@@ -89,18 +90,29 @@ static fw_status path_ends_early(const fw_statics_equilibrium *w, const fw_stati
     return FW_OK;
 }
 
-/* along the path when it is asked for and complete, else straight down */
-static fw_status reach(fw_statics_equilibrium *w, const fw_statics_static_options *o,
-                       fw_statics *out) {
-    if (o->path) {
-        fw_status status = fw_statics_equilibrium_descend(w, &out->left_unstable);
+/* Behind surfaces that meet may lie equilibria that no motion from rest reaches: descent from the assembled pose at the
+   full load would step through them. */
+static bool surfaces_meet(const fw_statics_equilibrium *w) {
+    for (int i = 0; i < w->model->nelement; i++)
+        if (w->model->element[i].own->class_->pressing) return true;
+    return false;
+}
+
+fw_status fw_statics_equilibrium_reach(fw_statics_equilibrium *w, int most_points,
+                                       bool *left_unstable, fw_statics_path **path) {
+    if (path || surfaces_meet(w)) {
+        fw_statics_path *own = NULL;
+        memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
+        fw_statics_equilibrium_factor(w, 0);
+        fw_status status = fw_statics_equilibrium_descend(w, left_unstable);
         if (status != FW_OK)
             return status == FW_SOLVER ? fw_statics_equilibrium_nowhere(w) : status;
-        FW_TRY(fw_statics_equilibrium_follow(w, o->most_points, &out->path));
-        if (out->path->complete) return FW_OK;
-        FW_TRY(path_ends_early(w, out->path));
+        FW_TRY(fw_statics_equilibrium_follow(w, most_points, &own));
+        if (path) *path = own;
+        if (own->complete) return FW_OK;
+        FW_TRY(path_ends_early(w, own));
     }
-    return fw_statics_equilibrium_settle(w, &out->left_unstable);
+    return fw_statics_equilibrium_settle(w, left_unstable);
 }
 
 fw_status fw_statics_equilibrium_statics(fw_statics_equilibrium *w,
@@ -108,7 +120,8 @@ fw_status fw_statics_equilibrium_statics(fw_statics_equilibrium *w,
                                          const fw_statics **statics) {
     fw_statics *out;
     FW_NEED(out = fw_arena_one(w->arena, fw_statics));
-    FW_TRY(reach(w, options, out));
+    FW_TRY(fw_statics_equilibrium_reach(w, options->most_points, &out->left_unstable,
+                                        options->path ? &out->path : NULL));
     FW_TRY(answer(w, out));
     FW_TRY(fw_statics_equilibrium_friction(w, &out->friction));
     *statics = out;

@@ -149,6 +149,10 @@ fw_status fw_statics_equilibrium_nowhere(const fw_statics_equilibrium *w);
 /* settle.c: from the assembled pose to the stable equilibrium at s = 1; says when there is none, or
    that the drivers cannot be followed */
 fw_status fw_statics_equilibrium_settle(fw_statics_equilibrium *w, bool *left_unstable);
+/* statics.c: the same along the load path where it is asked for (path is not NULL) or surfaces may meet; straight down where
+   the path ends before s = 1, with FW-D112 */
+fw_status fw_statics_equilibrium_reach(fw_statics_equilibrium *w, int most_points,
+                                       bool *left_unstable, fw_statics_path **path);
 /* statics_path.c: from the equilibrium at s = 0; ends there where the path ends */
 fw_status fw_statics_equilibrium_follow(fw_statics_equilibrium *w, int most_points,
                                         fw_statics_path **path);

@@ -334,7 +334,7 @@ static fw_status reach_pose(fw_statics_equilibrium *w, const fw_statics_mode_opt
                             fw_statics_modes *out) {
     if (!o->at_equilibrium) return at_rest(w, out);
     bool unstable = false;
-    fw_status status = fw_statics_equilibrium_settle(w, &unstable);
+    fw_status status = fw_statics_equilibrium_reach(w, 0, &unstable, NULL);
     if (status == FW_OK) out->out_of_rest = 0;
     return status;
 }

@@ -202,6 +202,20 @@ class Statics(InTemporary):
             self.close(data["eigenvalues_per_s2"][0], (3.11975510335430441e3) ** 2, 1e-12)
             self.assertEqual(data["path"] is not None, bool(arguments))
 
+    def test_jaws_stop_at_what_they_hold(self):
+        """descent at the full load would find the jaws closed behind the bead, which no motion reaches"""
+        device = ROOT / "docs/gallery/free-form-gripper/device.xml"
+        along, straight = (json.loads(self.expect(run("statics", device, "--json", *more)).stdout) for more in (["--path"], []))
+        self.assertIsNone(straight["path"])
+        for body, pose in along["q"].items():
+            for a, b in zip(pose, straight["q"][body]):
+                self.assertAlmostEqual(a, b, delta=1e-12)
+        probes = {p["id"]: p["value"] for p in straight["probes"]}
+        self.assertGreater(probes["opening"], 25e-6)  # a bead of 30 um
+        self.assertGreater(probes["grip"], 20e-6)
+        held, rest = (json.loads(run("modes", device, "--json", *at).stdout)["modes"][0]["f_Hz"] for at in (["--at", "equilibrium"], []))
+        self.assertGreater(held, 2 * rest)  # the bead's stiffness beside the hinges'
+
     def test_snap_through_is_located(self):
         length = math.hypot(1, 0.4)
         fold = math.sqrt(length ** (2 / 3) - 1)
