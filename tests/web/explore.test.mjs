@@ -211,6 +211,13 @@ describe("studies", () => {
         const same = JSON.parse(execFileSync(program, ["study", saved, "-o", directory, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
         assert.deepEqual(result.found, same.found); // to the last bit what the command finds in one run
         assert.equal(result.samples.run, same.samples.run);
+        // what a terminal has left beside the file is opened, and nothing is judged again
+        await view(page, "motion");
+        await view(page, "explore");
+        await page.selectOption(`${card} select[aria-label="Open results of size"]`, "by-itself");
+        await page.waitForFunction(() => { const k = globalThis.flexwright.parts.explore.studies.kept.get("size"); return k && !k.control; }, null, { timeout: LONG });
+        const opened = await page.evaluate(() => { const { job, why } = globalThis.flexwright.parts.explore.studies.kept.get("size"); return { found: job?.result?.found, run: job?.result?.samples.run, seconds: job?.seconds, why }; });
+        assert.deepEqual([opened.found, opened.run], [same.found, same.samples.run], opened.why);
     });
 
     test("its best device becomes the text by one step of the history, and is accepted", async () => {
