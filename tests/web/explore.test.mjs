@@ -3,7 +3,7 @@
 // gone on with, and its best device put into the text by one step of the history.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { answered, axeSource, close, finish, open, program, serve, setText, source, text, view } from "./helper.mjs";
 
@@ -206,8 +206,9 @@ describe("studies", () => {
         const result = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result);
         assert.equal(result.found.length, 1);
         const directory = `${server.directory}/by-itself`;
-        const saved = `${server.directory}/with-study.xml`;
-        (await import("node:fs")).writeFileSync(saved, await text(page));
+        const saved = `${server.directory}/terminal/device.xml`;
+        mkdirSync(`${server.directory}/terminal`);
+        writeFileSync(saved, await text(page));
         const same = JSON.parse(execFileSync(program, ["study", saved, "-o", directory, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
         assert.deepEqual(result.found, same.found); // to the last bit what the command finds in one run
         assert.equal(result.samples.run, same.samples.run);

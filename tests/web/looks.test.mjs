@@ -77,7 +77,7 @@ describe("rules and looks", () => {
                 else if (id === "about") await page.click("#about");
                 else await view(page, id);
                 if (["modes", "assembly", "recipe"].includes(id)) await computed(page, id);
-                const result = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+                const result = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"], rules: { "label-content-name-mismatch": { enabled: true } } }));
                 for (const v of result.violations)
                     if (["serious", "critical"].includes(v.impact)) found.push(`${id}: ${v.id}: ${v.nodes.slice(0, 3).map((n) => `${n.target} ${n.any[0]?.message ?? ""}`).join("; ")}`);
             }

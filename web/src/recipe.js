@@ -111,7 +111,7 @@ function measurements(m) {
 /** A picture of the job, wide: it scrolls by itself. */
 function picture(job, path, caption, alt) {
     if (!hasFile(job, path)) return "";
-    return h("figure", { class: "schedule", tabIndex: 0, role: "region", "aria-label": caption }, h("figcaption", {}, caption), h("img", { src: fileOf(job, path), alt }));
+    return h("div", { class: "schedule", tabIndex: 0, role: "region", "aria-label": caption }, h("p", { class: "caption" }, caption), h("img", { src: fileOf(job, path), alt }));
 }
 
 /** What is tall and not always wanted. */

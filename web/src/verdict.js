@@ -350,19 +350,20 @@ function bar(hinge, most, governing, made, then) {
     const rules = made ?? hinge; // as it will be made, where that is known: what the banner says
     const use = rules.utilisation ?? 0;
     const [low, high] = rules.utilisation_band ?? [use, use];
+    const shown = percent(use, use < 0.1 ? 2 : 3);
     const drawn = made ? `, ${percent(hinge.utilisation)} as drawn` : "";
     const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
     return h("button", {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
-        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${made ? " as made" : ""}${drawn}${then === undefined ? "" : `, ${percent(then)} in ${state.pinned.name}`}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+        "aria-label": `Hinge ${hinge.id}: ${shown} of its limit${made ? " as made" : ""}${drawn}${then === undefined ? "" : `, ${percent(then)} in ${state.pinned.name}`}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
     },
-    h("span", { class: "bar-id", "aria-hidden": "true" }, hinge.id), // the button's name says both
+    h("span", { class: "bar-id", "aria-hidden": "true" }, hinge.id), " ", // the button's name says both, in this order
     h("span", { class: "bar-track" },
         h("span", { class: "bar-fill", style: { width: x(use) } }),
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
         then === undefined ? null : h("span", { class: "bar-then", title: `${state.pinned.name}: ${percent(then)}`, style: { left: x(then) } }),
         made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
-    h("span", { class: "bar-value", "aria-hidden": "true" }, percent(use, use < 0.1 ? 2 : 3)));
+    h("span", { class: "bar-value", "aria-hidden": "true" }, shown));
 }
 
 export function diagnosticItem(d, jump = true) {
