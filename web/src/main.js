@@ -9,7 +9,7 @@ import { Assembly } from "./assembly.js";
 import { inputKey, settled } from "./belong.js";
 import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
-import { $, button, h, s } from "./dom.js";
+import { $, button, h, icon, s } from "./dom.js";
 import { Draw } from "./draw.js";
 import { Editor } from "./editor.js";
 import { Explore } from "./explore.js";
@@ -52,7 +52,7 @@ function header() {
         button("Versions: keep, compare", { icon: "versions", hidden: true, id: "versions" }, () => versionsDialog(parts.editor, () => parts.verdict.judged)), parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
-        button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
+        h("a", { class: "button quiet", id: "help", href: "/help/page.html", target: "_blank", rel: "noopener", title: "Help", "aria-label": "Help" }, icon("question")), button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
 }
 
 function headerState() {
