@@ -96,7 +96,7 @@ export class Form {
             range.setAttribute("aria-valuetext", shown());
             if (!held) {
                 held = { name: name(), ends: new AbortController() };
-                for (const event of ["pointerup", "pointercancel", "keyup", "blur"]) addEventListener(event, () => setTimeout(release), { signal: held.ends.signal, capture: true });
+                for (const event of ["pointerup", "pointercancel", "keyup", "blur"]) addEventListener(event, release, { signal: held.ends.signal, capture: true });
             }
             held.value = shown();
             hold(held.name, held.value);
