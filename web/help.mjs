@@ -12,7 +12,7 @@ export const PAGES = [
 
 const escaped = (x) => x.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
 export const nameOf = (md) => `${md.replace(/\/README\.md$/, "").replace(/\.md$/, "").replaceAll("/", "-")}.html`;
-const slug = (text) => text.toLowerCase().replace(/<[^>]*>|&\w+;/g, "").replace(/[^\p{L}\p{N}\s_-]/gu, "").trim().replace(/\s/g, "-");
+const slug = (text) => text.toLowerCase().replace(/[^\p{L}\p{N}\s_-]/gu, "").trim().replace(/\s/g, "-");
 
 /** `code`, **bold**, *italics*, [links](to#there); pictures are left out. */
 function inline(text, target) {

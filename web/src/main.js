@@ -9,12 +9,13 @@ import { Assembly } from "./assembly.js";
 import { inputKey, settled } from "./belong.js";
 import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
-import { $, button, h, icon, s } from "./dom.js";
+import { $, button, h, s } from "./dom.js";
 import { Draw } from "./draw.js";
 import { Editor } from "./editor.js";
 import { Explore } from "./explore.js";
 import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
+import { controlsOf, helpDialog } from "./help.js";
 import { heard } from "./jobs.js";
 import { restorePacks } from "./laboratory.js";
 import { Masks } from "./masks.js";
@@ -52,7 +53,8 @@ function header() {
         button("Versions: keep, compare", { icon: "versions", hidden: true, id: "versions" }, () => versionsDialog(parts.editor, () => parts.verdict.judged)), parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
-        h("a", { class: "button quiet", id: "help", href: "/help/page.html", target: "_blank", rel: "noopener", title: "Help", "aria-label": "Help" }, icon("question")), button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
+        button("Help", { icon: "question", hidden: true, class: "quiet", id: "help" }, () => helpDialog($(`tab-${parts.tabs.current}`).textContent, $(`panel-${parts.tabs.current}`))),
+        button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
 }
 
 function headerState() {
@@ -204,6 +206,8 @@ start().catch((error) => {
         throw error;
     }
 });
+
+parts.unexplained = (id) => controlsOf($(`panel-${id}`)).filter((x) => !x.sentence).map((x) => x.name);
 
 // for the tests of the page, which look and do not touch
 globalThis.flexwright = { state, parts, on, settled };
