@@ -16,7 +16,8 @@ export class Modes extends Split {
         super(holder, { title: "Modes", label: "A mode shape of the mechanism, moving.", around: 0.08 });
         this.at = select("About", [["rest", "about rest"], ["equilibrium", "about the equilibrium"]], "rest", () => this.view.run());
         this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture" });
-        this.pause = button("Pause", { icon: "pause", class: "small" }, () => this.#toggle());
+        this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+        this.pause = button(...this.#nextWord(), () => this.#toggle());
         this.card.append(h("div", { class: "row" }, this.at, this.pause, (this.film = filmMenu(() => this.#film(), () => `${deviceName()}-mode-${this.chosen + 1}`))), h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
         this.view = new JobView(this.card, {
             kind: "modes", action: "Compute the modes", auto: true, options: () => ({ at: this.at.value, ...(state.options.scene ? { scene: state.options.scene } : {}) }),
@@ -25,12 +26,16 @@ export class Modes extends Split {
         this.view.also(this.stage);
         this.statics = new Statics(this.card.parentElement);
         this.chosen = 0;
-        this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    }
+
+    /** What the button does next. */
+    #nextWord() {
+        return [this.moving ? "Pause" : "Play", { icon: this.moving ? "pause" : "play", class: "small" }];
     }
 
     #toggle() {
         this.moving = !this.moving;
-        this.pause.replaceChildren(...button(this.moving ? "Pause" : "Play", { icon: this.moving ? "pause" : "play" }).childNodes);
+        this.pause.replaceChildren(...button(...this.#nextWord()).childNodes);
         if (this.moving) this.draw();
     }
 
