@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
-import { answered, axeSource, close, finish, open, program, serve, setText, source, text, view } from "./helper.mjs";
+import { answered, axeSource, close, finish, open, program, serve, setText, source, text, view, SMALL } from "./helper.mjs";
 
 after(finish);
 
@@ -178,7 +178,7 @@ describe("studies", () => {
     const card = '.study[data-name="size"]';
     before(async () => {
         server = await serve("reference-six-bar");
-        page = await open(server);
+        page = await open(server, SMALL);
         await view(page, "explore");
         await page.selectOption('select[aria-label="Vary"]', "flexure[C]/@width");
         await setRange(page, "First", "7 um", "12 um");
