@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, serve, setText, verdict } from "./helper.mjs";
+import { answered, close, finish, open, serve, setText, SMALL, verdict } from "./helper.mjs";
 
 after(finish);
 
@@ -113,6 +113,7 @@ describe("probes", () => {
     });
 
     test("what moves is saved as a file that moves: whole, as it is seen, and the same bytes each time", async () => {
+        await page.setViewportSize(SMALL);
         await page.selectOption('select[aria-label="Speed"]', "2");
         const film = async (kind) => {
             await page.click("#panel-motion .film-menu > summary");
