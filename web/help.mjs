@@ -2,7 +2,7 @@
 // The documentation as pages of the program: docs/*.md as HTML, for who has no network and no source at hand. What these pages
 // use of Markdown is read here: headings, lists, tables, code, links, emphasis. Links to what is not among them are words.
 import { readFileSync } from "node:fs";
-import { dirname, join, normalize, relative } from "node:path";
+import { dirname, join, normalize } from "node:path";
 
 export const PAGES = [
     ["page.md", "The page"], ["tutorial.md", "Tutorial"], ["gallery/README.md", "Gallery"], ["mechanisms/README.md", "Mechanisms"], ["studies.md", "Studies"],

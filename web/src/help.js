@@ -74,7 +74,7 @@ export function controlsOf(panel) {
         if (e.offsetParent === null || e.type === "file") continue;
         const name = plain(e.getAttribute("aria-label") ?? e.labels?.[0]?.textContent ?? "");
         if (e.closest(".log-form") && !sentenceOf(name)) continue; // what the step asks for stands beside it
-        if (!seen.has(name)) seen.set(name, { name: /^\d+\/\d+/.test(name) ? "layers" : name, sentence: sentenceOf(name, e.title) });
+        if (!seen.has(name)) seen.set(name, { name: /^\d+\/\d+/.test(name) ? "layers" : name.replace(/^.* \([^()]+\): (value|standard uncertainty|how it is known)$/, "$1"), sentence: sentenceOf(name, e.title) });
     }
     return [...new Map([...seen.values()].map((x) => [x.name, x])).values()];
 }
