@@ -50,7 +50,9 @@ if(NOT FW_PAGE STREQUAL "OFF")
              ${PROJECT_SOURCE_DIR}/web/style/*)
         file(GLOB page_gallery CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/gallery/*/device.xml
              ${PROJECT_SOURCE_DIR}/docs/gallery/*/device.svg)
-        list(APPEND page_sources ${page_gallery} ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/index.html
+        file(GLOB page_help CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*/README.md
+             ${PROJECT_SOURCE_DIR}/docs/reference/*.md)
+        list(APPEND page_sources ${page_gallery} ${page_help} ${PROJECT_SOURCE_DIR}/web/build.mjs ${PROJECT_SOURCE_DIR}/web/help.mjs ${PROJECT_SOURCE_DIR}/web/index.html
              ${PROJECT_SOURCE_DIR}/web/favicon.svg ${PROJECT_SOURCE_DIR}/web/package-lock.json)
         set(FW_PAGE_DIR ${page_build}/dist)
         set(FW_PAGE_DEPENDS ${FW_PAGE_DIR}/page.js)

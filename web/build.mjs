@@ -5,6 +5,7 @@ import { copyFile, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promi
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { helpPages } from "./help.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const place = resolve(process.argv[2] ?? here);
@@ -29,6 +30,8 @@ const common = {
 };
 const script = await build({ ...common, entryPoints: { page: "src/main.js" }, format: "esm" });
 const style = await build({ ...common, entryPoints: { page: "style/page.css" } });
+await build({ ...common, entryPoints: { help: "style/help.css" }, outdir: join(out, "help") });
+for (const [name, text] of helpPages(join(here, "../docs"))) await writeFile(join(out, "help", name), text);
 for (const name of ["index.html", "favicon.svg"]) await copyFile(join(here, name), join(out, name));
 
 /** The licence of every library of which something is in the page. */

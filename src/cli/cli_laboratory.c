@@ -191,7 +191,8 @@ static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *has
                           const fw_cli_options *options) {
     char *text;
     size_t n;
-    fw_recipe_asrun run;
+    fw_recipe_asrun run = {.plan = hash};
+    if (!options->run) return print_log(plan, pf->flow, &run, options->json);
     FW_TRY(fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, text, n, &plan->diags,
                                 &run));
@@ -408,12 +409,14 @@ static fw_status keep(fw_plan *plan, const fw_cli_options *options) {
 static int readable(fw_plan *plan, const fw_cli_options *options) {
     char *text;
     size_t n;
+    if (!options->run) return FW_STATUS_OK; /* what is to be logged, before a log has begun */
     return (int)fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n);
 }
 
 int fw_cli_command_log(fw_cli_options *options) {
     int exit_status;
-    if (!options->run) return fw_cli_usage("log needs --run FILE, the log");
+    if (!options->run && (adds(options) || options->report))
+        return fw_cli_usage("log needs --run FILE, the log");
     if (!options->entry && (options->wafer || options->instrument || options->nlogged > 0))
         return fw_cli_usage("--wafer, --instrument, --site, --setting and --coupon belong to an "
                             "--entry");

@@ -490,6 +490,36 @@ static fw_status deviations_json(const fw_process_flow *flow, const fw_recipe_as
     return FW_OK;
 }
 
+static void set_json(const char *name, const fw_quantity *q, fw_json *out) {
+    fw_json_object(out, NULL);
+    fw_json_text(out, "name", name);
+    put_number(out, "planned", q->unknown ? (double)NAN : fw_quantity_in_unit(q));
+    fw_json_text(out, "unit", q->unit);
+    fw_json_end(out);
+}
+
+/* what an entry of the step may say: what is measured and within which limits, and what is set */
+static void asked_json(const fw_process_step *s, fw_json *out) {
+    fw_json_list(out, "measures");
+    for (int i = 0; i < s->naccept; i++) {
+        const fw_process_accept *a = &s->accept[i];
+        fw_json_object(out, NULL);
+        fw_json_text(out, "measure", a->measure);
+        fw_json_text(out, "low", a->low);
+        fw_json_text(out, "high", a->high);
+        fw_json_text(out, "unit", a->unit);
+        fw_json_whole(out, "sites", a->sites);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    fw_json_list(out, "sets");
+    for (int i = 0; i < s->nsetting; i++)
+        set_json(s->setting[i].name, s->setting[i].q, out);
+    for (int i = 0; i < s->nderived; i++)
+        if (s->derived[i]->id) set_json(s->derived[i]->id, s->derived[i], out);
+    fw_json_end(out);
+}
+
 fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *text) {
     fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
@@ -504,7 +534,8 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
         fw_json_end(out);
     }
     put_text(out, "plan_sha256", run->plan);
-    put_text(out, "chain", run->chain);
+    put_text(out, "chain", run->chain[0] ? run->chain : NULL);
+    fw_json_whole(out, "entries", run->nentry);
     fw_json_list(out, "steps");
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
@@ -512,10 +543,12 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
         fw_json_line(out, 0);
         fw_json_object(out, NULL);
         fw_json_text(out, "id", s->id);
+        fw_json_text(out, "title", s->title);
         put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);
         put_number(out, "first_look_s", p->computable ? p->first_look_s : (double)NAN);
         put_number(out, "stop_s", p->computable ? s->booked_stop_s : (double)NAN);
         runs_json(run, s, out);
+        asked_json(s, out);
         fw_json_end(out);
     }
     total t;

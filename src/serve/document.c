@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The text that a page edits: its file, watched and saved, and the draft of it that nobody saved. */
+/* The text that a page edits: its file, watched and saved, the draft of it that nobody saved, and what the
+   program has written beside it. */
 #include "base/diag.h"
 #include "base/output.h"
 #include "base/text.h"
+#include "recipe/asrun.h"
 #include "serve/document.h"
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/inotify.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -229,16 +233,21 @@ fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *w, cons
 
 enum { MOST_BYTES = 4 * 1024 * 1024 }; /* of a document: 1 MiB of text, escaped */
 
-const char *fw_serve_draft_path(fw_arena *arena, const char *file) {
+/* below the user's state; NULL: neither variable names a directory */
+static const char *state_path(fw_arena *arena, const char *rest) {
     const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
+    if (state && state[0] == '/') return fw_arena_printf(arena, "%s/flexwright/%s", state, rest);
+    if (home && home[0] == '/')
+        return fw_arena_printf(arena, "%s/.local/state/flexwright/%s", home, rest);
+    return NULL;
+}
+
+const char *fw_serve_draft_path(fw_arena *arena, const char *file) {
     const char *key = file ? file : "";
     char name[65];
     fw_sha256(key, strlen(key), name);
-    if (state && state[0] == '/')
-        return fw_arena_printf(arena, "%s/flexwright/drafts/%s.json", state, name);
-    if (home && home[0] == '/')
-        return fw_arena_printf(arena, "%s/.local/state/flexwright/drafts/%s.json", home, name);
-    return NULL;
+    const char *rest = fw_arena_printf(arena, "drafts/%s.json", name);
+    return rest ? state_path(arena, rest) : NULL;
 }
 
 /* its directories, for nobody but the user */
@@ -328,4 +337,218 @@ void fw_serve_draft_delete(fw_serve_request *r, const char *path) {
     static const char done[] = "{\"kept\": false}\n";
     if (path) unlink(path);
     fw_serve_reply_json(r, 200, done, sizeof done - 1);
+}
+
+/* ---- what lies beside the file ---- */
+
+enum {
+    MOST_DEPTH = 3,     /* out/NAME/study.sqlite, and one more */
+    MOST_LOOKED = 2000, /* entries of directories: the file may lie in one with very many */
+    MOST_FOUND = 60,
+    LOG_BEGINS = 64,           /* bytes that tell a log */
+    MOST_SAMPLES = 1024 << 20, /* bytes of a study's samples */
+    MOST_LOG = 16 << 20
+};
+
+typedef struct search {
+    fw_arena *arena;
+    fw_serve_beside *found;
+    int looked;
+} search;
+
+static bool ends_in(const char *name, const char *ending) {
+    size_t n = strlen(name), m = strlen(ending);
+    return n > m && strcmp(name + n - m, ending) == 0;
+}
+
+/* a regular file at `name` of the open directory; -1: it is none, or cannot be read */
+static int open_in(int directory, const char *name) {
+    int fd = openat(directory, name, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    struct stat info;
+    if (fd >= 0 && (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))) {
+        close(fd);
+        fd = -1;
+    }
+    return fd;
+}
+
+static bool begins_as_log(int directory, const char *name) {
+    char begin[LOG_BEGINS];
+    int fd = open_in(directory, name);
+    ssize_t n = fd >= 0 ? read(fd, begin, sizeof begin) : -1;
+    if (fd >= 0) close(fd);
+    return n > 0 && fw_recipe_asrun_is_log(begin, (size_t)n);
+}
+
+static fw_status add_name(search *s, const char ***list, size_t *n, const char *name) {
+    if (*n == MOST_FOUND) return FW_OK;
+    FW_NEED(*list = fw_arena_grow(s->arena, *list, *n, *n + 1, sizeof **list));
+    FW_NEED((*list)[(*n)++] = fw_arena_strdup(s->arena, name));
+    return FW_OK;
+}
+
+static fw_status look_in(search *s, int parent, const char *name, const char *below, int depth);
+
+static fw_status look_at(search *s, int fd, const char *name, const char *below, int depth) {
+    fw_serve_beside *found = s->found;
+    struct stat info;
+    if (fstatat(fd, name, &info, AT_SYMLINK_NOFOLLOW) != 0) return FW_OK;
+    if (depth == 0 && !S_ISDIR(info.st_mode) && ends_in(name, ".log") && begins_as_log(fd, name))
+        return add_name(s, &found->log, &found->nlog, name);
+    if (*below && S_ISREG(info.st_mode) && strcmp(name, "study.sqlite") == 0) {
+        const char *directory = fw_arena_strndup(s->arena, below, strlen(below) - 1);
+        FW_NEED(directory);
+        return add_name(s, &found->study, &found->nstudy, directory);
+    }
+    if (!S_ISDIR(info.st_mode) || depth == MOST_DEPTH) return FW_OK;
+    const char *deeper = fw_arena_printf(s->arena, "%s%s/", below, name);
+    FW_NEED(deeper);
+    return look_in(s, fd, name, deeper, depth + 1);
+}
+
+static fw_status look_in(search *s, int parent, const char *name, const char *below, int depth) {
+    int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *dir = fd >= 0 ? fdopendir(fd) : NULL;
+    if (!dir) {
+        if (fd >= 0) close(fd);
+        return FW_OK;
+    }
+    fw_status status = FW_OK;
+    for (struct dirent *e; status == FW_OK && s->looked < MOST_LOOKED && (e = readdir(dir));) {
+        if (e->d_name[0] == '.') continue;
+        s->looked++;
+        status = look_at(s, fd, e->d_name, below, depth);
+    }
+    closedir(dir);
+    return status;
+}
+
+static int by_name(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+fw_status fw_serve_beside_look(fw_arena *arena, const char *file, fw_serve_beside *beside) {
+    search s = {.arena = arena, .found = beside};
+    *beside = (fw_serve_beside){0};
+    if (file)
+        FW_NEED(beside->directory =
+                    fw_arena_strndup(arena, file, (size_t)(strrchr(file, '/') - file) + 1));
+    else {
+        beside->directory = state_path(arena, "logs/");
+        if (beside->directory && !make_directories(arena, beside->directory))
+            beside->directory = NULL;
+        if (!beside->directory) return FW_OK;
+    }
+    FW_TRY(look_in(&s, AT_FDCWD, beside->directory, "", 0));
+    if (beside->nlog) qsort(beside->log, beside->nlog, sizeof *beside->log, by_name);
+    if (beside->nstudy) qsort(beside->study, beside->nstudy, sizeof *beside->study, by_name);
+    return FW_OK;
+}
+
+static bool is_among(const char *const *list, size_t n, const char *name) {
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(list[i], name) == 0) return true;
+    return false;
+}
+
+bool fw_serve_beside_is_log(const fw_serve_beside *beside, const char *name) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    size_t stem = strspn(name, plain);
+    if (is_among(beside->log, beside->nlog, name)) return true;
+    if (stem == 0 || stem > 60 || name[0] == '-' || strcmp(name + stem, ".log") != 0) return false;
+    const char *path =
+        beside->directory; /* what is there and is no log is nobody's to write into */
+    int fd = path ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    struct stat info;
+    bool is_new = fd >= 0 && fstatat(fd, name, &info, AT_SYMLINK_NOFOLLOW) != 0 && errno == ENOENT;
+    if (fd >= 0) close(fd);
+    return is_new;
+}
+
+static bool copy_file(int from, int to, const char *name) {
+    int in = open_in(from, name);
+    if (in < 0) return errno == ENOENT;
+    struct stat info;
+    int out = openat(to, name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    bool good = out >= 0 && fstat(in, &info) == 0 && info.st_size <= MOST_SAMPLES;
+    char buffer[1 << 16];
+    for (ssize_t n; good && (n = read(in, buffer, sizeof buffer)) != 0;)
+        good = n > 0 && write(out, buffer, (size_t)n) == n;
+    close(in);
+    return (out < 0 || close(out) == 0) && good;
+}
+
+/* SQLite keeps what was written last beside the file until it is closed; whoever writes has the directory locked */
+static const char *copy_locked(int from, int to) {
+    static const char *const part[] = {"study.sqlite", "study.sqlite-wal"};
+    if (flock(from, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        return "a study is running there: wait for its end, or stop it with Ctrl-C in its terminal";
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++)
+        if (!copy_file(from, to, part[i]))
+            return "its samples cannot be read, or there is no room on the disk for a copy";
+    return NULL;
+}
+
+const char *fw_serve_beside_copy(const fw_serve_beside *beside, const char *study, int to) {
+    if (!is_among(beside->study, beside->nstudy, study))
+        return "\"results\" has to name a directory of samples that lies beside the description";
+    const char *why = "the directory of its samples cannot be opened";
+    int base = open(beside->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int from = base >= 0 ? openat(base, study, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    int out = from >= 0 && mkdirat(to, "out", 0700) == 0
+                  ? openat(to, "out", O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+                  : -1;
+    if (out >= 0) why = copy_locked(from, out);
+    for (int i = 0; i < 3; i++) {
+        int fd = (int[]){out, from, base}[i];
+        if (fd >= 0) close(fd);
+    }
+    return why;
+}
+
+/* the file itself, to be kept */
+static void send_log(fw_serve_request *r, const fw_serve_beside *beside, const char *name) {
+    int base = open(beside->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int fd = base >= 0 ? open_in(base, name) : -1;
+    if (base >= 0) close(base);
+    struct stat info;
+    if (fd < 0 || fstat(fd, &info) != 0 || info.st_size > MOST_LOG) {
+        if (fd >= 0) close(fd);
+        fw_serve_reply_error(r, 500, "FW-D222", "the log cannot be read, or is too large");
+        return;
+    }
+    r->reply.status = 200;
+    r->reply.type = "text/plain; charset=utf-8";
+    r->reply.file = true;
+    r->reply.fd = fd;
+    r->reply.n = (size_t)info.st_size;
+    r->reply.disposition = "attachment";
+}
+
+static void names(fw_json *json, const char *key, const char *const *list, size_t n) {
+    fw_json_list(json, key);
+    for (size_t i = 0; i < n; i++)
+        fw_json_text(json, NULL, list[i]);
+    fw_json_end(json);
+}
+
+void fw_serve_beside_get(fw_serve_request *r, const char *file, const char *name) {
+    fw_serve_beside beside;
+    if (fw_serve_beside_look(r->arena, file, &beside) != FW_OK)
+        fw_serve_reply_no_memory(r);
+    else if (name && is_among(beside.log, beside.nlog, name))
+        send_log(r, &beside, name);
+    else if (name)
+        fw_serve_reply_error(r, 404, NULL, "there is no log of this name beside the description");
+    else {
+        fw_text text = fw_text_new(r->arena);
+        fw_json json = fw_json_new(&text, FW_JSON_SPACED);
+        fw_json_object(&json, NULL);
+        fw_json_text(&json, "schema", "flexwright.beside/1");
+        fw_json_text(&json, "directory", beside.directory);
+        names(&json, "logs", beside.log, beside.nlog);
+        names(&json, "studies", beside.study, beside.nstudy);
+        fw_json_end(&json);
+        fw_serve_reply_document(r, 200, &json, &text);
+    }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The text that a page edits: the one file that the server shows, watches and saves, and the draft that
-   a page has and nobody saved. Private to the room. */
+/* The text that a page edits: the one file that the server shows, watches and saves, the draft that
+   a page has and nobody saved, and what lies beside the file. Private to the room. */
 #ifndef FW_SERVE_DOCUMENT_H
 #define FW_SERVE_DOCUMENT_H
 #include "base/diag.h"
@@ -56,5 +56,27 @@ const char *fw_serve_draft_path(fw_arena *arena, const char *file);
 void fw_serve_draft_get(fw_serve_request *request, const char *path);
 void fw_serve_draft_post(fw_serve_request *request, const char *path);
 void fw_serve_draft_delete(fw_serve_request *request, const char *path);
+
+/* ---- what lies beside the file ----
+   As-run logs in its directory, and directories below it that hold the samples of a study: what the program has
+   written there in a terminal. A server without a file keeps logs below $XDG_STATE_HOME/flexwright/logs. */
+
+typedef struct fw_serve_beside {
+    const char *directory; /* absolute, with a slash at its end; NULL: there is none */
+    const char **log;      /* (nlog) names of files that begin as logs do, by name */
+    const char *
+        *study; /* (nstudy) directories with a study.sqlite, from the directory on, by name */
+    size_t nlog, nstudy;
+} fw_serve_beside;
+
+/* `file` as fw_serve_file_watch_path has it */
+fw_status fw_serve_beside_look(fw_arena *arena, const char *file, fw_serve_beside *beside);
+/* a log that is there, or a name that a new one may have: letters, digits, '-' and '_' before ".log" */
+bool fw_serve_beside_is_log(const fw_serve_beside *beside, const char *name);
+/* The samples of one of its studies as out/study.sqlite of the directory `to`: a copy, what is beside the file stays as it
+   is. NULL, or why not. */
+const char *fw_serve_beside_copy(const fw_serve_beside *beside, const char *study, int to);
+/* the handler of GET: what there is, or with a name the log of that name */
+void fw_serve_beside_get(fw_serve_request *request, const char *file, const char *name);
 
 #endif

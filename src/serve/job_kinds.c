@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which commands a page may start, and with which options: what is not in these tables cannot be
-   said. No option here names a file but one that came with the request. */
+   said. No option here names a file but one that came with the request, and a log beside the description. */
+#include "serve/document.h"
 #include "serve/jobs.h"
 #include <jansson.h>
 #include <string.h>
@@ -20,8 +21,11 @@ enum { /* bit per kind */
        STUDY = 2048,
        CALIBRATE = 4096,
        ALL = 4095, /* that are about a description alone */
+       LOG = 8192,
+       ABOUT = ALL | LOG, /* a description */
        MADE = PLAN | RECIPE | MASK,
-       OF_FILE = 65536 /* no kind: the value names one of the request's files */
+       OF_FILE = 65536, /* no kind: the value names one of the request's files */
+       OF_LOG = 131072  /* no kind: the value names a log beside the description */
 };
 
 typedef struct kind_row {
@@ -32,7 +36,7 @@ static const kind_row kinds[] = {
     {"plan", PLAN},           {"check", CHECK},       {"workspace", WORKSPACE}, {"modes", MODES},
     {"statics", STATICS},     {"assemble", ASSEMBLE}, {"tradeoff", TRADEOFF},   {"hinge", HINGE},
     {"recipe", RECIPE},       {"mask", MASK},         {"simulate", SIMULATE},   {"study", STUDY},
-    {"calibrate", CALIBRATE},
+    {"calibrate", CALIBRATE}, {"log", LOG},
 };
 
 typedef struct option_row {
@@ -40,20 +44,20 @@ typedef struct option_row {
     unsigned kinds;
 } option_row;
 static const option_row options[] = {
-    {"flow", "flow", ALL | CALIBRATE},
-    {"accuracy", "accuracy", ALL},
-    {"effects", "effects", ALL},
-    {"corners", "corners", ALL},
-    {"lab", "lab", ALL | OF_FILE},
+    {"flow", "flow", ABOUT | CALIBRATE},
+    {"accuracy", "accuracy", ABOUT},
+    {"effects", "effects", ABOUT},
+    {"corners", "corners", ABOUT},
+    {"lab", "lab", ABOUT | OF_FILE},
     {"advice", "advice", CHECK | MADE},
     {"measurements", "measurements", CHECK | MADE},
-    {"hinge_model", "hinge-model", ALL},
+    {"hinge_model", "hinge-model", ABOUT},
     {"force", "force", MADE},
     {"mask_tolerance", "mask-tolerance", MADE},
     {"mask_flatten", "mask-flatten", MADE},
     {"mask_format", "mask-format", MADE},
     {"mask_vertices", "mask-vertices", MADE},
-    {"wafers", "wafers", PLAN | RECIPE},
+    {"wafers", "wafers", PLAN | RECIPE | LOG},
     {"operators", "operators", PLAN | RECIPE},
     {"day", "day", PLAN | RECIPE},
     {"planned", "planned", PLAN | RECIPE},
@@ -72,6 +76,9 @@ static const option_row options[] = {
     {"budget", "budget", TRADEOFF},
     {"no_time", "no-time", TRADEOFF},
     {"study", "study", STUDY},
+    {"run", "run", LOG | CALIBRATE | OF_LOG},
+    {"entries", "entries", LOG | OF_FILE},
+    {"lot", "lot", LOG},
 };
 
 enum { MOST_ARGUMENTS = 128, MOST_TEXT = 2000 };
@@ -79,6 +86,8 @@ enum { MOST_ARGUMENTS = 128, MOST_TEXT = 2000 };
 typedef struct command {
     fw_arena *arena;
     const json_t *files; /* names and texts that came with the request */
+    const struct fw_serve_beside *beside;
+    const char *log; /* the one that "run" names, whole; NULL: none */
     const char **argv;
     size_t n;
     const char *why;
@@ -124,6 +133,16 @@ static bool are_files(const command *c, const char *text) {
     }
 }
 
+/* calibrate reads it, log keeps it */
+static fw_status one_log(command *c, unsigned kind, const char *name, const char *text) {
+    if (!c->beside || !c->beside->directory || !fw_serve_beside_is_log(c->beside, text))
+        return wrong(c, name,
+                     "has to name a log beside the description, or a new one: letters, digits, '-' "
+                     "and '_' before .log, and not a file that is there and no log");
+    FW_NEED(c->log = fw_arena_printf(c->arena, "%s%s", c->beside->directory, text));
+    return kind == LOG ? push(c, fw_arena_printf(c->arena, "--run=%s", c->log)) : FW_OK;
+}
+
 static fw_status one_option(command *c, unsigned kind, const char *name, const json_t *value) {
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
         if (strcmp(options[i].name, name) != 0) continue;
@@ -135,6 +154,7 @@ static fw_status one_option(command *c, unsigned kind, const char *name, const j
         FW_TRY(value_text(c, name, value, &text));
         if ((options[i].kinds & OF_FILE) && !are_files(c, text))
             return wrong(c, name, "has to name files of the request, commas between");
+        if (options[i].kinds & OF_LOG) return one_log(c, kind, name, text);
         return push(c, fw_arena_printf(c->arena, "--%s=%s", options[i].option, text));
     }
     return wrong(c, name, "is not an option of a job");
@@ -155,7 +175,7 @@ static fw_status all(command *c, unsigned kind, const json_t *request) {
     json_t *set = json_object_get(request, "set"), *option = json_object_get(request, "options");
     if ((set && !json_is_object(set)) || (option && !json_is_object(option)))
         return wrong(c, "\"set\" and \"options\"", "must be objects");
-    if (kind & ALL) json_object_foreach(set, name, value) FW_TRY(one_set(c, name, value));
+    if (kind & ABOUT) json_object_foreach(set, name, value) FW_TRY(one_set(c, name, value));
     json_object_foreach(option, name, value) FW_TRY(one_option(c, kind, name, value));
     return FW_OK;
 }
@@ -213,29 +233,36 @@ static const struct {
 } last[] = {
     {"--output=out", ALL},
     {"--output=out/laboratory.xml", CALIBRATE},
-    {"--json", ALL},
-    {"--verbose", ALL | CALIBRATE},
-    {"--color=never", ALL | CALIBRATE},
-    {"--", ALL | CALIBRATE},
+    {"--json", ABOUT},
+    {"--verbose", ABOUT | CALIBRATE},
+    {"--color=never", ABOUT | CALIBRATE},
+    {"--", ABOUT | CALIBRATE},
 };
 
 fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
-                               const char **kind, const char *const **argv, const char **why) {
-    command c = {.arena = arena, .argv = fw_arena_array(arena, const char *, MOST_ARGUMENTS + 10)};
+                               const struct fw_serve_beside *beside, const char **kind,
+                               const char *const **argv, const char **why) {
+    command c = {.arena = arena,
+                 .beside = beside,
+                 .argv = fw_arena_array(arena, const char *, MOST_ARGUMENTS + 10)};
     FW_NEED(c.argv);
     const kind_row *row = kind_named(json_string_value(json_object_get(json, "kind")));
     if (!row) return no_such_kind(arena, why);
     *kind = row->name;
     c.argv[c.n++] = "flexwright";
     c.argv[c.n++] = row->name;
-    if (row->bit == STUDY && json_object_get(json, "resume")) c.argv[c.n++] = "--resume";
+    if (row->bit == STUDY && (json_object_get(json, "resume") || json_object_get(json, "results")))
+        c.argv[c.n++] = "--resume";
     fw_status status = check_files(&c, json_object_get(json, "files"), file);
     if (status == FW_OK) status = all(&c, row->bit, json);
     *why = c.why;
     if (status != FW_OK) return status;
+    /* of a log that is read; nothing can be added and reported in one run */
+    if (row->bit == LOG && c.log && !json_object_get(json_object_get(json, "options"), "entries"))
+        c.argv[c.n++] = "--report=out/log.html";
     for (size_t i = 0; i < sizeof last / sizeof last[0]; i++)
         if (last[i].kinds & row->bit) c.argv[c.n++] = last[i].word;
-    c.argv[c.n++] = file;
+    c.argv[c.n++] = row->bit == CALIBRATE && c.log ? c.log : file;
     c.argv[c.n] = NULL;
     *argv = c.argv;
     return FW_OK;

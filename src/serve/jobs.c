@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The life of a job: queued, running in its process, finished; its files; and the process that packs
    them. What is asked by HTTP is in routes.c. */
+#include "serve/document.h"
 #include "serve/jobs.h"
 #include "serve/serve.h"
 #include <dirent.h>
@@ -20,23 +21,6 @@
 
 enum { MOST_DEPTH = 4 };
 
-static const char *type_of(const char *path) {
-    static const struct {
-        const char *ending, *type;
-    } known[] = {{".html", "text/html; charset=utf-8"},
-                 {".svg", "image/svg+xml"},
-                 {".png", "image/png"},
-                 {".json", "application/json"},
-                 {".csv", "text/csv; charset=utf-8"},
-                 {".txt", "text/plain; charset=utf-8"},
-                 {".ics", "text/calendar; charset=utf-8"},
-                 {".xml", "application/xml"}};
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof known / sizeof known[0]; i++)
-        if (strcmp(dot, known[i].ending) == 0) return known[i].type;
-    return "application/octet-stream";
-}
-
 typedef struct listing {
     fw_serve_job *job;
     size_t capacity;
@@ -52,7 +36,7 @@ static fw_status add_to_list(listing *l, const char *path, uint64_t bytes) {
         l->capacity = more;
     }
     job->file[job->files++] =
-        (fw_serve_job_file){.path = path, .type = type_of(path), .bytes = bytes};
+        (fw_serve_job_file){.path = path, .type = fw_serve_reply_type(path), .bytes = bytes};
     return FW_OK;
 }
 
@@ -236,8 +220,25 @@ static fw_status take_over(fw_serve_jobs *jobs, fw_serve_job *job, fw_serve_job 
     return FW_OK;
 }
 
+/* or those that a terminal has left beside the description */
+static fw_status take_copy(const fw_serve_job *job, fw_serve_job_order *order) {
+    const json_t *results = json_object_get(order->request, "results");
+    if (!results || json_is_null(results)) return FW_OK;
+    const char *name = json_string_value(results);
+    const char *why = job->keeps && name && !json_object_get(order->request, "resume")
+                          ? fw_serve_beside_copy(order->beside, name, job->fd)
+                          : "\"results\" is the name of a directory, of a study that begins";
+    if (why) snprintf(order->why, sizeof order->why, "%s", why);
+    return why ? FW_INPUT : FW_OK;
+}
+
+/* commands that are told a file in out/, and do not make it */
+static bool writes_into(const char *kind) {
+    return strcmp(kind, "calibrate") == 0 || strcmp(kind, "log") == 0;
+}
+
 /* its directory with the description in it; FW_IO when that cannot be */
-static fw_status prepare(fw_serve_jobs *jobs, fw_serve_job *job, const fw_serve_job_order *order,
+static fw_status prepare(fw_serve_jobs *jobs, fw_serve_job *job, fw_serve_job_order *order,
                          fw_serve_job *from) {
     job->directory = fw_arena_printf(job->arena, "job-%u", job->id);
     job->message = fw_arena_array(job->arena, const char *, FW_JOB_MOST_LINES);
@@ -248,8 +249,9 @@ static fw_status prepare(fw_serve_jobs *jobs, fw_serve_job *job, const fw_serve_
     if (job->fd < 0 || !write_file(job, job->name, order->text, order->n) ||
         !write_files(job, json_object_get(order->request, "files")))
         return FW_IO;
-    if (strcmp(job->kind, "calibrate") == 0 && mkdirat(job->fd, "out", 0700) != 0) return FW_IO;
+    if (writes_into(job->kind) && mkdirat(job->fd, "out", 0700) != 0) return FW_IO;
     if (from) FW_TRY(take_over(jobs, job, from));
+    FW_TRY(take_copy(job, order));
     tell(jobs, job);
     return FW_OK;
 }
@@ -519,14 +521,14 @@ fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
     job->arena = fw_arena_new(0);
     job->name = job->arena ? fw_arena_strdup(job->arena, order->file) : NULL;
     fw_status status = job->name ? fw_serve_job_command(job->arena, order->request, job->name,
-                                                        &job->kind, &job->argv, &why)
+                                                        order->beside, &job->kind, &job->argv, &why)
                                  : FW_NOMEM;
+    if (status == FW_INPUT) snprintf(order->why, sizeof order->why, "%s", why);
     if (status == FW_OK) {
         jobs->last_id++;
         job->keeps = strcmp(job->kind, "study") == 0;
         status = prepare(jobs, job, order, from);
     }
-    if (status == FW_INPUT) snprintf(order->why, sizeof order->why, "%s", why);
     if (status != FW_OK) fw_serve_job_forget(jobs, job);
     *out = job;
     return status;

@@ -65,9 +65,11 @@ void fw_serve_jobs_run(fw_serve_jobs *jobs);
 bool fw_serve_jobs_busy(const fw_serve_jobs *jobs);
 size_t fw_serve_jobs_poll(const fw_serve_jobs *jobs, struct pollfd *poll, size_t most);
 typedef struct fw_serve_job_order { /* what is asked for */
-    const json_t *request;          /* {"kind", "set", "options", "files", "resume"} */
+    const json_t *request;          /* {"kind", "set", "options", "files", "resume", "results"} */
     const char *file, *text;        /* name and (n) bytes of the description */
     size_t n;
+    const struct fw_serve_beside
+        *beside;   /* where what it names lies; NULL: it names nothing there */
     char why[240]; /* what is wrong with it; "": nothing */
 } fw_serve_job_order;
 /* Queues the job. FW_LIMIT: FW_JOBS_QUEUED wait already; FW_INPUT: order->why; else there is no
@@ -90,9 +92,11 @@ void fw_serve_job_archive(fw_serve_job *job, fw_serve_request *request);
 void fw_serve_jobs_forget(fw_serve_request *request);
 
 /* ---- job_kinds.c: from the request to a command line ---- */
-/* argv of the program for {"kind", "set", "options", "files", "resume"}; FW_INPUT: *why says what is wrong */
+/* argv of the program for {"kind", "set", "options", "files", "resume", "results"}; beside: the logs that "run" may name,
+   NULL: none; FW_INPUT: *why says what is wrong */
 fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
-                               const char **kind, const char *const **argv, const char **why);
+                               const struct fw_serve_beside *beside, const char **kind,
+                               const char *const **argv, const char **why);
 
 /* ---- files ---- */
 /* a file of the list: its descriptor, or -1 */

@@ -51,6 +51,23 @@ void fw_serve_reply_clean(char *text) {
     }
 }
 
+const char *fw_serve_reply_type(const char *path) {
+    static const struct {
+        const char *ending, *type;
+    } known[] = {{".html", "text/html; charset=utf-8"},
+                 {".svg", "image/svg+xml"},
+                 {".png", "image/png"},
+                 {".json", "application/json"},
+                 {".csv", "text/csv; charset=utf-8"},
+                 {".txt", "text/plain; charset=utf-8"},
+                 {".ics", "text/calendar; charset=utf-8"},
+                 {".xml", "application/xml"}};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof known / sizeof known[0]; i++)
+        if (strcmp(dot, known[i].ending) == 0) return known[i].type;
+    return "application/octet-stream";
+}
+
 void fw_serve_reply_json(fw_serve_request *r, unsigned status, const char *text, size_t n) {
     r->reply.status = status;
     r->reply.type = "application/json";

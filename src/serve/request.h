@@ -76,6 +76,8 @@ int64_t fw_serve_now_ms(void);
 void fw_serve_request_answer(fw_serve_request *request);
 /* what is no UTF-8 becomes '?': texts of other programs, and such as were cut, go into JSON */
 void fw_serve_reply_clean(char *text);
+/* the media type of a file, by its ending */
+const char *fw_serve_reply_type(const char *path);
 /* text in the request's arena, or static */
 void fw_serve_reply_json(fw_serve_request *request, unsigned status, const char *text, size_t n);
 /* what was written into `text`, finished here; where memory was short for it, that is the answer */

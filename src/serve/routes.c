@@ -158,6 +158,11 @@ static void delete_draft(fw_serve_request *r) {
     fw_serve_draft_delete(r, draft_path(r));
 }
 
+static void get_beside(fw_serve_request *r) {
+    const char *name = r->path + strlen("/api/beside");
+    fw_serve_beside_get(r, fw_serve_file_watch_path(r->server->watch), *name ? name + 1 : NULL);
+}
+
 static void get_events(fw_serve_request *r) {
     if (fw_serve_events_open(&r->server->events, r))
         fw_serve_file_watch_tell(r->server->watch, r->stream);
@@ -179,7 +184,15 @@ static void begin(fw_serve_request *r, const json_t *request, const json_t *text
                                 .text = json_string_value(text),
                                 .n = json_string_length(text)};
     const fw_serve_job *job;
-    fw_status status = fw_serve_jobs_add(r->server->jobs, &order, &job);
+    fw_status status = FW_OK;
+    fw_serve_beside beside;
+    if (json_object_get(json_object_get(request, "options"), "run") ||
+        json_object_get(request, "results")) {
+        status =
+            fw_serve_beside_look(r->arena, fw_serve_file_watch_path(r->server->watch), &beside);
+        order.beside = &beside;
+    }
+    if (status == FW_OK) status = fw_serve_jobs_add(r->server->jobs, &order, &job);
     if (status == FW_OK) {
         fw_text answer = fw_text_new(r->arena);
         fw_json json = fw_json_new(&answer, FW_JSON_SPACED);
@@ -332,6 +345,8 @@ static const fw_serve_route table[] = {
     {.method = "GET", .path = "/api/draft", .handle = get_draft},
     {.method = "POST", .path = "/api/draft", .handle = post_draft},
     {.method = "DELETE", .path = "/api/draft", .handle = delete_draft},
+    {.method = "GET", .path = "/api/beside", .handle = get_beside},
+    {.method = "GET", .path = "/api/beside/*", .handle = get_beside},
     {.method = "GET", .path = "/api/events", .handle = get_events},
     {.method = "POST", .path = "/api/preview", .handle = compute, .compute = FW_COMPUTE_PREVIEW},
     {.method = "POST", .path = "/api/pose", .handle = compute, .compute = FW_COMPUTE_POSE},

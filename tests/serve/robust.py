@@ -526,6 +526,86 @@ def draft(program, directory):
         assert server.ask("POST", "/api/draft", {"text": text, "version": "v"})[0] == 503
 
 
+STUDY = """  <study name="widths" kind="sweep" as="drawn">
+    <vary what="link" from="115 um" to="125 um" steps="12"/>
+    <respond name="used" value="governing.utilisation"/>
+  </study>
+</device>"""
+
+
+def beside(program, directory):
+    """a log and the samples of a study that lie beside the file: what the program writes there in a terminal"""
+    directory = pathlib.Path(directory)
+    device = directory / "d.xml"
+    shutil.copy(DEVICE, device)
+    (directory / "mail.log").write_text("Nov 20 sendmail: not one of ours\n")
+    (directory / "deep/er/and/deeper").mkdir(parents=True)
+    outside = directory.parent / "flexwright-outside.log"
+    outside.unlink(missing_ok=True)
+    flow = {"flow": "al-masked-rie"}
+    entry = "S01; start=2026-11-20T10:00; end=2026-11-20T10:08; by=AB; wafer=1; thickness=50.1 um"
+    with Server(program, directory, device).enter() as server:
+        ask = {"kind": "log", "text": device.read_text()}
+
+        def log(expect="done", files=None, **options):
+            job = server.job({**ask, "files": files or {}, "options": {**flow, **options}})
+            assert job["state"] == expect, job
+            return job
+        open_ = log()["result"]  # before there is a log: what there is to enter
+        assert open_["entries"] == 0 and "chain" not in open_ and "lot" not in open_
+        assert any(m["measure"] == "thickness" and m["unit"] == "um" for m in open_["steps"][0]["measures"]), open_["steps"][0]
+        for name in ("../flexwright-outside.log", str(outside), "mail.log", "d.xml", ".log", "-x.log", "a b.log", "a.log.log", "a/b.log"):
+            status, _, data = server.ask("POST", "/api/jobs", {**ask, "options": {**flow, "run": name}})
+            assert status == 400, (name, status, data)
+        assert not outside.exists()
+        log(run="lot7.log", entries="new.txt", files={"new.txt": entry + "\n"}, lot="L7", wafers="2")
+        told = log(run="lot7.log")
+        assert [told["result"][k] for k in ("lot", "wafers", "entries", "logged")] == ["L7", ["1", "2"], 1, 1]
+        assert [f["path"] for f in told["files"]] == ["log.html"]
+        # it is the log of the command, which goes on with it, and the page with that of the command
+        mine = [program, "log", str(device), "--flow", "al-masked-rie", "--run", str(directory / "lot7.log")]
+        assert json.loads(subprocess.run([*mine, "--json"], capture_output=True).stdout) == told["result"]
+        subprocess.run([*mine, "-q", "--entry", entry.replace("wafer=1", "wafer=2")], check=True, capture_output=True)
+        assert log(run="lot7.log")["result"]["entries"] == 2
+        assert server.json("GET", "/api/beside")["logs"] == ["lot7.log"]
+        assert server.ask("GET", "/api/beside/lot7.log")[2] == (directory / "lot7.log").read_bytes()
+        for path in ("mail.log", "../d.xml", "d.xml", "lot7.log.head", "nothing.log"):
+            assert server.ask("GET", f"/api/beside/{path}")[0] in (400, 403, 404), path
+        refused = log("failed", run="lot7.log", entries="new.txt", files={"new.txt": "S01; start=2026-11-20T10:00; end=2026-11-19T10:08\n"})
+        assert any("[FW-D282]" in m for m in refused["messages"]), refused
+        whole = (directory / "lot7.log").read_text()
+        (directory / "lot7.log").write_text(whole.replace("by=AB", "by=CD"))
+        assert any("[FW-D280]" in m for m in log("failed", run="lot7.log")["messages"])
+        (directory / "lot7.log").write_text(whole)
+        changed = {**ask, "text": ask["text"].replace('value="240 deg"', 'value="238 deg"')}
+        job = server.job({**changed, "options": {**flow, "run": "lot7.log"}})
+        assert any("[FW-D281]" in m for m in job["messages"]), job
+
+        # a study of the terminal, stopped, is opened as a copy and gone on with
+        text = ask["text"].replace("</device>", STUDY)
+        device.write_text(text)
+        samples = directory / "deep/er/widths/study.sqlite"
+        command = [program, "study", str(device), "-o", str(samples.parent), "-q"]
+        running = subprocess.Popen([*command, "--jobs", "1"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        until(lambda: samples.exists() and samples.stat().st_size > 0)
+        status, _, data = server.ask("POST", "/api/jobs", {"kind": "study", "text": text, "results": "deep/er/widths"})
+        assert running.poll() is not None or (status == 400 and b"a study is running there" in data), (status, data)
+        running.send_signal(signal.SIGINT)
+        running.wait()
+        assert server.json("GET", "/api/beside")["studies"] == ["deep/er/widths"]
+        before = samples.read_bytes()
+        job = server.job({"kind": "study", "text": text, "results": "deep/er/widths"})
+        assert job["state"] == "done" and job["result"]["samples"]["run"] == 12, job
+        assert samples.read_bytes() == before, "the directory was written into"
+        subprocess.run([*command, "--resume"], check=True, capture_output=True)
+        theirs = json.loads((samples.parent / "study.json").read_text())
+        assert all(theirs[k] == job["result"][k] for k in ("samples", "responses", "inputs") if k in theirs) and theirs["samples"]["run"] == 12
+        for wrong in ("..", "deep", "deep/er/widths/..", "/etc", "", 7):
+            assert server.ask("POST", "/api/jobs", {"kind": "study", "text": text, "results": wrong})[0] == 400, wrong
+        other = server.job({"kind": "study", "text": text.replace('to="125 um"', 'to="126 um"'), "results": "deep/er/widths"})
+        assert other["state"] == "failed" and any("[FW-D495]" in m for m in other["messages"]), other
+
+
 def words(program, directory):
     """what is no UTF-8 (a file's name, its text, a line that was cut) does not break the JSON of an answer"""
     odd = os.path.join(os.fsencode(directory), b"d\xff\xc3.xml")
@@ -709,7 +789,7 @@ def started_wrongly(program, directory):
 
 
 WAITING = [half_open, drip_alone, stopped]  # these do little but wait: beside the others
-TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, given_up, file, lost_file, draft, words,
+TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, given_up, file, lost_file, draft, beside, words,
          entry, streams, signals, killed, six, browser, started_wrongly]
 
 
@@ -732,9 +812,9 @@ def main():
     program, wanted = str(pathlib.Path(sys.argv[1]).resolve()), [a for a in sys.argv[2:] if not a.startswith("-")]
     chosen = [test for test in WAITING + TESTS if not wanted or test.__name__ in wanted]
     with concurrent.futures.ThreadPoolExecutor(len(WAITING)) as pool:
-        beside = [pool.submit(run, test, program) for test in chosen if test in WAITING]
+        early = [pool.submit(run, test, program) for test in chosen if test in WAITING]
         wrong = sum(run(test, program) for test in chosen if test in TESTS)
-        wrong += sum(one.result() for one in beside)
+        wrong += sum(one.result() for one in early)
     return 1 if wrong or not chosen else 0
 
 

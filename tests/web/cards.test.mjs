@@ -43,7 +43,7 @@ describe("commands as cards", () => {
 
     test("the ladder of every flexure", async () => {
         await view(page, "accuracy");
-        await page.click('#ladder button:has-text("Climb the ladder")');
+        await page.click('#ladder button:has-text("Compare their models")');
         await ran("ladder");
         const told = print("hinge", server.file);
         assert.equal(await page.locator("#ladder tbody tr").count(), told.hinges.reduce((n, x) => n + x.levels.length, 0));

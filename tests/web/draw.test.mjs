@@ -74,6 +74,46 @@ describe("a gripper from an empty page", () => {
         await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: 60000 });
         await shot(page, "draw-gripper.png");
     });
+
+    test("a jaw again as its mirror image is the same jaw: what it uses of its limit, and every point", async () => {
+        const { hinges, xml } = await page.evaluate(() => ({ hinges: globalThis.flexwright.state.preview.verdict.hinges.map((x) => x.utilisation), xml: globalThis.flexwright.state.text }));
+        await page.evaluate(() => globalThis.flexwright.parts.draw.bar.querySelector('[data-tool="select"]').click());
+        await page.selectOption('select[aria-label="Part"]', "device/mechanism/body[link-2]");
+        await changed(page, () => page.click(".draw-remove"));
+        await page.selectOption('select[aria-label="Part"]', "device/mechanism/body[link-1]");
+        await page.click(".draw-mirror > summary");
+        await changed(page, () => page.click(".draw-copy"));
+        await page.waitForFunction(() => globalThis.flexwright.settled(false) && globalThis.flexwright.state.preview.verdict?.hinges.length === 2);
+        const [now, rings] = await page.evaluate(() => [globalThis.flexwright.state.preview.verdict.hinges.map((x) => x.utilisation), globalThis.flexwright.parts.draw.places.shapes().map((x) => [x.body, x.rings[0]])]);
+        now.forEach((u, i) => assert.ok(Math.abs(u - hinges[i]) < 1e-6 * u, `${now} and ${hinges}`));
+        const of = (body) => rings.filter(([b]) => b === body).flatMap(([, r]) => r);
+        const image = of("link-1-mirrored");
+        assert.equal(image.length, 8);
+        for (const [x, y] of of("link-1")) assert.ok(image.some((p) => Math.hypot(p[0] + x, p[1] - y) < 1e-6), `${x}, ${y}`);
+        for (const part of ['<body id="link-1-mirrored" x="400 um" y="0 um">', '<revolute id="B" a="ground" a-x="400 um" a-y="0 um" b="link-1-mirrored"', '<force on="link-1-mirrored" x="0 um" y="600 um" fx="-10 uN"']) assert.ok((await text(page)).includes(part), `${part} in ${await text(page)}`);
+        for (let i = 0; i < 2; i++) await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
+    test("a stage, with the mouse alone", async () => {
+        await page.click("#new");
+        await page.click('.template:has-text("Empty page")');
+        await page.click("dialog .drop"); // the gripper was not saved
+        await page.waitForSelector("#right .problems:has-text('Nothing is drawn yet')");
+        await tool(page, "bar");
+        await page.selectOption('label:has-text("belongs to") select', "");
+        for (const x of [-500, 500]) await changed(page, () => drag(page, [x, 0], [x, 900]));
+        await changed(page, () => drag(page, [-500, 900], [500, 900]));
+        await tool(page, "hinge");
+        for (const at of [[-500, 0], [500, 0], [-500, 900], [500, 900]]) await changed(page, () => click(page, at));
+        await tool(page, "force");
+        await changed(page, () => drag(page, [0, 900], [200, 900]));
+        await verdict(page, "accept");
+        await page.waitForSelector('button:has-text("Judge as fabricated"):visible');
+        await page.click('button:has-text("Judge as fabricated")'); // by itself only where the last one was quick
+        await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: 60000 });
+        await shot(page, "draw-stage.png");
+    });
 });
 
 describe("without a pointer, and what cannot be made", () => {
@@ -150,10 +190,20 @@ describe("without a pointer, and what cannot be made", () => {
         await page.click("#undo");
         await verdict(page, "accept");
         assert.equal(await page.locator("#panel-draw .overlap").count(), 0);
+        await page.click('#panel-draw button[aria-label="Zoom out"]'); // room above the plate
         await tool(page, "outline");
         for (const at of [[-200, 1100], [-200, 1300], [-100, 1300]]) await click(page, at);
         await changed(page, () => click(page, [-200, 1100]));
         assert.match(await text(page), /<outline id="outline-1" start-x="-200 um" start-y="1100 um">\s*<line to-x="-200 um" to-y="1300 um"\/>\s*<line to-x="-100 um" to-y="1300 um"\/>\s*<line to-x="-200 um" to-y="1100 um"\/>\s*<\/outline>/);
+        await page.click("#undo");
+        for (const at of [[-200, 1100], [-200, 1300]]) await click(page, at); // and with a half circle over a point
+        await page.selectOption('label:has-text("next side") select', "arc");
+        for (const at of [[-150, 1350], [-100, 1300]]) await click(page, at);
+        await page.selectOption('label:has-text("next side") select', "line");
+        await changed(page, () => page.keyboard.press("Enter"));
+        assert.match(await text(page), /<line to-x="-200 um" to-y="1300 um"\/>\s*<arc to-x="-100 um" to-y="1300 um" radius="50 um" turn="right"( large="(yes|no)")?\/>\s*<line to-x="-200 um" to-y="1100 um"\/>/);
+        const ring = await page.evaluate(() => globalThis.flexwright.parts.draw.places.shapes().find((x) => x.element.name === "outline").rings[0]);
+        assert.ok(Math.max(...ring.map((p) => p[1])) > 1349, "it passes the point");
         await page.click("#undo");
         await page.evaluate(axeSource);
         await tool(page, "hinge");

@@ -6,7 +6,7 @@
 // drive.test.mjs` runs this alone; with FW_DRIVE_STEPS=1000 on six devices.
 import { after, test } from "node:test";
 import { dice, step, watcher } from "./drive.mjs";
-import { close, finish, open, serve } from "./helper.mjs";
+import { close, finish, open, serve, SMALL } from "./helper.mjs";
 
 after(finish);
 
@@ -19,7 +19,7 @@ const MORE = ["leaf-four-bar", "free-form-four-bar", "straight-stage", "four-ten
 for (const device of STEPS ? [...FIRST, ...MORE] : FIRST)
     test(`${device}, driven at random`, { timeout: STEPS ? Infinity : 600000 }, async (t) => {
         const server = await serve(device);
-        const page = await open(server, { before: watcher });
+        const page = await open(server, { ...SMALL, before: watcher });
         page.expected = [/Failed to load resource/]; // an option that a changed text does not know
         const d = dice(SEED);
         const done = {};

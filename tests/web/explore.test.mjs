@@ -3,9 +3,9 @@
 // gone on with, and its best device put into the text by one step of the history.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
-import { answered, axeSource, close, finish, open, program, serve, setText, source, text, view } from "./helper.mjs";
+import { answered, axeSource, close, finish, open, program, serve, setText, source, text, view, SMALL } from "./helper.mjs";
 
 after(finish);
 
@@ -178,7 +178,7 @@ describe("studies", () => {
     const card = '.study[data-name="size"]';
     before(async () => {
         server = await serve("reference-six-bar");
-        page = await open(server);
+        page = await open(server, SMALL);
         await view(page, "explore");
         await page.selectOption('select[aria-label="Vary"]', "flexure[C]/@width");
         await setRange(page, "First", "7 um", "12 um");
@@ -206,11 +206,19 @@ describe("studies", () => {
         const result = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result);
         assert.equal(result.found.length, 1);
         const directory = `${server.directory}/by-itself`;
-        const saved = `${server.directory}/with-study.xml`;
-        (await import("node:fs")).writeFileSync(saved, await text(page));
+        const saved = `${server.directory}/terminal/device.xml`;
+        mkdirSync(`${server.directory}/terminal`);
+        writeFileSync(saved, await text(page));
         const same = JSON.parse(execFileSync(program, ["study", saved, "-o", directory, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
         assert.deepEqual(result.found, same.found); // to the last bit what the command finds in one run
         assert.equal(result.samples.run, same.samples.run);
+        // what a terminal has left beside the file is opened, and nothing is judged again
+        await view(page, "motion");
+        await view(page, "explore");
+        await page.selectOption(`${card} select[aria-label="Open results of size"]`, "by-itself");
+        await page.waitForFunction(() => { const k = globalThis.flexwright.parts.explore.studies.kept.get("size"); return k && !k.control; }, null, { timeout: LONG });
+        const opened = await page.evaluate(() => { const { job, why } = globalThis.flexwright.parts.explore.studies.kept.get("size"); return { found: job?.result?.found, run: job?.result?.samples.run, seconds: job?.seconds, why }; });
+        assert.deepEqual([opened.found, opened.run], [same.found, same.samples.run], opened.why);
     });
 
     test("its best device becomes the text by one step of the history, and is accepted", async () => {

@@ -39,6 +39,14 @@ describe("text and file", () => {
         await page.waitForFunction(() => !/name="push" value="50 uN"/.test(globalThis.flexwright.state.text));
         await page.click("#undo");
         await verdict(page, "reject");
+        // away and back to where it was: a browser tells of no change, and nothing may stay held
+        await page.mouse.move(b.x + b.width - 8, b.y + b.height / 2);
+        await page.mouse.down();
+        await page.mouse.move(b.x + 10, b.y + b.height / 2, { steps: 3 });
+        await page.mouse.move(b.x + b.width - 8, b.y + b.height / 2, { steps: 3 });
+        await page.mouse.up();
+        await page.waitForFunction(() => Object.keys(globalThis.flexwright.state.set).length === 0);
+        await verdict(page, "reject");
     });
 
     test("wrong text: a marker at its place, the last good answer stays, the fix is seen", async () => {

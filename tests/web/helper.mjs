@@ -62,9 +62,12 @@ export async function serve(device, { port = 0 } = {}) {
 
 const wrongs = []; // what must not happen, of all pages
 
+/** For who does not look at the page: fewer pixels are painted. */
+export const SMALL = { width: 1000, height: 560 };
+
 /** Opens the page of a server and waits for its first answer. */
 export async function open(server, { width = 1440, height = 900, colorScheme = "light", before, ...more } = {}) {
-    const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true, ...more });
+    const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true, reducedMotion: "reduce", ...more });
     context.setDefaultTimeout(15000);
     await context.addInitScript(() => {
         globalThis.refused = [];

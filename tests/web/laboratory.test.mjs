@@ -3,7 +3,7 @@
 // is shown is then what the commands say with it; a pack is opened, refused in the program's words, and made of coupons.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { axeSource, close, computed, finish, open, program, ready, serve, setText, source, verdict, view } from "./helper.mjs";
 
@@ -54,6 +54,52 @@ describe("numbers of the laboratory", () => {
         await page.click("#lab-use");
         assert.match(await page.textContent(".laboratory .messages"), /al\.R: its standard uncertainty is needed, too/);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.lab), {});
+    });
+
+    test("the as-run log is the command's, from its first entry on, and its coupons become a pack", async () => {
+        const log = `${server.directory}/lot7.log`;
+        const fill = (label, value) => page.locator(`.log-form label:has(> span:text-is("${label}")) input`).fill(value);
+        const measure = (name, value) => page.fill(`.log-form [data-kind="measure"][data-name="${name}"]`, value);
+        const read = (n) => page.waitForFunction((k) => globalThis.flexwright.parts.recipe.asRun.told?.entries === k && !globalThis.flexwright.parts.recipe.asRun.control, n, { timeout: 60000 });
+        const told = () => JSON.parse(execFileSync(program, ["log", server.file, "--flow", FLOW, "--run", log, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
+        await page.evaluate(() => (document.querySelector("details.as-run").open = true));
+        await read(0);
+        assert.match(await page.textContent(".as-run"), /thickness 48 to 52 um; up to 5 values/);
+        await fill("file", "lot7");
+        await fill("wafers: how many, or their names with commas between", "2");
+        await fill("begun", "2026-11-20T10:00");
+        await fill("ended", "2026-11-20T09:00");
+        await fill("by", "AB");
+        await measure("thickness", "50.1 50.0 49.9 50.2 50.1");
+        await page.click("#log-add");
+        await page.waitForSelector('.as-run .messages:has-text("FW-D282")', { timeout: 60000 });
+        assert.equal(existsSync(log), false, "a refused entry begins no log");
+        await fill("ended", "2026-11-20T10:21");
+        await page.click("#log-add");
+        await read(1);
+        assert.match(await page.textContent(".as-run .messages"), /does not give 'cracks or chipped edge'/); // what a colleague would ask stays
+        assert.match(await page.textContent(".log-deviations"), /S01: duration is 21 min, planned 8 min/);
+        // the terminal goes on with it, and the page after it
+        execFileSync(program, ["log", server.file, "--flow", FLOW, "--run", log, "-q", "--entry", "S02; start=2026-11-20T11:00; end=2026-11-20T11:35; by=CD; particles in bright light=0"], { cwd: source, stdio: "ignore" });
+        await page.selectOption('.log-form select[aria-label="Step"]', "S18");
+        await page.selectOption('.log-form select[aria-label="Wafer"]', "2");
+        await fill("begun", "2026-11-21T10:00");
+        await fill("ended", "2026-11-21T12:05");
+        await page.evaluate(() => document.querySelectorAll(".log-form details").forEach((e) => (e.open = true)));
+        await page.fill('.log-form [data-kind="set"][data-name="power"]', "251");
+        await page.fill(".log-form textarea", [16, 20].map((w) => `undercut-ladder, feature=width, drawn=${w} um, value=${w - 2.9} um, u=0.08 um, at=50.5 um`).join("\n"));
+        await page.click("#log-add");
+        await read(3);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.recipe.asRun.told), told());
+        assert.match(readFileSync(log, "utf8"), /step=S18.*by=AB.*wafer=2.*set power=251 W/);
+        await page.click("#log-fit");
+        await page.waitForFunction((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW, { timeout: 60000 });
+        execFileSync(program, ["calibrate", log, "--flow", FLOW, "-o", `${server.directory}/of-log.xml`, "-q"], { cwd: source });
+        assert.equal(await page.evaluate((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW), readFileSync(`${server.directory}/of-log.xml`, "utf8"));
+        await page.waitForFunction(() => /its plan is the one without them/.test(document.querySelector(".as-run").textContent), null, { timeout: 60000 });
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.recipe.asRun.told.entries), 3);
+        await page.evaluate(() => (document.querySelector("details.as-run").open = false));
+        await page.click("#lab-clear");
     });
 
     test("entered, they are a pack: the recipe is that of the command with --lab, the verdict says so", async () => {

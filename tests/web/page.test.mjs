@@ -176,7 +176,7 @@ describe("the six-bar", () => {
         assert.match(await page.locator(".mode").first().textContent(), /510\.8 Hz/);
         await view(page, "assembly");
         await computed(page, "assembly");
-        assert.match(await page.textContent("#panel-assembly .job-content"), /3 \(15 coordinates, rank 12 of 12\)/);
+        assert.match(await page.textContent("#panel-assembly .job-content"), /3: 15 coordinates, 12 conditions/);
         assert.ok(await page.locator("#panel-assembly .ghost g").count() >= 5);
     });
 

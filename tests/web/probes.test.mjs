@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, serve, setText, verdict } from "./helper.mjs";
+import { answered, close, finish, open, serve, setText, SMALL, verdict } from "./helper.mjs";
 
 after(finish);
 
@@ -110,5 +110,60 @@ describe("probes", () => {
         assert.equal(await other.locator(".plots.probed").count(), 0);
         await close(other);
         await plain.stop();
+    });
+
+    test("what moves is saved as a file that moves: whole, as it is seen, and the same bytes each time", async () => {
+        await page.setViewportSize(SMALL);
+        await page.selectOption('select[aria-label="Speed"]', "2");
+        const film = async (kind) => {
+            await page.click("#panel-motion .film-menu > summary");
+            const [d] = await Promise.all([page.waitForEvent("download", { timeout: 60000 }), page.click(`#panel-motion .film-menu button:has-text("${kind}")`)]);
+            return [d.suggestedFilename(), readFileSync(await d.path())];
+        };
+        const [name, first] = await film("Animated SVG");
+        assert.equal(name, "straight-stage-draw.svg");
+        assert.deepEqual((await film("Animated SVG"))[1], first);
+        const { seen, wanted, parts } = await page.evaluate((text) => {
+            const root = new DOMParser().parseFromString(text, "image/svg+xml");
+            const p = globalThis.flexwright.state.preview;
+            const turns = [...root.querySelectorAll("animateTransform[type=translate]")].map((e) => e.getAttribute("values").split(";"));
+            const at = (k, i) => (p.bodies[k].fixed ? 0 : p.motion.q[i][3 * k] * 1e6);
+            const moves = p.bodies.map((b, k) => k).filter((k) => !p.bodies[k].fixed);
+            return { // the last frame is the last sample, to what is drawn
+                seen: turns.filter((v) => v.length === 50).map((v) => Number(v[49].split(" ")[0])), wanted: moves.map((k) => at(k, p.motion.q.length - 1)),
+                parts: [root.querySelectorAll("parsererror").length, root.querySelectorAll("animate[attributeName=d]").length, root.documentElement.outerHTML.match(/https?:(?!\/\/www\.w3\.org)/g), root.querySelectorAll("script, style").length],
+            };
+        }, first.toString());
+        for (const x of wanted) assert.ok(seen.some((v) => Math.abs(v - x) < 2e-3), `${x} in ${seen}`);
+        assert.ok(parts[0] === 0 && parts[1] >= 4 && parts[2] === null && parts[3] === 0, JSON.stringify(parts));
+        const [gif, bytes] = await film("GIF");
+        assert.equal(gif, "straight-stage-draw.gif");
+        const told = await page.evaluate(async (data) => {
+            const decoder = new ImageDecoder({ type: "image/gif", data: Uint8Array.from(atob(data), (c) => c.charCodeAt(0)) });
+            await decoder.tracks.ready;
+            const { frameCount, repetitionCount } = decoder.tracks.selectedTrack;
+            const { image } = await decoder.decode({ frameIndex: frameCount - 1 });
+            const { svg } = globalThis.flexwright.parts.motion.mechanism;
+            return { frameCount, repetitionCount, ms: image.duration / 1000, wide: image.displayWidth === svg.clientWidth };
+        }, bytes.toString("base64"));
+        assert.deepEqual(told, { frameCount: 50, repetitionCount: Infinity, ms: 40, wide: true });
+    });
+
+    test("the documentation is part of the page, and its links lead to pages that are there", async () => {
+        const get = async (path) => (await page.request.get(new URL(path, page.url()).href)).text();
+        const seen = new Map();
+        const wanted = ["/help/page.html"];
+        while (wanted.length) {
+            const path = wanted.pop();
+            if (seen.has(path)) continue;
+            const html = await get(path);
+            assert.match(html, /<h1 id=/, path);
+            assert.doesNotMatch(html, /<script|https?:\/\//, path);
+            seen.set(path, new Set([...html.matchAll(/ id="([^"]*)"/g)].map((m) => m[1])));
+            wanted.push(...[...html.matchAll(/href="(\/help\/[^"#]*\.html)/g)].map((m) => m[1]));
+            for (const [, to, place] of html.matchAll(/href="(\/help\/[^"#]*)#([^"]*)"/g)) if (seen.has(to)) assert.ok(seen.get(to).has(place), `${path}: ${to}#${place}`);
+        }
+        assert.ok(seen.size >= 14, [...seen.keys()].join());
+        assert.ok(seen.get("/help/reference-device.html").has("flexure"));
     });
 });

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, program, serve, setText, source, theBrowser, verdict, view } from "./helper.mjs";
+import { answered, close, finish, open, program, serve, SMALL, setText, source, theBrowser, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -97,7 +97,7 @@ test("no shipped example opens with a mistake, and every motion stays in its pic
 
 test("New…: every device to begin from is judged, has its picture, and is one undo away", async () => {
     const server = await serve("reference-six-bar");
-    const page = await open(server);
+    const page = await open(server, SMALL);
     // a text of its own: one of the devices to begin from is the six-bar as it stands, and no answer follows where nothing changes
     await answered(page, () => setText(page, ["</device>", "<!-- mine -->\n</device>"]));
     const before = await page.evaluate(() => globalThis.flexwright.state.text);
@@ -131,7 +131,7 @@ describe("what is added", () => {
     for (const device of ["reference-six-bar", "leaf-four-bar", "free-form-gripper"])
         test(`Add… writes what the description takes: ${device}`, async () => {
             const server = await serve(device);
-            const page = await open(server);
+            const page = await open(server, SMALL);
             const wrong = await page.evaluate(async (known) => {
                 const { state, parts } = globalThis.flexwright;
                 const { token } = await (await fetch("/api/session")).json();

@@ -18,6 +18,7 @@ export function about() {
     openDialog("About Flexwright", [
         h("p", {}, `Version ${state.session?.version ?? "?"}. From one description of a compliant micromanipulator to a verdict, masks and fabrication recipes. This page talks to the program on this machine and to nothing else.`),
         h("p", {}, "Flexwright is free software under the GNU General Public License, version 3 or later."),
+        h("p", {}, h("a", { href: "/help/page.html", target: "_blank", rel: "noopener" }, "The documentation"), ", of this version and without network: this page, tutorial, device description, diagnostics, and more."),
         h("h3", {}, "Libraries in this page"),
         h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["library", "for", "licence", "by"].map((x) => h("th", { scope: "col" }, x)))),
             h("tbody", {}, LIBRARIES.map((row) => h("tr", {}, row.map((x) => h("td", {}, x)))))),

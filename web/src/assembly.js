@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The assembly problem: poses of the description before, closed joints after.
 import { h, select, setOptions } from "./dom.js";
-import { degrees, micrometres, number } from "./format.js";
+import { degrees, micrometres } from "./format.js";
 import { JobView } from "./jobs.js";
 import { Split } from "./split.js";
 import { state } from "./store.js";
@@ -29,9 +29,9 @@ export class Assembly extends Split {
         const f = result.freedom ?? {};
         into.replaceChildren(
             h("dl", { class: "facts-list" }, [
-                ["closed", result.closed ? "yes" : "no"], ["largest gap", `${number(result.gap_before_m * 1e6, 3)} → ${number(result.gap_after_m * 1e6, 3)} µm`],
+                ["closed", result.closed ? "yes" : "no"], ["largest gap", result.gap_before_m === result.gap_after_m ? gap(result.gap_after_m) : `${gap(result.gap_before_m)} → ${gap(result.gap_after_m)}`],
                 ["moved by", `${micrometres(result.moved_m)}, ${degrees(result.turned_rad)}`], ["iterations", `${result.iterations}, ${result.restarts} restarts`],
-                ["freedoms", `${f.dof} (${f.unknowns} coordinates, rank ${f.rank} of ${f.rows})`], ["redundant", f.redundant?.length ? f.redundant.join(", ") : "none"],
+                ["freedoms", `${f.dof}: ${f.unknowns} coordinates, ${f.rank === f.rows ? `${f.rows} conditions` : `${f.rank} of ${f.rows} conditions independent`}`], ["redundant", f.redundant?.length ? f.redundant.join(", ") : "none"],
             ].flatMap(([k, v]) => [h("dt", {}, k), h("dd", {}, v)])),
             result.branches?.length ? h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["elbow", "guess", "found"].map((x) => h("th", { scope: "col" }, x)))),
                 h("tbody", {}, result.branches.map((b) => h("tr", {}, h("td", {}, b.elbow), h("td", {}, side(b.guess)), h("td", {}, side(b.found)))))) : "");
@@ -55,4 +55,6 @@ export class Assembly extends Split {
     }
 }
 
+const ROUNDING_M = 1e-15;
+const gap = (m) => (Math.abs(m) < ROUNDING_M ? "none" : micrometres(m, 3));
 const side = (n) => (n > 0 ? "left" : n < 0 ? "right" : "stretched");

@@ -57,6 +57,7 @@ const ICONS = {
     workspace: "M4 8V4h4M16 4h4v4M20 16v4h-4M8 20H4v-4M12 9v6M9 12h6",
     cursor: "M6 3v15l4-4 3 7 3-1-3-7h6z",
     versions: "M8 4h12v12M4 8h12v12H4z",
+    film: "M4 5h16v14H4zM8 5v14M16 5v14M4 9.5h4M4 14.5h4M16 9.5h4M16 14.5h4",
     target: "M12 5a7 7 0 1 0 0 14 7 7 0 0 0 0-14M12 2v4M12 18v4M2 12h4M18 12h4",
 };
 

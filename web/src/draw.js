@@ -9,9 +9,9 @@ import { number } from "./format.js";
 import { Mechanism, restOf } from "./mechanism.js";
 import { parse, walk } from "./model.js";
 import { zoomButtons } from "./motion.js";
-import { removing } from "./making.js";
+import { makeMirrored, removing, sidesOf } from "./making.js";
 import { heldBy, plan } from "./moving.js";
-import { elementAt, far, handlesOf, Places } from "./places.js";
+import { arcOver, elementAt, far, handlesOf, Places } from "./places.js";
 import { gridStep, snap } from "./snapping.js";
 import { inputKey } from "./belong.js";
 import { emit, lookAt, on, state } from "./store.js";
@@ -361,13 +361,19 @@ export class Draw {
         this.#handle(id)?.focus({ preventScroll: true });
     }
 
+    /** What is kept of a point beside its place: of an eyelet the body, of an outline's corner how one comes to it. */
+    #goesOn() {
+        const values = this.values[this.tool.id];
+        return this.tool.closes ? values.side : values.body;
+    }
+
     #begin(event) {
         const { at } = this.#snapped(event);
         if (this.tool.points === null) {
             if (this.points.length && far(this.points.at(-1), at) * this.view.k < CLICK_PIXELS) return; // the second of a double click
             if (this.tool.closes && this.#enough() && far(this.points[0], at) * this.view.k < CLICK_PIXELS) return this.#finish();
             this.points.push(at);
-            this.on.push(this.values[this.tool.id].body);
+            this.on.push(this.#goesOn());
         } else {
             this.points.push(at);
             this.drag = { at: [event.clientX, event.clientY], drawing: true };
@@ -474,7 +480,7 @@ export class Draw {
         const screen = all.map((p) => this.view.toScreen(...p));
         const [p, q] = [all[0], at];
         const marks = screen.map(([x, y]) => s("circle", { cx: x, cy: y, r: 3.5, class: "rubber-point" }));
-        const shape = this.tool.id === "plate" || this.tool.id === "workspace" ? `M${screen[0]}L${screen[0][0]} ${screen.at(-1)[1]}L${screen.at(-1)}L${screen.at(-1)[0]} ${screen[0][1]}Z` : `M${screen.map((v) => v.join(" ")).join("L")}`;
+        const shape = this.tool.closes && all.length > 1 ? `M${this.#sides(all).map((v) => this.view.toScreen(...v).join(" ")).join("L")}` : this.tool.id === "plate" || this.tool.id === "workspace" ? `M${screen[0]}L${screen[0][0]} ${screen.at(-1)[1]}L${screen.at(-1)}L${screen.at(-1)[0]} ${screen[0][1]}Z` : `M${screen.map((v) => v.join(" ")).join("L")}`;
         this.guides.replaceChildren(...(snapped ? this.#guideLines(snapped, at) : []), s("path", { d: all.length > 1 ? shape : "", class: "rubber" }),
             this.tool.id === "disc" && all.length > 1 ? s("circle", { cx: screen[0][0], cy: screen[0][1], r: far(p, q) * this.view.k, class: "rubber" }) : "", ...marks);
         const last = this.points.at(-1);
@@ -483,6 +489,18 @@ export class Draw {
             : this.tool.id === "plate" || this.tool.id === "workspace" ? [`${um(Math.abs(d[0]))} × ${um(Math.abs(d[1]))}`]
                 : [`${um(Math.hypot(...d))}, ${number((Math.atan2(d[1], d[0]) * 180) / Math.PI, 4)}°`, `${um(d[0])}, ${um(d[1])}`]);
         this.#fill(all);
+    }
+
+    /** The outline so far, with its arcs as far as they are known. */
+    #sides(all) {
+        const [first, ...rest] = sidesOf(all, [...this.on, this.#goesOn()]).filter((side, i, list) => i < list.length - 1 || side.to !== all[0] || side.over);
+        let before = all[0];
+        return [before, ...[first, ...rest].filter(Boolean).flatMap(({ over, to }) => {
+            const arc = over && to !== over ? arcOver(before, over, to) : null;
+            const part = arc ? arc.points : over ? [over, to] : [to];
+            before = to;
+            return part;
+        })];
     }
 
     #guideLines(snapped, at) {
@@ -661,7 +679,7 @@ export class Draw {
             const points = this.inputs.map((pair) => pair.map((input) => input.valueAsNumber || 0));
             if (tool.points) return this.#make(points);
             this.points.push(points[0]);
-            this.on.push(this.values[tool.id].body);
+            this.on.push(this.#goesOn());
             this.drawing = { at: points[0] };
             this.#rubber();
         });
@@ -710,9 +728,43 @@ export class Draw {
             fault.textContent = words;
             fault.hidden = words === "";
         });
-        return [h("section", { class: "card" }, h("h2", {}, handle.label), fault, places, h("div", { class: "draw-fields" }, facts),
+        return [h("section", { class: "card" }, h("h2", {}, handle.label), fault, places, h("div", { class: "draw-fields" }, facts), this.#imagePanel(handle),
             h("div", { class: "row" }, button("All of it in the form", { class: "small", icon: "open" }, () => emit("show-form", now().element.path)),
                 button("Remove", { class: "small draw-remove", icon: "close" }, () => this.#remove(now().element)))), this.#parts()];
+    }
+
+    /** A shape's own choices, and the mirrored copy of a body. */
+    #imagePanel(handle) {
+        const out = [];
+        const e = handle.element;
+        const shape = ["plate", "disc", "outline", "bar"].includes(e.name) ? e : null;
+        if (shape) {
+            const now = (a, usual) => this.places.text(this.list.find((x) => x.id === handle.id)?.element ?? shape, a) ?? usual;
+            if (shape.name !== "bar") out.push(h("div", { class: "draw-fields" },
+                this.#choice("mirror image too", () => [["none", "no"], ["x", "y with the other sign"], ["y", "x with the other sign"], ["both", "both"]], () => now("symmetry", "none"), (v) => edit([{ path: `${shape.path}/@symmetry`, value: v }], `mirror image: ${v}`)),
+                this.#choice("cut out", () => [["no", "no"], ["yes", "yes"]], () => now("hole", "no"), (v) => edit([{ path: `${shape.path}/@hole`, value: v }], `cut out: ${v}`))));
+        }
+        const body = e.name === "body" ? e.id : handle.body;
+        if (this.places.bodies.get(body)?.name !== "body") return out;
+        this.mirror ??= { axis: "x", at: 0 };
+        const field = this.#number("about", "µm", () => this.mirror.at, (v) => (this.mirror.at = v));
+        out.push(h("details", { class: "reasons draw-mirror", open: this.mirror.open, ontoggle: (ev) => (this.mirror.open = ev.target.open) }, h("summary", {}, `Mirrored copy of ${body}`),
+            h("p", { class: "doc" }, "With its shapes, the hinges that hold it, and the loads on it."),
+            h("div", { class: "draw-fields" }, this.#choice("to", () => [["x", "left and right"], ["y", "above and below"]], () => this.mirror.axis, (v) => (this.mirror.axis = v)), field),
+            h("div", { class: "row" }, button("Make the copy", { class: "small draw-copy", icon: "versions" }, () => this.#mirrored(body)))));
+        return out;
+    }
+
+    async #mirrored(body) {
+        this.#read();
+        const made = makeMirrored(this.places, body, this.mirror);
+        if (made.refuse) return emit("notice", { kind: "warn", text: made.refuse });
+        const before = state.text;
+        await edit(made.changes, `${made.id} made, the mirror image of ${body}`);
+        if (state.text === before) return;
+        if (made.left.length) emit("notice", { kind: "info", text: `${made.id}: what could not be mirrored was left out: ${made.left.join(", ")}.` });
+        this.#refresh();
+        this.#choose(this.list.find((x) => x.element.name === "body" && x.element.id === made.id)?.id ?? null);
     }
 
     /** All that can be chosen, for those who do not point. */

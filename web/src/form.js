@@ -81,12 +81,27 @@ export class Form {
         const ends = h("div", { class: "ends", "aria-hidden": "true" }, h("span"), h("span"));
         let unit = "";
         const shown = () => `${Number(Number(range.value).toPrecision(12))}${unit ? ` ${unit}` : ""}`;
+        // A browser tells of no change where the value comes back to what it was, and of nothing where the slider is gone
+        // meanwhile: what is held ends with the pointer or the key, too.
+        let held = null; // {name, value, ends}
+        const release = () => {
+            if (!held) return;
+            const { name: of, value: last, ends: listening } = held;
+            held = null;
+            listening.abort();
+            letGo(of, last);
+        };
         range.addEventListener("input", () => {
             value.value = shown();
             range.setAttribute("aria-valuetext", shown());
-            hold(name(), shown());
+            if (!held) {
+                held = { name: name(), ends: new AbortController() };
+                for (const event of ["pointerup", "pointercancel", "keyup", "blur"]) addEventListener(event, release, { signal: held.ends.signal, capture: true });
+            }
+            held.value = shown();
+            hold(held.name, held.value);
         });
-        range.addEventListener("change", () => letGo(name(), shown()));
+        range.addEventListener("change", release);
         enter(value, () => text("value") ?? "", (v) => edit([{ path: `${path}/@value`, value: v }], `${name()} is ${v}`));
         const holder = h("div", { class: "slider", "data-name": name() }, h("div", { class: "slider-head" }, label, value), range, ends, doc);
         const refresh = () => {

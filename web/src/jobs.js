@@ -37,13 +37,14 @@ const news = (id) => new Promise((resolve) => {
 });
 
 /** Starts a job and waits for its end; onprogress(job); files: name -> text, that options name; resume: the number of a
- *  study that is gone on with. Throws when it could not be started. */
-export async function run(kind, { text = state.text, options = {}, files, resume, onprogress, signal } = {}) {
-    const packs = kind === "calibrate" ? [] : Object.keys(state.lab);
+ *  study that is gone on with, results: the directory of one beside the file; packs: with the numbers of the laboratory.
+ *  Throws when it could not be started. */
+export async function run(kind, { text = state.text, options = {}, files, resume, results, packs: used = kind !== "calibrate", onprogress, signal } = {}) {
+    const packs = used ? Object.keys(state.lab) : [];
     const all = { ...files, ...(packs.length ? state.lab : {}) };
     const { id } = await post("/api/jobs", {
         kind, text, set: { ...state.set }, options: packs.length ? { ...options, lab: packs.join(",") } : options,
-        ...(Object.keys(all).length ? { files: all } : {}), ...(resume ? { resume } : {}),
+        ...(Object.keys(all).length ? { files: all } : {}), ...(resume ? { resume } : {}), ...(results ? { results } : {}),
     });
     const job = { id, kind, state: "queued", seconds: 0, stage: null };
     jobs.set(id, job);

@@ -150,15 +150,20 @@ export class Laboratory {
     /** What was measured on the coupons becomes a pack, by the command's own fit. */
     async #calibrate(file) {
         if (file.size > MOST_BYTES) return this.#refuse([`${file.name} is larger than a table may be here (200 kB)`]);
-        this.said.textContent = `Fitting the numbers of ${this.flow} to ${file.name}…`;
+        return this.fit({ text: await file.text(), options: { flow: this.flow } }, file.name);
+    }
+
+    /** By the fit of the command: of a table, or of a log that options name. */
+    async fit(what, name) {
+        this.box.open = true;
+        this.said.textContent = `Fitting the numbers of ${this.flow} to ${name}…`;
         try {
-            const text = await file.text();
-            const job = await run("calibrate", { text, options: { flow: this.flow } });
+            const job = await run("calibrate", what);
             if (job.state !== "done" || !job.files?.length) return this.#refuse((job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)));
             const pack = await (await fetch(`/api/jobs/${job.id}/files/laboratory.xml`, { credentials: "same-origin" })).text();
             this.#refuse([]);
             state.lab[`calibrated-${this.flow}.xml`] = pack;
-            changed(`numbers of ${file.name} are used`);
+            changed(`numbers of ${name} are used`);
         } catch (error) {
             this.#refuse([error.message]);
         }

@@ -15,6 +15,7 @@ import { Editor } from "./editor.js";
 import { Explore } from "./explore.js";
 import { follow, openText, save, startFile, unsaved } from "./file.js";
 import { Form } from "./form.js";
+import { controlsOf, helpDialog } from "./help.js";
 import { heard } from "./jobs.js";
 import { restorePacks } from "./laboratory.js";
 import { Masks } from "./masks.js";
@@ -52,6 +53,7 @@ function header() {
         button("Versions: keep, compare", { icon: "versions", hidden: true, id: "versions" }, () => versionsDialog(parts.editor, () => parts.verdict.judged)), parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
+        button("Help", { icon: "question", hidden: true, class: "quiet", id: "help" }, () => helpDialog($(`tab-${parts.tabs.current}`).textContent, $(`panel-${parts.tabs.current}`))),
         button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
 }
 
@@ -204,6 +206,8 @@ start().catch((error) => {
         throw error;
     }
 });
+
+parts.unexplained = (id) => controlsOf($(`panel-${id}`)).filter((x) => !x.sentence).map((x) => x.name);
 
 // for the tests of the page, which look and do not touch
 globalThis.flexwright = { state, parts, on, settled };

@@ -25,11 +25,9 @@ export const restOf = (preview) => preview.bodies.map((b) => b.rest ?? REST);
 
 const FAR_PIXELS = 60; // most that a hinge's number stands off its edge for its size
 
-/** Half the larger side of an outline's points. */
-function halfSize(d) {
-    const points = [...d.matchAll(/(-?[\d.]+(?:e-?\d+)?) (-?[\d.]+(?:e-?\d+)?)(?=[A-Za-z]|$)/g)].map((m) => [Number(m[1]), Number(m[2])]);
-    const side = (i) => Math.max(...points.map((p) => p[i])) - Math.min(...points.map((p) => p[i]));
-    return points.length ? Math.max(side(0), side(1)) / 2 : 0;
+/** Corners of an outline, from a point. */
+function cornersAbout(d, [x, y]) {
+    return [...d.matchAll(/(-?[\d.]+(?:e-?\d+)?) (-?[\d.]+(?:e-?\d+)?)(?=[A-Za-z]|$)/g)].map((m) => [Number(m[1]) - x, Number(m[2]) - y]);
 }
 
 const lineOf = (text) => (text ? text.slice(1).split("L").map((p) => p.split(" ").map(Number)) : null);
@@ -145,8 +143,8 @@ export class Mechanism {
             g.addEventListener("click", () => this.onhinge?.(pin.id));
             this.labels.append(g);
             const own = preview.flexures.find((f) => f.id === pin.id);
-            const size = own ? halfSize(own.path) : 0; // um: the number stands beside what it is about
-            return { id: pin.id, body: index.get(pin.a) ?? index.get(pin.b) ?? ground, at: pin.at_um, size, width: 0, g, text, back, share: null, key: null };
+            const around = own && pin.at_um ? cornersAbout(own.path, pin.at_um) : []; // um: the number stands beside what it is about
+            return { id: pin.id, body: index.get(pin.a) ?? index.get(pin.b) ?? ground, at: pin.at_um, around, width: 0, g, text, back, share: null, key: null };
         });
     }
 
@@ -206,13 +204,16 @@ export class Mechanism {
             f.edge.classList.toggle("over", share > 1);
             f.title.textContent = `hinge ${f.id}${share === undefined || share === null ? "" : `: ${percent(share)} of its limit`}`;
         }
+        let wider = false;
         for (const pin of this.pins) {
             const share = shares.get(pin.id);
             const text = share === undefined || share === null ? pin.id : `${pin.id} ${Math.round(share * 100)} %`;
             if (text !== pin.key) {
                 pin.key = text;
                 pin.text.textContent = text;
-                const width = (pin.width = 12 + text.length * 6.6);
+                const width = 12 + text.length * 6.6;
+                wider ||= width !== pin.width;
+                pin.width = width;
                 pin.back.setAttribute("width", width);
                 pin.back.setAttribute("x", -width / 2);
                 pin.back.setAttribute("y", -13);
@@ -220,6 +221,7 @@ export class Mechanism {
             pin.g.classList.toggle("over", share > 1);
             pin.g.classList.toggle("chosen", pin.id === chosen);
         }
+        if (wider) this.#place();
     }
 
     /** loads: [{body (index, -1: ground), at: [x_um, y_um] in its axes, index (of the preview's loads), relative
@@ -245,7 +247,8 @@ export class Mechanism {
             const dy = y - centre[1];
             const far = Math.hypot(dx, dy) || 1; // beside the hinge, towards the middle of the picture
             const [ux, uy] = [dx / far, dy / far];
-            const out = Math.min(pin.size * this.view.k, FAR_PIXELS) + (Math.abs(ux) * pin.width) / 2 + Math.abs(uy) * 9 + 3;
+            const size = pin.around.reduce((most, [px, py]) => Math.max(most, px * -ux + py * uy), 0); // the picture's y is down
+            const out = Math.min(size * this.view.k, FAR_PIXELS) + (Math.abs(ux) * pin.width) / 2 + Math.abs(uy) * 9 + 3;
             pin.g.setAttribute("transform", `translate(${(x - ux * out).toFixed(1)} ${(y - uy * out + 4).toFixed(1)})`);
         }
         const taken = []; // numbers of one place stand beside each other

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mode shapes, moving.
 import { button, h, select } from "./dom.js";
-import { number, percent, si } from "./format.js";
+import { deviceName, FRAMES_A_SECOND, filmMenu, record } from "./film.js";
+import { degrees, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
 import { Split } from "./split.js";
 import { Statics } from "./statics.js";
 import { state } from "./store.js";
 
 const PERIOD_S = 1.6;
+const RESTS = 1e-6; // rad, or of the device's size: less is no way to go
 
 export class Modes extends Split {
     constructor(holder) {
         super(holder, { title: "Modes", label: "A mode shape of the mechanism, moving.", around: 0.08 });
         this.at = select("About", [["rest", "about rest"], ["equilibrium", "about the equilibrium"]], "rest", () => this.view.run());
         this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture" });
-        this.pause = button("Pause", { icon: "pause", class: "small" }, () => this.#toggle());
-        this.card.append(h("div", { class: "row" }, this.at, this.pause), h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
+        this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+        this.pause = button(...this.#nextWord(), () => this.#toggle());
+        this.card.append(h("div", { class: "row" }, this.at, this.pause, (this.film = filmMenu(() => this.#film(), () => `${deviceName()}-mode-${this.chosen + 1}`))), h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
         this.view = new JobView(this.card, {
             kind: "modes", action: "Compute the modes", auto: true, options: () => ({ at: this.at.value, ...(state.options.scene ? { scene: state.options.scene } : {}) }),
             intro: "Natural frequencies, damping and shapes of small motions.", render: (job, into) => this.#list(job, into),
@@ -23,12 +26,16 @@ export class Modes extends Split {
         this.view.also(this.stage);
         this.statics = new Statics(this.card.parentElement);
         this.chosen = 0;
-        this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    }
+
+    /** What the button does next. */
+    #nextWord() {
+        return [this.moving ? "Pause" : "Play", { icon: this.moving ? "pause" : "play", class: "small" }];
     }
 
     #toggle() {
         this.moving = !this.moving;
-        this.pause.replaceChildren(...button(this.moving ? "Pause" : "Play", { icon: this.moving ? "pause" : "play" }).childNodes);
+        this.pause.replaceChildren(...button(...this.#nextWord()).childNodes);
         if (this.moving) this.draw();
     }
 
@@ -41,7 +48,7 @@ export class Modes extends Split {
             h("strong", {}, `${i + 1}`), h("span", { class: "mode-f" }, m.kind === "free" ? "free" : m.kind === "unstable" ? "unstable" : si(m.f_Hz, "Hz", 4)),
             h("span", { class: "mode-d" }, m.damping_ratio !== null ? `damping ${percent(m.damping_ratio, 2)}` : m.kind), h("span", { class: "mode-b" }, m.bodies)));
         into.replaceChildren(h("div", { class: "mode-list" }, items),
-            h("p", { class: "doc" }, `${job.result.scene}, about ${job.result.at}; a step to equilibrium would still move ${number(job.result.out_of_rest, 2)} (rad, or of ${si(this.unit, "m")}).`));
+            h("p", { class: "doc" }, `Scene ${job.result.scene}, about ${job.result.at === "rest" ? "rest" : "the equilibrium"}.${job.result.out_of_rest > RESTS ? ` The loads hold it elsewhere: it would go on from there by some ${degrees(job.result.out_of_rest, 2)} or ${si(job.result.out_of_rest * this.unit, "m", 2)}; choose the equilibrium.` : ""}`));
         this.draw();
     }
 
@@ -62,6 +69,24 @@ export class Modes extends Split {
             const shape = mode.shape[b.id] ?? [0, 0, 0];
             return rest.map((x, j) => x + size * shape[j]);
         }));
+    }
+
+    /** One period of the chosen shape. */
+    async #film() {
+        const mode = this.modes?.[this.chosen];
+        if (!mode) throw new Error("no mode is chosen");
+        const [p, moving] = [state.preview, this.moving];
+        if (moving) this.#toggle();
+        const n = Math.round(PERIOD_S * FRAMES_A_SECOND);
+        try {
+            return await record(this.mechanism.svg, {
+                n, seconds: PERIOD_S, cancelled: () => state.preview !== p || !this.visible || this.moving || mode !== this.modes?.[this.chosen],
+                show: (i) => this.#frame((2 * Math.PI * i) / n),
+                caption: () => `${deviceName()}, mode ${this.chosen + 1}${Number.isFinite(mode.f_Hz) ? `: ${si(mode.f_Hz, "Hz", 4)}` : ""}; the size of the motion is free`,
+            });
+        } finally {
+            if (moving) this.#toggle();
+        }
     }
 
     draw() {

@@ -5,6 +5,7 @@ import { Shown } from "./belong.js";
 import { curve, dash } from "./colours.js";
 import { setOption } from "./design.js";
 import { button, h, s, select, setOptions } from "./dom.js";
+import { deviceName, FRAMES_A_SECOND, filmMenu, record } from "./film.js";
 import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
 import { moved } from "./outline.js";
@@ -12,6 +13,8 @@ import { Plot } from "./plots.js";
 import { emit, lookAt, on, state } from "./store.js";
 
 const SECONDS = 4; // that a whole scene takes at speed 1
+const FRAMES_MOST = 250; // of a film
+const CLOSED = 1e-9; // norm of the joints' gaps below which they are closed but for rounding
 const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // what explicit integrators take
 
 /** What --accuracy is offered beside 1e-3, which it is by itself. */
@@ -38,7 +41,7 @@ export class Motion {
         this.plots = h("div", { class: "plots" });
         holder.append(this.tools, this.stage, this.player, this.plots);
         this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt, scene: true });
-        this.stage.append(colourLegend(), this.#zoomButtons(), h("div", { class: "stage-tools" }, this.showPaths));
+        this.stage.append(colourLegend(), this.#zoomButtons(), h("div", { class: "stage-tools" }, this.showPaths, (this.film = filmMenu(() => this.#film(), () => `${deviceName()}-${state.preview.motion.scene}`))));
         this.paths = s("g", { class: "paths", "aria-hidden": "true" });
         this.mechanism.above.append(this.paths);
         this.stats = h("div", { class: "run-stats" });
@@ -48,7 +51,7 @@ export class Motion {
         const onwindow = (window) => [this.angles, this.energy, this.norm, this.probes].forEach((plot) => plot.setWindow(window)); // one time for all
         this.angles = new Plot(this.plots, { title: "Share of the limit", unit: "%, over ms", onseek: seek, onwindow });
         this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek, onwindow });
-        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek, onwindow });
+        this.norm = new Plot(this.plots, { title: "Gap of the joints", unit: "norm, over ms", log: true, onseek: seek, onwindow });
         this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek, onwindow });
         this.whichProbe = select("Probe", [], "", () => {
             this.#plotProbe(state.preview);
@@ -120,7 +123,7 @@ export class Motion {
         const scenes = p.scenes.map((x) => [x.name, x.name]);
         const scene = state.options.scene ?? p.motion?.scene ?? ""; // chosen, and maybe none of the list
         setOptions(this.scene, !scene || p.scenes.some((x) => x.name === scene) ? scenes : [...scenes, [scene, scene]], scene);
-        this.player.hidden = this.plots.hidden = !p.motion;
+        this.player.hidden = this.plots.hidden = this.film.hidden = !p.motion;
         if (!p.motion) return this.#still(p);
         const first = this.t === undefined;
         const share = this.t ? this.time / this.#end() : 0;
@@ -165,8 +168,9 @@ export class Motion {
     #stats() {
         const m = state.preview.motion;
         const stats = m.stats ?? {};
+        const { gap } = this;
         const facts = [m.method, m.integrator, state.preview.hinge_model ? `hinges: ${state.preview.hinge_model}` : null, m.rtol ? `rtol ${number(m.rtol, 2)}` : null, `${number(stats.steps, 6)} steps`, `${number(stats.rhs, 6)} evaluations`,
-            stats.cpu_s !== undefined ? `${si(stats.cpu_s, "s", 2)} CPU` : null];
+            stats.cpu_s !== undefined ? `${si(stats.cpu_s, "s", 2)} CPU` : null, gap <= CLOSED && gap !== null ? `joints closed to ${number(gap, 2)}` : null];
         const hidden = notDrawn(state.preview);
         if (hidden.length) facts.push(`not drawn: ${hidden.join(", ")}`);
         this.stats.textContent = facts.filter(Boolean).join(" · ");
@@ -197,7 +201,9 @@ export class Motion {
         this.energy.heading.children[1].textContent = `${prefix}J, over ms`;
         this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x / size)) })));
         if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, solid: true, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
-        this.norm.root.hidden = !m.constraint_norm || m.probes?.length > 0; // there is room for three
+        this.gap = m.constraint_norm ? Math.max(0, ...m.constraint_norm.map((x) => x ?? 0)) : null;
+        this.norm.root.hidden = !(this.gap > CLOSED) || m.probes?.length > 0; // there is room for three, and none for rounding
+        this.plots.classList.toggle("two", this.norm.root.hidden && !m.probes?.length);
         this.energy.root.hidden = energies.length === 0; // a row of equilibria has none
         this.#plotProbe(p);
         this.#legend(p, energies);
@@ -271,6 +277,28 @@ export class Motion {
         if (stop) {
             this.seen = true; // somebody has chosen it
             emit("time", this.time);
+        }
+    }
+
+    /** The scene as it is seen here, from its begin to its end, in the time that it takes to play. */
+    async #film() {
+        const [p, time] = [state.preview, this.time];
+        this.toggle(false);
+        const seconds = SECONDS / this.speed;
+        const n = Math.min(Math.round(seconds * FRAMES_A_SECOND), FRAMES_MOST);
+        const end = this.#end();
+        try {
+            return await record(this.mechanism.svg, {
+                n, seconds, cancelled: () => state.preview !== p || !this.visible || this.playing,
+                show: (i) => {
+                    this.time = (end * i) / (n - 1);
+                    this.paint();
+                },
+                caption: (i) => `${deviceName()}, ${p.motion.scene}: ${si((end * i) / (n - 1), "s", 3)}; one second here is ${si(end / seconds, "s", 3)}`,
+            });
+        } finally {
+            this.time = time;
+            this.paint();
         }
     }
 

@@ -230,6 +230,18 @@ function strip(p, q, width) {
 }
 
 /** Points of an arc from p to q, without p; one that is too small is a line. */
+/** The arc from p over a point to q: {radius, left, large, points (without p)}; null: the three are in a line. */
+export function arcOver(p, over, q) {
+    const cross = (over[0] - p[0]) * (q[1] - p[1]) - (over[1] - p[1]) * (q[0] - p[0]);
+    const [a, b, c] = [far(over, q), far(p, q), far(p, over)];
+    if (Math.abs(cross) < 1e-3 * b || !(b > 0)) return null;
+    const least = Math.ceil(b * 500 - 1e-6) / 1000; // half the chord, whole nanometres
+    const radius = Math.max(Math.round((1e3 * a * b * c) / (2 * Math.abs(cross))) / 1e3, least);
+    const left = cross > 0; // by way of the point it bends to the side of the end
+    const large = (over[0] - p[0]) * (over[0] - q[0]) + (over[1] - p[1]) * (over[1] - q[1]) > 0; // seen from the point the chord is narrow
+    return { radius, left, large, points: bend(p, q, radius, left, large) };
+}
+
 function bend(p, q, r, left, large) {
     const half = far(p, q) / 2;
     if (!(r >= half) || half === 0) return [q];

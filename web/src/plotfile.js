@@ -64,10 +64,10 @@ export function svgOf({ t, series, marks }, { title, unit, x, y, log }) {
     return `${out.filter(Boolean).join("\n")}\n</svg>\n`;
 }
 
-/** Puts a text where the browser puts what is downloaded. */
+/** Puts a text, or a blob, where the browser puts what is downloaded. */
 export function saveAs(name, text, type) {
     const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([text], { type }));
+    link.href = URL.createObjectURL(text instanceof Blob ? text : new Blob([text], { type }));
     link.download = name;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);

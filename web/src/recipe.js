@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recipes: steps with cross-sections, computed times and what is missing; the schedule; the run sheet.
 import { get, request as fetchText } from "./api.js";
+import { AsRun } from "./asrun.js";
 import { h, icon, select, setOptions } from "./dom.js";
 import { duration, number, percent } from "./format.js";
 import { Laboratory } from "./laboratory.js";
@@ -15,6 +16,8 @@ export class Recipe {
         this.scroll = h("div", { class: "recipe" }, head, this.own, this.body);
         this.laboratory = new Laboratory(this.own);
         this.laboratory.offer(null, []);
+        this.asRun = new AsRun(this.own, { fit: (options, name) => this.laboratory.fit({ text: "", options }, name) });
+        this.asRun.offer(null);
         holder.append(this.scroll);
         const force = forceTick(() => this.job);
         this.job = new JobView(head, {
@@ -41,6 +44,7 @@ export class Recipe {
     #none(job) {
         setOptions(this.flow, [], "");
         this.laboratory.offer(null, []);
+        this.asRun.offer(null);
         const why = job.exit_status === REJECTED ? `No recipe: the design is rejected. ${rejection()}` : `No recipe. ${(job.messages ?? []).join(" ")}`;
         this.body.replaceChildren(h("p", { class: "empty" }, why));
     }
@@ -57,6 +61,7 @@ export class Recipe {
         ]);
         if (job !== this.done) return;
         this.laboratory.offer(r.flow, numbersOf(r, worth?.measurements));
+        this.asRun.offer(r.flow);
         const link = (path, text) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), target: "_blank", rel: "noopener" }, icon("open"), text) : null);
         const save = (path, text) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), download: path.split("/").at(-1) }, icon("download"), text) : null);
         const missing = r.steps.filter((x) => x.not_computable?.length);
@@ -106,7 +111,7 @@ function measurements(m) {
 /** A picture of the job, wide: it scrolls by itself. */
 function picture(job, path, caption, alt) {
     if (!hasFile(job, path)) return "";
-    return h("figure", { class: "schedule", tabIndex: 0, role: "region", "aria-label": caption }, h("figcaption", {}, caption), h("img", { src: fileOf(job, path), alt }));
+    return h("div", { class: "schedule", tabIndex: 0, role: "region", "aria-label": caption }, h("p", { class: "caption" }, caption), h("img", { src: fileOf(job, path), alt }));
 }
 
 /** What is tall and not always wanted. */

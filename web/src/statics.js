@@ -43,10 +43,10 @@ export class Statics {
 /** Every flexure by every model of it: what each says, by how much it may be off, and which one is good enough. */
 export class Ladder {
     constructor(holder) {
-        const box = h("section", { id: "ladder" }, h("h3", {}, "Hinges by themselves"));
+        const box = h("section", { id: "ladder" }, h("h2", {}, "Hinges by themselves"));
         holder.append(box);
         this.view = new JobView(box, {
-            kind: "hinge", action: "Climb the ladder", options: () => chosen(["accuracy"]),
+            kind: "hinge", action: "Compare their models", options: () => chosen(["accuracy"]),
             intro: "Every flexure on a ladder of models, in the material of every flow: stiffness, limit angle, what each model may be off by, and its cost.", render: (job, into) => this.#show(job, into),
         });
     }

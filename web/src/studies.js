@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studies of the description: run, stopped, gone on with, looked at; and the best device of one put into the text. A
 // study is a job of the server, the command `flexwright study`; what it has judged stays when it is stopped.
+import { get } from "./api.js";
 import { begin, inputKey, mayChange, Shown } from "./belong.js";
 import { edit, isPresent } from "./design.js";
 import { announce, button, h, icon, select } from "./dom.js";
@@ -23,6 +24,7 @@ export class Studies {
         this.chosen = chosen;
         this.kept = new Map(); // name -> {job, of: key of its input, control, stage, why, done}
         this.list = h("div", { class: "study-list" });
+        this.there = []; // directories of samples beside the file
         this.kind = select("Kind of study", Object.entries(KINDS).map(([k, x]) => [k, `${k}: ${x.words}`]), "size", () => {});
         this.add = button("Add to the description", { icon: "plus", id: "study-add" }, () => this.#add());
         holder.append(h("section", { class: "studies", "aria-labelledby": "h-studies" }, h("h2", { id: "h-studies" }, "Studies"),
@@ -34,7 +36,12 @@ export class Studies {
 
     shown(yes) {
         this.visible = yes;
-        if (yes) this.#show();
+        if (!yes) return;
+        this.#show();
+        get("/api/beside").then((beside) => {
+            this.there = beside.studies;
+            this.#show();
+        }).catch(() => {}); // then none are offered
     }
 
     /** Names and kinds as the text has them. */
@@ -73,7 +80,8 @@ export class Studies {
 
     // ---- running ----
 
-    async #run(name, resume) {
+    /** resume: number of a job that is gone on with; results: a directory that is opened */
+    async #run(name, { resume, results } = {}) {
         const key = this.#key(name);
         const before = this.kept.get(name);
         if (!resume && before?.job) forget(before.job);
@@ -84,7 +92,7 @@ export class Studies {
         const end = begin({ words: `Study ${name}`, cancel: () => control.abort() });
         const begun = performance.now();
         try {
-            const job = await run("study", { options: this.#options(name), resume, signal: control.signal, onprogress: (j) => {
+            const job = await run("study", { options: this.#options(name), resume, results, signal: control.signal, onprogress: (j) => {
                 mine.stage = `${j.stage ?? j.state} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`;
                 mine.job = j;
                 this.#show();
@@ -135,14 +143,15 @@ export class Studies {
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
         const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
         const part = mine?.control && /(\d+) of (\d+) devices/.exec(mine.stage);
-        const key = JSON.stringify([kind, inputs, said, Boolean(mine?.control), mine?.job?.id, isPresent(), present]);
+        const key = JSON.stringify([kind, inputs, said, Boolean(mine?.control), mine?.job?.id, isPresent(), present, this.there]);
         if (card.dataset.key === key) return;
         card.dataset.key = key;
         card.head.replaceChildren(
             h("strong", {}, name), h("span", { class: "doc" }, `${kind}${inputs.length ? ` over ${inputs.join(", ")}` : ""}`), h("span", { class: "space" }),
             ...(mine?.control ? [h("progress", { "aria-label": `Study ${name}: progress`, max: part ? Number(part[2]) : null, value: part ? Number(part[1]) : null }), button("Stop", { icon: "close", class: "small", "data-act": "stop" }, () => mine.control?.abort())] : [
-                mine?.stopped && present && mine.job ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume" }, () => this.#run(name, mine.job.id)) : null,
+                mine?.stopped && present && mine.job ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume" }, () => this.#run(name, { resume: mine.job.id })) : null,
                 button(mine ? "Run anew" : "Run", { icon: "target", class: `small${mine ? "" : " primary"}`, "data-act": "run", disabled: !isPresent() }, () => this.#run(name)),
+                this.there.length ? select(`Open results of ${name}`, [["", "Open results…"], ...this.there.map((x) => [x, x])], "", (results) => results && this.#run(name, { results })) : null,
             ]).filter(Boolean),
             h("p", { class: mine?.why ? "job-errors study-said" : "job-message study-said", role: "status" }, said));
         if (!mine?.done) {

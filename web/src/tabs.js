@@ -28,6 +28,13 @@ export function makeTabs(label, tabs, { onselect } = {}) {
         buttons[to].focus();
     }
 
+    /** The chosen one is seen, where there is no room for all of them. */
+    function inSight(tab) {
+        const [from, to] = [tab.offsetLeft - bar.offsetLeft, tab.offsetLeft - bar.offsetLeft + tab.offsetWidth];
+        if (from < bar.scrollLeft) bar.scrollLeft = from;
+        else if (to > bar.scrollLeft + bar.clientWidth) bar.scrollLeft = to - bar.clientWidth;
+    }
+
     function select(id) {
         if (id === current) return;
         current = id;
@@ -36,8 +43,10 @@ export function makeTabs(label, tabs, { onselect } = {}) {
             buttons[i].setAttribute("aria-selected", String(chosen));
             buttons[i].tabIndex = chosen ? 0 : -1;
             tab.panel.hidden = !chosen;
+            if (chosen) inSight(buttons[i]);
         });
         onselect?.(id);
     }
+    new ResizeObserver(() => current && inSight(buttons[tabs.findIndex((t) => t.id === current)])).observe(bar);
     return { bar, select, has: (id) => tabs.some((t) => t.id === id), get current() { return current; } };
 }

@@ -8,6 +8,8 @@ const LEAST_UM = 1; // of a bar, a side, a radius
 const size = (key, label, value, unit = "um", more = {}) => ({ key, label, value, unit, ...more });
 const bodyField = (first) => ({ key: "body", label: "belongs to", value: "", bodies: first });
 const two = ["from", "to"];
+const cut = { key: "hole", label: "cut out", value: "no", choices: ["no", "yes"] };
+const image = { key: "symmetry", label: "mirror image too", value: "none", choices: ["none", "x", "y", "both"], words: "in the body's own axes: x has the other sign of y, y that of x" };
 
 /** The body that is meant: the chosen one, else what is drawn at the point. */
 const under = (c, p) => c.values.body || c.places.bodiesAt(p, c.within)[0];
@@ -47,20 +49,20 @@ export const TOOLS = [
     },
     {
         id: "plate", label: "Plate", icon: "plate", points: two, words: "Draw from corner to corner.",
-        fields: [bodyField("the body below, or a new one"), { key: "hole", label: "cut out", value: "no", choices: ["no", "yes"] }],
+        fields: [bodyField("the body below, or a new one"), cut, image],
         make: (c, [p, q]) => (Math.min(Math.abs(p[0] - q[0]), Math.abs(p[1] - q[1])) < LEAST_UM ? { refuse: "A plate needs a width and a height." }
-            : makePlate(c.places, { p, q, body: c.values.body === "new" ? null : c.values.body || c.places.bodiesUnder(p, q)[0], hole: c.values.hole === "yes" })),
+            : makePlate(c.places, { p, q, body: c.values.body === "new" ? null : c.values.body || c.places.bodiesUnder(p, q)[0], hole: c.values.hole === "yes", symmetry: c.values.symmetry })),
     },
     {
         id: "disc", label: "Disc", icon: "disc", points: two, words: "Draw from the middle to the edge.",
-        fields: [bodyField("the body below, or a new one"), { key: "hole", label: "cut out", value: "no", choices: ["no", "yes"] }],
-        make: (c, [p, q]) => tooSmall(p, q) ?? makeDisc(c.places, { p, q, body: c.values.body === "new" ? null : under(c, p), hole: c.values.hole === "yes" }),
+        fields: [bodyField("the body below, or a new one"), cut, image],
+        make: (c, [p, q]) => tooSmall(p, q) ?? makeDisc(c.places, { p, q, body: c.values.body === "new" ? null : under(c, p), hole: c.values.hole === "yes", symmetry: c.values.symmetry }),
     },
     {
-        id: "outline", label: "Outline", icon: "outline", points: null, least: 3, closes: true, words: "Click corner after corner; end with a double click, Enter, or a click on the first corner. Arcs and rounded corners are in the form.",
-        fields: [bodyField("the body below, or a new one"), { key: "hole", label: "cut out", value: "no", choices: ["no", "yes"] }],
+        id: "outline", label: "Outline", icon: "outline", points: null, least: 3, closes: true, words: "Click corner after corner; end with a double click, Enter, or a click on the first corner. Where the next side is an arc, click a point that it passes, then its end.",
+        fields: [{ key: "side", label: "next side", value: "line", choices: ["line", "arc"] }, bodyField("the body below, or a new one"), cut, image],
         make: (c, list) => (list.length < 3 ? { refuse: "An outline has three corners at least." }
-            : makeOutline(c.places, { points: list, body: c.values.body === "new" ? null : c.values.body || list.flatMap((p) => c.places.bodiesAt(p, 0.01))[0], hole: c.values.hole === "yes" })),
+            : makeOutline(c.places, { points: list, sides: c.on, body: c.values.body === "new" ? null : c.values.body || list.flatMap((p) => c.places.bodiesAt(p, 0.01))[0], hole: c.values.hole === "yes", symmetry: c.values.symmetry })),
     },
     {
         id: "hinge", label: "Hinge", icon: "hinge", points: ["at"], words: "Click where two links meet, or on one link to hold it on the ground.",

@@ -206,15 +206,16 @@ export class Verdict {
         setOptions(this.whose, [["", "worst of all flows"], ...v.flows.map((f) => [f.id, f.id])], state.flow);
         this.whose.hidden = v.flows.length < 2;
         state.flow = this.whose.value;
-        const own = v.flows.find((f) => f.id === state.flow);
-        const list = own?.hinges ?? v.hinges;
+        const judged = this.#full() ?? v; // one number of a hinge everywhere: that of the banner
+        const own = judged.flows.find((f) => f.id === state.flow);
+        const list = own?.hinges ?? judged.hinges;
         if (!list.length) {
             this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
             return;
         }
         const made = this.#made()?.hinges(state.flow);
         const worst = made?.size ? [...made].reduce((a, b) => (b[1].utilisation > a[1].utilisation ? b : a)) : null;
-        const governing = !own ? (this.#full() ?? v).governing : worst ? { id: worst[0] } : own.governing; // all flows: that of the banner
+        const governing = !own ? judged.governing : worst ? { id: worst[0] } : own.governing; // all flows: that of the banner
         const most = Math.max(1.25, ...list.map((x) => Math.min(Math.max(x.utilisation ?? 0, made?.get(x.id)?.utilisation ?? 0), 4)));
         const then = pinnedShares(state.flow, made);
         const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id), then(hinge.id)));
@@ -226,7 +227,7 @@ export class Verdict {
 
     #chosen() {
         for (const row of this.bars.querySelectorAll(".bar")) row.setAttribute("aria-pressed", String(row.dataset.hinge === state.hinge));
-        const v = state.preview?.verdict;
+        const v = this.#full() ?? state.preview?.verdict;
         const hinge = (v?.flows.find((f) => f.id === state.flow) ?? v)?.hinges.find((x) => x.id === state.hinge);
         this.bars.querySelector(".bar-detail")?.remove();
         if (!hinge) return;
@@ -248,7 +249,7 @@ export class Verdict {
         const list = state.preview.flows ?? v.flows ?? [];
         this.flows.replaceChildren(...list.map((flow) => {
             const name = flow.name ?? flow.id;
-            const own = v.flows?.find((f) => f.id === name);
+            const own = (this.#full() ?? v).flows?.find((f) => f.id === name);
             const made = flow.manufacturable;
             const reasons = flow.reasons ?? [];
             const word = made === true ? "can be made" : made === false ? "cannot be made" : reasons.length ? "not guaranteed" : "not looked at";
@@ -350,19 +351,20 @@ function bar(hinge, most, governing, made, then) {
     const rules = made ?? hinge; // as it will be made, where that is known: what the banner says
     const use = rules.utilisation ?? 0;
     const [low, high] = rules.utilisation_band ?? [use, use];
+    const shown = percent(use);
     const drawn = made ? `, ${percent(hinge.utilisation)} as drawn` : "";
     const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
     return h("button", {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
-        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${made ? " as made" : ""}${drawn}${then === undefined ? "" : `, ${percent(then)} in ${state.pinned.name}`}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+        "aria-label": `Hinge ${hinge.id}: ${shown} of its limit${made ? " as made" : ""}${drawn}${then === undefined ? "" : `, ${percent(then)} in ${state.pinned.name}`}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
     },
-    h("span", { class: "bar-id", "aria-hidden": "true" }, hinge.id), // the button's name says both
+    h("span", { class: "bar-id", "aria-hidden": "true" }, hinge.id), " ", // the button's name says both, in this order
     h("span", { class: "bar-track" },
         h("span", { class: "bar-fill", style: { width: x(use) } }),
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
         then === undefined ? null : h("span", { class: "bar-then", title: `${state.pinned.name}: ${percent(then)}`, style: { left: x(then) } }),
         made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
-    h("span", { class: "bar-value", "aria-hidden": "true" }, percent(use, use < 0.1 ? 2 : 3)));
+    h("span", { class: "bar-value", "aria-hidden": "true" }, shown));
 }
 
 export function diagnosticItem(d, jump = true) {

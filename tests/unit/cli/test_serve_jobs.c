@@ -59,7 +59,7 @@ static fw_status build(fw_arena *arena, const char *request, const char *const *
     const char *kind = NULL, *why = NULL;
     json_t *json = json_loads(request, JSON_DECODE_ANY, NULL);
     assert_non_null(json);
-    fw_status status = fw_serve_job_command(arena, json, "-device.xml", &kind, argv, &why);
+    fw_status status = fw_serve_job_command(arena, json, "-device.xml", NULL, &kind, argv, &why);
     assert_true((status == FW_OK) == (why == NULL));
     json_decref(json);
     return status;
@@ -131,7 +131,9 @@ static void what_is_not_in_the_table_cannot_be_said(void **state) {
         "{}",
         "[]",
         "{\"kind\": \"serve\"}",
-        "{\"kind\": \"log\"}",
+        "{\"kind\": \"log\", \"options\": {\"run\": \"lot.log\"}}", /* there is nothing beside */
+        "{\"kind\": \"log\", \"options\": {\"entries\": \"/etc/passwd\"}}",
+        "{\"kind\": \"log\", \"options\": {\"report\": \"/tmp/x\"}}",
         "{\"kind\": 7}",
         "{\"kind\": \"check\", \"options\": {\"lab\": \"x\"}}",
         ("{\"kind\": \"check\", \"files\": {\"lab.xml\": \"\"}, \"options\": {\"lab\": "
@@ -157,7 +159,7 @@ static void what_is_not_in_the_table_cannot_be_said(void **state) {
         const char *kind, *why = NULL;
         json_t *json = json_loads(refused[i], JSON_ALLOW_NUL, NULL);
         assert_non_null(json);
-        if (fw_serve_job_command(arena, json, "d.xml", &kind, &argv, &why) != FW_INPUT || !why)
+        if (fw_serve_job_command(arena, json, "d.xml", NULL, &kind, &argv, &why) != FW_INPUT || !why)
             fail_msg("%s is taken", refused[i]);
         json_decref(json);
     }
