@@ -114,6 +114,10 @@ fw_status fw_dynamics_record_late(fw_dynamics_recorder *record) {
     return FW_OK;
 }
 
+void fw_dynamics_record_waits(fw_dynamics_recorder *record, int row, bool waits) {
+    if (record->motion->late) record->motion->late->waits[row] = waits;
+}
+
 static void wait(fw_dynamics_recorder *record, double t_s) {
     fw_dynamics_motion *out = record->motion;
     size_t n = (size_t)record->problem->model->nq, base = (size_t)record->row * n;
@@ -198,6 +202,16 @@ static fw_dynamics_tracer tracer(const fw_dynamics_recorder *record, void **cont
     return observer(record, context) && (record->full || o->trace_both) ? o->trace : NULL;
 }
 
+bool fw_dynamics_record_is_observed(const fw_dynamics_recorder *record) {
+    void *context;
+    return observer(record, &context) != NULL;
+}
+
+bool fw_dynamics_record_is_traced(const fw_dynamics_recorder *record) {
+    void *context;
+    return tracer(record, &context) != NULL;
+}
+
 static void show_start(fw_dynamics_recorder *record) {
     void *context;
     fw_dynamics_observer see = observer(record, &context);
@@ -231,6 +245,7 @@ static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double
                                          .to_s = (s->t_old + to * s->h) * unit,
                                          .nodes = nodes,
                                          .q = record->seen_piece};
+        fw_dynamics_tape_piece(record, &piece);
         trace(context, &piece);
     }
 }
@@ -273,29 +288,15 @@ typedef struct looked_at {
     double theta_end;
     fw_dynamics_grid grid;
     bool own;
+    const fw_dynamics_shown *again; /* as it was shown before; NULL: it is new */
 } looked_at;
 
-/* in the slot-th of the recorder's arrays */
-static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
-    fw_dynamics_recorder *record = l->record;
+static fw_dynamics_instant instant_of(const fw_dynamics_recorder *record, double t_s,
+                                      const double *q, const double *angle, const double *force,
+                                      const double *v) {
     const fw_dynamics_problem *problem = record->problem;
-    size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
-    double part = (double)i / FW_INSTANTS, theta = l->theta_end * i / FW_INSTANTS;
-    double *q = record->seen_q + slot * n, *angle = record->seen_angle + slot * pins;
-    int count = record->seen_forces;
-    double *force = record->seen_force + slot * (size_t)count;
-    double *v = record->seen_v ? record->seen_v + slot * n : NULL;
-    const double *joint = v ? force + 2 * pins : NULL;
-    if (l->own)
-        fw_maths_stepper_dense(l->stepper, theta, record->state);
-    else
-        forces_at(record, l->stepper, theta, force);
-    for (int k = 0; l->own && k < count; k++)
-        force[k] = fw_dynamics_run_between(&l->grid, record->seen_grid + k, count, part);
-    pose_in_SI(problem, record->state, q, angle);
-    velocities_in_SI(problem, record->state, v);
-    return (fw_dynamics_instant){.t_s = (l->stepper->t_old + theta * l->stepper->h) *
-                                        problem->model->scale.time_s,
+    const double *joint = v ? force + 2 * problem->mechanism->npin : NULL;
+    return (fw_dynamics_instant){.t_s = t_s,
                                  .q = q,
                                  .angle_rad = angle,
                                  .reaction_N = force,
@@ -308,25 +309,75 @@ static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
                                  .driver_N = joint ? joint + 3 * problem->mechanism->njoint : NULL};
 }
 
-static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+/* in the slot-th of the recorder's arrays */
+static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
+    fw_dynamics_recorder *record = l->record;
+    const fw_dynamics_problem *problem = record->problem;
+    size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
+    const fw_dynamics_shown *was = l->again;
+    if (was)
+        return instant_of(record, was->t_s[i], was->q + (size_t)i * n,
+                          was->angle_rad + (size_t)i * pins, was->reaction_N + (size_t)i * 2 * pins,
+                          NULL);
+    double part = (double)i / FW_INSTANTS, theta = l->theta_end * i / FW_INSTANTS;
+    double *q = record->seen_q + slot * n, *angle = record->seen_angle + slot * pins;
+    int count = record->seen_forces;
+    double *force = record->seen_force + slot * (size_t)count;
+    double *v = record->seen_v ? record->seen_v + slot * n : NULL;
+    if (l->own)
+        fw_maths_stepper_dense(l->stepper, theta, record->state);
+    else
+        forces_at(record, l->stepper, theta, force);
+    for (int k = 0; l->own && k < count; k++)
+        force[k] = fw_dynamics_run_between(&l->grid, record->seen_grid + k, count, part);
+    pose_in_SI(problem, record->state, q, angle);
+    velocities_in_SI(problem, record->state, v);
+    return instant_of(record,
+                      (l->stepper->t_old + theta * l->stepper->h) * problem->model->scale.time_s, q,
+                      angle, force, v);
+}
+
+static void look(looked_at *l, bool fresh) {
     void *context;
-    fw_dynamics_observer see = observer(record, &context);
-    if (!see) return;
+    const fw_dynamics_observer see = observer(l->record, &context);
+    const fw_dynamics_glance glance = l->record->problem->options->glance;
+    if (glance && !fresh) {
+        fw_dynamics_instant third[FW_THIRDS];
+        for (int i = 0; i < FW_THIRDS; i++)
+            third[i] = instant_at(l, (i + 1) * FW_INSTANTS / FW_THIRDS, (size_t)i);
+        if (glance(context, third)) return;
+    }
+    for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
+        fw_dynamics_instant now = instant_at(l, i, 0);
+        now.begins = fresh && i == 0;
+        see(context, &now);
+    }
+}
+
+/* all that may be looked at in this step, for those who look at it another time */
+static void keep(looked_at *l, bool fresh) {
+    const fw_dynamics_problem *problem = l->record->problem;
+    size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
+    fw_dynamics_shown *to = fw_dynamics_tape_step(l->record);
+    if (!to) return;
+    to->fresh = fresh;
+    for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
+        const fw_dynamics_instant now = instant_at(l, i, 0);
+        to->t_s[i] = now.t_s;
+        memcpy(to->q + (size_t)i * n, now.q, n * sizeof *now.q);
+        memcpy(to->angle_rad + (size_t)i * pins, now.angle_rad, pins * sizeof *now.q);
+        memcpy(to->reaction_N + (size_t)i * 2 * pins, now.reaction_N, 2 * pins * sizeof *now.q);
+    }
+}
+
+static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+    if (!fw_dynamics_record_is_observed(record)) return;
     bool fresh = record->fresh || !(s->t_old > 0);
     looked_at l = {.record = record, .stepper = s, .theta_end = theta_end};
     l.own = own_forces(record, s, theta_end, &l.grid);
     record->fresh = false;
-    if (record->problem->options->glance && !fresh) {
-        fw_dynamics_instant third[FW_THIRDS];
-        for (int i = 0; i < FW_THIRDS; i++)
-            third[i] = instant_at(&l, (i + 1) * FW_INSTANTS / FW_THIRDS, (size_t)i);
-        if (record->problem->options->glance(context, third)) return;
-    }
-    for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
-        fw_dynamics_instant now = instant_at(&l, i, 0);
-        now.begins = fresh && i == 0;
-        see(context, &now);
-    }
+    keep(&l, fresh);
+    look(&l, fresh);
 }
 
 /* ---- energy ---- */
@@ -349,6 +400,17 @@ static void first_energy(fw_dynamics_recorder *record, const double *y) {
 }
 
 /* ---- all of it ---- */
+
+void fw_dynamics_record_again(fw_dynamics_recorder *record, const fw_dynamics_shown *first) {
+    void *context;
+    const fw_dynamics_tracer trace = tracer(record, &context);
+    show_start(record);
+    for (const fw_dynamics_shown *step = first; step; step = step->next) {
+        look(&(looked_at){.record = record, .again = step}, step->fresh);
+        if (trace) trace(context, &step->piece);
+    }
+    record->fresh = false;
+}
 
 void fw_dynamics_record_begin(fw_dynamics_recorder *record, const double *y) {
     show_start(record);

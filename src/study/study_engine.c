@@ -19,7 +19,8 @@ typedef struct engine { /* of one thread at a time */
     const fw_study *study;
     fw_design *design;
     fw_plan_kept kept;
-    fw_device_set *set; /* those of the study's options, then those of the sample */
+    fw_dynamics_tapes *tapes; /* motions that devices have in common */
+    fw_device_set *set;       /* those of the study's options, then those of the sample */
     double looked_s;
     struct engine *next;
 } engine;
@@ -44,6 +45,7 @@ static void engine_free(engine *e) {
     if (!e) return;
     fw_plan_kept_free(&e->kept);
     fw_design_free(e->design);
+    fw_dynamics_tapes_free(e->tapes);
     fw_arena_free(e->arena);
 }
 
@@ -102,6 +104,8 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
     }
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     options->verdict.motion.late_rows = true;
+    FW_TRY(fw_dynamics_tapes_new(e->arena, &e->tapes));
+    options->verdict.motion.tapes = e->tapes;
     FW_TRY(members(e, &options->members));
     return fw_plan_keep(e->design, &e->kept);
 }
