@@ -69,6 +69,7 @@ typedef struct fw_verdict_hinge_load {
     /* pin on b from pin on a, world axes; NaN: not known. Of use where a strip is pressed beyond what
        it bears alone and other flexures hold it */
     double apart_m[2];
+    double least_known; /* as in fw_flexure_strip_load */
 } fw_verdict_hinge_load;
 /* of hinge k at the poses q (3 nbody: m, rad) */
 fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *mechanism, int k,

@@ -140,6 +140,7 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
     fw_flexure_strip_load strip;
     fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, known,
                              &strip);
+    strip.least_known = load->least_known;
     fw_flexure_strip_strain(&h->section, &strip, out);
     return strip.held;
 }
@@ -153,9 +154,11 @@ void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *b
         memcpy(out->root, now.root, sizeof now.root);
         return;
     }
+    fw_verdict_hinge_load all = *load;
+    all.least_known = 0; /* of every direction */
     *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .held = true};
     for (int i = 0; i < DIRECTIONS; i++) {
-        if (!strains_along(h, NULL, load, i * FW_TURN / DIRECTIONS, &now)) out->held = false;
+        if (!strains_along(h, NULL, &all, i * FW_TURN / DIRECTIONS, &now)) out->held = false;
         out->least = fmin(out->least, now.least);
         if (!(now.peak > out->peak)) continue;
         out->peak = now.peak;
