@@ -124,7 +124,19 @@ typedef struct fw_dynamics_controller {
     struct fw_dynamics_near_zero *near_zero; /* near_zero_force.c; NULL: no friction */
 } fw_dynamics_controller;
 
-typedef struct fw_dynamics_tape fw_dynamics_tape; /* tape.c */
+typedef struct fw_dynamics_shown { /* a step, as it was shown */
+    bool fresh;                    /* a smooth piece begins with it */
+    /* (FW_INSTANTS + 1) times 1, nq, npin, 2 npin; the first instant of a step that is fresh alone */
+    double *t_s, *q, *angle_rad, *reaction_N;
+    fw_dynamics_piece piece; /* q NULL: nobody wanted it */
+    struct fw_dynamics_shown *next;
+} fw_dynamics_shown;
+typedef struct fw_dynamics_tape { /* all that a pass shows */
+    fw_arena *arena;
+    fw_dynamics_shown *first, *last;
+    int steps;
+    bool torn; /* they are more than are kept: it is of no use */
+} fw_dynamics_tape;
 
 /* What looks at the steps that were made: rows, the observer, extremes and energy. */
 typedef struct fw_dynamics_recorder {
@@ -221,21 +233,11 @@ bool fw_dynamics_record_is_observed(const fw_dynamics_recorder *record); /* in t
 bool fw_dynamics_record_is_traced(const fw_dynamics_recorder *record);
 /* whether a row waits; only of motions with rows that wait any does */
 void fw_dynamics_record_waits(fw_dynamics_recorder *record, int row, bool waits);
-typedef struct fw_dynamics_shown { /* a step, as it was shown */
-    bool fresh;                    /* a smooth piece begins with it */
-    /* (FW_INSTANTS + 1) times 1, nq, npin, 2 npin; the first instant of a step that is fresh alone */
-    double *t_s, *q, *angle_rad, *reaction_N;
-    fw_dynamics_piece piece; /* q NULL: nobody wanted it */
-    struct fw_dynamics_shown *next;
-} fw_dynamics_shown;
 /* shows a pass once more, from its first step on */
 void fw_dynamics_record_again(fw_dynamics_recorder *record, const fw_dynamics_shown *first);
 
 /* tape.c: fw_dynamics_run_pass, or what it would do, where a pass from the same numbers was kept */
 fw_status fw_dynamics_tape_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_peaks *peaks);
-/* room for what a step shows; NULL: it is not kept */
-fw_dynamics_shown *fw_dynamics_tape_step(fw_dynamics_recorder *record);
-void fw_dynamics_tape_piece(fw_dynamics_recorder *record, const fw_dynamics_piece *piece);
 
 enum { FW_GRID = 8 };
 /* places in a step and the weights of the polynomial through them */

@@ -220,36 +220,6 @@ static void show_start(fw_dynamics_recorder *record) {
     if (trace) trace(context, NULL);
 }
 
-/* The dense output of a step as polynomials: interpolated exactly by as many values as its degree
-   asks for, of each part where it is made of several. */
-static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
-    const fw_dynamics_problem *problem = record->problem;
-    const fw_maths_stepper_row *row = s->row;
-    void *context;
-    size_t n = (size_t)problem->model->nq;
-    int parts = row->dense_parts > 0 ? row->dense_parts : 1;
-    int nodes = row->dense_order_u > 5 ? FW_PIECE_NODES : 6; /* quintics at most */
-    fw_dynamics_tracer trace = tracer(record, &context);
-    if (!trace) return;
-    for (int k = 0; k < parts; k++) {
-        double from = (double)k / parts, to = fmin(theta_end, (k + 1.0) / parts);
-        if (!(to > from)) return;
-        for (int i = 0; i < nodes; i++) {
-            double theta = from + (to - from) * i / (nodes - 1);
-            fw_maths_stepper_dense(s, theta, record->state);
-            pose_in_SI(problem, record->state, record->seen_piece + (size_t)i * n,
-                       record->seen_angle);
-        }
-        double unit = problem->model->scale.time_s;
-        const fw_dynamics_piece piece = {.from_s = (s->t_old + from * s->h) * unit,
-                                         .to_s = (s->t_old + to * s->h) * unit,
-                                         .nodes = nodes,
-                                         .q = record->seen_piece};
-        fw_dynamics_tape_piece(record, &piece);
-        trace(context, &piece);
-    }
-}
-
 /* of pins; of whole instants those of joints and drivers behind them */
 static void forces_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta,
                       double *force) {
@@ -354,12 +324,37 @@ static void look(looked_at *l, bool fresh) {
     }
 }
 
+/* room for what one more step shows; false: it is not kept */
+static bool add_shown(fw_dynamics_recorder *record) {
+    enum { MOST = 4000 };
+    fw_dynamics_tape *tape = record->tape;
+    if (!tape || tape->torn) return false;
+    const size_t n = (size_t)record->problem->model->nq, all = FW_INSTANTS + 1,
+                 pins = (size_t)record->problem->mechanism->npin;
+    fw_dynamics_shown *own = fw_arena_one(tape->arena, fw_dynamics_shown);
+    if (own) {
+        own->t_s = fw_arena_array(tape->arena, double, all);
+        own->q = fw_arena_array(tape->arena, double, all *n);
+        own->angle_rad = fw_arena_array(tape->arena, double, all *pins);
+        own->reaction_N = fw_arena_array(tape->arena, double, all * 2 * pins);
+    }
+    tape->torn =
+        !own || !own->t_s || !own->q || !own->angle_rad || !own->reaction_N || ++tape->steps > MOST;
+    if (tape->torn) return false;
+    if (tape->last)
+        tape->last->next = own;
+    else
+        tape->first = own;
+    tape->last = own;
+    return true;
+}
+
 /* all that may be looked at in this step, for those who look at it another time */
 static void keep(looked_at *l, bool fresh) {
     const fw_dynamics_problem *problem = l->record->problem;
     size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
-    fw_dynamics_shown *to = fw_dynamics_tape_step(l->record);
-    if (!to) return;
+    if (!add_shown(l->record)) return;
+    fw_dynamics_shown *to = l->record->tape->last;
     to->fresh = fresh;
     for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
         const fw_dynamics_instant now = instant_at(l, i, 0);
@@ -370,6 +365,16 @@ static void keep(looked_at *l, bool fresh) {
     }
 }
 
+static void keep_piece(fw_dynamics_tape *tape, const fw_dynamics_piece *piece, size_t n) {
+    if (!tape || tape->torn || !tape->last) return;
+    double *q = fw_arena_array(tape->arena, double, (size_t)piece->nodes *n);
+    tape->torn = !q;
+    if (!q) return;
+    memcpy(q, piece->q, (size_t)piece->nodes * n * sizeof *q);
+    tape->last->piece = *piece;
+    tape->last->piece.q = q;
+}
+
 static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
     if (!fw_dynamics_record_is_observed(record)) return;
     bool fresh = record->fresh || !(s->t_old > 0);
@@ -378,6 +383,36 @@ static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, doub
     record->fresh = false;
     keep(&l, fresh);
     look(&l, fresh);
+}
+
+/* The dense output of a step as polynomials: interpolated exactly by as many values as its degree
+   asks for, of each part where it is made of several. */
+static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+    const fw_dynamics_problem *problem = record->problem;
+    const fw_maths_stepper_row *row = s->row;
+    void *context;
+    size_t n = (size_t)problem->model->nq;
+    int parts = row->dense_parts > 0 ? row->dense_parts : 1;
+    int nodes = row->dense_order_u > 5 ? FW_PIECE_NODES : 6; /* quintics at most */
+    fw_dynamics_tracer trace = tracer(record, &context);
+    if (!trace) return;
+    for (int k = 0; k < parts; k++) {
+        double from = (double)k / parts, to = fmin(theta_end, (k + 1.0) / parts);
+        if (!(to > from)) return;
+        for (int i = 0; i < nodes; i++) {
+            double theta = from + (to - from) * i / (nodes - 1);
+            fw_maths_stepper_dense(s, theta, record->state);
+            pose_in_SI(problem, record->state, record->seen_piece + (size_t)i * n,
+                       record->seen_angle);
+        }
+        double unit = problem->model->scale.time_s;
+        const fw_dynamics_piece piece = {.from_s = (s->t_old + from * s->h) * unit,
+                                         .to_s = (s->t_old + to * s->h) * unit,
+                                         .nodes = nodes,
+                                         .q = record->seen_piece};
+        keep_piece(record->tape, &piece, n);
+        trace(context, &piece);
+    }
 }
 
 /* ---- energy ---- */

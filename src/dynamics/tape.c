@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { KEPT = 6, SEEN = 16, MOST_STEPS = 4000 };
+enum { KEPT = 6, SEEN = 16 };
 
 typedef struct ending { /* of a pass, as others read it */
     fw_dynamics_peaks peaks;
@@ -29,19 +29,17 @@ typedef struct ending { /* of a pass, as others read it */
     bool *waits;               /* (rows) NULL: none does */
 } ending;
 
-struct fw_dynamics_tape {
-    fw_arena *arena; /* holds what follows; NULL: nothing is kept here */
+typedef struct kept { /* its arena holds all of it; NULL: nothing is kept here */
+    fw_dynamics_tape tape;
     double *key;
     size_t nkey;
-    fw_dynamics_shown *first, *last;
-    long steps;
     ending ending;
-};
+} kept;
 
 struct fw_dynamics_tapes {
     fw_arena *arena;
-    fw_dynamics_tape kept[KEPT];
-    int next;            /* of kept: to be replaced */
+    kept pass[KEPT];
+    int next;            /* of them: to be replaced */
     uint64_t seen[SEEN]; /* sums of keys that were asked for once */
     int next_seen;
     double *key; /* of the pass at hand */
@@ -54,14 +52,14 @@ fw_status fw_dynamics_tapes_new(fw_arena *arena, fw_dynamics_tapes **tapes) {
     return FW_OK;
 }
 
-static void forget(fw_dynamics_tape *tape) {
-    fw_arena_free(tape->arena);
-    *tape = (fw_dynamics_tape){0};
+static void forget(kept *pass) {
+    fw_arena_free(pass->tape.arena);
+    *pass = (kept){.nkey = 0};
 }
 
 void fw_dynamics_tapes_free(fw_dynamics_tapes *tapes) {
     for (int i = 0; tapes && i < KEPT; i++)
-        forget(&tapes->kept[i]);
+        forget(&tapes->pass[i]);
 }
 
 /* ---- keys ---- */
@@ -176,11 +174,13 @@ static bool may_be_kept(const fw_dynamics_run *r, const fw_maths_stepper *s,
            !o->reactions && !o->whole && !o->energies && r->control.trial == 0;
 }
 
-static fw_dynamics_tape *find(fw_dynamics_tapes *t) {
-    for (int i = 0; i < KEPT; i++)
-        if (t->kept[i].arena && t->kept[i].nkey == t->nkey &&
-            memcmp(t->kept[i].key, t->key, t->nkey * sizeof *t->key) == 0)
-            return &t->kept[i];
+static kept *find(fw_dynamics_tapes *t) {
+    for (int i = 0; i < KEPT; i++) {
+        kept *pass = &t->pass[i];
+        if (pass->tape.arena && pass->nkey == t->nkey &&
+            memcmp(pass->key, t->key, t->nkey * sizeof *t->key) == 0)
+            return pass;
+    }
     return NULL;
 }
 
@@ -191,51 +191,6 @@ static bool was_seen(fw_dynamics_tapes *t) {
     t->seen[t->next_seen] = sum;
     t->next_seen = (t->next_seen + 1) % SEEN;
     return false;
-}
-
-/* ---- what a pass shows ---- */
-
-static fw_status add_step(fw_dynamics_tape *tape, const fw_dynamics_problem *p,
-                          fw_dynamics_shown **step) {
-    const size_t n = (size_t)p->model->nq, pins = (size_t)p->mechanism->npin, all = FW_INSTANTS + 1;
-    fw_dynamics_shown *own;
-    FW_NEED(*step = own = fw_arena_one(tape->arena, fw_dynamics_shown));
-    FW_NEED(own->t_s = fw_arena_array(tape->arena, double, all));
-    FW_NEED(own->q = fw_arena_array(tape->arena, double, all *n));
-    FW_NEED(own->angle_rad = fw_arena_array(tape->arena, double, all *pins));
-    FW_NEED(own->reaction_N = fw_arena_array(tape->arena, double, all * 2 * pins));
-    if (tape->last)
-        tape->last->next = own;
-    else
-        tape->first = own;
-    tape->last = own;
-    tape->steps++;
-    return FW_OK;
-}
-
-fw_dynamics_shown *fw_dynamics_tape_step(fw_dynamics_recorder *record) {
-    fw_dynamics_shown *step;
-    if (!record->tape) return NULL;
-    if (record->tape->steps < MOST_STEPS && add_step(record->tape, record->problem, &step) == FW_OK)
-        return step;
-    forget(record->tape); /* it is not kept, and goes on */
-    record->tape = NULL;
-    return NULL;
-}
-
-void fw_dynamics_tape_piece(fw_dynamics_recorder *record, const fw_dynamics_piece *piece) {
-    fw_dynamics_tape *tape = record->tape;
-    if (!tape || !tape->last) return;
-    const size_t n = (size_t)piece->nodes * (size_t)record->problem->model->nq;
-    double *q = fw_arena_array(tape->arena, double, n);
-    if (!q) {
-        forget(tape);
-        record->tape = NULL;
-        return;
-    }
-    memcpy(q, piece->q, n * sizeof *q);
-    tape->last->piece = *piece;
-    tape->last->piece.q = q;
 }
 
 /* ---- how it ends ---- */
@@ -310,9 +265,10 @@ static void put_back_rows(ending *from, fw_dynamics_recorder *record) {
     record->row = from->rows;
 }
 
-static fw_status keep_ending(fw_dynamics_tape *tape, const fw_dynamics_run *r,
-                             const fw_maths_stepper *s, const fw_dynamics_peaks *peaks) {
-    ending *e = &tape->ending;
+static fw_status keep_ending(kept *pass, const fw_dynamics_run *r, const fw_maths_stepper *s,
+                             const fw_dynamics_peaks *peaks) {
+    fw_arena *arena = pass->tape.arena;
+    ending *e = &pass->ending;
     *e = (ending){.record = r->problem.system->record,
                   .steps = s->steps,
                   .rejected = s->rejected,
@@ -326,14 +282,14 @@ static fw_status keep_ending(fw_dynamics_tape *tape, const fw_dynamics_run *r,
                   .drift = r->record.drift,
                   .largest = r->record.largest,
                   .rows = r->record.row};
-    FW_NEED(e->y = copied(tape->arena, s->y, (size_t)r->problem.model->ny));
-    FW_TRY(keep_peaks(tape->arena, peaks, &e->peaks));
-    return r->record.full ? keep_rows(tape->arena, r->record.motion, e) : FW_OK;
+    FW_NEED(e->y = copied(arena, s->y, (size_t)r->problem.model->ny));
+    FW_TRY(keep_peaks(arena, peaks, &e->peaks));
+    return r->record.full ? keep_rows(arena, r->record.motion, e) : FW_OK;
 }
 
-static void put_back(fw_dynamics_tape *tape, fw_dynamics_run *r, fw_maths_stepper *s,
+static void put_back(kept *pass, fw_dynamics_run *r, fw_maths_stepper *s,
                      fw_dynamics_peaks *peaks) {
-    ending *e = &tape->ending;
+    ending *e = &pass->ending;
     fw_dynamics_recorder *record = &r->record;
     r->problem.system->record = e->record;
     s->steps = e->steps, s->rejected = e->rejected, s->rhs = e->rhs;
@@ -350,35 +306,39 @@ static void put_back(fw_dynamics_tape *tape, fw_dynamics_run *r, fw_maths_steppe
 
 /* ---- a pass ---- */
 
-static fw_status replay(fw_dynamics_tape *tape, fw_dynamics_run *r, fw_maths_stepper *s,
+static fw_status replay(kept *pass, fw_dynamics_run *r, fw_maths_stepper *s,
                         fw_dynamics_peaks *peaks) {
     if (fw_arena_cancelled(r->problem.arena)) return FW_CANCELLED;
-    fw_dynamics_record_again(&r->record, tape->first);
-    put_back(tape, r, s, peaks);
+    fw_dynamics_record_again(&r->record, pass->tape.first);
+    put_back(pass, r, s, peaks);
     FW_TRY(fw_dynamics_run_limits(r, s));
     fw_dynamics_record_end(&r->record, false, s->t);
     return FW_OK;
 }
 
-/* makes room for one more; NULL: there is none */
-static fw_dynamics_tape *begin(fw_dynamics_tapes *t) {
-    fw_dynamics_tape *tape = &t->kept[t->next];
+/* room for one more; NULL: there is none, and it is not kept */
+static kept *begin(fw_dynamics_tapes *t) {
+    kept *pass = &t->pass[t->next];
     t->next = (t->next + 1) % KEPT;
-    forget(tape);
-    tape->arena = fw_arena_part(t->arena, 0);
-    tape->key = tape->arena ? copied(tape->arena, t->key, t->nkey) : NULL;
-    tape->nkey = t->nkey;
-    if (tape->key) return tape;
-    forget(tape);
+    forget(pass);
+    pass->tape.arena = fw_arena_part(t->arena, 0);
+    pass->key = pass->tape.arena ? copied(pass->tape.arena, t->key, t->nkey) : NULL;
+    pass->nkey = t->nkey;
+    if (pass->key) return pass;
+    forget(pass);
     return NULL;
 }
 
-/* not what ended before its scene did, or in an error */
-static void end(fw_dynamics_run *r, const fw_maths_stepper *s, const fw_dynamics_peaks *peaks,
-                bool whole) {
-    fw_dynamics_tape *tape = r->record.tape;
+/* computed, and kept unless it ended before its scene did, or in an error */
+static fw_status record(kept *pass, fw_dynamics_run *r, fw_maths_stepper *s,
+                        fw_dynamics_peaks *peaks) {
+    if (pass) r->record.tape = &pass->tape;
+    const fw_status status = fw_dynamics_run_pass(r, s, peaks);
     r->record.tape = NULL;
-    if (tape && !(whole && keep_ending(tape, r, s, peaks) == FW_OK)) forget(tape);
+    const bool whole = status == FW_OK && s->t >= fw_dynamics_end(&r->problem);
+    if (pass && !(whole && !pass->tape.torn && keep_ending(pass, r, s, peaks) == FW_OK))
+        forget(pass);
+    return status;
 }
 
 fw_status fw_dynamics_tape_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_peaks *peaks) {
@@ -388,10 +348,6 @@ fw_status fw_dynamics_tape_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dyna
     FW_TRY(put_model(t, r->problem.model));
     FW_TRY(put_problem(t, &r->problem));
     FW_TRY(put_pass(t, r, s, peaks));
-    fw_dynamics_tape *tape = find(t);
-    if (tape) return replay(tape, r, s, peaks);
-    r->record.tape = was_seen(t) ? begin(t) : NULL;
-    const fw_status status = fw_dynamics_run_pass(r, s, peaks);
-    end(r, s, peaks, status == FW_OK && s->t >= fw_dynamics_end(&r->problem));
-    return status;
+    kept *pass = find(t);
+    return pass ? replay(pass, r, s, peaks) : record(was_seen(t) ? begin(t) : NULL, r, s, peaks);
 }

@@ -36,15 +36,13 @@ typedef struct grid {
     double cell;
     int nx, ny;
     bool *inside;
-    double *away;  /* m, about, to the nearest edge */
-    double *stiff; /* cell^3/away^3: what a cell adds to a way's cost */
-    double least;  /* of those */
-    double *cost;  /* of the way there; HUGE_VAL: not reached */
-    int *from;     /* the cell before; -1 */
-    int *touched;  /* (ntouched) cells with a cost */
-    int ntouched;
-    int *way; /* (nway) cells from a hinge to the middle */
-    int nway;
+    double *away;           /* m, about, to the nearest edge */
+    double *stiff;          /* cell^3/away^3: what a cell adds to a way's cost */
+    double least;           /* of those */
+    double *cost;           /* of the way there; HUGE_VAL: not reached */
+    int *from;              /* the cell before; -1 */
+    int *touched, ntouched; /* cells with a cost */
+    int *way, nway;         /* cells from a hinge to the middle */
 } grid;
 
 /* ---- lines ---- */
@@ -443,7 +441,7 @@ static void look_around(const grid *g, fw_geometry_vec2 at, edges *around) {
     within(&around->wide, at, 3 * g->cell, around->off, &around->near);
 }
 
-static double distance(edges *around, fw_geometry_vec2 at) {
+static double nearest(edges *around, fw_geometry_vec2 at) {
     return sqrt(fw_geometry_lines_least_square(&around->near, at, around->off));
 }
 
@@ -465,13 +463,13 @@ static bool is_cut(const edges *around, fw_geometry_vec2 p, fw_geometry_vec2 q) 
 static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geometry_vec2 side) {
     const fw_geometry_vec2 from = *at;
     look_around(g, from, around);
-    double best = distance(around, from), where = 0;
+    double best = nearest(around, from), where = 0;
     for (double step = 0.5; step * g->cell > 0.02 * best; step /= 2) {
         const double middle = where;
         for (int k = step < 0.5 ? 1 : 2; k != 0; k = k > 0 ? -k : -k - 1) {
             double to = middle + k * step;
             fw_geometry_vec2 p = vec_along(from, to * g->cell, side);
-            double d = distance(around, p);
+            double d = nearest(around, p);
             if (d > best && !is_cut(around, from, p)) best = d, where = to, *at = p;
         }
     }
@@ -523,21 +521,6 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
     return n;
 }
 
-/* The median of what the cut leaves is the place about which its integral of distances is least */
-static void sum_cut(const double *at, int n, double *middle, fw_verdict_arm *arm) {
-    double passed = 0;
-    for (int k = 0; k < n; k += 2)
-        arm->cut_m += at[k + 1] - at[k];
-    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
-        *middle = at[k] + 0.5 * arm->cut_m - passed;
-        passed += at[k + 1] - at[k];
-    }
-    for (int k = 0; k < n; k += 2) {
-        const double a = at[k] - *middle, b = at[k + 1] - *middle;
-        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
-    }
-}
-
 /* whatever the stress is, over a cut it comes to what hinges put on either side */
 static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
                              fw_verdict_arm *arm) {
@@ -557,7 +540,7 @@ static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
     }
     if (count % 2 != 0) return FW_OK;
     fw_sort_doubles(at, (size_t)count);
-    sum_cut(at, count, &middle, arm);
+    fw_verdict_arm_cut(at, count, &middle, arm);
     arm->cut = vec_along(arm->edge, middle, along);
     return FW_OK;
 }

@@ -40,6 +40,21 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
 }
 
+/* The median of what the cut leaves is the place about which its integral of distances is least */
+void fw_verdict_arm_cut(const double *at, int n, double *middle, fw_verdict_arm *arm) {
+    double passed = 0;
+    for (int k = 0; k < n; k += 2)
+        arm->cut_m += at[k + 1] - at[k];
+    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
+        *middle = at[k] + 0.5 * arm->cut_m - passed;
+        passed += at[k + 1] - at[k];
+    }
+    for (int k = 0; k < n; k += 2) {
+        const double a = at[k] - *middle, b = at[k + 1] - *middle;
+        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
+    }
+}
+
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c) {
     static const int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
