@@ -134,8 +134,7 @@ typedef struct fw_dynamics_shown { /* a step, as it was shown */
 typedef struct fw_dynamics_tape { /* all that a pass shows */
     fw_arena *arena;
     fw_dynamics_shown *first, *last;
-    int steps;
-    bool torn; /* they are more than are kept: it is of no use */
+    bool torn; /* more than is kept: it is of no use */
 } fw_dynamics_tape;
 
 /* What looks at the steps that were made: rows, the observer, extremes and energy. */

@@ -326,7 +326,6 @@ static void look(looked_at *l, bool fresh) {
 
 /* room for what one more step shows; false: it is not kept */
 static bool add_shown(fw_dynamics_recorder *record) {
-    enum { MOST = 4000 };
     fw_dynamics_tape *tape = record->tape;
     if (!tape || tape->torn) return false;
     const size_t n = (size_t)record->problem->model->nq, all = FW_INSTANTS + 1,
@@ -338,8 +337,7 @@ static bool add_shown(fw_dynamics_recorder *record) {
         own->angle_rad = fw_arena_array(tape->arena, double, all *pins);
         own->reaction_N = fw_arena_array(tape->arena, double, all * 2 * pins);
     }
-    tape->torn =
-        !own || !own->t_s || !own->q || !own->angle_rad || !own->reaction_N || ++tape->steps > MOST;
+    tape->torn = !own || !own->t_s || !own->q || !own->angle_rad || !own->reaction_N;
     if (tape->torn) return false;
     if (tape->last)
         tape->last->next = own;

@@ -14,6 +14,7 @@
 #include <string.h>
 
 enum { KEPT = 6, SEEN = 16 };
+static const size_t most_bytes = (size_t)4 << 20; /* of a pass; a thread keeps KEPT of them */
 
 typedef struct ending { /* of a pass, as others read it */
     fw_dynamics_peaks peaks;
@@ -321,7 +322,7 @@ static kept *begin(fw_dynamics_tapes *t) {
     kept *pass = &t->pass[t->next];
     t->next = (t->next + 1) % KEPT;
     forget(pass);
-    pass->tape.arena = fw_arena_part(t->arena, 0);
+    pass->tape.arena = fw_arena_part(t->arena, most_bytes);
     pass->key = pass->tape.arena ? copied(pass->tape.arena, t->key, t->nkey) : NULL;
     pass->nkey = t->nkey;
     if (pass->key) return pass;
