@@ -21,27 +21,35 @@ fw_json fw_json_new(fw_text *out, fw_json_style style) {
     return (fw_json){.out = out, .style = style};
 }
 
-void fw_json_only(fw_json *json, const char *const *key) {
-    json->only = key;
+void fw_json_only(fw_json *json, fw_json_wanted wanted) {
+    json->only = wanted;
     json->unheard = fw_text_new(json->out->arena);
 }
 
-static bool is_left_out(const fw_json *json, const char *key) {
-    for (const char *const *wanted = json->only; key && *wanted; wanted++)
-        if (strcmp(*wanted, key) == 0) return false;
-    return key != NULL;
+static bool is_among(const char *const *wanted, const char *key) {
+    for (; wanted && *wanted; wanted++)
+        if (strcmp(*wanted, key) == 0) return true;
+    return !wanted;
 }
 
 /* is what comes next left out, or in something that is? */
+static bool is_unheard_of(fw_json *json, const char *key, bool text) {
+    if (!json->only.member || json->depth == 0) return false;
+    if (json->left_out > 0 && json->depth > json->left_out) return true;
+    const bool heard = !key              ? true
+                       : json->depth > 1 ? text || is_among(json->only.inner, key)
+                                         : is_among(json->only.member, key);
+    json->left_out = heard ? 0 : json->depth;
+    return !heard;
+}
+
 static bool is_unheard(fw_json *json, const char *key) {
-    if (!json->only || json->depth == 0) return false;
-    if (json->depth == 1) json->left_out = is_left_out(json, key);
-    return json->left_out;
+    return is_unheard_of(json, key, false);
 }
 
 /* the end of something that is left out */
 static bool ends_unheard(fw_json *json) {
-    if (!json->only || json->depth < 2 || !json->left_out) return false;
+    if (!(json->left_out > 0 && json->depth > json->left_out)) return false;
     json->depth--;
     return true;
 }
@@ -207,7 +215,7 @@ void fw_json_whole(fw_json *json, const char *key, long long value) {
 }
 
 void fw_json_text(fw_json *json, const char *key, const char *value) {
-    if (is_unheard(json, key)) return;
+    if (is_unheard_of(json, key, true)) return;
     if (!value) {
         fw_json_null(json, key);
         return;
@@ -219,7 +227,7 @@ void fw_json_text(fw_json *json, const char *key, const char *value) {
 void fw_json_textf(fw_json *json, const char *key, const char *format, ...) {
     char *text = NULL;
     va_list arguments;
-    if (is_unheard(json, key)) return;
+    if (is_unheard_of(json, key, true)) return;
     va_start(arguments, format);
     int n = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);

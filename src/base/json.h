@@ -31,6 +31,11 @@ typedef enum fw_json_style {
 
 enum { FW_JSON_DEPTH = 64 }; /* levels that may be open at a time */
 
+typedef struct fw_json_wanted { /* keys, NULL behind the last */
+    const char *const *member;  /* of the outermost object; NULL: all */
+    const char *const *inner;   /* of what these hold, but for texts, which all stay; NULL: all */
+} fw_json_wanted;
+
 typedef struct fw_json { /* read by nobody but base/json.c */
     fw_text *out;
     fw_json_style style;
@@ -38,16 +43,15 @@ typedef struct fw_json { /* read by nobody but base/json.c */
     uint64_t objects, filled; /* bit k: level k is an object; holds something already */
     bool fresh;               /* the separator of what comes next is written */
     bool wrong;               /* was nested wrongly */
-    const char *const *only;  /* members of the outermost object that are wanted; NULL: all */
-    bool left_out;            /* the one that is being written is none of them */
-    fw_text unheard;          /* for callers that write a value of their own into it */
+    fw_json_wanted only;
+    int left_out;    /* level of a member that is left out; 0: none is */
+    fw_text unheard; /* for callers that write a value of their own into it */
 } fw_json;
 
 fw_json fw_json_new(fw_text *out, fw_json_style style);
-/* Of the outermost object only the members with these keys (NULL behind the last) are written; of the others
-   nothing is, whatever they hold, and their numbers are not made into text. In indented styles. Before the
-   object is begun. */
-void fw_json_only(fw_json *json, const char *const *key);
+/* Only what is wanted is written; of the rest nothing is, whatever it holds, and its numbers are not made into text.
+   In indented styles. Before the outermost object is begun. */
+void fw_json_only(fw_json *json, fw_json_wanted wanted);
 /* `behind` comes after the document: a line break, or "". FW_INTERNAL: it was nested wrongly */
 fw_status fw_json_finish(fw_json *json, const char *behind);
 

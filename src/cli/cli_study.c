@@ -3,7 +3,6 @@
 #include "cli/session.h"
 #include "plan/design.h"
 #include "study/study.h"
-#include "study/study_store.h"
 #include <signal.h>
 #include <limits.h>
 #include <stdio.h>

@@ -46,6 +46,12 @@ typedef struct fw_dynamics_piece {
 /* with NULL when the run starts (over); of the contexts of the observer */
 typedef void (*fw_dynamics_tracer)(void *context, const fw_dynamics_piece *piece);
 
+/* Passes over scenes that come again, for a study whose devices differ in what moves nothing (tape.c): a motion is to
+   the last bit what it is without. Of one thread at a time. */
+typedef struct fw_dynamics_tapes fw_dynamics_tapes;
+fw_status fw_dynamics_tapes_new(fw_arena *arena, fw_dynamics_tapes **tapes);
+void fw_dynamics_tapes_free(fw_dynamics_tapes *tapes); /* before its arena; NULL allowed */
+
 typedef struct fw_dynamics_motion_options {
     const char *method;     /* a name of fw_multibody_method_at; NULL: chain */
     const char *integrator; /* a name of fw_dynamics_integrator_at; NULL: auto */
@@ -83,6 +89,7 @@ typedef struct fw_dynamics_motion_options {
        differently, over what would be near enough: above 1 the tolerance is tightened, by so much.
        NULL: 0 */
     double (*unsettled)(const void *observed, const void *compared, double margin, double accuracy);
+    fw_dynamics_tapes *tapes; /* where passes are looked up and kept; NULL: nowhere */
     const struct fw_dynamics_motion
         *like; /* of a device much like this one in the same scene, which
                                               says how tight a tolerance to begin with; or NULL */

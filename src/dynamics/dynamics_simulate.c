@@ -68,7 +68,7 @@ static fw_status run_once(fw_dynamics_run *r, double rtol, const pass *other, bo
     r->record.full = full;
     r->control.law_stride = full ? 1 : 1.5;
     r->control.fixed_part = full ? 0.125 : 0.395;
-    fw_status status = fw_dynamics_run_pass(r, p->stepper, &p->peaks);
+    fw_status status = fw_dynamics_tape_pass(r, p->stepper, &p->peaks);
     fw_dynamics_near_zero_uncertainty(&r->control, p->uncertainty);
     fw_maths_stepper_free(p->stepper); /* what a library holds for it; its results stay */
     return status;

@@ -124,6 +124,19 @@ typedef struct fw_dynamics_controller {
     struct fw_dynamics_near_zero *near_zero; /* near_zero_force.c; NULL: no friction */
 } fw_dynamics_controller;
 
+typedef struct fw_dynamics_shown { /* a step, as it was shown */
+    bool fresh;                    /* a smooth piece begins with it */
+    /* (FW_INSTANTS + 1) times 1, nq, npin, 2 npin; the first instant of a step that is fresh alone */
+    double *t_s, *q, *angle_rad, *reaction_N;
+    fw_dynamics_piece piece; /* q NULL: nobody wanted it */
+    struct fw_dynamics_shown *next;
+} fw_dynamics_shown;
+typedef struct fw_dynamics_tape { /* all that a pass shows */
+    fw_arena *arena;
+    fw_dynamics_shown *first, *last;
+    bool torn; /* more than is kept: it is of no use */
+} fw_dynamics_tape;
+
 /* What looks at the steps that were made: rows, the observer, extremes and energy. */
 typedef struct fw_dynamics_recorder {
     const fw_dynamics_problem *problem;
@@ -147,6 +160,7 @@ typedef struct fw_dynamics_recorder {
     double *channel_now;          /* (channels) */
     double *channel_grid;         /* (9 channels) along a step */
     double *pin_now, *joint_now;  /* (2 npin), (3 njoint) */
+    fw_dynamics_tape *tape;       /* that this pass is kept in; NULL: it is not kept */
 } fw_dynamics_recorder;
 
 typedef struct fw_dynamics_run {
@@ -214,6 +228,16 @@ bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_maths_stepper *s,
                              fw_dynamics_peaks *peaks, double theta_end);
 /* early: the run ended at scaled time t, before the scene does */
 void fw_dynamics_record_end(fw_dynamics_recorder *record, bool early, double t);
+bool fw_dynamics_record_is_observed(const fw_dynamics_recorder *record); /* in this pass */
+bool fw_dynamics_record_is_traced(const fw_dynamics_recorder *record);
+/* whether a row waits; only of motions with rows that wait any does */
+void fw_dynamics_record_waits(fw_dynamics_recorder *record, int row, bool waits);
+/* shows a pass once more, from its first step on */
+void fw_dynamics_record_again(fw_dynamics_recorder *record, const fw_dynamics_shown *first);
+
+/* tape.c: fw_dynamics_run_pass, or what it would do, where a pass from the same numbers was kept */
+fw_status fw_dynamics_tape_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_peaks *peaks);
+
 enum { FW_GRID = 8 };
 /* places in a step and the weights of the polynomial through them */
 typedef struct fw_dynamics_grid {

@@ -114,6 +114,10 @@ fw_status fw_dynamics_record_late(fw_dynamics_recorder *record) {
     return FW_OK;
 }
 
+void fw_dynamics_record_waits(fw_dynamics_recorder *record, int row, bool waits) {
+    if (record->motion->late) record->motion->late->waits[row] = waits;
+}
+
 static void wait(fw_dynamics_recorder *record, double t_s) {
     fw_dynamics_motion *out = record->motion;
     size_t n = (size_t)record->problem->model->nq, base = (size_t)record->row * n;
@@ -198,41 +202,22 @@ static fw_dynamics_tracer tracer(const fw_dynamics_recorder *record, void **cont
     return observer(record, context) && (record->full || o->trace_both) ? o->trace : NULL;
 }
 
+bool fw_dynamics_record_is_observed(const fw_dynamics_recorder *record) {
+    void *context;
+    return observer(record, &context) != NULL;
+}
+
+bool fw_dynamics_record_is_traced(const fw_dynamics_recorder *record) {
+    void *context;
+    return tracer(record, &context) != NULL;
+}
+
 static void show_start(fw_dynamics_recorder *record) {
     void *context;
     fw_dynamics_observer see = observer(record, &context);
     if (see) see(context, NULL);
     fw_dynamics_tracer trace = tracer(record, &context);
     if (trace) trace(context, NULL);
-}
-
-/* The dense output of a step as polynomials: interpolated exactly by as many values as its degree
-   asks for, of each part where it is made of several. */
-static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
-    const fw_dynamics_problem *problem = record->problem;
-    const fw_maths_stepper_row *row = s->row;
-    void *context;
-    size_t n = (size_t)problem->model->nq;
-    int parts = row->dense_parts > 0 ? row->dense_parts : 1;
-    int nodes = row->dense_order_u > 5 ? FW_PIECE_NODES : 6; /* quintics at most */
-    fw_dynamics_tracer trace = tracer(record, &context);
-    if (!trace) return;
-    for (int k = 0; k < parts; k++) {
-        double from = (double)k / parts, to = fmin(theta_end, (k + 1.0) / parts);
-        if (!(to > from)) return;
-        for (int i = 0; i < nodes; i++) {
-            double theta = from + (to - from) * i / (nodes - 1);
-            fw_maths_stepper_dense(s, theta, record->state);
-            pose_in_SI(problem, record->state, record->seen_piece + (size_t)i * n,
-                       record->seen_angle);
-        }
-        double unit = problem->model->scale.time_s;
-        const fw_dynamics_piece piece = {.from_s = (s->t_old + from * s->h) * unit,
-                                         .to_s = (s->t_old + to * s->h) * unit,
-                                         .nodes = nodes,
-                                         .q = record->seen_piece};
-        trace(context, &piece);
-    }
 }
 
 /* of pins; of whole instants those of joints and drivers behind them */
@@ -273,29 +258,15 @@ typedef struct looked_at {
     double theta_end;
     fw_dynamics_grid grid;
     bool own;
+    const fw_dynamics_shown *again; /* as it was shown before; NULL: it is new */
 } looked_at;
 
-/* in the slot-th of the recorder's arrays */
-static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
-    fw_dynamics_recorder *record = l->record;
+static fw_dynamics_instant instant_of(const fw_dynamics_recorder *record, double t_s,
+                                      const double *q, const double *angle, const double *force,
+                                      const double *v) {
     const fw_dynamics_problem *problem = record->problem;
-    size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
-    double part = (double)i / FW_INSTANTS, theta = l->theta_end * i / FW_INSTANTS;
-    double *q = record->seen_q + slot * n, *angle = record->seen_angle + slot * pins;
-    int count = record->seen_forces;
-    double *force = record->seen_force + slot * (size_t)count;
-    double *v = record->seen_v ? record->seen_v + slot * n : NULL;
-    const double *joint = v ? force + 2 * pins : NULL;
-    if (l->own)
-        fw_maths_stepper_dense(l->stepper, theta, record->state);
-    else
-        forces_at(record, l->stepper, theta, force);
-    for (int k = 0; l->own && k < count; k++)
-        force[k] = fw_dynamics_run_between(&l->grid, record->seen_grid + k, count, part);
-    pose_in_SI(problem, record->state, q, angle);
-    velocities_in_SI(problem, record->state, v);
-    return (fw_dynamics_instant){.t_s = (l->stepper->t_old + theta * l->stepper->h) *
-                                        problem->model->scale.time_s,
+    const double *joint = v ? force + 2 * problem->mechanism->npin : NULL;
+    return (fw_dynamics_instant){.t_s = t_s,
                                  .q = q,
                                  .angle_rad = angle,
                                  .reaction_N = force,
@@ -308,24 +279,137 @@ static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
                                  .driver_N = joint ? joint + 3 * problem->mechanism->njoint : NULL};
 }
 
-static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+/* in the slot-th of the recorder's arrays */
+static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
+    fw_dynamics_recorder *record = l->record;
+    const fw_dynamics_problem *problem = record->problem;
+    size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
+    const fw_dynamics_shown *was = l->again;
+    if (was)
+        return instant_of(record, was->t_s[i], was->q + (size_t)i * n,
+                          was->angle_rad + (size_t)i * pins, was->reaction_N + (size_t)i * 2 * pins,
+                          NULL);
+    double part = (double)i / FW_INSTANTS, theta = l->theta_end * i / FW_INSTANTS;
+    double *q = record->seen_q + slot * n, *angle = record->seen_angle + slot * pins;
+    int count = record->seen_forces;
+    double *force = record->seen_force + slot * (size_t)count;
+    double *v = record->seen_v ? record->seen_v + slot * n : NULL;
+    if (l->own)
+        fw_maths_stepper_dense(l->stepper, theta, record->state);
+    else
+        forces_at(record, l->stepper, theta, force);
+    for (int k = 0; l->own && k < count; k++)
+        force[k] = fw_dynamics_run_between(&l->grid, record->seen_grid + k, count, part);
+    pose_in_SI(problem, record->state, q, angle);
+    velocities_in_SI(problem, record->state, v);
+    return instant_of(record,
+                      (l->stepper->t_old + theta * l->stepper->h) * problem->model->scale.time_s, q,
+                      angle, force, v);
+}
+
+static void look(looked_at *l, bool fresh) {
     void *context;
-    fw_dynamics_observer see = observer(record, &context);
-    if (!see) return;
+    const fw_dynamics_observer see = observer(l->record, &context);
+    const fw_dynamics_glance glance = l->record->problem->options->glance;
+    if (glance && !fresh) {
+        fw_dynamics_instant third[FW_THIRDS];
+        for (int i = 0; i < FW_THIRDS; i++)
+            third[i] = instant_at(l, (i + 1) * FW_INSTANTS / FW_THIRDS, (size_t)i);
+        if (glance(context, third)) return;
+    }
+    for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
+        fw_dynamics_instant now = instant_at(l, i, 0);
+        now.begins = fresh && i == 0;
+        see(context, &now);
+    }
+}
+
+/* room for what one more step shows; false: it is not kept */
+static bool add_shown(fw_dynamics_recorder *record) {
+    fw_dynamics_tape *tape = record->tape;
+    if (!tape || tape->torn) return false;
+    const size_t n = (size_t)record->problem->model->nq, all = FW_INSTANTS + 1,
+                 pins = (size_t)record->problem->mechanism->npin;
+    fw_dynamics_shown *own = fw_arena_one(tape->arena, fw_dynamics_shown);
+    if (own) {
+        own->t_s = fw_arena_array(tape->arena, double, all);
+        own->q = fw_arena_array(tape->arena, double, all *n);
+        own->angle_rad = fw_arena_array(tape->arena, double, all *pins);
+        own->reaction_N = fw_arena_array(tape->arena, double, all * 2 * pins);
+    }
+    tape->torn = !own || !own->t_s || !own->q || !own->angle_rad || !own->reaction_N;
+    if (tape->torn) return false;
+    if (tape->last)
+        tape->last->next = own;
+    else
+        tape->first = own;
+    tape->last = own;
+    return true;
+}
+
+/* all that may be looked at in this step, for those who look at it another time */
+static void keep(looked_at *l, bool fresh) {
+    const fw_dynamics_problem *problem = l->record->problem;
+    size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
+    if (!add_shown(l->record)) return;
+    fw_dynamics_shown *to = l->record->tape->last;
+    to->fresh = fresh;
+    for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
+        const fw_dynamics_instant now = instant_at(l, i, 0);
+        to->t_s[i] = now.t_s;
+        memcpy(to->q + (size_t)i * n, now.q, n * sizeof *now.q);
+        memcpy(to->angle_rad + (size_t)i * pins, now.angle_rad, pins * sizeof *now.q);
+        memcpy(to->reaction_N + (size_t)i * 2 * pins, now.reaction_N, 2 * pins * sizeof *now.q);
+    }
+}
+
+static void keep_piece(fw_dynamics_tape *tape, const fw_dynamics_piece *piece, size_t n) {
+    if (!tape || tape->torn || !tape->last) return;
+    double *q = fw_arena_array(tape->arena, double, (size_t)piece->nodes *n);
+    tape->torn = !q;
+    if (!q) return;
+    memcpy(q, piece->q, (size_t)piece->nodes * n * sizeof *q);
+    tape->last->piece = *piece;
+    tape->last->piece.q = q;
+}
+
+static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+    if (!fw_dynamics_record_is_observed(record)) return;
     bool fresh = record->fresh || !(s->t_old > 0);
     looked_at l = {.record = record, .stepper = s, .theta_end = theta_end};
     l.own = own_forces(record, s, theta_end, &l.grid);
     record->fresh = false;
-    if (record->problem->options->glance && !fresh) {
-        fw_dynamics_instant third[FW_THIRDS];
-        for (int i = 0; i < FW_THIRDS; i++)
-            third[i] = instant_at(&l, (i + 1) * FW_INSTANTS / FW_THIRDS, (size_t)i);
-        if (record->problem->options->glance(context, third)) return;
-    }
-    for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
-        fw_dynamics_instant now = instant_at(&l, i, 0);
-        now.begins = fresh && i == 0;
-        see(context, &now);
+    keep(&l, fresh);
+    look(&l, fresh);
+}
+
+/* The dense output of a step as polynomials: interpolated exactly by as many values as its degree
+   asks for, of each part where it is made of several. */
+static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+    const fw_dynamics_problem *problem = record->problem;
+    const fw_maths_stepper_row *row = s->row;
+    void *context;
+    size_t n = (size_t)problem->model->nq;
+    int parts = row->dense_parts > 0 ? row->dense_parts : 1;
+    int nodes = row->dense_order_u > 5 ? FW_PIECE_NODES : 6; /* quintics at most */
+    fw_dynamics_tracer trace = tracer(record, &context);
+    if (!trace) return;
+    for (int k = 0; k < parts; k++) {
+        double from = (double)k / parts, to = fmin(theta_end, (k + 1.0) / parts);
+        if (!(to > from)) return;
+        for (int i = 0; i < nodes; i++) {
+            double theta = from + (to - from) * i / (nodes - 1);
+            fw_maths_stepper_dense(s, theta, record->state);
+            pose_in_SI(problem, record->state, record->seen_piece + (size_t)i * n,
+                       record->seen_angle);
+        }
+        double unit = problem->model->scale.time_s;
+        const fw_dynamics_piece piece = {.from_s = (s->t_old + from * s->h) * unit,
+                                         .to_s = (s->t_old + to * s->h) * unit,
+                                         .nodes = nodes,
+                                         .q = record->seen_piece};
+        keep_piece(record->tape, &piece, n);
+        trace(context, &piece);
     }
 }
 
@@ -349,6 +433,17 @@ static void first_energy(fw_dynamics_recorder *record, const double *y) {
 }
 
 /* ---- all of it ---- */
+
+void fw_dynamics_record_again(fw_dynamics_recorder *record, const fw_dynamics_shown *first) {
+    void *context;
+    const fw_dynamics_tracer trace = tracer(record, &context);
+    show_start(record);
+    for (const fw_dynamics_shown *step = first; step; step = step->next) {
+        look(&(looked_at){.record = record, .again = step}, step->fresh);
+        if (trace) trace(context, &step->piece);
+    }
+    record->fresh = false;
+}
 
 void fw_dynamics_record_begin(fw_dynamics_recorder *record, const double *y) {
     show_start(record);

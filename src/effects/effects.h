@@ -317,6 +317,7 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     fw_status (*bound)(const fw_effect_case *c, double *bound, const char **reason);
     /* adds to the loads; sizes of the plain arrays were reserved */
     fw_status (*add)(const fw_effect_case *c, fw_effects_loads *loads);
+    bool adds_blindly; /* whatever the envelope is: that of what is kept need not be found first */
     /* for what acts until it is left out: changes the loads when the effect was called for and is
        not active. NULL: nothing is to be done */
     fw_status (*leave_out)(const fw_effect_case *c, fw_effects_loads *loads);

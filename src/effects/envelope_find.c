@@ -305,6 +305,14 @@ static fw_status settle_tendons(const search *s, int hinges, bool alone,
     return FW_OK;
 }
 
+/* an effect beside those that are kept looks at their envelope when it adds itself */
+static bool looks_first(const search *s) {
+    for (size_t i = 0; i < s->rows; i++)
+        if (!s->row[i]->kept && !s->row[i]->adds_blindly && s->row[i]->called_for(s->c))
+            return true;
+    return false;
+}
+
 fw_status fw_effects_envelope_of_rows(fw_arena *arena, const fw_mechanism *mechanism,
                                       const fw_device_scene *scene, const fw_effect_row *const *row,
                                       size_t count, fw_effects_envelope *envelope) {
@@ -321,7 +329,8 @@ fw_status fw_effects_envelope_of_rows(fw_arena *arena, const fw_mechanism *mecha
     for (size_t i = 0; i < count; i++)
         s.taken[i] = row[i]->kept && row[i]->called_for(&c);
     FW_TRY(add_taken(&s, &all));
-    FW_TRY(fw_effects_envelope_of(arena, mechanism, scene, &all, &first));
+    const bool looks = looks_first(&s);
+    if (looks) FW_TRY(fw_effects_envelope_of(arena, mechanism, scene, &all, &first));
     for (size_t i = 0; i < count; i++)
         if (!row[i]->kept && row[i]->called_for(&c)) {
             FW_TRY(can_take(&c, row[i], &s.taken[i]));
@@ -330,8 +339,10 @@ fw_status fw_effects_envelope_of_rows(fw_arena *arena, const fw_mechanism *mecha
                 hinges = (int)i, s.taken[i] = false;
             more = more || s.taken[i];
         }
+    const bool others = more || hinges != FW_NONE;
+    if (!looks && !others) FW_TRY(fw_effects_envelope_of(arena, mechanism, scene, &all, &first));
     *envelope = first;
-    if (more || hinges != FW_NONE) FW_TRY(find_all(&s, hinges, envelope));
+    if (others) FW_TRY(find_all(&s, hinges, envelope));
     FW_TRY(settle_tendons(&s, hinges, alone, envelope));
     envelope->taken = s.taken;
     return FW_OK;

@@ -66,5 +66,6 @@ const fw_effect_row fw_effect_gravity = {.id = "gravity",
                                          .called_for = called_for,
                                          .bound = bound,
                                          .add = add,
+                                         .adds_blindly = true,
                                          .alone_stays = true,
                                          .describe = describe};

@@ -327,5 +327,6 @@ const fw_effect_row fw_effect_inertia = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
+    .adds_blindly = true,
     .leave_out = leave_out,
     .solid = FW_EFFECTS_SOLID_NO_PART};

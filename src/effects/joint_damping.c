@@ -120,6 +120,7 @@ const fw_effect_row fw_effect_joint_damping = {
     .calms = true,
     .by_rate = true,
     .add = add,
+    .adds_blindly = true,
     .cost = 32,
     .count = count,
     .solid = FW_EFFECTS_SOLID_NO_PART};

@@ -41,6 +41,7 @@ const fw_effect_row fw_effect_nonlinear_hinge = {
     .called_for = called_for,
     .bound = bound,
     .add = fw_effects_hinges_flex,
+    .adds_blindly = true,
     .cost = 2900,
     .count = count,
     .solid = FW_EFFECTS_SOLID_HAS};

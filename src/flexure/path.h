@@ -133,6 +133,8 @@ typedef struct fw_flexure_strip_load {
     double pull;       /* across the axis over EI/L^2, as it acts on what bends */
     bool drawn;        /* the strip is taken as drawn, half turned: of an ideal pin */
     bool held; /* false: beyond the buckling load; the rest is then as without displacement */
+    double
+        least_known; /* the least strain is not looked for (it is 0 then) where the peak is no more than this */
 } fw_flexure_strip_load;
 /* By the law of finite.h; rest NULL: of an ideal pin, whose W is one place whatever the force.
    along_m: how far the second body's W is from the first's along the axis half turned, for a strip

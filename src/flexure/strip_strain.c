@@ -390,9 +390,11 @@ static double least_at_root(const fw_flexure_path_strain *s, int end, const doub
 
 /* between: the largest strain between the roots */
 static void ends_of(const fw_flexure_path_strain *s, const double *M, const double *N,
-                    double between, fw_flexure_strip_strains *out) {
+                    double between, double known, fw_flexure_strip_strains *out) {
     for (int end = 0; end < 2; end++)
         narrowed(s, end, M, N, out);
+    out->least = 0;
+    if (out->peak <= known) return;
     double least = fmax(least_at_root(s, 0, M, N), least_at_root(s, 1, M, N));
     out->least = fmin(larger(least, (1 - s->stretched) * between), out->peak);
 }
@@ -481,7 +483,7 @@ static inside inside_of_pin(const fw_flexure_path_strain *s, const fw_flexure_st
 
 /* peak, and what is needed of the roots, of section forces at all places */
 static void strains_of(const fw_flexure_path_strain *s, const double *M, const double *N,
-                       inside within, fw_flexure_strip_strains *out) {
+                       inside within, double known, fw_flexure_strip_strains *out) {
     const int last = s->n - 1;
     const double between = within.strain;
     root_faces(&s->point[0], M[0], N[0], out->root[0]);
@@ -492,7 +494,7 @@ static void strains_of(const fw_flexure_path_strain *s, const double *M, const d
         if (s->point[i].strain_per_Nm * (fabs(M[i]) + 0.26 * fabs(M[i + 1] - M[i - 1])) > most)
             most = larger(most, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
     out->peak = most;
-    ends_of(s, M, N, between, out);
+    ends_of(s, M, N, between, known, out);
 }
 
 /* along a section that turns by t within the strip */
@@ -540,7 +542,7 @@ void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_s
     c = cos(0.5 * load->rotation_rad) - 1, n = sin(0.5 * load->rotation_rad);
     N[0] = axial(first, load->force_N, c, -n);
     N[s->n - 1] = axial(last, load->force_N, c, n);
-    strains_of(s, M, N, within, out);
+    strains_of(s, M, N, within, load->least_known, out);
 }
 
 void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_elastica *beam,
@@ -549,5 +551,5 @@ void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_e
     for (int i = 0; i < s->n; i++)
         part[i] = s->point[i].part, M[i] = N[i] = 0;
     fw_flexure_elastica_along(beam, s->n, part, M, N);
-    strains_of(s, M, N, inside_of(s, M, N), out);
+    strains_of(s, M, N, inside_of(s, M, N), 0, out);
 }

@@ -55,8 +55,7 @@ typedef struct fw_plan_options {
     fw_plan_measurements measurements;
     const char *layers; /* file of the laboratory's layer numbers (mask/mask_table.h); NULL: none */
     const char *directory; /* of drawings, for fw_plan_load_memory; NULL: none are opened */
-    /* of the verdict's JSON, those that somebody reads, NULL behind the last; NULL: all */
-    const char *const *members;
+    fw_json_wanted wanted; /* of the verdict's JSON, what somebody reads; member NULL: all */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 

@@ -34,7 +34,7 @@ fw_report_input fw_plan_report_input(fw_plan *plan) {
                              .assumption = plan->assumption,
                              .nassumption = plan->nassumption,
                              .diags = &plan->diags,
-                             .members = plan->options.members};
+                             .wanted = plan->options.wanted};
 }
 
 fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out) {

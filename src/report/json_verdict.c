@@ -474,7 +474,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_report_summary top;
     FW_TRY(fw_report_summarise(out->arena, input, &top));
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
-    if (input->members) fw_json_only(&json, input->members);
+    if (input->wanted.member) fw_json_only(&json, input->wanted);
     fw_json_object(&json, NULL);
     fw_json_text(&json, "schema", "flexwright.verdict/1");
     fw_json_text(&json, "device", input->device->name);

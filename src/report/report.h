@@ -47,7 +47,7 @@ typedef struct fw_report_input {
     const fw_diags *diags;               /* NULL: none */
     const struct fw_report_hinge *hinge; /* (nhinge) the ladder, per flow */
     int nhinge;
-    const char *const *members; /* of the verdict's JSON, those that are wanted; NULL: all */
+    fw_json_wanted wanted; /* of the verdict's JSON; member NULL: all */
 } fw_report_input;
 
 /* report.html: one file, needs nothing else, readable without script and on paper */

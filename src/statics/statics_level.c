@@ -33,6 +33,14 @@ static bool step_back(fw_statics_equilibrium *w, double part) {
     return false;
 }
 
+/* Newton's steps fall by squares: of whole ones the next is some step^3/before^2, and need not be made where that is
+   as small as the last */
+static const double fw_settled = 1e-11;
+static bool next_is_none(double step, double before, double part) {
+    return part == 1 && isfinite(before) && step < 0.01 * before &&
+           step * (step / before) * (step / before) < 0.1 * fw_settled;
+}
+
 static bool settle(fw_statics_equilibrium *w) {
     double before = (double)INFINITY, part = 0;
     for (int i = 0; i < FW_TRIES; i++) {
@@ -42,7 +50,7 @@ static bool settle(fw_statics_equilibrium *w) {
         part = fmin(1, fw_farthest / fmax(most, 1e-300));
         for (int k = 0; k < w->model->nq; k++)
             w->y[k] += part * w->step[k];
-        if (most <= 1e-11 ||
+        if (most <= fw_settled || next_is_none(most, before, part) ||
             (most > 0.5 * before && (most < 1e-9 || fw_statics_equilibrium_quiet(w))))
             return fw_statics_equilibrium_evaluate(w) == FW_OK;
         before = most;

@@ -19,7 +19,8 @@ typedef struct engine { /* of one thread at a time */
     const fw_study *study;
     fw_design *design;
     fw_plan_kept kept;
-    fw_device_set *set; /* those of the study's options, then those of the sample */
+    fw_dynamics_tapes *tapes; /* motions that devices have in common */
+    fw_device_set *set;       /* those of the study's options, then those of the sample */
     double looked_s;
     struct engine *next;
 } engine;
@@ -44,6 +45,7 @@ static void engine_free(engine *e) {
     if (!e) return;
     fw_plan_kept_free(&e->kept);
     fw_design_free(e->design);
+    fw_dynamics_tapes_free(e->tapes);
     fw_arena_free(e->arena);
 }
 
@@ -71,18 +73,28 @@ static bool may_be_bounded(const engine *e) {
     return plan->options.verdict.corners == FW_CORNERS_NONE && asks_for_no_clearance(e->study);
 }
 
-/* the members of the verdict's JSON that responses begin with */
-static fw_status members(engine *e, const char *const **out) {
+/* of the verdict's JSON the members that responses begin with, and of these what any of their words names */
+static fw_status wanted_of(engine *e, fw_json_wanted *out) {
     const fw_study *study = e->study;
-    const char **key;
-    int n = 0;
-    FW_NEED(key = fw_arena_array(e->arena, const char *, (size_t)study->nresponse + 1));
+    size_t n = 0, words = 1;
+    for (int k = 0; k < study->nresponse; k++)
+        words += strlen(study->response[k].path) + 1;
+    const char **member = fw_arena_alloc(e->arena, (size_t)study->nresponse + 1, sizeof *member),
+               **inner = fw_arena_alloc(e->arena, words, sizeof *inner);
+    FW_NEED(member && inner ? member : NULL);
+    words = 0;
     for (int k = 0; k < study->nresponse; k++) {
         const fw_study_response *r = &study->response[k];
+        const char *path = r->path;
         if (fw_study_documents[r->document].document != FW_DOCUMENT_VERDICT_JSON) continue;
-        FW_NEED(key[n++] = fw_arena_strndup(e->arena, r->path, strcspn(r->path, ".[")));
+        FW_NEED(member[n++] = fw_arena_strndup(e->arena, path, strcspn(path, ".[")));
+        for (size_t length; *path; path += length) {
+            length = strcspn(path, ".[]");
+            if (length > 0) FW_NEED(inner[words++] = fw_arena_strndup(e->arena, path, length));
+            length += path[length] != '\0';
+        }
     }
-    *out = key;
+    *out = (fw_json_wanted){member, inner};
     return FW_OK;
 }
 
@@ -102,7 +114,9 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
     }
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     options->verdict.motion.late_rows = true;
-    FW_TRY(members(e, &options->members));
+    FW_TRY(fw_dynamics_tapes_new(e->arena, &e->tapes));
+    options->verdict.motion.tapes = e->tapes;
+    FW_TRY(wanted_of(e, &options->wanted));
     return fw_plan_keep(e->design, &e->kept);
 }
 

@@ -7,7 +7,6 @@
 #include "base/svg.h"
 #include "chance/estimate.h"
 #include "chance/indices.h"
-#include "study/study_store.h"
 #include <jansson.h>
 
 enum { /* stages of a design, by what responses ask for */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/study_store.h"
+#include "study/study.h"
 #include "base/output.h"
 #include "base/text.h"
 #include "study/study_parts.h"

@@ -6,12 +6,14 @@
      E h give = integral over the way of 12 m m'/w^3 + a a'/w + 3.2 s s'/w,   w = 2 (distance to the edge)
 
    with m the moment, a the axial and s the shear force of a unit wrench, 3.2 >= 2.4 (1 + nu). The way is
-   that of the least integral of 1/w^3 over a grid of cells (Dijkstra), w there from the distance to the
-   nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
+   that of the least integral of 1/w^3 over a grid of cells (Hart, Nilsson and Raphael 1968: what is left of it is
+   at least the distance over the largest w^3), w there from the distance to the nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
    circle is largest to a hundredth of it, and there w is exact. */
 #include "verdict/strain.h"
 #include "base/sort.h"
 #include "geometry/segment.h"
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { ACROSS = 100, FINEST = 4, CELLS = 1000000 };
@@ -34,10 +36,13 @@ typedef struct grid {
     double cell;
     int nx, ny;
     bool *inside;
-    double *away;  /* m, about, to the nearest edge */
-    double *stiff; /* cell^3/away^3: what a cell adds to a way's cost */
-    double *cost;  /* from the middle; HUGE_VAL: not reached */
-    int *from;     /* the cell before; -1 */
+    double *away;           /* m, about, to the nearest edge */
+    double *stiff;          /* cell^3/away^3: what a cell adds to a way's cost */
+    double least;           /* of those */
+    double *cost;           /* of the way there; HUGE_VAL: not reached */
+    int *from;              /* the cell before; -1 */
+    int *touched, ntouched; /* cells with a cost */
+    int *way, nway;         /* cells from a hinge to the middle */
 } grid;
 
 /* ---- lines ---- */
@@ -236,12 +241,14 @@ static fw_status measure(grid *g) {
         double cells = sqrt(g->away[i]), w = fw_greater(cells, 0.5);
         g->away[i] = g->cell * cells;
         g->stiff[i] = 1 / (w * w * w);
+        g->least = fw_lesser(g->least, g->stiff[i]);
     }
     return FW_OK;
 }
 
 static fw_status lay(grid *g, double cell) {
     g->cell = cell;
+    g->least = HUGE_VAL;
     g->nx = 1 + (int)((g->box.x1 - g->box.x0) / cell);
     g->ny = 1 + (int)((g->box.y1 - g->box.y0) / cell);
     size_t n = (size_t)g->nx * (size_t)g->ny;
@@ -258,7 +265,7 @@ static fw_status lay(grid *g, double cell) {
 /* ---- the stiffest ways ---- */
 
 typedef struct queued {
-    double key;
+    double key, cost; /* of the whole way at least; up to the cell */
     int cell;
 } queued;
 
@@ -267,11 +274,11 @@ typedef struct queue {
     int n;
 } queue;
 
-static void push(queue *q, int cell, double key) {
+static void push(queue *q, const queued *one) {
     int i = q->n++;
-    for (; i > 0 && q->item[(i - 1) / 2].key > key; i = (i - 1) / 2)
+    for (; i > 0 && q->item[(i - 1) / 2].key > one->key; i = (i - 1) / 2)
         q->item[i] = q->item[(i - 1) / 2];
-    q->item[i] = (queued){key, cell};
+    q->item[i] = *one;
 }
 
 static queued pop(queue *q) {
@@ -289,52 +296,85 @@ static queued pop(queue *q) {
 /* along columns and rows, and across */
 static const int step_x[8] = {1, -1, 0, 0, 1, 1, -1, -1}, step_y[8] = {0, 0, 1, -1, 1, -1, 1, -1};
 
-/* until the ways to all goals are known. The cost of a cell outside is below all others, so that no way goes there. */
-static fw_status spread(grid *g, int middle, const int *goal, int ngoal) {
-    size_t n = (size_t)g->nx * (size_t)g->ny,
-           most = 1; /* a cell of the material has 8 neighbours */
+static fw_status begin_search(grid *g, queue *q) {
+    const size_t n = (size_t)g->nx * (size_t)g->ny;
+    size_t most = 1; /* a cell of the material has 8 neighbours */
     for (size_t i = 0; i < n; i++) {
         g->cost[i] = g->inside[i] ? HUGE_VAL : -1;
         most += g->inside[i] ? 8 : 0;
     }
-    queue q = {fw_arena_raw(g->arena, most * sizeof(queued)), 0};
-    FW_NEED(q.item);
-    g->cost[middle] = 0;
-    g->from[middle] = -1;
-    push(&q, middle, 0);
-    while (q.n > 0 && ngoal > 0) {
-        const queued now = pop(&q);
-        const int at = now.cell, x = at % g->nx, y = at / g->nx;
-        if (now.key > g->cost[at]) continue;
-        for (int k = 0, all = ngoal; k < all; k++)
-            ngoal -= goal[k] == at;
-        const bool inner = x > 0 && y > 0 && x < g->nx - 1 && y < g->ny - 1;
-        for (int k = 0; k < 8; k++) {
-            int i = x + step_x[k], j = y + step_y[k], to = j * g->nx + i;
-            if (!inner && (i < 0 || j < 0 || i >= g->nx || j >= g->ny)) continue;
-            if (g->cost[to] <= now.key) continue;
-            double far = k < 4 ? 1 : sqrt(2),
-                   cost = now.key + 0.5 * far * (g->stiff[at] + g->stiff[to]);
-            if (cost >= g->cost[to]) continue;
-            g->cost[to] = cost;
-            g->from[to] = at;
-            push(&q, to, cost);
-        }
-    }
+    g->ntouched = 0;
+    FW_NEED(q->item = fw_arena_raw(g->arena, most * sizeof(queued)));
+    FW_NEED(g->touched = fw_arena_raw(g->arena, n * sizeof(int)));
+    FW_NEED(g->way = fw_arena_raw(g->arena, n * sizeof(int)));
     return FW_OK;
 }
 
-/* the cell of the material that is nearest to a place, nearer by so many times its distance from the edge;
-   -1: there is none */
+/* cost of a way to a cell at least: straight and across, in the widest place */
+static double least_to(const grid *g, int x, int y, int to) {
+    const int dx = abs(x - to % g->nx), dy = abs(y - to / g->nx);
+    const int far = dx > dy ? dx : dy, near = dx > dy ? dy : dx;
+    return g->least * (far + (sqrt(2) - 1) * near);
+}
+
+static void offer(grid *g, queue *q, int to, int from, double cost, double left) {
+    if (g->cost[to] == HUGE_VAL) g->touched[g->ntouched++] = to;
+    g->cost[to] = cost;
+    g->from[to] = from;
+    push(q, &(queued){cost + left, cost, to});
+}
+
+static void spread_from(grid *g, queue *q, const queued *now, int middle) {
+    const int at = now->cell, x = at % g->nx, y = at / g->nx;
+    const bool inner = x > 0 && y > 0 && x < g->nx - 1 && y < g->ny - 1;
+    for (int k = 0; k < 8; k++) {
+        int i = x + step_x[k], j = y + step_y[k], to = j * g->nx + i;
+        if (!inner && (i < 0 || j < 0 || i >= g->nx || j >= g->ny)) continue;
+        if (g->cost[to] <= now->cost) continue; /* as that of a cell outside */
+        double far = k < 4 ? 1 : sqrt(2),
+               cost = now->cost + 0.5 * far * (g->stiff[at] + g->stiff[to]);
+        if (cost < g->cost[to]) offer(g, q, to, at, cost, least_to(g, i, j, middle));
+    }
+}
+
+/* the way from a cell to the middle; without one nway is 0 */
+static void find_way(grid *g, queue *q, int begin, int middle) {
+    for (int i = 0; i < g->ntouched; i++)
+        g->cost[g->touched[i]] = HUGE_VAL;
+    g->ntouched = g->nway = q->n = 0;
+    offer(g, q, begin, -1, 0, 0);
+    while (q->n > 0 && g->nway == 0) {
+        const queued now = pop(q);
+        if (now.cost > g->cost[now.cell]) continue;
+        if (now.cell != middle) {
+            spread_from(g, q, &now, middle);
+            continue;
+        }
+        for (int at = middle; at >= 0; at = g->from[at])
+            g->nway++;
+        for (int at = middle, i = g->nway; at >= 0; at = g->from[at])
+            g->way[--i] = at;
+    }
+}
+
+/* the cell of the material that is nearest to a place, nearer by so many times its distance from the edge, the first
+   of those that are as near; -1: there is none. Rows from that of the place outwards, until none can be nearer. */
 static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
+    const double most = 1.000001 * deep * g->cell / cbrt(g->least);
+    const int middle = row(g, at.y);
     int found = -1;
     double best = HUGE_VAL;
-    for (int i = 0; i < g->nx * g->ny; i++) {
-        if (!g->inside[i]) continue;
-        fw_geometry_vec2 off = vec_sub(place(g, i), at);
-        if (deep == 0 && vec_dot(off, off) > 1.000001 * best * best) continue; /* no root */
-        double d = vec_length(off) - (deep > 0 ? deep * g->away[i] : 0);
-        if (d < best) best = d, found = i;
+    for (int k = 0; k < 2 * g->ny; k++) {
+        const int j = middle + (k % 2 ? (k + 1) / 2 : -k / 2);
+        if (j < 0 || j >= g->ny) continue;
+        if ((k / 2 - 1) * g->cell - most > best) break;
+        for (int i = j * g->nx; i < (j + 1) * g->nx; i++) {
+            if (!g->inside[i]) continue;
+            fw_geometry_vec2 off = vec_sub(place(g, i), at);
+            if (deep == 0 && vec_dot(off, off) > 1.000001 * best * best) continue; /* no root */
+            double d = vec_length(off) - (deep > 0 ? deep * g->away[i] : 0);
+            if (d < best || (d == best && i < found)) best = d, found = i;
+        }
     }
     return found;
 }
@@ -364,9 +404,12 @@ static fw_status edges_new(const grid *g, edges *to) {
     return FW_OK;
 }
 
-/* in one of the pieces: a line to the right crosses it an odd number of times */
+/* in one of the pieces: a line to the right crosses it an odd number of times. In a cell of the material that is
+   some cells from every edge all places are. */
 static bool is_inside(const grid *g, fw_geometry_vec2 p) {
+    const int cell = row(g, p.y) * g->nx + column(g, p.x);
     bool in = false;
+    if (g->inside[cell] && g->away[cell] > 3 * g->cell) return true;
     for (int i = 0; i < g->nline; i++) {
         fw_geometry_vec2 a = g->line[i].a, b = g->line[i].b;
         if (i > 0 && g->line[i].piece != g->line[i - 1].piece) {
@@ -398,7 +441,7 @@ static void look_around(const grid *g, fw_geometry_vec2 at, edges *around) {
     within(&around->wide, at, 3 * g->cell, around->off, &around->near);
 }
 
-static double distance(edges *around, fw_geometry_vec2 at) {
+static double nearest(edges *around, fw_geometry_vec2 at) {
     return sqrt(fw_geometry_lines_least_square(&around->near, at, around->off));
 }
 
@@ -420,13 +463,13 @@ static bool is_cut(const edges *around, fw_geometry_vec2 p, fw_geometry_vec2 q) 
 static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geometry_vec2 side) {
     const fw_geometry_vec2 from = *at;
     look_around(g, from, around);
-    double best = distance(around, from), where = 0;
+    double best = nearest(around, from), where = 0;
     for (double step = 0.5; step * g->cell > 0.02 * best; step /= 2) {
         const double middle = where;
         for (int k = step < 0.5 ? 1 : 2; k != 0; k = k > 0 ? -k : -k - 1) {
             double to = middle + k * step;
             fw_geometry_vec2 p = vec_along(from, to * g->cell, side);
-            double d = distance(around, p);
+            double d = nearest(around, p);
             if (d > best && !is_cut(around, from, p)) best = d, where = to, *at = p;
         }
     }
@@ -435,27 +478,25 @@ static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geom
 
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
    root is in its closed form: the way begins where it is a cell inside */
-static fw_status follow(const grid *g, int begin, fw_geometry_vec2 pin, fw_verdict_arm *arm) {
-    edges around;
-    FW_TRY(edges_new(g, &around));
+static void follow(const grid *g, edges *around, fw_geometry_vec2 pin, fw_verdict_arm *arm) {
+    const int last = g->nway - 1;
+    around->wide.n = 0;
     arm->known = true;
     arm->narrow_m = HUGE_VAL;
-    fw_geometry_vec2 from = place(g, begin), here = from;
+    fw_geometry_vec2 from = place(g, g->way[0]), here = from;
     double w = 0;
-    for (int at = begin; g->from[at] >= 0;) {
-        int to = g->from[at];
-        if (g->from[to] >= 0) to = g->from[to];
-        fw_geometry_vec2 p = place(g, at), off = vec_sub(place(g, to), p);
+    for (int i = 0; i < last;) {
+        const int to = i + 1 < last ? i + 2 : i + 1;
+        fw_geometry_vec2 p = place(g, g->way[i]), off = vec_sub(place(g, g->way[to]), p);
         fw_geometry_vec2 next = vec_along(p, 0.5, off);
         if (!is_inside(g, next)) next = p;
-        double wide = widest(g, &around, &next, vec_left(vec_unit(off)));
+        double wide = widest(g, around, &next, vec_left(vec_unit(off)));
         fw_geometry_vec2 until = w > 0 ? vec_along(here, 0.5, vec_sub(next, here)) : from;
         fw_verdict_arm_add(arm, pin, here, from, until, w);
-        from = until, here = next, at = to;
+        from = until, here = next, i = to;
         w = fw_greater(wide, 1e-3 * g->cell);
-        if (g->from[at] < 0) fw_verdict_arm_add(arm, pin, here, from, place(g, at), w);
+        if (i == last) fw_verdict_arm_add(arm, pin, here, from, place(g, g->way[i]), w);
     }
-    return FW_OK;
 }
 
 /* ---- bodies ---- */
@@ -480,21 +521,6 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
     return n;
 }
 
-/* The median of what the cut leaves is the place about which its integral of distances is least */
-static void sum_cut(const double *at, int n, double *middle, fw_verdict_arm *arm) {
-    double passed = 0;
-    for (int k = 0; k < n; k += 2)
-        arm->cut_m += at[k + 1] - at[k];
-    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
-        *middle = at[k] + 0.5 * arm->cut_m - passed;
-        passed += at[k + 1] - at[k];
-    }
-    for (int k = 0; k < n; k += 2) {
-        const double a = at[k] - *middle, b = at[k + 1] - *middle;
-        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
-    }
-}
-
 /* whatever the stress is, over a cut it comes to what hinges put on either side */
 static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
                              fw_verdict_arm *arm) {
@@ -514,7 +540,7 @@ static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
     }
     if (count % 2 != 0) return FW_OK;
     fw_sort_doubles(at, (size_t)count);
-    sum_cut(at, count, &middle, arm);
+    fw_verdict_arm_cut(at, count, &middle, arm);
     arm->cut = vec_along(arm->edge, middle, along);
     return FW_OK;
 }
@@ -526,8 +552,6 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
     if (g.nline == 0) return FW_OK;
     double across = vec_length((fw_geometry_vec2){g.box.x1 - g.box.x0, g.box.y1 - g.box.y0});
     double cell = fw_greater(across / ACROSS, fw_least_cell);
-    int *begins = fw_arena_array(scratch, int, (size_t)n);
-    FW_NEED(begins);
     fw_mark lines = fw_arena_mark(scratch);
     bool all = false;
     for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
@@ -537,15 +561,16 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
         FW_TRY(lay(&g, cell));
         int middle = cell_at(&g, layout->body[body].centroid, 2);
         if (middle < 0) continue;
-        for (int i = 0; i < n; i++)
-            begins[i] = cell_at(&g, ends[i].root, 0);
-        FW_TRY(spread(&g, middle, begins, n));
+        queue q;
+        edges around;
+        FW_TRY(begin_search(&g, &q));
+        FW_TRY(edges_new(&g, &around));
         all = true;
         for (int i = 0; i < n; i++) {
             fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
-            const int begin = begins[i];
             *to = (fw_verdict_arm){.known = false};
-            if (g.cost[begin] < HUGE_VAL) FW_TRY(follow(&g, begin, ends[i].pin, to));
+            find_way(&g, &q, cell_at(&g, ends[i].root, 0), middle);
+            if (g.nway > 0) follow(&g, &around, ends[i].pin, to);
             if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }

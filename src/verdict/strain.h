@@ -44,6 +44,8 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
 /* a piece of the way around `at`, `from` to `until`, as a strip of width w: added to the arm of a pin (world, m) */
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);
+/* what a straight cut leaves, between places (n, ascending, along it): cut_m, cut_m2, and its middle */
+void fw_verdict_arm_cut(const double *at, int n, double *middle, fw_verdict_arm *arm);
 /* c (9) += what it gives out of the plane, of (z, turns about x, y) by (Fz, Mx, My) about the pin, SI. An upper bound as
    above: of torsion 1/J <= 3/0.42 (1/(w h^3) + 1/(h w^3)) */
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
@@ -69,6 +71,7 @@ typedef struct fw_verdict_hinge_load {
     /* pin on b from pin on a, world axes; NaN: not known. Of use where a strip is pressed beyond what
        it bears alone and other flexures hold it */
     double apart_m[2];
+    double least_known; /* as in fw_flexure_strip_load */
 } fw_verdict_hinge_load;
 /* of hinge k at the poses q (3 nbody: m, rad) */
 fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *mechanism, int k,

@@ -258,7 +258,6 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.glance = fw_verdict_strain_monitor_glance;
         motion.unsettled = fw_verdict_strain_monitor_unsettled;
         motion.context = &monitor[i];
-        motion.trace = fw_verdict_clearance_trace;
         monitor[i].clearance = &watch[0];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
@@ -271,6 +270,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         monitor[i].probe = seen[0], other[i].probe = seen[1];
         monitor[i].trial = other[i].trial = options->decision_only && !options->values;
         motion.whole = motion.trace_both = seen[0] != NULL;
+        motion.trace = seen[0] || watch[0].things ? fw_verdict_clearance_trace : NULL;
         motion.like = v->like ? v->like[i] : NULL;
         motion.effects.like = motion.like ? &motion.like->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));

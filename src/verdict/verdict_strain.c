@@ -40,6 +40,21 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
 }
 
+/* The median of what the cut leaves is the place about which its integral of distances is least */
+void fw_verdict_arm_cut(const double *at, int n, double *middle, fw_verdict_arm *arm) {
+    double passed = 0;
+    for (int k = 0; k < n; k += 2)
+        arm->cut_m += at[k + 1] - at[k];
+    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
+        *middle = at[k] + 0.5 * arm->cut_m - passed;
+        passed += at[k + 1] - at[k];
+    }
+    for (int k = 0; k < n; k += 2) {
+        const double a = at[k] - *middle, b = at[k + 1] - *middle;
+        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
+    }
+}
+
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c) {
     static const int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
@@ -140,6 +155,7 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
     fw_flexure_strip_load strip;
     fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, known,
                              &strip);
+    strip.least_known = load->least_known;
     fw_flexure_strip_strain(&h->section, &strip, out);
     return strip.held;
 }
@@ -153,9 +169,11 @@ void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *b
         memcpy(out->root, now.root, sizeof now.root);
         return;
     }
+    fw_verdict_hinge_load all = *load;
+    all.least_known = 0; /* of every direction */
     *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .held = true};
     for (int i = 0; i < DIRECTIONS; i++) {
-        if (!strains_along(h, NULL, load, i * FW_TURN / DIRECTIONS, &now)) out->held = false;
+        if (!strains_along(h, NULL, &all, i * FW_TURN / DIRECTIONS, &now)) out->held = false;
         out->least = fmin(out->least, now.least);
         if (!(now.peak > out->peak)) continue;
         out->peak = now.peak;

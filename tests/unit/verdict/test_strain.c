@@ -81,7 +81,7 @@ static void count_moments(fw_mechanism_hinge *h) {
 
 static fw_verdict_hinge_strains strain_of(const fw_mechanism_hinge *h, double angle, double fx,
                                           double fy, double frame) {
-    const fw_verdict_hinge_load load = {angle, fx, fy, frame, false, {(double)NAN, (double)NAN}};
+    const fw_verdict_hinge_load load = {angle, fx, fy, frame, false, {(double)NAN, (double)NAN}, 0};
     fw_verdict_hinge_strains s;
     fw_verdict_hinge_strain(h, NULL, &load, &s);
     return s;
@@ -100,7 +100,7 @@ static void section_moments_of_a_whole_six_bar(void **state) {
                                             1e-6 * reference[i].fy_uN,
                                             reference[i].turned_rad,
                                             true,
-                                            {(double)NAN, (double)NAN}};
+                                            {(double)NAN, (double)NAN}, 0};
         fw_verdict_hinge_strains s;
         fw_verdict_hinge_strain(&h, NULL, &load, &s);
         double largest = 1e12 * s.peak;

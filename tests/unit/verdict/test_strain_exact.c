@@ -84,7 +84,7 @@ static fw_verdict_hinge_load load_of(const rig *r, const fw_statics *x, int i) {
     double b = p->body_b == FW_GROUND ? 0 : x->q[3 * p->body_b + 2];
     return (fw_verdict_hinge_load){
         x->angle_rad[i], x->reaction_N[2 * i],      x->reaction_N[2 * i + 1], 0.5 * (a + b),
-        false,           {(double)NAN, (double)NAN}};
+        false,           {(double)NAN, (double)NAN}, 0};
 }
 
 /* all hinges of the six-bar under four loads: moments at roots to 3e-8, those inside as near as the
