@@ -374,8 +374,8 @@ static void summary(const fw_process_flow *flow, fw_text *out) {
                 "</b></td></tr>\n</tbody></table>\n"
                 "<p class=\"small\">First look = planned (1 - k u), clear by = planned (1 + k u), "
                 "stop = clear by (1 + overrun); u is the relative standard uncertainty of the "
-                "time, k = 2. At the machine: planned (1 + overrun), with pauses and with what "
-                "is done at the same bench before the wafer leaves it."
+                "time, k = 2. At the machine: planned (1 + overrun), with pauses, with what is "
+                "done at the same bench before the wafer leaves it, and with handling."
                 "</p>\n");
 }
 
