@@ -282,12 +282,15 @@ fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw
 
 /* What the computed times do to the layers: known only with the mask and the device's thickness. */
 
-/* thickness of what lies on top of a column and is all of one material; NaN: a part is unknown */
-static double top_layer(const fw_process_stack *stack, int column, const char *material) {
+/* thickness of what lies outermost on a face of a column and is all of one material; NaN: a part is unknown */
+static double top_layer(const fw_process_stack *stack, int column, const char *material,
+                        bool back) {
     double sum = 0.0;
-    for (int i = stack->n[column] - 1; i >= 0; i--) {
-        if (strcmp(stack->cell[column][i].material, material) != 0) break;
-        sum += stack->cell[column][i].thickness_m;
+    const int n = stack->n[column];
+    for (int i = 0; i < n; i++) {
+        const fw_process_cell *c = &stack->cell[column][back ? i : n - 1 - i];
+        if (strcmp(c->material, material) != 0) break;
+        sum += c->thickness_m;
     }
     return sum;
 }
@@ -324,8 +327,11 @@ static fw_status lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
     for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
         fw_process_stack stack;
         FW_TRY(fw_process_flow_stack(arena, flow, k, &stack, NULL));
-        for (int column = 0; column < stack.columns; column++) {
-            double there = top_layer(&stack, column, x->material);
+        for (int column = 0; column < 2 * stack.columns; column++) {
+            const bool back = column >= stack.columns;
+            double there = fw_process_step_meets(s, back)
+                               ? top_layer(&stack, column % stack.columns, x->material, back)
+                               : 0.0;
             if (there > 0.0) least = fmin(least, there);
         }
     }
@@ -369,7 +375,7 @@ static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
     int field = strcmp(c->where, "field") == 0 ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
     if (stack.n[field] == 0) return FW_OK;
     const char *mould = stack.cell[field][stack.n[field] - 1].material;
-    double height = top_layer(&stack, field, mould), grown = c->thickness->value * spread;
+    double height = top_layer(&stack, field, mould, false), grown = c->thickness->value * spread;
     if (isnan(height) || grown <= height) return FW_OK;
     char up[32], high[32];
     fw_number_text(up, sizeof up, grown * 1e6, 4);

@@ -45,7 +45,7 @@ static fw_status lint_displaced(fw_process_pack *pack, int i, int k) {
         return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, i, k, &stack));
     for (int column = 0; column < stack.columns; column++) {
-        const fw_process_cell *on = fw_process_stack_top(&stack, column);
+        const fw_process_cell *on = fw_process_stack_top(&stack, column, c->back);
         if (!on || !fw_process_where_holds(f, c->where, column) ||
             strcmp(on->material, c->material) != 0)
             continue;
@@ -122,11 +122,23 @@ static const char *treated(const fw_process_step *s, const fw_process_wafer *bef
     return NULL;
 }
 
+/* the side that it was spun on last before step `at` */
+static bool coated_back(const fw_process_flow *f, int at, const char *resist) {
+    bool back = false;
+    for (int i = 0; i < at; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && strcmp(c->material, resist) == 0) back = c->back;
+        }
+    return back;
+}
+
 /* In all columns alike, since nothing has opened it yet; m, NaN where a coat is not known */
-static double coated_m(const fw_process_stack *stack, const char *resist) {
+static double coated_m(const fw_process_stack *stack, const char *resist, bool back) {
     double sum = 0.0;
     for (int i = 0; i < stack->n[FW_STACK_FIELD]; i++)
-        if (strcmp(stack->cell[FW_STACK_FIELD][i].material, resist) == 0)
+        if (strcmp(stack->cell[FW_STACK_FIELD][i].material, resist) == 0 &&
+            stack->cell[FW_STACK_FIELD][i].back == back)
             sum += stack->cell[FW_STACK_FIELD][i].thickness_m;
     return sum;
 }
@@ -153,7 +165,7 @@ fw_status fw_process_lint_coats(fw_process_pack *pack) {
         if (resist) {
             fw_process_stack stack;
             FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
-            double lies_m = coated_m(&stack, resist);
+            double lies_m = coated_m(&stack, resist, coated_back(f, i, resist));
             compare_coat(pack, s, resist, lies_m, thickness_of(s->argument, s->nargument));
             for (int k = 0; k < s->nderive; k++)
                 compare_coat(pack, s, resist, lies_m,
@@ -351,7 +363,7 @@ static fw_status lint_redone(fw_process_pack *pack, int at, int again,
         const fw_process_change *c = &s->change[k];
         const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
         if (strcmp(c->kind, "add") == 0) return FW_OK;
-        if (c->back || !on[0] || on_the_wafer(&before, on) || on_the_wafer(&after, on)) continue;
+        if (!on[0] || on_the_wafer(&before, on) || on_the_wafer(&after, on)) continue;
         fw_diag_error(
             pack->diags, 276, pack->flow->step[at].place,
             "<on-fail if=\"%s\"> of step %s goes on with step %s, which works on '%s', and "
@@ -431,44 +443,6 @@ static void lint_spin(fw_process_pack *pack, const fw_process_step *s) {
         fw_number_text(um, sizeof um, 1e6 * q[0]->value, 4), q[0]->id);
 }
 
-/* a film that was put on the back before a step and that nothing has opened since; NULL: none */
-static const char *covers_back(const fw_process_flow *f, int step) {
-    const char *cover = NULL;
-    for (int i = 0; i < step; i++)
-        for (int k = 0; k < f->step[i].nchange; k++) {
-            const fw_process_change *c = &f->step[i].change[k];
-            if (c->back && strcmp(c->kind, "add") == 0) cover = c->material;
-            if (cover && strcmp(c->kind, "remove") == 0 && strcmp(c->material, cover) == 0)
-                cover = NULL;
-        }
-    return cover;
-}
-
-static bool was_put_there(const fw_process_flow *f, int step, const char *material) {
-    for (int i = 0; i < step; i++)
-        for (int k = 0; k < f->step[i].nchange; k++)
-            if (f->step[i].change[k].back && strcmp(f->step[i].change[k].kind, "add") == 0 &&
-                strcmp(f->step[i].change[k].material, material) == 0)
-                return true;
-    return false;
-}
-
-/* the wafer itself is reached from its back only where that lies bare */
-static void lint_back(fw_process_pack *pack, int i) {
-    const fw_process_step *s = &pack->flow->step[i];
-    const char *cover = covers_back(pack->flow, i);
-    for (int k = 0; k < s->nchange && cover; k++) {
-        const fw_process_change *c = &s->change[k];
-        if (!c->back || strcmp(c->kind, "add") == 0 || was_put_there(pack->flow, i, c->material))
-            continue;
-        fw_diag_error(
-            pack->diags, 564, c->place,
-            "step %s works on '%s' from the back, where '%s' covers the wafer; take that off "
-            "before, or leave side=\"back\" out",
-            s->id, c->material, cover);
-    }
-}
-
 bool fw_process_step_sets(const fw_process_step *s, const fw_quantity *q) {
     for (int k = 0; k < s->nsetting; k++)
         if (s->setting[k].q == q) return true;
@@ -534,7 +508,6 @@ fw_status fw_process_lint_kind(fw_process_pack *pack) {
         lint_op(pack, s);
         lint_bath(pack, s);
         lint_spin(pack, s);
-        lint_back(pack, i);
         lint_rate(pack, i);
         lint_profile(pack, s);
         lint_clock(pack, s);

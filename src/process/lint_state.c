@@ -146,26 +146,32 @@ static fw_status lint_open(fw_process_pack *pack, int step, int change) {
     const fw_process_change *c = &s->change[change];
     const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
     fw_process_stack stack;
-    if (strcmp(c->kind, "add") == 0 || c->back) return FW_OK;
+    /* what carried the wafer comes off with what held it, in any order */
+    const bool demounts = c->back && fw_process_step_is_op(s, "release");
+    if (strcmp(c->kind, "add") == 0 || demounts) return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
-    if (c->reach && fw_process_stack_open(f, &stack, on)) return FW_OK;
+    if (c->reach && fw_process_stack_open(f, &stack, on, c->back)) return FW_OK;
     for (int column = 0; column < stack.columns; column++) {
         char part[FW_LABEL];
         const char *by;
-        const fw_process_cell *cell = fw_process_stack_find(f, &stack, column, on, &by);
-        bool back = cell && cell->bottom < -1e-9; /* of the wafer: nothing here looks at it */
-        if (!fw_process_where_holds(f, c->where, column) || !cell || !by || back) continue;
-        fw_diag_error(pack->diags, 339, c->place,
-                      "step %s works on '%s' in the %s, but there it lies below '%s'; take that "
-                      "off before, or name the part where it is open (where)",
+        const fw_process_cell *cell = fw_process_stack_find(f, &stack, column, on, c->back, &by);
+        bool other = cell && cell->back && !c->back; /* of the other face */
+        if (!fw_process_where_holds(f, c->where, column) || !cell || !by || other) continue;
+        fw_diag_error(pack->diags, c->back ? 564 : 339, c->place,
+                      c->back
+                          ? "step %s works on '%s' in the %s from the back, where '%s' covers it; "
+                            "take that off before, name the part where it is open (where), or "
+                            "leave side=\"back\" out"
+                          : "step %s works on '%s' in the %s, but there it lies below '%s'; "
+                            "take that off before, or name the part where it is open (where)",
                       s->id, on, fw_process_column_name(f, column, part), by);
         return FW_OK;
     }
     return FW_OK;
 }
 
-static const char *top(const fw_process_stack *stack, int column) {
-    const fw_process_cell *cell = fw_process_stack_top(stack, column);
+static const char *top(const fw_process_stack *stack, int column, bool back) {
+    const fw_process_cell *cell = fw_process_stack_top(stack, column, back);
     return cell ? cell->material : NULL;
 }
 
@@ -179,7 +185,7 @@ static fw_status lint_plating(fw_process_pack *pack, int step, int change) {
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
     for (int column = 0; column < stack.columns; column++) {
         char part[FW_LABEL];
-        const char *on = top(&stack, column);
+        const char *on = top(&stack, column, c->back);
         const fw_process_material *m = on ? fw_process_flow_material(f, on) : NULL;
         bool wanted = fw_process_where_holds(f, c->where, column);
         fw_process_column_name(f, column, part);
@@ -304,10 +310,10 @@ static bool masked_by(const fw_process_flow *f, const fw_process_step *s,
                       const fw_process_stack *stack, const char *resist) {
     for (int k = 0; k < s->nchange; k++) {
         const fw_process_change *c = &s->change[k];
-        if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back) continue;
+        if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0) continue;
         for (int column = 0; column < stack->columns; column++) {
             const char *mask =
-                fw_process_where_holds(f, c->where, column) ? NULL : top(stack, column);
+                fw_process_where_holds(f, c->where, column) ? NULL : top(stack, column, c->back);
             if (mask && strcmp(mask, resist) == 0) return true;
         }
     }
