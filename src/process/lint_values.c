@@ -46,8 +46,17 @@ static int range_of(const units *u, const fw_quantity *q) {
 
 static bool in_range(const units *u, const fw_quantity *q, fw_diags *diags) {
     if (q->least != 0.0 || q->most != 0.0) return fw_xml_quantity_check_range(q, q, diags);
-    int at = q->unknown ? -1 : range_of(u, q);
-    if (at < 0) return true;
+    const int at = range_of(u, q);
+    if (at < 0) {
+        fw_diag_error(diags, 547, q->place,
+                      "'%s' is in %s%s%s, and there is no plausible range of that kind%s; correct "
+                      "its unit, or state least=\"...\" and most=\"...\"",
+                      q->id ? q->id : "q", strcmp(q->unit, "1") == 0 ? "numbers" : q->unit,
+                      q->range ? " as " : "", q->range ? q->range : "",
+                      q->range ? "" : ": no value of a process is");
+        return false;
+    }
+    if (q->unknown) return true;
     const range *r = &ranges[at];
     double least = fw_quantity_unit_to_si(&u->of[at], r->least),
            most = fw_quantity_unit_to_si(&u->of[at], r->most);
