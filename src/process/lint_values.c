@@ -44,19 +44,20 @@ static int range_of(const units *u, const fw_quantity *q) {
     return -1;
 }
 
+/* has its kind a plausible range at all? Else nothing could be told of its values, and mostly its unit is a slip */
+static bool is_of_a_kind(const units *u, const fw_quantity *q, fw_diags *diags) {
+    if (q->least != 0.0 || q->most != 0.0 || q->range || range_of(u, q) >= 0) return true;
+    fw_diag_error(diags, 547, q->place,
+                  "'%s' is in %s, and no value of a process is of that kind; correct its unit, or "
+                  "state least=\"...\" and most=\"...\"",
+                  q->id ? q->id : "q", q->unit);
+    return false;
+}
+
 static bool in_range(const units *u, const fw_quantity *q, fw_diags *diags) {
     if (q->least != 0.0 || q->most != 0.0) return fw_xml_quantity_check_range(q, q, diags);
-    const int at = range_of(u, q);
-    if (at < 0) {
-        fw_diag_error(diags, 547, q->place,
-                      "'%s' is in %s%s%s, and there is no plausible range of that kind%s; correct "
-                      "its unit, or state least=\"...\" and most=\"...\"",
-                      q->id ? q->id : "q", strcmp(q->unit, "1") == 0 ? "numbers" : q->unit,
-                      q->range ? " as " : "", q->range ? q->range : "",
-                      q->range ? "" : ": no value of a process is");
-        return false;
-    }
-    if (q->unknown) return true;
+    int at = q->unknown ? -1 : range_of(u, q);
+    if (at < 0) return true;
     const range *r = &ranges[at];
     double least = fw_quantity_unit_to_si(&u->of[at], r->least),
            most = fw_quantity_unit_to_si(&u->of[at], r->most);
@@ -166,6 +167,7 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
         }
         bool own = fw_process_flow_own_quantity(f, q->id) == q && q->status != FW_DERIVED;
         bool asked = q->least != 0.0 || q->most != 0.0; /* when its element was read */
+        if (!is_of_a_kind(&u, q, pack->diags)) continue;
         if (own && (!asked || q->replaced) && !in_range(&u, q, pack->diags)) continue;
         if (own) too_uncertain(&u, q, pack->diags);
         if (own && !q->replaced) fw_process_warn_exact(q, NULL, pack->diags);

@@ -89,15 +89,11 @@ static int cells_of(const fw_process_step *s) {
 /* how many wafers stand side by side in a row: wafers of one load share what is written once for it, others have all of it
    twice in a row where their cells are few */
 static int abreast(const fw_process_step *s, int wafers, int load) {
-    const int cells = cells_of(s),
-              of_load = cells <= 2           ? 3
-                        : cells <= FEW_CELLS ? 2
-                                             : 1,
-              n = load > 1             ? of_load
-                  : cells <= FEW_CELLS ? 2
-                                       : 1,
-              most = load > 1 ? load : wafers;
-    return n < most ? n : most < wafers ? most : wafers;
+    const int cells = s->naccept > 2 ? MOST_CELLS : cells_of(s),
+              most = load > 1 && load < wafers ? load : wafers;
+    int n = cells <= FEW_CELLS ? 2 : 1;
+    if (load > 1 && cells <= 2) n = 3;
+    return n < most ? n : most;
 }
 
 static void common_heads(const fw_process_step *s, int among, fw_text *out) {
