@@ -3,6 +3,7 @@
    over its hollow wherever it goes? Page: docs/theory/plates.md; test: test_hollows.c. */
 #include "geometry/segment.h"
 #include "plan/stages.h"
+#include "process/films.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
@@ -163,6 +164,38 @@ static void check_faces(fw_diags *diags, const fw_process_flow *flow, const fw_m
     }
 }
 
+/* what a resist is exposed in is what the plate leaves clear: inside of its polygons, or outside */
+static void check_exposed(fw_diags *diags, const fw_process_flow *flow,
+                          const fw_mask_table *table) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const int named = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
+        const fw_mask_plate_row row =
+            fw_mask_plate_at(table, named < 0 ? table->device_plate : named);
+        int first;
+        const char *wrong;
+        if (!s->mask[0] || (named < 0 && table->nplate > 1) || !row.layers ||
+            !fw_mask_plate_layers(table, row.layers, NULL, &first, &wrong))
+            continue;
+        const bool clear = strcmp(table->layer[first].tone, "data clear") == 0;
+        for (int k = 0; k < s->nchange; k++) {
+            const fw_process_change *c = &s->change[k];
+            fw_process_side side;
+            if (strcmp(c->kind, "pattern") != 0 || !fw_process_where_side(flow, c->where, &side))
+                continue;
+            const bool inside = side.plate ? side.set : !side.set;
+            if (inside == clear) continue;
+            fw_diag_error(diags, 546, c->place,
+                          "step %s exposes '%s', which lies %s the polygons of plate \"%s\", but "
+                          "masks/%s.xml has them \"%s\": light comes through %s; correct where, or "
+                          "the tone of layer \"%s\"",
+                          s->id, c->where, inside ? "inside" : "outside of", s->mask, flow->id,
+                          table->layer[first].tone, clear ? "inside" : "outside of them",
+                          table->layer[first].id);
+        }
+    }
+}
+
 void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
     check_coupons(diags, flow, table);
     if (table->nplate > 1)
@@ -170,6 +203,7 @@ void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_
     else
         check_only(diags, flow, table);
     check_faces(diags, flow, table);
+    check_exposed(diags, flow, table);
     check_rows(diags, flow, table);
     check_lengths(diags, flow, table);
     if (table->nplate > 1) check_alignment(diags, flow, table);

@@ -500,6 +500,62 @@ static void lint_plasma(fw_process_pack *pack, const fw_process_step *s) {
                   s->id);
 }
 
+/* a setting that is called by its kind is of that kind: "bath temperature" is none of minutes */
+static void lint_called(fw_process_pack *pack, const fw_process_step *s) {
+    static const struct {
+        const char *word;
+        fw_quantity_dimension kind;
+    } called[] = {{"temperature", {.K = 1}},
+                  {"pressure", {.m = -1, .kg = 1, .s = -2}},
+                  {"power", {.m = 2, .kg = 1, .s = -3}},
+                  {"voltage", {.m = 2, .kg = 1, .s = -3, .A = -1}},
+                  {"current density", {.m = -2, .A = 1}},
+                  {"diameter", {.m = 1}},
+                  {"thickness", {.m = 1}}};
+    for (int k = 0; k < s->nsetting; k++)
+        for (size_t i = 0; i < sizeof called / sizeof *called; i++) {
+            const fw_process_setting *set = &s->setting[k];
+            const size_t n = strlen(set->name), w = strlen(called[i].word);
+            if (n < w || strcmp(set->name + n - w, called[i].word) != 0 ||
+                (n > w && set->name[n - w - 1] != ' ') ||
+                fw_quantity_dimension_equal(set->q->dimension, called[i].kind))
+                continue;
+            fw_diag_error(pack->diags, 548, set->place,
+                          "step %s sets a '%s' to '%s', which is in %s; name the quantity that is "
+                          "meant, or call the setting what it is",
+                          s->id, set->name, set->q->id, set->q->unit);
+        }
+}
+
+/* a step that is done in parts: of a second at least, else pauses never end */
+static void lint_parted_time(fw_process_pack *pack, const fw_process_step *s) {
+    if (s->pulse && !s->pulse->unknown && s->pulse->value < 1.0)
+        fw_diag_error(pack->diags, 278, s->pulse->replaced ? s->pulse->place : s->place,
+                      "step %s is done in parts of less than a second (%s); give the time between "
+                      "two pauses",
+                      s->id, s->pulse->id);
+}
+
+static bool says_nothing(const char *text) {
+    return !text || text[strspn(text, " \t\r\n")] == '\0';
+}
+
+/* what people read: what a step is, what for, and how its end is seen */
+static void lint_words(fw_process_pack *pack, const fw_process_step *s) {
+    const char *empty = says_nothing(s->title)     ? "title"
+                        : says_nothing(s->purpose) ? "purpose"
+                                                   : NULL;
+    for (int k = 0; k < s->nendpoint; k++)
+        if (says_nothing(s->endpoint[k])) empty = "endpoint";
+    for (int k = 0; k < s->naccept; k++)
+        if (says_nothing(s->accept[k].measure)) empty = "measure of an <accept>";
+    if (empty)
+        fw_diag_error(pack->diags, 171, s->place,
+                      "step %s: its %s says nothing, and whoever stands there reads it on the "
+                      "sheet; write it",
+                      s->id, empty);
+}
+
 fw_status fw_process_lint_kind(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
@@ -512,6 +568,9 @@ fw_status fw_process_lint_kind(fw_process_pack *pack) {
         lint_profile(pack, s);
         lint_clock(pack, s);
         lint_plasma(pack, s);
+        lint_called(pack, s);
+        lint_parted_time(pack, s);
+        lint_words(pack, s);
         FW_TRY(lint_reworks(pack, i));
     }
     return FW_OK;

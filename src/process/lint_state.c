@@ -320,10 +320,35 @@ static bool masked_by(const fw_process_flow *f, const fw_process_step *s,
     return false;
 }
 
+static const fw_quantity *heat_of(const fw_process_step *s) {
+    for (int k = 0; k < s->nsetting; k++)
+        if (fw_quantity_dimension_equal(s->setting[k].q->dimension,
+                                        (fw_quantity_dimension){.K = 1}))
+            return s->setting[k].q;
+    return NULL;
+}
+
+/* what a resist has kept at its soft bake stays in it below that */
+static void lint_hard(fw_process_pack *pack, const fw_process_step *s,
+                      const fw_process_step *soft) {
+    const fw_quantity *hard = heat_of(s), *first = heat_of(soft);
+    if (!hard || !first || hard->unknown || first->unknown || hard->value >= first->value) return;
+    char is[32], was[32];
+    fw_diag_warning(pack->diags, 341, hard->replaced ? hard->place : s->place,
+                    "step %s bakes the developed resist at %s %s, cooler than its soft bake "
+                    "(%s %s in step %s): nothing more leaves it, and it holds no better; bake "
+                    "hotter, or leave it out",
+                    s->id, fw_number_text(is, sizeof is, fw_quantity_in_unit(hard), 4), hard->unit,
+                    fw_number_text(was, sizeof was, fw_quantity_in_unit(first), 4), first->unit,
+                    soft->id);
+}
+
 typedef struct baked {
-    bool dehydrated;    /* baked since it was last wet, or new */
-    bool hard;          /* the resist was baked after it was developed */
-    const char *resist; /* spun on last; NULL: none */
+    bool dehydrated;             /* baked since it was last wet, or new */
+    bool hard;                   /* the resist was baked after it was developed */
+    const char *resist;          /* spun on last; NULL: none */
+    const fw_process_step *soft; /* its soft bake; NULL: none yet */
+    bool developed;
 } baked;
 
 static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer *before, baked *b) {
@@ -358,9 +383,12 @@ static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer 
                             "developed: it lifts or flows; add a hard bake before it",
                             s->id, b->resist);
     }
+    if (fw_process_step_is_op(s, "bake") && b->developed && b->soft) lint_hard(pack, s, b->soft);
+    if (fw_process_step_is_op(s, "bake") && before->is[FW_STATE_UNBAKED]) b->soft = s;
     for (int k = 0; coats && k < s->nchange; k++)
         if (strcmp(s->change[k].kind, "add") == 0) b->resist = s->change[k].material;
-    if (fw_process_step_is_op(s, "develop")) b->hard = false;
+    if (coats || fw_process_step_is_op(s, "strip")) b->developed = false, b->soft = NULL;
+    if (fw_process_step_is_op(s, "develop")) b->hard = false, b->developed = true;
     if (fw_process_step_is_op(s, "bake")) b->dehydrated = b->hard = true;
     if (fw_process_step_in_liquid(s) && !fw_process_step_is_op(s, "develop")) b->dehydrated = false;
     return FW_OK;

@@ -252,6 +252,19 @@ static void lint_cold(fw_process_pack *pack, const fw_process_step *s,
         set->q->id);
 }
 
+/* ... and nothing that is as thick as a wafer gets warm in seconds */
+static void lint_short(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    const fw_quantity *t = fw_process_step_argument(s, "time");
+    if (!fw_process_step_is_op(s, "bake") || !law || !law->stated || !t || t->unknown ||
+        t->value >= 10.0)
+        return;
+    fw_diag_error(pack->diags, 532, t->replaced ? t->place : s->place,
+                  "step %s bakes for less than ten seconds (%s), in which no wafer gets warm; "
+                  "is its unit right?",
+                  s->id, t->id);
+}
+
 /* "{=al.d*0.95}" is a number in the unit of al.d, and the limit is read in that of the measurement */
 static void lint_limit_in(fw_process_pack *pack, const fw_process_step *s,
                           const fw_process_accept *a, const char *const *limit) {
@@ -365,6 +378,7 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
         for (int k = 0; k < s->naccept; k++)
             lint_accept(pack, s, &s->accept[k]);
         lint_between(pack, s);
+        lint_short(pack, s);
         lint_pairs(pack, s, s->argument, s->nargument);
         lint_fast(pack, s, s->argument, s->nargument);
         if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);
