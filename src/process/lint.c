@@ -4,16 +4,23 @@
 #include <math.h>
 #include <string.h>
 
-/* "stated" is a claim about a publication: it needs one as its source */
+/* "stated" is a claim about a publication, "measured" one about a measurement: each needs that as its source */
 static fw_status lint_stated(fw_process_pack *pack) {
     for (int part = 0; part < 2; part++) {
         const fw_xml_record *root = part == 0 ? pack->base : pack->root;
         for (const fw_xml_record *c = root->first_child; c; c = c->next) {
             const fw_xml_attribute *src = fw_process_pack_get(c, "src");
-            if (!fw_xml_is(c, "q") || !src ||
-                strcmp(fw_process_pack_text(c, "status"), "stated") != 0)
+            const char *status = fw_process_pack_text(c, "status");
+            const bool stated = strcmp(status, "stated") == 0;
+            if (!fw_xml_is(c, "q") || !src || (!stated && strcmp(status, "measured") != 0))
                 continue;
             const fw_process_source *s = fw_process_pack_find(pack, src, FW_ID_SOURCE);
+            if (s && !stated && strcmp(s->kind, "measured") != 0)
+                fw_diag_error(pack->diags, 173, src->place,
+                              "'%s' has status measured, but its source is of kind %s; name the "
+                              "source that measured it, or use typical",
+                              fw_process_pack_text(c, "id"), s->kind);
+            if (!stated) continue;
             if (s && strcmp(s->kind, "publication") != 0 && strcmp(s->kind, "datasheet") != 0)
                 fw_diag_error(pack->diags, 173, src->place,
                               "'%s' has status stated, but its source is of kind %s; use typical "
@@ -22,6 +29,24 @@ static fw_status lint_stated(fw_process_pack *pack) {
         }
     }
     return FW_OK;
+}
+
+/* what a tool takes is what some material brings along */
+static void lint_takes(fw_process_pack *pack, const fw_process_equipment *e) {
+    const char *words = e->takes;
+    for (fw_word word; fw_word_next(&words, " ", &word);) {
+        bool known = false;
+        for (int i = 0; i < pack->flow->nprocess_material; i++) {
+            const char *group = pack->flow->process_material[i].contaminates;
+            known =
+                known || (strlen(group) == word.length && memcmp(group, word.at, word.length) == 0);
+        }
+        if (!known)
+            fw_diag_error(pack->diags, 165, e->place,
+                          "'%s' takes=\"%.*s\": no material contaminates with that; correct the "
+                          "word, or say contaminates=\"...\" of the material",
+                          e->id, (int)word.length, word.at);
+    }
 }
 
 /* <hazard> children that name something elsewhere */
@@ -47,6 +72,7 @@ static fw_status lint_names(fw_process_pack *pack) {
             FW_NEED(brings.value = fw_arena_strndup(pack->arena, word.at, word.length));
             fw_process_pack_find(pack, &brings, FW_ID_HAZARD);
         }
+        lint_takes(pack, e);
     }
     return FW_OK;
 }
@@ -62,6 +88,14 @@ static fw_status lint_order(fw_process_pack *pack) {
                                   "<lag> of step %s counts from step %s, which is not before it; "
                                   "name an earlier step",
                                   f->step[i].id, f->step[j].id);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].non_fail; k++)
+            if (strcmp(f->step[i].on_fail[k].then, "rework") == 0 &&
+                !f->step[i].on_fail[k].go_to[0])
+                fw_diag_error(pack->diags, 276, f->step[i].place,
+                              "<on-fail if=\"%s\"> of step %s says rework, and not from which step "
+                              "on; add goto=\"%s\", or that of an earlier step",
+                              f->step[i].on_fail[k].condition, f->step[i].id, f->step[i].id);
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; k < f->step[i].non_fail; k++)
             for (int j = i + 1; j < f->nstep; j++)

@@ -299,9 +299,17 @@ static void lint_timed(fw_process_pack *pack, const fw_process_step *s) {
     char is[32], by[32];
     for (int k = 0; k < s->nchange; k++) {
         const fw_process_change *c = &s->change[k];
-        if (!c->thickness) continue;
-        if (stated || c->reach) return;
-        stated = c->thickness;
+        const fw_quantity *of = c->reach ? c->reach : c->thickness;
+        if (!of) continue;
+        if (stated) return;
+        if (c->reach && timed && timed != of &&
+            !(timed->id && of->id && strcmp(timed->id, of->id) == 0))
+            fw_diag_error(pack->diags, 561, s->place,
+                          "the time of step %s is computed for '%s', but the step reaches '%s' "
+                          "sideways; name the same quantity in its <time> and its <change>",
+                          s->id, timed->id, of->id);
+        if (c->reach) return;
+        stated = of;
     }
     if (!timed || !stated || timed->unknown || stated->unknown ||
         fabs(timed->value - stated->value) <= 1e-6 * stated->value)
@@ -549,6 +557,8 @@ static void lint_words(fw_process_pack *pack, const fw_process_step *s) {
         if (says_nothing(s->endpoint[k])) empty = "endpoint";
     for (int k = 0; k < s->naccept; k++)
         if (says_nothing(s->accept[k].measure)) empty = "measure of an <accept>";
+    for (int k = 0; k < s->non_fail; k++)
+        if (says_nothing(s->on_fail[k].condition)) empty = "condition of an <on-fail>";
     if (empty)
         fw_diag_error(pack->diags, 171, s->place,
                       "step %s: its %s says nothing, and whoever stands there reads it on the "

@@ -97,6 +97,34 @@ static void lint_meniscus(fw_process_pack *pack, const fw_process_step *s,
     }
 }
 
+/* water and vibration of a saw tear off what moves */
+static void lint_sawn(fw_process_pack *pack, const fw_process_step *s,
+                      const fw_process_wafer *before) {
+    const bool wet = fw_process_step_takes_wet(s) || fw_process_step_liquid(s);
+    if (before->released && wet && fw_process_step_is_op(s, "dice"))
+        fw_diag_error(pack->diags, 337, s->place,
+                      "step %s dices wafers whose devices are free already: water and shaking tear "
+                      "them off; dice before they are released",
+                      s->id);
+}
+
+/* finishes that cannot be: a tool that is never pumped is not vented, and a rinse takes time */
+static void lint_finish(fw_process_pack *pack, const fw_process_step *s) {
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        if (f->kind == FW_FINISH_VENT && s->equipment && !s->equipment->vacuum)
+            fw_diag_error(pack->diags, 505, f->place,
+                          "step %s vents '%s', which does not say vacuum=\"yes\"; say it, or leave "
+                          "the finish out",
+                          s->id, s->equipment->id);
+        if (f->time && !f->time->unknown && !(f->time->value > 0.0))
+            fw_diag_error(pack->diags, 347, f->time->replaced ? f->time->place : f->place,
+                          "step %s finishes at its bench in no time (%s); give the time, or leave "
+                          "it out where it is within the step's own",
+                          s->id, f->time->id);
+    }
+}
+
 /* a hot wafer goes from bake to bake; elsewhere it is cool: resist dries as it is spun on, liquids boil, it breaks */
 static void lint_hot(fw_process_pack *pack, const fw_process_step *s,
                      const fw_process_wafer *before) {
@@ -130,6 +158,8 @@ fw_status fw_process_lint_states(fw_process_pack *pack) {
         lint_residue(pack, s, &now);
         lint_hot(pack, s, &now);
         lint_pumped(pack, s, &now);
+        lint_sawn(pack, s, &now);
+        lint_finish(pack, s);
         fw_process_wafer_pass(pack->flow, i, &now);
         lint_meniscus(pack, s, &now);
     }
@@ -440,6 +470,57 @@ static fw_status lint_end_state(fw_process_pack *pack) {
     return FW_OK;
 }
 
+static bool reaches_below(const fw_process_flow *f, const char *material) {
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (c->reach && strcmp(c->material, material) == 0) return true;
+        }
+    return false;
+}
+
+/* the lowest of a column that the device hangs on: what touches below it, down to where nothing does or an etch runs
+   sideways; NULL: it hangs on nothing, or is the wafer itself */
+static const char *hangs_on(const fw_process_flow *f, const fw_process_cell *cell, int i,
+                            bool *insulated) {
+    if (i == 0) return NULL;
+    for (; i > 0; i--) {
+        const fw_process_cell *c = &cell[i], *on = c - 1;
+        const fw_process_material *m = fw_process_flow_material(f, on->material);
+        if (on->bottom + on->height < c->bottom - 1e-9 || on->back) return NULL;
+        *insulated = *insulated || (m && m->conducts == 0);
+        if (reaches_below(f, on->material)) return NULL;
+    }
+    return cell[0].material;
+}
+
+/* Somewhere the device has nothing below it: a hollow, a layer that was taken away, or a way that an etch runs sideways.
+   And where the pack says that its carrier insulates, something that carries no current is below it. */
+static void lint_end_below(fw_process_pack *pack, const fw_process_stack *stack) {
+    const fw_process_flow *f = pack->flow;
+    const char *bonded = NULL;
+    bool free = false, insulated = false;
+    for (int column = 0; f->material && column < stack->columns; column++)
+        for (int i = 0; i < stack->n[column]; i++) {
+            const fw_process_cell *cell = stack->cell[column];
+            if (strcmp(cell[i].material, f->material) != 0) continue;
+            const char *on = hangs_on(f, cell, i, &insulated);
+            if (on) bonded = on;
+            free = free || !on;
+            break;
+        }
+    if (bonded && !free)
+        fw_diag_error(
+            pack->diags, 338, f->place,
+            "the flow ends with '%s' bonded to '%s' everywhere: nothing frees the device; "
+            "etch away what is below it (reach=\"...\" of a removal), or hollow it out",
+            f->material, bonded);
+    if (f->insulating && !insulated)
+        fw_diag_error(pack->diags, 338, f->place,
+                      "carrier=\"insulating\", but nothing that carries no current lies below the "
+                      "device when the flow ends");
+}
+
 /* a finished wafer is dry and safe, has its device and no resist, and what <finished> says */
 fw_status fw_process_lint_end(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
@@ -451,6 +532,7 @@ fw_status fw_process_lint_end(fw_process_pack *pack) {
         lint_end_layer(pack, &stack, f->finished[i].material, f->finished[i].where,
                        f->finished[i].present, f->finished[i].place);
     if (f->material) lint_end_layer(pack, &stack, f->material, "structure", true, f->place);
+    lint_end_below(pack, &stack);
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; fw_process_step_is_op(&f->step[i], "coat") && k < f->step[i].nchange; k++)
             if (strcmp(f->step[i].change[k].kind, "add") == 0)
