@@ -4,23 +4,16 @@
 #include <math.h>
 #include <string.h>
 
-/* "stated" is a claim about a publication, "measured" one about a measurement: each needs that as its source */
+/* "stated" is a claim about a publication: it needs one as its source */
 static fw_status lint_stated(fw_process_pack *pack) {
     for (int part = 0; part < 2; part++) {
         const fw_xml_record *root = part == 0 ? pack->base : pack->root;
         for (const fw_xml_record *c = root->first_child; c; c = c->next) {
             const fw_xml_attribute *src = fw_process_pack_get(c, "src");
-            const char *status = fw_process_pack_text(c, "status");
-            const bool stated = strcmp(status, "stated") == 0;
-            if (!fw_xml_is(c, "q") || !src || (!stated && strcmp(status, "measured") != 0))
+            if (!fw_xml_is(c, "q") || !src ||
+                strcmp(fw_process_pack_text(c, "status"), "stated") != 0)
                 continue;
             const fw_process_source *s = fw_process_pack_find(pack, src, FW_ID_SOURCE);
-            if (s && !stated && strcmp(s->kind, "measured") != 0)
-                fw_diag_error(pack->diags, 173, src->place,
-                              "'%s' has status measured, but its source is of kind %s; name the "
-                              "source that measured it, or use typical",
-                              fw_process_pack_text(c, "id"), s->kind);
-            if (!stated) continue;
             if (s && strcmp(s->kind, "publication") != 0 && strcmp(s->kind, "datasheet") != 0)
                 fw_diag_error(pack->diags, 173, src->place,
                               "'%s' has status stated, but its source is of kind %s; use typical "

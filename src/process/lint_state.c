@@ -516,9 +516,10 @@ static void lint_end_below(fw_process_pack *pack, const fw_process_stack *stack)
             "etch away what is below it (reach=\"...\" of a removal), or hollow it out",
             f->material, bonded);
     if (f->insulating && !insulated)
-        fw_diag_error(pack->diags, 338, f->place,
-                      "carrier=\"insulating\", but nothing that carries no current lies below the "
-                      "device when the flow ends");
+        fw_diag_warning(
+            pack->diags, 338, f->place,
+            "carrier=\"insulating\", but nothing that carries no current lies below the "
+            "device when the flow ends: whatever it is put on must insulate");
 }
 
 /* a finished wafer is dry and safe, has its device and no resist, and what <finished> says */

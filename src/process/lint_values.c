@@ -257,7 +257,7 @@ static void lint_short(fw_process_pack *pack, const fw_process_step *s) {
     const fw_process_law *law = fw_process_law_find(s->law);
     const fw_quantity *t = fw_process_step_argument(s, "time");
     if (!fw_process_step_is_op(s, "bake") || !law || !law->stated || !t || t->unknown ||
-        t->value >= 10.0)
+        t->value >= 10.0 || !(t->value > 0.0)) /* of no time at all: FW-D534 */
         return;
     fw_diag_error(pack->diags, 532, t->replaced ? t->place : s->place,
                   "step %s bakes for less than ten seconds (%s), in which no wafer gets warm; "

@@ -134,7 +134,6 @@ static void mistakes_of_a_flow(void **state) {
          "nothing frees the device"},
         /* what nothing frees, and what nothing insulates */
         {"soi-deep-rie", " where=\"field\" reach=\"release.reach\"", " where=\"field\"", 338, "nothing frees the device"},
-        {SILICON, "thickness=\"si.d\">", "thickness=\"si.d\" carrier=\"insulating\">", 338, "nothing that carries no current"},
         {"soi-deep-rie", "reach=\"release.reach\"/>", "reach=\"box.d\"/>", 561, "reaches 'box.d' sideways"},
         /* set by another kind, or of none */
         {SILICON, "q=\"hard.T\" tol-lo=\"110\" tol-hi=\"120\"", "q=\"hard.t\" tol-lo=\"\" tol-hi=\"\"", 548, "sets a 'temperature' to 'hard.t'"},
@@ -157,8 +156,6 @@ static void mistakes_of_a_flow(void **state) {
          "vents 'al-bench'"},
         {SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
          "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/><corner of=\"thickness\" name=\"again\" q=\"si.d\"/>", 260, "count twice"},
-        {SILICON, "id=\"lamp.I\" least=\"0.5\" most=\"200\" value=\"10\" urel=\"0.05\" unit=\"mW/cm2\" status=\"assumed\"",
-         "id=\"lamp.I\" least=\"0.5\" most=\"200\" value=\"10\" urel=\"0.05\" unit=\"mW/cm2\" status=\"measured\"", 173, "has status measured"},
         {SILICON, "class=\"profilometer, microscope, four-point probe\" capacity=\"1\"",
          "class=\"profilometer, microscope, four-point probe\" capacity=\"1\" takes=\"coper\"", 165, "no material contaminates with that"},
         /* acid with nobody beside it */
