@@ -42,8 +42,28 @@ static void lint_takes(fw_process_pack *pack, const fw_process_equipment *e) {
     }
 }
 
+/* quantities that the program itself looks for, whatever ranges they state */
+static void lint_known(fw_process_pack *pack) {
+    static const struct {
+        const char *id, *what;
+        fw_quantity_dimension kind;
+    } known[] = {
+        {"insulator.breakdown", "a voltage per length", {.m = 1, .kg = 1, .s = -3, .A = -1}},
+        {"insulator.resistivity", "a resistivity", {.m = 3, .kg = 1, .s = -3, .A = -2}},
+        {"release.bond", "a share", {0}},
+        {"isopropanol.tension", "a force per length", {.kg = 1, .s = -2}},
+        {"dry.angle", "an angle", {.rad = 1}}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const fw_quantity *q = fw_process_flow_quantity(pack->flow, known[i].id);
+        if (!q || fw_quantity_dimension_equal(q->dimension, known[i].kind)) continue;
+        fw_diag_error(pack->diags, 547, q->place, "'%s' is in %s, and is %s; correct its unit",
+                      q->id, q->unit, known[i].what);
+    }
+}
+
 /* <hazard> children that name something elsewhere */
 static fw_status lint_names(fw_process_pack *pack) {
+    lint_known(pack);
     for (int part = 0; part < 2; part++) {
         const fw_xml_record *root = part == 0 ? pack->base : pack->root;
         for (const fw_xml_record *h = root->first_child; h; h = h->next)

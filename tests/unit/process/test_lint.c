@@ -140,6 +140,8 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "name=\"power\" q=\"rie.power\" tol-lo=\"245\" tol-hi=\"255\"", "name=\"power\" q=\"rie.p\" tol-lo=\"\" tol-hi=\"\"", 548,
          "sets a 'power' to 'rie.p', which is in mTorr"},
         {SILICON, "id=\"litho.gap\" value=\"5\" u=\"5\" unit=\"um\"", "id=\"litho.gap\" value=\"5\" u=\"5\" unit=\"kg2\"", 547, "'litho.gap' is in kg2"},
+        {"soi-deep-rie", "value=\"500\" urel=\"0.3\" unit=\"V/um\"", "value=\"500\" urel=\"0.3\" unit=\"kg2\"", 547,
+         "is a voltage per length"},
         /* no time for it */
         {SILICON, "id=\"hard.t\" value=\"5\" u=\"0.5\" unit=\"min\"", "id=\"hard.t\" value=\"5\" u=\"0.5\" unit=\"s\"", 532, "less than ten seconds"},
         {SILICON, "id=\"rie.part\" value=\"30\"", "id=\"rie.part\" value=\"0\"", 278, "parts of less than a second"},
