@@ -389,6 +389,8 @@ typedef struct fw_mask_order {
     int polygons, vertices; /* of the plate's layers in the GDSII file */
 } fw_mask_order;
 
+/* 1: a plate that is read so is, seen with the chrome up, the mirror image of its data; 0: not; -1: it does not say */
+int fw_mask_reading_mirrors(const char *reading);
 fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
                                fw_mask_order *order);
 

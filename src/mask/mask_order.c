@@ -22,7 +22,7 @@ void fw_mask_order_count(const fw_mask *mask, int layer, int *polygons, int *ver
 }
 
 /* right-reading chrome down is wrong-reading chrome up, and the other way round */
-static int mirrored(const char *reading) {
+int fw_mask_reading_mirrors(const char *reading) {
     bool right = strstr(reading, "right-reading"), wrong = strstr(reading, "wrong-reading");
     bool down = strstr(reading, "chrome down"), up = strstr(reading, "chrome up");
     if (right == wrong || down == up) return -1;
@@ -107,7 +107,7 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
         order->tone = table->layer[first].tone;
         order->field = strcmp(order->tone, "data dark") == 0 ? "clear" : "dark";
     }
-    order->mirror = mirrored(row->reading);
+    order->mirror = fw_mask_reading_mirrors(row->reading);
     for (int k = 0; k < table->nlayer; k++) {
         if (!order->plate[k]) continue;
         int polygons, vertices;

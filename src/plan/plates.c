@@ -3,6 +3,7 @@
    over its hollow wherever it goes? Page: docs/theory/plates.md; test: test_hollows.c. */
 #include "geometry/segment.h"
 #include "plan/stages.h"
+#include "process/films.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
@@ -143,12 +144,66 @@ static void check_alignment(fw_diags *diags, const fw_process_flow *flow,
     }
 }
 
+/* All plates are drawn as seen from the front: one that prints the back must read the other way round. */
+static void check_faces(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const int named = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
+        if (!s->mask[0] || (named < 0 && table->nplate > 1)) continue;
+        const char *reading = fw_mask_plate_at(table, named < 0 ? 0 : named).reading;
+        const bool back = fw_process_step_on_back(s);
+        const int mirror = fw_mask_reading_mirrors(reading);
+        if (mirror < 0 || (mirror == 1) != back) continue;
+        fw_diag_error(diags, 546, s->place,
+                      "step %s prints plate \"%s\" on the %s of the wafer, but masks/%s.xml says "
+                      "reading=\"%s\": the wafer would get its mirror image, since all plates are "
+                      "drawn as seen from the front; write \"%s chrome down\" there, or the other "
+                      "side in the step",
+                      s->id, s->mask, back ? "back" : "front", flow->id, reading,
+                      back ? "wrong-reading" : "right-reading");
+    }
+}
+
+/* what a resist is exposed in is what the plate leaves clear: inside of its polygons, or outside */
+static void check_exposed(fw_diags *diags, const fw_process_flow *flow,
+                          const fw_mask_table *table) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const int named = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
+        const fw_mask_plate_row row =
+            fw_mask_plate_at(table, named < 0 ? table->device_plate : named);
+        int first;
+        const char *wrong;
+        if (!s->mask[0] || (named < 0 && table->nplate > 1) || !row.layers ||
+            !fw_mask_plate_layers(table, row.layers, NULL, &first, &wrong))
+            continue;
+        const bool clear = strcmp(table->layer[first].tone, "data clear") == 0;
+        for (int k = 0; k < s->nchange; k++) {
+            const fw_process_change *c = &s->change[k];
+            fw_process_side side;
+            if (strcmp(c->kind, "pattern") != 0 || !fw_process_where_side(flow, c->where, &side))
+                continue;
+            const bool inside = side.plate ? side.set : !side.set;
+            if (inside == clear) continue;
+            fw_diag_error(diags, 546, c->place,
+                          "step %s exposes '%s', which lies %s the polygons of plate \"%s\", but "
+                          "masks/%s.xml has them \"%s\": light comes through %s; correct where, or "
+                          "the tone of layer \"%s\"",
+                          s->id, c->where, inside ? "inside" : "outside of", s->mask, flow->id,
+                          table->layer[first].tone, clear ? "inside" : "outside of them",
+                          table->layer[first].id);
+        }
+    }
+}
+
 void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
     check_coupons(diags, flow, table);
     if (table->nplate > 1)
         check_order(diags, flow, table);
     else
         check_only(diags, flow, table);
+    check_faces(diags, flow, table);
+    check_exposed(diags, flow, table);
     check_rows(diags, flow, table);
     check_lengths(diags, flow, table);
     if (table->nplate > 1) check_alignment(diags, flow, table);
@@ -302,13 +357,16 @@ static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_
                 of_body(v->mechanism, v->motion[s], box, b, s, &far);
     }
     double overlay = fw_mask_overlay_m(pf->table, FW_ROLE_CAVITY);
+    const int row = fw_mask_plate_of_role(pf->table, FW_ROLE_CAVITY);
+    const bool bonded =
+        row >= 0 && fw_process_flow_hollow(pf->flow, pf->table->plates[row].id, NULL);
     char goes[32], off[32], margin[32], needs[32];
     if (far.m + overlay <= margin_m) return FW_OK;
     const char *why = fw_arena_printf(
         plan->arena,
         "link %s goes %s um in %s%s, and may lie %s um aside of its hollow, which reaches only "
         "%s um beyond it: it would "
-        "run over bonded glass. Nearest change: margin=\"%s um\" of <content kind=\"cavity\"> in "
+        "run over %s. Nearest change: margin=\"%s um\" of <content kind=\"cavity\"> in "
         "masks/%s.xml, or less "
         "travel",
         plan->device->body[far.body].id, fw_number_text(goes, sizeof goes, far.m * 1e6, 4),
@@ -316,6 +374,7 @@ static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_
         far.scene == FW_NONE ? "" : plan->device->scene[far.scene].name,
         fw_number_text(off, sizeof off, overlay * 1e6, 4),
         fw_number_text(margin, sizeof margin, margin_m * 1e6, 4),
+        bonded ? "bonded glass" : "the wafer below it",
         fw_number_text(needs, sizeof needs, ceil((far.m + overlay) * 1e6), 4), pf->flow->id);
     FW_NEED(why);
     return fw_process_flow_add_reason(plan->arena, pf->flow, 0, why);

@@ -99,6 +99,13 @@ static double top_of(const maker *m, int column) {
     return top;
 }
 
+static double bottom_of(const maker *m, int column) {
+    double low = (double)INFINITY;
+    for (int i = 0; i < m->films->n; i++)
+        if (m->films->film[i].in[column]) low = fmin(low, m->films->film[i].bottom_m);
+    return low;
+}
+
 static double floor_of(const fw_process_films *f) {
     double low = 0.0;
     for (int i = 0; i < f->n; i++)
@@ -107,23 +114,6 @@ static double floor_of(const fw_process_films *f) {
 }
 
 /* ---- walls ---- */
-
-/* where printing leaves the edge: the plate's, less what is known of printing */
-static double printed_m(const maker *m) {
-    return m->flow->edges.bias_m - m->flow->edges.printed_m;
-}
-
-static bool device_is_cut(const maker *m) {
-    for (int i = 0; i < m->flow->edges.ncut; i++)
-        if (m->flow->edges.cut[i].device) return true;
-    return false;
-}
-
-/* Known slope of printed walls: d(edge)/dz. Where the device is cut out of a layer the corner
-   `taper` is of that cut, else of the resist that the device grows in. */
-static double printed_slope(const maker *m) {
-    return device_is_cut(m) || !(m->device_m > 0.0) ? 0.0 : -m->flow->edges.flare_m / m->device_m;
-}
 
 static double wall_at(const fw_process_film *f, int plate, double z_m) {
     double foot = plate ? f->further[plate - 1].foot_m : f->foot_m,
@@ -134,27 +124,44 @@ static double wall_at(const fw_process_film *f, int plate, double z_m) {
 /* where printing leaves the edge of a plate */
 static double edge_of_plate(const maker *m, int plate) {
     const fw_quantity *shrink = plate ? m->flow->plate[plate - 1].shrink : NULL;
-    if (!plate) return printed_m(m);
+    if (!plate) return fw_process_fixed_point_printed_m(&m->flow->edges);
     return shrink && !shrink->unknown ? -shrink->value : 0.0;
 }
 
-/* the film on one side alone that lies next above z (from z on); NULL */
-static const fw_process_film *mask_above(const maker *m, fw_process_side side, double z_m) {
+/* the film on one side of a plate alone that lies next above z (from z on), or below it; NULL */
+static const fw_process_film *mask_beyond(const maker *m, fw_process_side side, bool back,
+                                          double z_m) {
     const fw_process_films *f = m->films;
     const fw_process_film *best = NULL;
     for (int i = 0; i < f->n; i++) {
         const fw_process_film *c = &f->film[i];
         if (only_in(m, c, side) && fw_process_columns_edge(m->flow, c->in, side.plate) &&
-            c->bottom_m >= z_m - TOUCH_M && (!best || c->bottom_m < best->bottom_m))
+            (back ? c->top_m <= z_m + TOUCH_M && (!best || c->top_m > best->top_m)
+                  : c->bottom_m >= z_m - TOUCH_M && (!best || c->bottom_m < best->bottom_m)))
             best = c;
     }
     return best;
 }
 
-/* edge of what covers a side above a film, that is of the mask of whatever is done beside it */
-static double mask_edge(const maker *m, const fw_process_film *film, fw_process_side side) {
-    const fw_process_film *mask = mask_above(m, side, film->top_m);
-    return mask ? wall_at(mask, side.plate, mask->bottom_m) : edge_of_plate(m, side.plate);
+/* edge of what covers a side above a film, or below it, that is of the mask of whatever is done beside it */
+static double mask_edge(const maker *m, const fw_process_film *film, fw_process_side side,
+                        bool back) {
+    const fw_process_film *mask = mask_beyond(m, side, back, back ? film->bottom_m : film->top_m);
+    return mask ? wall_at(mask, side.plate, back ? mask->top_m : mask->bottom_m)
+                : edge_of_plate(m, side.plate);
+}
+
+/* is something of its material on the face that a change works on? Then on that face alone: fw_process_stack_works_on */
+static bool has_own(const maker *m, const fw_process_change *c) {
+    bool own = false;
+    for (int i = 0; i < m->films->n; i++)
+        own = own || (m->films->film[i].back == c->back &&
+                      fw_text_same(m->films->film[i].material, c->material));
+    return own;
+}
+
+static bool works_on(const fw_process_change *c, bool own, const fw_process_film *film) {
+    return fw_text_same(film->material, c->material) && (film->back == c->back || !own);
 }
 
 /* a film on both sides becomes one on each; *at is the one on `side` */
@@ -183,22 +190,6 @@ static void set_wall(const maker *m, int plate, const fw_process_film *like, dou
 
 /* ---- what is added ---- */
 
-/* far from everything: added and taken away as a whole, if at all, or hollowed out to no more than *depth_m */
-static bool is_background(const maker *m, const fw_process_change *add, double *depth_m) {
-    *depth_m = 0.0;
-    for (int i = 0; i < m->flow->nstep; i++)
-        for (int k = 0; k < m->flow->step[i].nchange; k++) {
-            const fw_process_change *c = &m->flow->step[i].change[k];
-            if (!fw_text_same(c->kind, "remove") || !fw_text_same(c->material, add->material))
-                continue;
-            double t = known(c->thickness);
-            bool shallow = c->isotropic && t < 0.5 * known(add->thickness);
-            if (shallow) *depth_m = fmax(*depth_m, t);
-            if (!shallow && (c->thickness || !fw_text_same(c->where, "all"))) return false;
-        }
-    return fw_text_same(add->where, "all");
-}
-
 static fw_status drawn_height(maker *m, const fw_process_change *c, double *height_m,
                               bool *shortened) {
     double t = known(c->thickness);
@@ -210,7 +201,7 @@ static fw_status drawn_height(maker *m, const fw_process_change *c, double *heig
                                        fw_process_flow_material_name(m->flow, c->material)));
     }
     double depth;
-    if (t > THICK * m->device_m && is_background(m, c, &depth)) {
+    if (t > THICK * m->device_m && fw_process_change_is_background(m->flow, c, &depth)) {
         *shortened = true;
         *height_m = SHORTENED_PART * m->device_m + depth;
     }
@@ -270,7 +261,8 @@ static fw_status add_front(maker *m, const fw_process_change *c, fw_process_film
 }
 
 static fw_status add(maker *m, const fw_process_change *c) {
-    fw_process_film film = {.material = c->material, .thickness_m = known(c->thickness)};
+    fw_process_film film = {
+        .material = c->material, .thickness_m = known(c->thickness), .back = c->back};
     double height;
     FW_TRY(drawn_height(m, c, &height, &film.shortened));
     if (!c->back) return add_front(m, c, film, height);
@@ -278,7 +270,7 @@ static fw_status add(maker *m, const fw_process_change *c) {
     film.bottom_m = film.top_m - height;
     for (int k = 0; k < m->columns; k++)
         film.in[k] = fw_process_where_holds(m->flow, c->where, k);
-    film.foot_m = film.head_m = printed_m(m);
+    film.foot_m = film.head_m = fw_process_fixed_point_printed_m(&m->flow->edges);
     return add_film(m, film);
 }
 
@@ -293,17 +285,16 @@ static bool side_of(const maker *m, const fw_process_change *c, fw_process_side 
 /* a latent image: what of the film lies on one side becomes exposed */
 static fw_status expose(maker *m, const fw_process_change *c) {
     fw_process_side side;
-    bool part = side_of(m, c, &side);
-    double slope = side.plate ? 0.0 : printed_slope(m),
+    bool part = side_of(m, c, &side), own = has_own(m, c);
+    double slope = side.plate ? 0.0 : fw_process_fixed_point_slope(&m->flow->edges, m->device_m),
            foot =
                edge_of_plate(m, side.plate) + (slope != 0.0 ? 0.5 * m->flow->edges.flare_m : 0.0);
     double base = (double)INFINITY;
     for (int i = 0; i < m->films->n; i++)
-        if (fw_text_same(m->films->film[i].material, c->material))
-            base = fmin(base, m->films->film[i].bottom_m);
+        if (works_on(c, own, &m->films->film[i])) base = fmin(base, m->films->film[i].bottom_m);
     for (int i = 0, n = m->films->n; i < n; i++) {
         int at = i;
-        if (!fw_text_same(m->films->film[i].material, c->material) ||
+        if (!works_on(c, own, &m->films->film[i]) ||
             (part && !in_side(m, &m->films->film[i], side)))
             continue;
         if (part) FW_TRY(split(m, i, side, foot, &at));
@@ -335,7 +326,8 @@ static fw_status convert(maker *m, const fw_process_change *c) {
         int at = topmost(m, column, c->from);
         if (at < 0 || done[column] || !fw_process_where_holds(m->flow, c->where, column)) continue;
         FW_TRY(drawn_height(m, c, &height, &shortened));
-        if (part) FW_TRY(split(m, at, side, mask_edge(m, &m->films->film[at], other(side)), &at));
+        if (part)
+            FW_TRY(split(m, at, side, mask_edge(m, &m->films->film[at], other(side), false), &at));
         fw_process_film *f = &m->films->film[at], fabricated = *f;
         height = fmin(height, 0.6 * (f->top_m - f->bottom_m));
         fabricated.material = c->material;
@@ -385,7 +377,7 @@ static fw_status cut_walls(maker *m, const fw_process_change *c, const fw_proces
 /* one film, of which a side is etched beside a mask on the other; bowl: its foot stays at the mask's edge */
 static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_process_change *c, int i,
                              fw_process_side side, bool bowl) {
-    double edge = mask_edge(m, &m->films->film[i], other(side));
+    double edge = mask_edge(m, &m->films->film[i], other(side), c->back);
     bool field = side.plate == 0 && side.set;
     double way =
         field || (side.plate && !side.set) ? 1.0 : -1.0; /* what is drawn shrinks, or grows */
@@ -396,6 +388,11 @@ static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_proces
     double foot = edge, head = edge, t = known(c->thickness);
     if (c->isotropic && !isnan(t) && !bowl) foot = head = edge - way * t * (1.0 + s->overrun);
     if (bowl) head = edge - way * t;
+    if (!cut && c->anisotropy && !isnan(t) && !c->anisotropy->unknown) { /* of another plate */
+        double loss = way * (1.0 - c->anisotropy->value), all = t * (1.0 + s->overrun);
+        *(c->back ? &foot : &head) = edge - loss * all;
+        *(c->back ? &head : &foot) = edge - loss * (all - t);
+    }
     if (cut) {
         walls.foot_m = walls.head_m = edge;
         FW_TRY(cut_walls(m, c, cut, edge, way, &walls));
@@ -450,7 +447,7 @@ static fw_status undercut(maker *m, const fw_process_step *s, const fw_process_c
             continue;
         }
         if (in_side(m, f, FIELD)) {
-            f->foot_m = f->head_m = mask_edge(m, f, STRUCTURE);
+            f->foot_m = f->head_m = mask_edge(m, f, STRUCTURE, false);
             for (int k = 0; k < m->columns; k++)
                 if (fw_process_side_holds(m->flow, FIELD, k)) f->in[k] = false;
         }
@@ -482,14 +479,14 @@ static void thin(const fw_process_change *c, fw_process_film *f) {
 
 static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_change *c) {
     fw_process_side side;
-    bool whole = !side_of(m, c, &side), etch = c->isotropic || c->anisotropy;
+    bool whole = !side_of(m, c, &side), etch = c->isotropic || c->anisotropy, own = has_own(m, c);
     if (c->reach) return undercut(m, s, c);
     for (int i = m->films->n - 1; i >= 0; i--) { /* what is split off comes behind */
         fw_process_film *f = &m->films->film[i];
-        if (!fw_text_same(f->material, c->material) || (!whole && !in_side(m, f, side))) continue;
+        if (!works_on(c, own, f) || (!whole && !in_side(m, f, side))) continue;
         if (is_shallow(c, f)) {
             int at = i;
-            if (!whole) FW_TRY(split(m, i, side, mask_edge(m, f, other(side)), &at));
+            if (!whole) FW_TRY(split(m, i, side, mask_edge(m, f, other(side), c->back), &at));
             thin(c, &m->films->film[at]);
         } else if (!whole && c->isotropic && known(c->thickness) < 0.5 * f->thickness_m) {
             FW_TRY(hollow_out(m, s, c, i, side));
@@ -504,11 +501,11 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
 
 /* the part of film i that lies open on top becomes a film of its own where the other part is covered, or, where nothing
    known is taken of it and other plates may lean its walls, stays one with it; -1: none is open, or no plate parts one from the other */
-static fw_status open_part(maker *m, int i, const double top[], bool taken, int *open) {
+static fw_status open_part(maker *m, int i, bool back, const double top[], bool taken, int *open) {
     const fw_process_film *f = &m->films->film[i];
     bool up[FW_STACK_MOST], any = false, all = true;
     for (int k = 0; k < m->columns; k++) {
-        up[k] = f->in[k] && fabs(f->top_m - top[k]) <= TOUCH_M;
+        up[k] = f->in[k] && fabs((back ? f->bottom_m : f->top_m) - top[k]) <= TOUCH_M;
         any = any || up[k];
         all = all && (up[k] || !f->in[k]);
     }
@@ -519,7 +516,7 @@ static fw_status open_part(maker *m, int i, const double top[], bool taken, int 
         bool fits = true;
         for (int k = 0; k < m->columns; k++)
             fits = fits && (!f->in[k] || up[k] == fw_process_side_holds(m->flow, side, k));
-        if (fits) return split(m, i, side, mask_edge(m, f, other(side)), open);
+        if (fits) return split(m, i, side, mask_edge(m, f, other(side), back), open);
     }
     *open = -1;
     return FW_OK;
@@ -527,11 +524,11 @@ static fw_status open_part(maker *m, int i, const double top[], bool taken, int 
 
 /* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
    the device's walls where it is a liquid (films.h) */
-static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x) {
+static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x, bool back) {
     double most, loss = fw_process_exposed_loss(s, x, &most);
     double top[FW_STACK_MOST];
     for (int k = 0; k < m->columns; k++)
-        top[k] = top_of(m, k);
+        top[k] = back ? bottom_of(m, k) : top_of(m, k);
     bool open = false, walls = fw_process_step_is_wet(s) && x->rate && m->flow->material &&
                                fw_text_same(x->material, m->flow->material);
     for (int i = m->films->n - 1; i >= 0; i--) {
@@ -539,7 +536,7 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
         int at = -1;
         if (fw_text_same(whole->material, x->material) && !whole->shortened &&
             !isnan(whole->thickness_m))
-            FW_TRY(open_part(m, i, top, !isnan(loss) || m->flow->nplate == 0, &at));
+            FW_TRY(open_part(m, i, back, top, !isnan(loss) || m->flow->nplate == 0, &at));
         if (at < 0) continue;
         open = true;
         if (isnan(loss)) continue;
@@ -548,9 +545,13 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
             drop(m->films, at);
             continue;
         }
+        f->thickness_m -= loss;
+        if (back) {
+            f->bottom_m += loss;
+            continue;
+        }
         f->head_m = wall_at(f, 0, f->top_m - loss);
         f->top_m -= loss;
-        f->thickness_m -= loss;
         if (!walls || in_side(m, f, FIELD)) continue;
         f->foot_m -= loss;
         f->head_m -= loss;
@@ -590,7 +591,8 @@ fw_status fw_process_flow_films(fw_arena *arena, const fw_process_flow *flow, in
         for (int k = 0; k < s->nchange; k++)
             FW_TRY(apply(&m, s, &s->change[k]));
         for (int k = 0; k < s->nexposed; k++)
-            FW_TRY(wear(&m, s, &s->exposed[k]));
+            for (int back = 0; back < 2; back++)
+                if (fw_process_step_meets(s, back)) FW_TRY(wear(&m, s, &s->exposed[k], back));
     }
     if (films->n > 1) qsort(films->film, (size_t)films->n, sizeof *films->film, by_height);
     return FW_OK;

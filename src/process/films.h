@@ -15,6 +15,7 @@ typedef struct fw_process_cell {
     double thickness_m;    /* NaN: unknown */
     double bottom, height; /* drawn, in units of about a millimetre on paper */
     bool exposed;          /* latent image in resist */
+    bool back;             /* was put on the back of the wafer */
 } fw_process_cell;
 
 /* the first two columns of every flow; with further plates there are more (stack.c) */
@@ -52,24 +53,40 @@ const char *fw_process_column_name(const fw_process_flow *flow, int column, char
 fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, int index,
                                 fw_process_stack *stack, const fw_process_change **absent);
 
+/* Is what a change adds far from everything: added and taken away as a whole, if at all, etched through from the back, or
+   hollowed out to no more than *depth_m? Then pictures draw it thinner than it is. */
+bool fw_process_change_is_background(const fw_process_flow *flow, const fw_process_change *add,
+                                     double *depth_m);
+
 /* as change `change` of step `step` finds it */
 fw_status fw_process_flow_stack_before(fw_arena *arena, const fw_process_flow *flow, int step,
                                        int change, fw_process_stack *stack);
 
 /* is there a film of the material in the column? */
 bool fw_process_stack_holds(const fw_process_stack *stack, int column, const char *material);
-/* topmost film of a column; NULL: it has none */
-const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int column);
-/* topmost film of the material in a column; NULL: it is not there. *cover: material of the topmost film above it that has
-   no holes; NULL: it lies open there, or at its side, where it stands above the top of the other column */
+/* outermost film of a column, seen from the front or from the back; NULL: it has none */
+const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int column, bool back);
+/* outermost film of the material in a column, seen from the front or from the back; NULL: it is not there. *cover: material
+   of the outermost film beyond it that has no holes; NULL: it lies open there, or at its side, where it stands out beyond
+   the other columns */
 const fw_process_cell *fw_process_stack_find(const fw_process_flow *flow,
                                              const fw_process_stack *stack, int column,
-                                             const char *material, const char **cover);
+                                             const char *material, bool back, const char **cover);
 
-/* does `material` lie open anywhere: on top of a column, below films that have holes, or at its
-   side, where it stands above the top of the other column */
+/* does `material` lie open anywhere on that face: on top of a column, below films that have holes, or at its side, where it
+   stands out beyond the other columns */
 bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,
-                           const char *material);
+                           const char *material, bool back);
+
+/* A material may lie on both faces: a change works on what was put on its own face, and on what was put on the other one
+   where there is nothing of it on its own. Does change c work on that cell? */
+bool fw_process_stack_works_on(const fw_process_stack *stack, const fw_process_change *c,
+                               const fw_process_cell *cell);
+/* does it work on the wafer's back: does a change but an addition? */
+bool fw_process_step_from_back(const fw_process_step *step);
+/* Does what a step works with meet that face? A plasma meets the one that it works on; a bath the front, and the back where
+   something is done to it */
+bool fw_process_step_meets(const fw_process_step *step, bool back);
 
 /* ---- wear ---- */
 /* What wet steps take of the device itself when it stands: the removal of a seed, for example,
@@ -102,6 +119,7 @@ typedef struct fw_process_film {
     double thickness_m;     /* NaN: nobody stated it */
     bool shortened;         /* drawn thinner than it is: far from everything that is made */
     bool exposed;           /* latent image in resist */
+    bool back;              /* was put on the back of the wafer */
     double foot_m, head_m;  /* the structure's wall at bottom and top, outside the drawn edge */
     struct {                /* the same of what further plates print */
         double foot_m, head_m;

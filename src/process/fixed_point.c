@@ -138,6 +138,17 @@ static void read_flow(const fw_process_flow *flow, double thickness_m, fw_proces
     read_corners(flow, thickness_m > 0.0 ? thickness_m : known(flow->thickness), p);
 }
 
+double fw_process_fixed_point_printed_m(const fw_process_fixed_point *p) {
+    return p->bias_m - p->printed_m;
+}
+
+double fw_process_fixed_point_slope(const fw_process_fixed_point *p, double device_m) {
+    bool cut = false;
+    for (int i = 0; i < p->ncut; i++)
+        cut = cut || p->cut[i].device;
+    return cut || !(device_m > 0.0) ? 0.0 : -p->flare_m / device_m;
+}
+
 /* ---- openings ---- */
 
 static void add_class(fw_process_fixed_point *p, fw_process_gap_kind kind, const char *name,

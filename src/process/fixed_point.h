@@ -110,6 +110,11 @@ fw_status fw_process_fixed_point_solve(fw_arena *arena, const struct fw_process_
                                        double thickness_m, fw_process_fixed_point *out);
 /* is this lag (S, or c) only assumed? Then neither the step's time nor the bias contains it. */
 bool fw_process_lag_is_guess(const fw_quantity *lag);
+/* where printing leaves the edge: the plate's, less what is known of printing */
+double fw_process_fixed_point_printed_m(const fw_process_fixed_point *p);
+/* Known slope of printed walls, d(edge)/dz. Where the device is cut out of a layer the corner `taper` is of that cut, else
+   of the resist that the device grows in. device_m: thickness of its layer */
+double fw_process_fixed_point_slope(const fw_process_fixed_point *p, double device_m);
 /* extra depth R (t - D/R) that an opening of w_m needs until its floor is at depth_m; m */
 double fw_process_cut_lag(const fw_process_cut *cut, double w_m, double depth_m);
 /* E - D - lag, at least 0: what of the whole time is left when the floor is through; m. A lag that

@@ -215,12 +215,16 @@ static double pausing_s(const fw_process_step *s, double t_s) {
     return fmax(0.0, ceil(t_s / s->pulse->value * (1.0 - 1e-12)) - 1.0) * s->pause->value;
 }
 
+/* What somebody's presence takes beyond the step's own time is handling, which is as long when the step goes on to its
+   stop time: a log is judged from both. Test: test_step_texts.c. */
 static void book(fw_process_step *s) {
-    double t = s->time.nominal_s * (1.0 + s->overrun);
+    double t = s->time.nominal_s * (1.0 + s->overrun), own, handling;
     s->booked_s = s->booked_stop_s = 0.0;
     if (!s->time.computable) return;
-    s->booked_s = t + pausing_s(s, t) + s->finish_s;
-    s->booked_stop_s = s->time.stop_s + pausing_s(s, s->time.stop_s) + s->finish_s;
+    own = t + pausing_s(s, t) + s->finish_s;
+    handling = fmax(0.0, s->attended_s - own);
+    s->booked_s = own + handling;
+    s->booked_stop_s = s->time.stop_s + pausing_s(s, s->time.stop_s) + s->finish_s + handling;
 }
 
 static fw_status compute_step(fw_arena *arena, fw_process_step *s) {

@@ -24,8 +24,46 @@ static fw_status lint_stated(fw_process_pack *pack) {
     return FW_OK;
 }
 
+/* what a tool takes is what some material brings along */
+static void lint_takes(fw_process_pack *pack, const fw_process_equipment *e) {
+    const char *words = e->takes;
+    for (fw_word word; fw_word_next(&words, " ", &word);) {
+        bool known = false;
+        for (int i = 0; i < pack->flow->nprocess_material; i++) {
+            const char *group = pack->flow->process_material[i].contaminates;
+            known =
+                known || (strlen(group) == word.length && memcmp(group, word.at, word.length) == 0);
+        }
+        if (!known)
+            fw_diag_error(pack->diags, 165, e->place,
+                          "'%s' takes=\"%.*s\": no material contaminates with that; correct the "
+                          "word, or say contaminates=\"...\" of the material",
+                          e->id, (int)word.length, word.at);
+    }
+}
+
+/* quantities that the program itself looks for, whatever ranges they state */
+static void lint_known(fw_process_pack *pack) {
+    static const struct {
+        const char *id, *what;
+        fw_quantity_dimension kind;
+    } known[] = {
+        {"insulator.breakdown", "a voltage per length", {.m = 1, .kg = 1, .s = -3, .A = -1}},
+        {"insulator.resistivity", "a resistivity", {.m = 3, .kg = 1, .s = -3, .A = -2}},
+        {"release.bond", "a share", {0}},
+        {"isopropanol.tension", "a force per length", {.kg = 1, .s = -2}},
+        {"dry.angle", "an angle", {.rad = 1}}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const fw_quantity *q = fw_process_flow_quantity(pack->flow, known[i].id);
+        if (!q || fw_quantity_dimension_equal(q->dimension, known[i].kind)) continue;
+        fw_diag_error(pack->diags, 547, q->place, "'%s' is in %s, and is %s; correct its unit",
+                      q->id, q->unit, known[i].what);
+    }
+}
+
 /* <hazard> children that name something elsewhere */
 static fw_status lint_names(fw_process_pack *pack) {
+    lint_known(pack);
     for (int part = 0; part < 2; part++) {
         const fw_xml_record *root = part == 0 ? pack->base : pack->root;
         for (const fw_xml_record *h = root->first_child; h; h = h->next)
@@ -47,6 +85,7 @@ static fw_status lint_names(fw_process_pack *pack) {
             FW_NEED(brings.value = fw_arena_strndup(pack->arena, word.at, word.length));
             fw_process_pack_find(pack, &brings, FW_ID_HAZARD);
         }
+        lint_takes(pack, e);
     }
     return FW_OK;
 }
@@ -62,6 +101,14 @@ static fw_status lint_order(fw_process_pack *pack) {
                                   "<lag> of step %s counts from step %s, which is not before it; "
                                   "name an earlier step",
                                   f->step[i].id, f->step[j].id);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].non_fail; k++)
+            if (strcmp(f->step[i].on_fail[k].then, "rework") == 0 &&
+                !f->step[i].on_fail[k].go_to[0])
+                fw_diag_error(pack->diags, 276, f->step[i].place,
+                              "<on-fail if=\"%s\"> of step %s says rework, and not from which step "
+                              "on; add goto=\"%s\", or that of an earlier step",
+                              f->step[i].on_fail[k].condition, f->step[i].id, f->step[i].id);
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; k < f->step[i].non_fail; k++)
             for (int j = i + 1; j < f->nstep; j++)
@@ -282,12 +329,15 @@ fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw
 
 /* What the computed times do to the layers: known only with the mask and the device's thickness. */
 
-/* thickness of what lies on top of a column and is all of one material; NaN: a part is unknown */
-static double top_layer(const fw_process_stack *stack, int column, const char *material) {
+/* thickness of what lies outermost on a face of a column and is all of one material; NaN: a part is unknown */
+static double top_layer(const fw_process_stack *stack, int column, const char *material,
+                        bool back) {
     double sum = 0.0;
-    for (int i = stack->n[column] - 1; i >= 0; i--) {
-        if (strcmp(stack->cell[column][i].material, material) != 0) break;
-        sum += stack->cell[column][i].thickness_m;
+    const int n = stack->n[column];
+    for (int i = 0; i < n; i++) {
+        const fw_process_cell *c = &stack->cell[column][back ? i : n - 1 - i];
+        if (strcmp(c->material, material) != 0) break;
+        sum += c->thickness_m;
     }
     return sum;
 }
@@ -324,8 +374,11 @@ static fw_status lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
     for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
         fw_process_stack stack;
         FW_TRY(fw_process_flow_stack(arena, flow, k, &stack, NULL));
-        for (int column = 0; column < stack.columns; column++) {
-            double there = top_layer(&stack, column, x->material);
+        for (int column = 0; column < 2 * stack.columns; column++) {
+            const bool back = column >= stack.columns;
+            double there = fw_process_step_meets(s, back)
+                               ? top_layer(&stack, column % stack.columns, x->material, back)
+                               : 0.0;
             if (there > 0.0) least = fmin(least, there);
         }
     }
@@ -369,7 +422,7 @@ static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
     int field = strcmp(c->where, "field") == 0 ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
     if (stack.n[field] == 0) return FW_OK;
     const char *mould = stack.cell[field][stack.n[field] - 1].material;
-    double height = top_layer(&stack, field, mould), grown = c->thickness->value * spread;
+    double height = top_layer(&stack, field, mould, false), grown = c->thickness->value * spread;
     if (isnan(height) || grown <= height) return FW_OK;
     char up[32], high[32];
     fw_number_text(up, sizeof up, grown * 1e6, 4);

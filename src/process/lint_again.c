@@ -45,7 +45,7 @@ static fw_status lint_displaced(fw_process_pack *pack, int i, int k) {
         return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, i, k, &stack));
     for (int column = 0; column < stack.columns; column++) {
-        const fw_process_cell *on = fw_process_stack_top(&stack, column);
+        const fw_process_cell *on = fw_process_stack_top(&stack, column, c->back);
         if (!on || !fw_process_where_holds(f, c->where, column) ||
             strcmp(on->material, c->material) != 0)
             continue;
@@ -122,11 +122,23 @@ static const char *treated(const fw_process_step *s, const fw_process_wafer *bef
     return NULL;
 }
 
+/* the side that it was spun on last before step `at` */
+static bool coated_back(const fw_process_flow *f, int at, const char *resist) {
+    bool back = false;
+    for (int i = 0; i < at; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && strcmp(c->material, resist) == 0) back = c->back;
+        }
+    return back;
+}
+
 /* In all columns alike, since nothing has opened it yet; m, NaN where a coat is not known */
-static double coated_m(const fw_process_stack *stack, const char *resist) {
+static double coated_m(const fw_process_stack *stack, const char *resist, bool back) {
     double sum = 0.0;
     for (int i = 0; i < stack->n[FW_STACK_FIELD]; i++)
-        if (strcmp(stack->cell[FW_STACK_FIELD][i].material, resist) == 0)
+        if (strcmp(stack->cell[FW_STACK_FIELD][i].material, resist) == 0 &&
+            stack->cell[FW_STACK_FIELD][i].back == back)
             sum += stack->cell[FW_STACK_FIELD][i].thickness_m;
     return sum;
 }
@@ -153,7 +165,7 @@ fw_status fw_process_lint_coats(fw_process_pack *pack) {
         if (resist) {
             fw_process_stack stack;
             FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
-            double lies_m = coated_m(&stack, resist);
+            double lies_m = coated_m(&stack, resist, coated_back(f, i, resist));
             compare_coat(pack, s, resist, lies_m, thickness_of(s->argument, s->nargument));
             for (int k = 0; k < s->nderive; k++)
                 compare_coat(pack, s, resist, lies_m,
@@ -287,9 +299,17 @@ static void lint_timed(fw_process_pack *pack, const fw_process_step *s) {
     char is[32], by[32];
     for (int k = 0; k < s->nchange; k++) {
         const fw_process_change *c = &s->change[k];
-        if (!c->thickness) continue;
-        if (stated || c->reach) return;
-        stated = c->thickness;
+        const fw_quantity *of = c->reach ? c->reach : c->thickness;
+        if (!of) continue;
+        if (stated) return;
+        if (c->reach && timed && timed != of &&
+            !(timed->id && of->id && strcmp(timed->id, of->id) == 0))
+            fw_diag_error(pack->diags, 561, s->place,
+                          "the time of step %s is computed for '%s', but the step reaches '%s' "
+                          "sideways; name the same quantity in its <time> and its <change>",
+                          s->id, timed->id, of->id);
+        if (c->reach) return;
+        stated = of;
     }
     if (!timed || !stated || timed->unknown || stated->unknown ||
         fabs(timed->value - stated->value) <= 1e-6 * stated->value)
@@ -351,7 +371,7 @@ static fw_status lint_redone(fw_process_pack *pack, int at, int again,
         const fw_process_change *c = &s->change[k];
         const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
         if (strcmp(c->kind, "add") == 0) return FW_OK;
-        if (c->back || !on[0] || on_the_wafer(&before, on) || on_the_wafer(&after, on)) continue;
+        if (!on[0] || on_the_wafer(&before, on) || on_the_wafer(&after, on)) continue;
         fw_diag_error(
             pack->diags, 276, pack->flow->step[at].place,
             "<on-fail if=\"%s\"> of step %s goes on with step %s, which works on '%s', and "
@@ -431,44 +451,6 @@ static void lint_spin(fw_process_pack *pack, const fw_process_step *s) {
         fw_number_text(um, sizeof um, 1e6 * q[0]->value, 4), q[0]->id);
 }
 
-/* a film that was put on the back before a step and that nothing has opened since; NULL: none */
-static const char *covers_back(const fw_process_flow *f, int step) {
-    const char *cover = NULL;
-    for (int i = 0; i < step; i++)
-        for (int k = 0; k < f->step[i].nchange; k++) {
-            const fw_process_change *c = &f->step[i].change[k];
-            if (c->back && strcmp(c->kind, "add") == 0) cover = c->material;
-            if (cover && strcmp(c->kind, "remove") == 0 && strcmp(c->material, cover) == 0)
-                cover = NULL;
-        }
-    return cover;
-}
-
-static bool was_put_there(const fw_process_flow *f, int step, const char *material) {
-    for (int i = 0; i < step; i++)
-        for (int k = 0; k < f->step[i].nchange; k++)
-            if (f->step[i].change[k].back && strcmp(f->step[i].change[k].kind, "add") == 0 &&
-                strcmp(f->step[i].change[k].material, material) == 0)
-                return true;
-    return false;
-}
-
-/* the wafer itself is reached from its back only where that lies bare */
-static void lint_back(fw_process_pack *pack, int i) {
-    const fw_process_step *s = &pack->flow->step[i];
-    const char *cover = covers_back(pack->flow, i);
-    for (int k = 0; k < s->nchange && cover; k++) {
-        const fw_process_change *c = &s->change[k];
-        if (!c->back || strcmp(c->kind, "add") == 0 || was_put_there(pack->flow, i, c->material))
-            continue;
-        fw_diag_error(
-            pack->diags, 564, c->place,
-            "step %s works on '%s' from the back, where '%s' covers the wafer; take that off "
-            "before, or leave side=\"back\" out",
-            s->id, c->material, cover);
-    }
-}
-
 bool fw_process_step_sets(const fw_process_step *s, const fw_quantity *q) {
     for (int k = 0; k < s->nsetting; k++)
         if (s->setting[k].q == q) return true;
@@ -526,6 +508,64 @@ static void lint_plasma(fw_process_pack *pack, const fw_process_step *s) {
                   s->id);
 }
 
+/* a setting that is called by its kind is of that kind: "bath temperature" is none of minutes */
+static void lint_called(fw_process_pack *pack, const fw_process_step *s) {
+    static const struct {
+        const char *word;
+        fw_quantity_dimension kind;
+    } called[] = {{"temperature", {.K = 1}},
+                  {"pressure", {.m = -1, .kg = 1, .s = -2}},
+                  {"power", {.m = 2, .kg = 1, .s = -3}},
+                  {"voltage", {.m = 2, .kg = 1, .s = -3, .A = -1}},
+                  {"current density", {.m = -2, .A = 1}},
+                  {"diameter", {.m = 1}},
+                  {"thickness", {.m = 1}}};
+    for (int k = 0; k < s->nsetting; k++)
+        for (size_t i = 0; i < sizeof called / sizeof *called; i++) {
+            const fw_process_setting *set = &s->setting[k];
+            const size_t n = strlen(set->name), w = strlen(called[i].word);
+            if (n < w || strcmp(set->name + n - w, called[i].word) != 0 ||
+                (n > w && set->name[n - w - 1] != ' ') ||
+                fw_quantity_dimension_equal(set->q->dimension, called[i].kind))
+                continue;
+            fw_diag_error(pack->diags, 548, set->place,
+                          "step %s sets a '%s' to '%s', which is in %s; name the quantity that is "
+                          "meant, or call the setting what it is",
+                          s->id, set->name, set->q->id, set->q->unit);
+        }
+}
+
+/* a step that is done in parts: of a second at least, else pauses never end */
+static void lint_parted_time(fw_process_pack *pack, const fw_process_step *s) {
+    if (s->pulse && !s->pulse->unknown && s->pulse->value < 1.0)
+        fw_diag_error(pack->diags, 278, s->pulse->replaced ? s->pulse->place : s->place,
+                      "step %s is done in parts of less than a second (%s); give the time between "
+                      "two pauses",
+                      s->id, s->pulse->id);
+}
+
+static bool says_nothing(const char *text) {
+    return !text || text[strspn(text, " \t\r\n")] == '\0';
+}
+
+/* what people read: what a step is, what for, and how its end is seen */
+static void lint_words(fw_process_pack *pack, const fw_process_step *s) {
+    const char *empty = says_nothing(s->title)     ? "title"
+                        : says_nothing(s->purpose) ? "purpose"
+                                                   : NULL;
+    for (int k = 0; k < s->nendpoint; k++)
+        if (says_nothing(s->endpoint[k])) empty = "endpoint";
+    for (int k = 0; k < s->naccept; k++)
+        if (says_nothing(s->accept[k].measure)) empty = "measure of an <accept>";
+    for (int k = 0; k < s->non_fail; k++)
+        if (says_nothing(s->on_fail[k].condition)) empty = "condition of an <on-fail>";
+    if (empty)
+        fw_diag_error(pack->diags, 171, s->place,
+                      "step %s: its %s says nothing, and whoever stands there reads it on the "
+                      "sheet; write it",
+                      s->id, empty);
+}
+
 fw_status fw_process_lint_kind(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
@@ -534,11 +574,13 @@ fw_status fw_process_lint_kind(fw_process_pack *pack) {
         lint_op(pack, s);
         lint_bath(pack, s);
         lint_spin(pack, s);
-        lint_back(pack, i);
         lint_rate(pack, i);
         lint_profile(pack, s);
         lint_clock(pack, s);
         lint_plasma(pack, s);
+        lint_called(pack, s);
+        lint_parted_time(pack, s);
+        lint_words(pack, s);
         FW_TRY(lint_reworks(pack, i));
     }
     return FW_OK;

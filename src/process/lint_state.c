@@ -97,6 +97,34 @@ static void lint_meniscus(fw_process_pack *pack, const fw_process_step *s,
     }
 }
 
+/* water and vibration of a saw tear off what moves */
+static void lint_sawn(fw_process_pack *pack, const fw_process_step *s,
+                      const fw_process_wafer *before) {
+    const bool wet = fw_process_step_takes_wet(s) || fw_process_step_liquid(s);
+    if (before->released && wet && fw_process_step_is_op(s, "dice"))
+        fw_diag_error(pack->diags, 337, s->place,
+                      "step %s dices wafers whose devices are free already: water and shaking tear "
+                      "them off; dice before they are released",
+                      s->id);
+}
+
+/* finishes that cannot be: a tool that is never pumped is not vented, and a rinse takes time */
+static void lint_finish(fw_process_pack *pack, const fw_process_step *s) {
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        if (f->kind == FW_FINISH_VENT && s->equipment && !s->equipment->vacuum)
+            fw_diag_error(pack->diags, 505, f->place,
+                          "step %s vents '%s', which does not say vacuum=\"yes\"; say it, or leave "
+                          "the finish out",
+                          s->id, s->equipment->id);
+        if (f->time && !f->time->unknown && !(f->time->value > 0.0))
+            fw_diag_error(pack->diags, 347, f->time->replaced ? f->time->place : f->place,
+                          "step %s finishes at its bench in no time (%s); give the time, or leave "
+                          "it out where it is within the step's own",
+                          s->id, f->time->id);
+    }
+}
+
 /* a hot wafer goes from bake to bake; elsewhere it is cool: resist dries as it is spun on, liquids boil, it breaks */
 static void lint_hot(fw_process_pack *pack, const fw_process_step *s,
                      const fw_process_wafer *before) {
@@ -130,6 +158,8 @@ fw_status fw_process_lint_states(fw_process_pack *pack) {
         lint_residue(pack, s, &now);
         lint_hot(pack, s, &now);
         lint_pumped(pack, s, &now);
+        lint_sawn(pack, s, &now);
+        lint_finish(pack, s);
         fw_process_wafer_pass(pack->flow, i, &now);
         lint_meniscus(pack, s, &now);
     }
@@ -146,26 +176,32 @@ static fw_status lint_open(fw_process_pack *pack, int step, int change) {
     const fw_process_change *c = &s->change[change];
     const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
     fw_process_stack stack;
-    if (strcmp(c->kind, "add") == 0 || c->back) return FW_OK;
+    /* what carried the wafer comes off with what held it, in any order */
+    const bool demounts = c->back && fw_process_step_is_op(s, "release");
+    if (strcmp(c->kind, "add") == 0 || demounts) return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
-    if (c->reach && fw_process_stack_open(f, &stack, on)) return FW_OK;
+    if (c->reach && fw_process_stack_open(f, &stack, on, c->back)) return FW_OK;
     for (int column = 0; column < stack.columns; column++) {
         char part[FW_LABEL];
         const char *by;
-        const fw_process_cell *cell = fw_process_stack_find(f, &stack, column, on, &by);
-        bool back = cell && cell->bottom < -1e-9; /* of the wafer: nothing here looks at it */
-        if (!fw_process_where_holds(f, c->where, column) || !cell || !by || back) continue;
-        fw_diag_error(pack->diags, 339, c->place,
-                      "step %s works on '%s' in the %s, but there it lies below '%s'; take that "
-                      "off before, or name the part where it is open (where)",
+        const fw_process_cell *cell = fw_process_stack_find(f, &stack, column, on, c->back, &by);
+        bool other = cell && cell->back && !c->back; /* of the other face */
+        if (!fw_process_where_holds(f, c->where, column) || !cell || !by || other) continue;
+        fw_diag_error(pack->diags, c->back ? 564 : 339, c->place,
+                      c->back
+                          ? "step %s works on '%s' in the %s from the back, where '%s' covers it; "
+                            "take that off before, name the part where it is open (where), or "
+                            "leave side=\"back\" out"
+                          : "step %s works on '%s' in the %s, but there it lies below '%s'; "
+                            "take that off before, or name the part where it is open (where)",
                       s->id, on, fw_process_column_name(f, column, part), by);
         return FW_OK;
     }
     return FW_OK;
 }
 
-static const char *top(const fw_process_stack *stack, int column) {
-    const fw_process_cell *cell = fw_process_stack_top(stack, column);
+static const char *top(const fw_process_stack *stack, int column, bool back) {
+    const fw_process_cell *cell = fw_process_stack_top(stack, column, back);
     return cell ? cell->material : NULL;
 }
 
@@ -179,7 +215,7 @@ static fw_status lint_plating(fw_process_pack *pack, int step, int change) {
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
     for (int column = 0; column < stack.columns; column++) {
         char part[FW_LABEL];
-        const char *on = top(&stack, column);
+        const char *on = top(&stack, column, c->back);
         const fw_process_material *m = on ? fw_process_flow_material(f, on) : NULL;
         bool wanted = fw_process_where_holds(f, c->where, column);
         fw_process_column_name(f, column, part);
@@ -304,20 +340,45 @@ static bool masked_by(const fw_process_flow *f, const fw_process_step *s,
                       const fw_process_stack *stack, const char *resist) {
     for (int k = 0; k < s->nchange; k++) {
         const fw_process_change *c = &s->change[k];
-        if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back) continue;
+        if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0) continue;
         for (int column = 0; column < stack->columns; column++) {
             const char *mask =
-                fw_process_where_holds(f, c->where, column) ? NULL : top(stack, column);
+                fw_process_where_holds(f, c->where, column) ? NULL : top(stack, column, c->back);
             if (mask && strcmp(mask, resist) == 0) return true;
         }
     }
     return false;
 }
 
+static const fw_quantity *heat_of(const fw_process_step *s) {
+    for (int k = 0; k < s->nsetting; k++)
+        if (fw_quantity_dimension_equal(s->setting[k].q->dimension,
+                                        (fw_quantity_dimension){.K = 1}))
+            return s->setting[k].q;
+    return NULL;
+}
+
+/* what a resist has kept at its soft bake stays in it below that */
+static void lint_hard(fw_process_pack *pack, const fw_process_step *s,
+                      const fw_process_step *soft) {
+    const fw_quantity *hard = heat_of(s), *first = heat_of(soft);
+    if (!hard || !first || hard->unknown || first->unknown || hard->value >= first->value) return;
+    char is[32], was[32];
+    fw_diag_warning(pack->diags, 341, hard->replaced ? hard->place : s->place,
+                    "step %s bakes the developed resist at %s %s, cooler than its soft bake "
+                    "(%s %s in step %s): nothing more leaves it, and it holds no better; bake "
+                    "hotter, or leave it out",
+                    s->id, fw_number_text(is, sizeof is, fw_quantity_in_unit(hard), 4), hard->unit,
+                    fw_number_text(was, sizeof was, fw_quantity_in_unit(first), 4), first->unit,
+                    soft->id);
+}
+
 typedef struct baked {
-    bool dehydrated;    /* baked since it was last wet, or new */
-    bool hard;          /* the resist was baked after it was developed */
-    const char *resist; /* spun on last; NULL: none */
+    bool dehydrated;             /* baked since it was last wet, or new */
+    bool hard;                   /* the resist was baked after it was developed */
+    const char *resist;          /* spun on last; NULL: none */
+    const fw_process_step *soft; /* its soft bake; NULL: none yet */
+    bool developed;
 } baked;
 
 static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer *before, baked *b) {
@@ -352,9 +413,12 @@ static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer 
                             "developed: it lifts or flows; add a hard bake before it",
                             s->id, b->resist);
     }
+    if (fw_process_step_is_op(s, "bake") && b->developed && b->soft) lint_hard(pack, s, b->soft);
+    if (fw_process_step_is_op(s, "bake") && before->is[FW_STATE_UNBAKED]) b->soft = s;
     for (int k = 0; coats && k < s->nchange; k++)
         if (strcmp(s->change[k].kind, "add") == 0) b->resist = s->change[k].material;
-    if (fw_process_step_is_op(s, "develop")) b->hard = false;
+    if (coats || fw_process_step_is_op(s, "strip")) b->developed = false, b->soft = NULL;
+    if (fw_process_step_is_op(s, "develop")) b->hard = false, b->developed = true;
     if (fw_process_step_is_op(s, "bake")) b->dehydrated = b->hard = true;
     if (fw_process_step_in_liquid(s) && !fw_process_step_is_op(s, "develop")) b->dehydrated = false;
     return FW_OK;
@@ -406,6 +470,58 @@ static fw_status lint_end_state(fw_process_pack *pack) {
     return FW_OK;
 }
 
+static bool reaches_below(const fw_process_flow *f, const char *material) {
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (c->reach && strcmp(c->material, material) == 0) return true;
+        }
+    return false;
+}
+
+/* the lowest of a column that the device hangs on: what touches below it, down to where nothing does or an etch runs
+   sideways; NULL: it hangs on nothing, or is the wafer itself */
+static const char *hangs_on(const fw_process_flow *f, const fw_process_cell *cell, int i,
+                            bool *insulated) {
+    if (i == 0) return NULL;
+    for (; i > 0; i--) {
+        const fw_process_cell *c = &cell[i], *on = c - 1;
+        const fw_process_material *m = fw_process_flow_material(f, on->material);
+        if (on->bottom + on->height < c->bottom - 1e-9 || on->back) return NULL;
+        *insulated = *insulated || (m && m->conducts == 0);
+        if (reaches_below(f, on->material)) return NULL;
+    }
+    return cell[0].material;
+}
+
+/* Somewhere the device has nothing below it: a hollow, a layer that was taken away, or a way that an etch runs sideways.
+   And where the pack says that its carrier insulates, something that carries no current is below it. */
+static void lint_end_below(fw_process_pack *pack, const fw_process_stack *stack) {
+    const fw_process_flow *f = pack->flow;
+    const char *bonded = NULL;
+    bool free = false, insulated = false;
+    for (int column = 0; f->material && column < stack->columns; column++)
+        for (int i = 0; i < stack->n[column]; i++) {
+            const fw_process_cell *cell = stack->cell[column];
+            if (strcmp(cell[i].material, f->material) != 0) continue;
+            const char *on = hangs_on(f, cell, i, &insulated);
+            if (on) bonded = on;
+            free = free || !on;
+            break;
+        }
+    if (bonded && !free)
+        fw_diag_error(
+            pack->diags, 338, f->place,
+            "the flow ends with '%s' bonded to '%s' everywhere: nothing frees the device; "
+            "etch away what is below it (reach=\"...\" of a removal), or hollow it out",
+            f->material, bonded);
+    if (f->insulating && !insulated)
+        fw_diag_warning(
+            pack->diags, 338, f->place,
+            "carrier=\"insulating\", but nothing that carries no current lies below the "
+            "device when the flow ends: whatever it is put on must insulate");
+}
+
 /* a finished wafer is dry and safe, has its device and no resist, and what <finished> says */
 fw_status fw_process_lint_end(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
@@ -417,6 +533,7 @@ fw_status fw_process_lint_end(fw_process_pack *pack) {
         lint_end_layer(pack, &stack, f->finished[i].material, f->finished[i].where,
                        f->finished[i].present, f->finished[i].place);
     if (f->material) lint_end_layer(pack, &stack, f->material, "structure", true, f->place);
+    lint_end_below(pack, &stack);
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; fw_process_step_is_op(&f->step[i], "coat") && k < f->step[i].nchange; k++)
             if (strcmp(f->step[i].change[k].kind, "add") == 0)

@@ -44,6 +44,16 @@ static int range_of(const units *u, const fw_quantity *q) {
     return -1;
 }
 
+/* has its kind a plausible range at all? Else nothing could be told of its values, and mostly its unit is a slip */
+static bool is_of_a_kind(const units *u, const fw_quantity *q, fw_diags *diags) {
+    if (q->least != 0.0 || q->most != 0.0 || q->range || range_of(u, q) >= 0) return true;
+    fw_diag_error(diags, 547, q->place,
+                  "'%s' is in %s, and no value of a process is of that kind; correct its unit, or "
+                  "state least=\"...\" and most=\"...\"",
+                  q->id ? q->id : "q", q->unit);
+    return false;
+}
+
 static bool in_range(const units *u, const fw_quantity *q, fw_diags *diags) {
     if (q->least != 0.0 || q->most != 0.0) return fw_xml_quantity_check_range(q, q, diags);
     int at = q->unknown ? -1 : range_of(u, q);
@@ -157,6 +167,7 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
         }
         bool own = fw_process_flow_own_quantity(f, q->id) == q && q->status != FW_DERIVED;
         bool asked = q->least != 0.0 || q->most != 0.0; /* when its element was read */
+        if (!is_of_a_kind(&u, q, pack->diags)) continue;
         if (own && (!asked || q->replaced) && !in_range(&u, q, pack->diags)) continue;
         if (own) too_uncertain(&u, q, pack->diags);
         if (own && !q->replaced) fw_process_warn_exact(q, NULL, pack->diags);
@@ -239,6 +250,19 @@ static void lint_cold(fw_process_pack *pack, const fw_process_step *s,
         "above 50 Cel, a rest is op=\"hold\"",
         s->id, fw_number_text(is, sizeof is, fw_quantity_in_unit(set->q), 4), set->q->unit,
         set->q->id);
+}
+
+/* ... and nothing that is as thick as a wafer gets warm in seconds */
+static void lint_short(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    const fw_quantity *t = fw_process_step_argument(s, "time");
+    if (!fw_process_step_is_op(s, "bake") || !law || !law->stated || !t || t->unknown ||
+        t->value >= 10.0 || !(t->value > 0.0)) /* of no time at all: FW-D534 */
+        return;
+    fw_diag_error(pack->diags, 532, t->replaced ? t->place : s->place,
+                  "step %s bakes for less than ten seconds (%s), in which no wafer gets warm; "
+                  "is its unit right?",
+                  s->id, t->id);
 }
 
 /* "{=al.d*0.95}" is a number in the unit of al.d, and the limit is read in that of the measurement */
@@ -354,6 +378,7 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
         for (int k = 0; k < s->naccept; k++)
             lint_accept(pack, s, &s->accept[k]);
         lint_between(pack, s);
+        lint_short(pack, s);
         lint_pairs(pack, s, s->argument, s->nargument);
         lint_fast(pack, s, s->argument, s->nargument);
         if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);

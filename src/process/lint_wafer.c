@@ -39,6 +39,18 @@ static const fw_process_exposed *spoken_of(const fw_process_step *s, const char 
     return NULL;
 }
 
+/* to what the step works with; after: index of the step, or of the one before it */
+static fw_status lies_open(fw_process_pack *pack, const fw_process_step *s, int after,
+                           const char *material, bool *open) {
+    fw_process_stack stack;
+    *open = false;
+    FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, after, &stack, NULL));
+    for (int back = 0; back < 2; back++)
+        *open = *open || (fw_process_step_meets(s, back) &&
+                          fw_process_stack_open(pack->flow, &stack, material, back));
+    return FW_OK;
+}
+
 /* one <attacks> of one step: open before the step, or laid open by it */
 static fw_status lint_attack(fw_process_pack *pack, int index, const fw_process_hazard *hazard,
                              const char *material) {
@@ -46,11 +58,8 @@ static fw_status lint_attack(fw_process_pack *pack, int index, const fw_process_
     const fw_process_step *s = &f->step[index];
     if (is_target(s, material) || spoken_of(s, material)) return FW_OK;
     bool open = false;
-    for (int k = index - 1; k <= index && !open; k++) {
-        fw_process_stack stack;
-        FW_TRY(fw_process_flow_stack(pack->arena, f, k, &stack, NULL));
-        open = fw_process_stack_open(f, &stack, material);
-    }
+    for (int k = index - 1; k <= index && !open; k++)
+        FW_TRY(lies_open(pack, s, k, material, &open));
     if (open)
         fw_diag_error(pack->diags, 269, s->place,
                       "step %s: '%s' attacks '%s', which is exposed there, and the pack states "
@@ -68,11 +77,10 @@ fw_status fw_process_lint_attacked(fw_process_pack *pack) {
             for (int m = 0; m < s->hazard[h]->nattacks; m++)
                 FW_TRY(lint_attack(pack, i, s->hazard[h], s->hazard[h]->attacks[m]));
         for (int x = 0; x < s->nexposed; x++) {
-            fw_process_stack before, after;
-            FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &before, NULL));
-            FW_TRY(fw_process_flow_stack(pack->arena, f, i, &after, NULL));
-            if (!fw_process_stack_open(f, &before, s->exposed[x].material) &&
-                !fw_process_stack_open(f, &after, s->exposed[x].material))
+            bool before, after;
+            FW_TRY(lies_open(pack, s, i - 1, s->exposed[x].material, &before));
+            FW_TRY(lies_open(pack, s, i, s->exposed[x].material, &after));
+            if (!before && !after)
                 fw_diag_error(pack->diags, 269, s->exposed[x].place,
                               "step %s: '%s' is not exposed at this step, so that it is not "
                               "attacked; remove <exposed>",
@@ -145,10 +153,10 @@ fw_status fw_process_lint_contamination(fw_process_pack *pack) {
     return FW_OK;
 }
 
-static bool has_image(const fw_process_stack *stack, const char *material) {
+static bool has_image(const fw_process_stack *stack, const fw_process_change *c) {
     for (int column = 0; column < stack->columns; column++)
         for (int i = 0; i < stack->n[column]; i++)
-            if (strcmp(stack->cell[column][i].material, material) == 0 &&
+            if (fw_process_stack_works_on(stack, c, &stack->cell[column][i]) &&
                 stack->cell[column][i].exposed)
                 return true;
     return false;
@@ -167,7 +175,7 @@ fw_status fw_process_lint_exposure(fw_process_pack *pack) {
             if (strcmp(s->op, "develop") != 0 || strcmp(c->kind, "remove") != 0) continue;
             fw_process_stack stack;
             FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
-            if (on_wafer(&stack, c->material) && !has_image(&stack, c->material))
+            if (on_wafer(&stack, c->material) && !has_image(&stack, c))
                 fw_diag_error(pack->diags, 274, c->place,
                               "step %s develops '%s', which no step exposed: a <change "
                               "kind=\"pattern\"> must come before",
@@ -183,13 +191,13 @@ fw_status fw_process_lint_masking(fw_process_pack *pack) {
         for (int k = 0; k < f->step[i].nchange; k++) {
             const fw_process_step *s = &f->step[i];
             const fw_process_change *c = &s->change[k];
-            if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back ||
+            if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 ||
                 !fw_words_hold("wet-etch dry-etch strip release clean", " ", s->op))
                 continue;
             fw_process_stack stack;
             FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
             for (int other = 0; other < stack.columns; other++) {
-                const fw_process_cell *open = fw_process_stack_top(&stack, other);
+                const fw_process_cell *open = fw_process_stack_top(&stack, other, c->back);
                 char part[FW_LABEL];
                 if (fw_process_where_holds(f, c->where, other) || !open ||
                     strcmp(open->material, c->material) != 0)
@@ -224,11 +232,11 @@ static const fw_quantity *through(const fw_process_step *s, const fw_process_cha
     return timed && !timed->unknown && timed->value < stated->value ? timed : stated;
 }
 
-/* of a material in a part of the wafer; 0: none; NaN: of a thickness that is not known */
-static double lies_in(const fw_process_stack *stack, int column, const char *material) {
+/* of what a change takes in a part of the wafer; 0: none; NaN: of a thickness that is not known */
+static double lies_in(const fw_process_stack *stack, int column, const fw_process_change *c) {
     double sum = 0.0;
     for (int i = 0; i < stack->n[column]; i++)
-        if (strcmp(stack->cell[column][i].material, material) == 0)
+        if (fw_process_stack_works_on(stack, c, &stack->cell[column][i]))
             sum += stack->cell[column][i].thickness_m;
     return sum;
 }
@@ -238,12 +246,12 @@ static fw_status lint_through(fw_process_pack *pack, int index, const fw_process
     const fw_process_step *s = &f->step[index];
     const fw_quantity *q = through(s, c);
     fw_process_stack stack;
-    if (!q || c->back || c->reach) return FW_OK;
+    if (!q || c->reach) return FW_OK;
     FW_TRY(fw_process_flow_stack(pack->arena, f, index - 1, &stack, NULL));
     const double goes = q->value * (1.0 + fmax(s->overrun, 0.0));
     for (int column = 0; column < stack.columns; column++) {
         char part[FW_LABEL], there[32], takes[32];
-        const double lies = lies_in(&stack, column, c->material);
+        const double lies = lies_in(&stack, column, c);
         const bool hollow = c->isotropic && q->value < 0.5 * lies; /* a depth that is meant */
         if (!fw_process_where_holds(f, c->where, column) || hollow || !(lies > goes * (1 + 1e-9)))
             continue;

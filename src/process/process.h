@@ -247,8 +247,8 @@ typedef struct fw_process_step {
     double attended_s;                /* somebody must be there for this long; 0: unattended */
     double finish_s;                  /* of all <finish>es; computed */
     const fw_quantity *pulse, *pause; /* done in parts with pauses between; NULL: at a stretch */
-    /* the time of the law with the over-etch, the pauses and the finishes: what the machine is taken for. Nominal, and at
-       the stop time; 0 where the time is not computable */
+    /* what the machine is taken for: the time of the law with the over-etch, the pauses, the finishes, and what handling
+       takes beyond them (attended_s). Nominal, and at the stop time; 0 where the time is not computable */
     double booked_s, booked_stop_s;
 } fw_process_step;
 

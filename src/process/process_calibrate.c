@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "process/calibrate.h"
 #include "process/coupon.h"
+#include "quantity/program.h"
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -63,10 +64,12 @@ static fw_status check_under(const fw_process_coupon *kind, const fw_process_mea
     const char *first = fw_quantity_dimension_text(diags->arena, under[0]),
                *second = fw_quantity_dimension_text(diags->arena, under[1]),
                *is = fw_quantity_dimension_text(diags->arena, r->at_dimension);
+    const char *unit = fw_quantity_dimension_unit(under[0]);
     FW_NEED(first && second ? is : NULL);
     return fw_diag_error(diags, 211, r->place,
-                         "%s is measured at %s%s%s, which stands under at, not at %s", r->coupon,
-                         first, two ? " or " : "", two ? second : "", is);
+                         "%s is measured at %s%s%s%s%s, which stands under at, not at %s",
+                         r->coupon, first, two ? " or " : "", two ? second : "",
+                         unit ? ", such as 20 " : "", unit ? unit : "", is);
 }
 
 fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags *diags) {

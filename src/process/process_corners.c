@@ -124,6 +124,11 @@ static void read_corner(fw_process_pack *pack, const fw_xml_record *e) {
                              .within = quantity(pack, e, "within", of),
                              .etched = strcmp(fw_process_pack_text(e, "etched"), "yes") == 0,
                              .place = e->element->place};
+    for (const fw_process_corner *other = f->corner; other < c; other++)
+        if (other->of == c->of && other->q == c->q)
+            fw_diag_error(pack->diags, 260, e->element->place,
+                          "a corner of this '%s' stands above already: its range would count twice",
+                          kind[of].word);
     if (c->etched && of != FW_CORNER_EDGE)
         fw_diag_error(pack->diags, 260, e->element->place,
                       "etched is of an edge that an isotropic etch leaves; '%s' is none",

@@ -178,6 +178,19 @@ static bool stands_on_nothing(const fw_process_flow *flow) {
     return false;
 }
 
+/* what carries the wafer is taken away from the back, inside of a plate that is printed there */
+static bool opened_from_back(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            fw_process_side side;
+            if (c->back && c->anisotropy && strcmp(c->kind, "remove") == 0 &&
+                fw_process_where_side(flow, c->where, &side) && side.plate && side.set)
+                return true;
+        }
+    return false;
+}
+
 const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, bool *hollow,
                                        const char **material) {
     *open = false, *hollow = false, *material = NULL;
@@ -193,7 +206,7 @@ const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, 
             *material = c->material;
             return c->thickness ? c->thickness : thickness_of(flow, c->material);
         }
-    *open = stands_on_nothing(flow);
+    *open = stands_on_nothing(flow) || opened_from_back(flow);
     return NULL;
 }
 
@@ -220,6 +233,25 @@ fw_status fw_process_lint_shrink(fw_process_pack *pack) {
             fw_number_text(a, sizeof a, takes * 1e6, 4));
     }
     return FW_OK;
+}
+
+bool fw_process_change_is_background(const fw_process_flow *flow, const fw_process_change *add,
+                                     double *depth_m) {
+    const double thick =
+        add->thickness && !add->thickness->unknown ? add->thickness->value : (double)NAN;
+    *depth_m = 0.0;
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (strcmp(c->kind, "remove") != 0 || strcmp(c->material, add->material) != 0) continue;
+            double t = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
+            const bool shallow = c->isotropic && t < 0.5 * thick,
+                       through = c->back && c->thickness == add->thickness;
+            if (shallow) *depth_m = fmax(*depth_m, t);
+            if (!shallow && !through && (c->thickness || strcmp(c->where, "all") != 0))
+                return false;
+        }
+    return strcmp(add->where, "all") == 0;
 }
 
 /* ---- the stack ---- */
@@ -258,74 +290,110 @@ static bool add(fw_process_stack *s, int column, const fw_process_change *c, dou
     double thickness = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
     double bottom = c->back ? below - height : c->spans ? ground : top_of(s, column);
     insert(s, column, c->back ? 0 : s->n[column],
-           (fw_process_cell){c->material, thickness, bottom, height, false});
+           (fw_process_cell){c->material, thickness, bottom, height, false, c->back});
     return true;
 }
 
-/* an isotropic etch that leaves most of a layer hollows it out (films.c); drawn is how much lower its top is then */
+bool fw_process_step_from_back(const fw_process_step *step) {
+    for (int k = 0; k < step->nchange; k++)
+        if (step->change[k].back && strcmp(step->change[k].kind, "add") != 0) return true;
+    return false;
+}
+
+bool fw_process_step_meets(const fw_process_step *step, bool back) {
+    const bool from_back = fw_process_step_from_back(step);
+    return back ? from_back : !from_back || strcmp(step->op, "dry-etch") != 0;
+}
+
+bool fw_process_stack_works_on(const fw_process_stack *s, const fw_process_change *c,
+                               const fw_process_cell *cell) {
+    const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
+    if (strcmp(cell->material, on) != 0 || cell->back == c->back)
+        return strcmp(cell->material, on) == 0;
+    for (int column = 0; column < s->columns; column++)
+        for (int i = 0; i < s->n[column]; i++)
+            if (s->cell[column][i].back == c->back && strcmp(s->cell[column][i].material, on) == 0)
+                return false;
+    return true;
+}
+
+/* an isotropic etch that leaves most of a layer hollows it out (films.c); drawn is how much lower its top is then, or how
+   much higher its bottom */
 static bool hollow_out(fw_process_stack *s, int column, const fw_process_change *c) {
-    int top = s->n[column] - 1;
+    int top = c->back && s->n[column] > 0 ? 0 : s->n[column] - 1;
     if (!c->isotropic || !c->thickness || c->thickness->unknown || top < 0) return false;
     fw_process_cell *cell = &s->cell[column][top];
     double depth = c->thickness->value;
     if (!(depth < 0.5 * cell->thickness_m) || strcmp(cell->material, c->material) != 0)
         return false;
+    double lower = fmin(drawn_height(c->thickness), 0.6 * cell->height);
     cell->thickness_m -= depth;
-    cell->height -= fmin(drawn_height(c->thickness), 0.6 * cell->height);
+    cell->height -= lower;
+    if (c->back) cell->bottom += lower;
     return true;
 }
 
-static bool take_away(fw_process_stack *s, int column, const fw_process_change *c) {
+/* which: per cell, does the change work on it? As the wafer is before it, since columns are done one after the other */
+static bool take_away(fw_process_stack *s, int column, const fw_process_change *c,
+                      const bool *which) {
     int kept = 0, before = s->n[column];
     if (hollow_out(s, column, c)) return true;
     for (int i = 0; i < before; i++)
-        if (strcmp(s->cell[column][i].material, c->material) != 0)
-            s->cell[column][kept++] = s->cell[column][i];
+        if (!which[i]) s->cell[column][kept++] = s->cell[column][i];
     s->n[column] = kept;
     return kept < before;
 }
 
-static bool expose(fw_process_stack *s, int column, const fw_process_change *c) {
+static bool expose(fw_process_stack *s, int column, const bool *which) {
     bool found = false;
     for (int i = 0; i < s->n[column]; i++)
-        if (strcmp(s->cell[column][i].material, c->material) == 0)
-            s->cell[column][i].exposed = found = true;
+        if (which[i]) s->cell[column][i].exposed = found = true;
     return found;
 }
 
-/* the upper part of the topmost cell of material `from` becomes `material` */
-static bool convert(fw_process_stack *s, int column, const fw_process_change *c) {
-    int i = s->n[column] - 1;
-    while (i >= 0 && strcmp(s->cell[column][i].material, c->from) != 0)
-        i--;
-    if (i < 0) return false;
+/* the outer part of the outermost cell of material `from` becomes `material` */
+static bool convert(fw_process_stack *s, int column, const fw_process_change *c,
+                    const bool *which) {
+    int i = c->back ? 0 : s->n[column] - 1, step = c->back ? 1 : -1;
+    while (i >= 0 && i < s->n[column] && !which[i])
+        i += step;
+    if (i < 0 || i == s->n[column]) return false;
     fw_process_cell *old = &s->cell[column][i];
     double height = fmin(drawn_height(c->thickness), 0.6 * old->height);
     double thickness = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
+    double bottom = c->back ? old->bottom : old->bottom + old->height - height;
     old->height -= height;
+    if (c->back) old->bottom += height;
     if (!isnan(thickness)) old->thickness_m -= thickness;
-    insert(s, column, i + 1,
-           (fw_process_cell){c->material, thickness, old->bottom + old->height, height, false});
+    insert(s, column, c->back ? i : i + 1,
+           (fw_process_cell){c->material, thickness, bottom, height, false, c->back});
     return true;
 }
 
-static bool apply(const fw_process_flow *flow, fw_process_stack *s, const fw_process_change *c) {
-
+/* which: (capacity x columns) */
+static bool apply(const fw_process_flow *flow, fw_process_stack *s, const fw_process_change *c,
+                  bool *which) {
+    const size_t room = (size_t)s->capacity;
     bool found = false;
+    for (int column = 0; column < s->columns; column++)
+        for (int i = 0; i < s->n[column]; i++)
+            which[(size_t)column * room + (size_t)i] =
+                fw_process_stack_works_on(s, c, &s->cell[column][i]);
     double below = bottom_of(s);
     double ground = 0.0; /* the highest top: what spans lies on it */
     for (int column = 0; column < s->columns; column++)
         ground = fmax(ground, top_of(s, column));
     for (int column = 0; column < s->columns; column++) {
+        const bool *on = which + (size_t)column * room;
         if (!fw_process_where_holds(flow, c->where, column)) continue;
         if (strcmp(c->kind, "add") == 0)
             found = add(s, column, c, below, ground) || found;
         else if (strcmp(c->kind, "remove") == 0)
-            found = take_away(s, column, c) || found;
+            found = take_away(s, column, c, on) || found;
         else if (strcmp(c->kind, "pattern") == 0)
-            found = expose(s, column, c) || found;
+            found = expose(s, column, on) || found;
         else
-            found = convert(s, column, c) || found;
+            found = convert(s, column, c, on) || found;
     }
     return found;
 }
@@ -338,11 +406,13 @@ static fw_status stack_of(fw_arena *arena, const fw_process_flow *flow, int step
         most += flow->step[i].nchange;
     *stack = (fw_process_stack){.capacity = most + 1, .columns = fw_process_flow_columns(flow)};
     if (absent) *absent = NULL;
+    bool *which = fw_arena_array(arena, bool, (size_t)stack->capacity *(size_t)stack->columns);
+    FW_NEED(which);
     for (int column = 0; column < stack->columns; column++)
         FW_NEED(stack->cell[column] = fw_arena_array(arena, fw_process_cell, (size_t)most + 1));
     for (int i = 0; i < flow->nstep && i <= step; i++)
         for (int j = 0; j < flow->step[i].nchange && (i < step || j < changes); j++)
-            if (!apply(flow, stack, &flow->step[i].change[j]) && absent && !*absent)
+            if (!apply(flow, stack, &flow->step[i].change[j], which) && absent && !*absent)
                 *absent = &flow->step[i].change[j];
     return FW_OK;
 }
@@ -364,22 +434,34 @@ bool fw_process_stack_holds(const fw_process_stack *stack, int column, const cha
     return false;
 }
 
-const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int column) {
+const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int column, bool back) {
     int n = stack->n[column];
-    return n > 0 ? &stack->cell[column][n - 1] : NULL;
+    return n > 0 ? &stack->cell[column][back ? 0 : n - 1] : NULL;
+}
+
+/* how far a column reaches towards a face, from the wafer's own front; -INFINITY: nothing is left of it */
+static double reaches(const fw_process_stack *s, int column, bool back) {
+    double out = -(double)INFINITY;
+    for (int i = 0; i < s->n[column]; i++) {
+        const fw_process_cell *c = &s->cell[column][i];
+        out = fmax(out, back ? -c->bottom : c->bottom + c->height);
+    }
+    return back ? out : fmax(out, 0.0);
 }
 
 const fw_process_cell *fw_process_stack_find(const fw_process_flow *flow,
                                              const fw_process_stack *stack, int column,
-                                             const char *material, const char **cover) {
+                                             const char *material, bool back, const char **cover) {
     double beside = (double)INFINITY;
+    const int n = stack->n[column];
     for (int k = 0; k < stack->columns; k++)
-        if (fw_process_columns_meet(flow, column, k)) beside = fmin(beside, top_of(stack, k));
+        if (fw_process_columns_meet(flow, column, k))
+            beside = fmin(beside, reaches(stack, k, back));
     *cover = NULL;
-    for (int i = stack->n[column] - 1; i >= 0; i--) {
-        const fw_process_cell *c = &stack->cell[column][i];
+    for (int i = 0; i < n; i++) {
+        const fw_process_cell *c = &stack->cell[column][back ? i : n - 1 - i];
         if (strcmp(c->material, material) == 0) {
-            if (c->bottom + c->height > beside + 1e-9) *cover = NULL;
+            if ((back ? -c->bottom : c->bottom + c->height) > beside + 1e-9) *cover = NULL;
             return c;
         }
         const fw_process_material *m = fw_process_flow_material(flow, c->material);
@@ -389,10 +471,11 @@ const fw_process_cell *fw_process_stack_find(const fw_process_flow *flow,
 }
 
 bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,
-                           const char *material) {
+                           const char *material, bool back) {
     const char *cover;
     for (int column = 0; column < stack->columns; column++)
-        if (fw_process_stack_find(flow, stack, column, material, &cover) && !cover) return true;
+        if (fw_process_stack_find(flow, stack, column, material, back, &cover) && !cover)
+            return true;
     return false;
 }
 

@@ -44,6 +44,7 @@ static const named known[] = {
     {{2, 1, -1, 0, 0, 0, -1, 0}, "torsional damping", "N m s/rad"},
     {{0, 0, 1, 1, 0, 0, 0, 0}, "electric charge", "C"},
     {{-2, 0, 0, 1, 0, 0, 0, 0}, "current density", "mA/cm2"},
+    {{-2, 0, 1, 1, 0, 0, 0, 0}, "charge per area", "C/cm2"},
     {{2, 1, -3, -1, 0, 0, 0, 0}, "voltage", "V"},
     {{2, 1, -3, -2, 0, 0, 0, 0}, "electric resistance", "ohm"},
     {{-2, -1, 4, 2, 0, 0, 0, 0}, "capacitance", "pF"},

@@ -65,7 +65,7 @@ fw_status fw_recipe_html_pictures(const fw_process_flow *flow, const fw_recipe_h
     FW_TRY(fw_recipe_section_plan_of(slicer, flow, &plan));
     FW_TRY(fw_recipe_block_draw(slicer, flow, scale, flow->nstep - 1, 420.0, &body, &height));
     FW_TRY(fw_text_end(&body));
-    fw_text_add(out, "<h3>What is made</h3>\n<div class=\"pair\"><div><p>Sections: ");
+    fw_text_add(out, "<h3>What is made</h3>\n<div class=\"pair made\"><div><p>Sections: ");
     fw_text_escaped(out, header->cut->name);
     fw_text_add(out,
                 ", to scale along the cut, heights as each picture says. Walls stand where mask, "
@@ -172,7 +172,7 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
     alignment(flow, s, out);
     ways(flow, s, out);
     if (s->equipment) {
-        fw_text_add(out, "<p class=\"small\"><b>Equipment:</b> ");
+        fw_text_add(out, "<p class=\"small tool\"><b>Equipment:</b> ");
         fw_text_escaped(out, s->equipment->class_);
         if (s->equipment->text[0]) {
             fw_text_add(out, "; ");
@@ -245,11 +245,11 @@ static fw_status quantities(const fw_process_flow *flow, const fw_process_step *
     int n = 0, derived = 0;
     FW_TRY(fw_recipe_step_rows(out->arena, s, &row, &n));
     if (n == 0 || only_the_time(s, row, n)) return FW_OK;
-    fw_text_add(out,
-                "<table class=\"small\"><thead><tr><th style=\"width:28%\">Setting</th><th "
-                "class=\"n\">Planned</th><th>Allowed</th><th style=\"width:36%\">Status, source"
-                "</th><th style=\"width:16mm\">Actual</th></tr>"
-                "</thead><tbody>\n");
+    fw_text_add(out, "<table class=\"small\"><thead><tr><th style=\"width:25%\">Setting</th><th "
+                     "class=\"n\">Planned</th><th style=\"width:10%\">Allowed</th><th "
+                     "style=\"width:42%\">Status, source"
+                     "</th><th style=\"width:16mm\">Actual</th></tr>"
+                     "</thead><tbody>\n");
     for (int i = 0; i < n; i++) {
         if (row[i].derived && derived++ == 0)
             fw_text_add(out, "<tr><th colspan=\"5\">Computed for this step</th></tr>\n");
@@ -278,7 +278,15 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
         fw_schedule_put_duration(out, value[i]);
         fw_text_add(out, i == 0 ? "</b></td>" : "</td>");
     }
-    fw_text_add(out, "</tr></table>\n<p class=\"small\">Time: law <i>");
+    fw_text_add(out, "</tr></table>\n");
+    return FW_OK;
+}
+
+/* the law of its time, and what makes it uncertain */
+static void time_words(const fw_process_step *s, fw_text *out) {
+    const fw_process_time *t = &s->time;
+    if (!t->computable) return;
+    fw_text_add(out, "<span class=\"small\">Time: law <i>");
     fw_text_escaped(out, s->law);
     fw_text_add(out, "</i>, ");
     tagged(out, fw_quantity_value_status_text(t->status));
@@ -297,14 +305,13 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
         fw_text_add(out, " after every ");
         fw_schedule_put_duration(out, s->pulse->value);
     }
-    fw_text_add(out, ".</p>\n");
-    return FW_OK;
+    fw_text_add(out, ".</span> ");
 }
 
 /* at the same bench, after the step's own time */
 static fw_status finishes(const fw_process_step *s, fw_text *out) {
     if (s->nfinish == 0) return FW_OK;
-    fw_text_add(out, "<p><b>Before it leaves the bench:</b> ");
+    fw_text_add(out, "<b>Before it leaves the bench:</b> ");
     for (int i = 0; i < s->nfinish; i++) {
         const fw_process_finish *f = &s->finish[i];
         const char *words = fw_recipe_finish_words(out->arena, f);
@@ -321,7 +328,7 @@ static fw_status finishes(const fw_process_step *s, fw_text *out) {
             fw_text_escaped(out, f->text);
         }
     }
-    fw_text_add(out, ".</p>\n");
+    fw_text_add(out, ". ");
     return FW_OK;
 }
 
@@ -330,7 +337,7 @@ static void waits(const fw_process_flow *flow, int index, fw_text *out) {
     for (int i = 0; i < flow->nwait; i++) {
         const fw_process_wait *w = &flow->wait[i];
         if (w->from != index) continue;
-        fw_text_add(out, "<p class=\"note\"><b>Now the wafer is ");
+        fw_text_add(out, "<p class=\"small note\"><b>Now the wafer is ");
         fw_text_escaped(out, w->is);
         fw_text_add(out, ":</b> start ");
         fw_text_escaped(out, flow->step[w->to].id);
@@ -346,7 +353,7 @@ static void parting(const fw_process_flow *flow, const fw_process_step *s, fw_te
     const fw_quantity *dies = fw_process_flow_quantity(flow, "mask.dies");
     bool mapped = dies && !dies->unknown && dies->value > 1; /* else of one die, without a map */
     if (!s->parts) return;
-    fw_text_add(out, "<p class=\"note\"><b>From here on the sheet is of dies");
+    fw_text_add(out, "<p class=\"small note\"><b>From here on the sheet is of dies");
     if (mapped) fw_text_printf(out, ", %.0f devices of each wafer", dies->value);
     fw_text_add(out, ":</b> those of a wafer stay together in a box or basket of its own, with the "
                      "wafer's number on it.");
@@ -357,29 +364,18 @@ static void parting(const fw_process_flow *flow, const fw_process_step *s, fw_te
     fw_text_add(out, "</p>\n");
 }
 
-static void endpoints(const fw_process_step *s, fw_text *out) {
+/* how long, when it is done, and what follows at the bench: one after the other */
+static fw_status endpoints(const fw_process_step *s, fw_text *out) {
+    fw_text_add(out, "<p>");
+    time_words(s, out);
     for (int i = 0; i < s->nendpoint; i++) {
-        fw_text_add(out, "<p><b>Endpoint:</b> ");
+        fw_text_add(out, "<b>Endpoint:</b> ");
         fw_text_escaped(out, s->endpoint[i]);
-        fw_text_add(out, "</p>\n");
+        fw_text_add(out, " ");
     }
-}
-
-static void failures(const fw_process_step *s, fw_text *out) {
-    for (int i = 0; i < s->non_fail; i++) {
-        const fw_process_on_fail *f = &s->on_fail[i];
-        fw_text_add(out, "<p class=\"small\"><b>If</b> ");
-        fw_text_escaped(out, f->condition);
-        fw_text_add(out, ": <b>");
-        fw_text_escaped(out, f->then);
-        if (f->go_to[0]) {
-            fw_text_add(out, strcmp(f->go_to, s->id) == 0 ? ", repeat " : ", back to ");
-            fw_text_escaped(out, f->go_to);
-        }
-        fw_text_add(out, "</b>. ");
-        fw_text_escaped(out, f->text);
-        fw_text_add(out, "</p>\n");
-    }
+    FW_TRY(finishes(s, out));
+    fw_text_add(out, "</p>\n");
+    return FW_OK;
 }
 
 static void holds(const fw_process_step *s, fw_text *out) {
@@ -450,6 +446,8 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     holds(s, out);
     exposures(flow, s, out);
     if (slicer && changes && section_notes(flow, index, out) != FW_OK) out->failed = 1;
+    if (changes && endpoints(s, out) != FW_OK)
+        out->failed = 1; /* there is room beside the picture */
     fw_text_add(out, changes ? "</div><div>" : "");
     fw_status drawn = !changes ? FW_OK
                       : slicer ? fw_recipe_section_exact(slicer, flow, scale, index, out)
@@ -457,11 +455,10 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     if (drawn != FW_OK) out->failed = 1;
     fw_text_add(out, changes ? "</div></div>\n" : "");
     if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
-    if (finishes(s, out) != FW_OK) out->failed = 1;
-    endpoints(s, out);
+    if (!changes && endpoints(s, out) != FW_OK) out->failed = 1;
     fw_recipe_html_wafers(s, fw_process_step_is_of_dies(flow, index), header, out);
+    fw_recipe_html_outcome(s, fw_process_step_is_of_dies(flow, index), header, out);
     parting(flow, s, out);
     waits(flow, index, out);
-    failures(s, out);
     fw_text_add(out, "</section>\n");
 }

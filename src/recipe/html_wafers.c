@@ -5,8 +5,8 @@
 #include <string.h>
 
 /* Wafers side by side that still hold five sites that one can write into; cells of a line for each wafer, wide ones and
-   narrow ones, beside which start, tool and initials find room on A4 */
-enum { WAFERS_ABREAST = 3, WIDE_CELLS = 10, MOST_CELLS = 15 };
+   narrow ones, beside which start, tool and initials find room on A4, and so few that two wafers share a line */
+enum { WAFERS_ABREAST = 3, WIDE_CELLS = 10, MOST_CELLS = 15, FEW_CELLS = 5 };
 
 /* ---- values of wafers ---- */
 
@@ -86,32 +86,88 @@ static int cells_of(const fw_process_step *s) {
     return n;
 }
 
-/* a line for each wafer; what a load has in common is written once for it */
-static void wafer_lines(const fw_process_step *s, int wafers, bool of_dies, fw_text *out) {
-    const int load = fw_process_step_load(s);
+/* how many wafers stand side by side in a row: wafers of one load share what is written once for it, others have all of it
+   twice in a row where their cells are few */
+static int abreast(const fw_process_step *s, int wafers, int load) {
+    const int cells = s->naccept > 2 ? MOST_CELLS : cells_of(s),
+              most = load > 1 && load < wafers ? load : wafers;
+    int n = cells <= FEW_CELLS ? 2 : 1;
+    if (load > 1 && cells <= 2) n = 3;
+    return n < most ? n : most;
+}
+
+static void common_heads(const fw_process_step *s, int among, fw_text *out) {
     fw_text_printf(out,
-                   "<table class=\"small wafers%s\"><thead><tr><th style=\"width:%d%%\">%s</th>",
-                   cells_of(s) > WIDE_CELLS ? " narrow" : "", of_dies ? 7 : 4,
-                   of_dies ? "Dies of wafer" : "Wafer");
-    for (int i = 0; i < s->naccept; i++) {
-        fw_text_add(out, "<th>");
-        measure(&s->accept[i], out);
-        fw_text_add(out, "<br><span class=\"muted\">");
-        limits(&s->accept[i], out);
-        fw_text_add(out, "</span></th>");
-    }
-    fw_text_printf(out,
-                   "<th style=\"width:15%%\">Start; end</th><th style=\"width:14%%\">Tool; bath or "
-                   "bottle lot</th><th style=\"width:9%%\">%s</th></tr></thead><tbody>\n",
+                   "<th style=\"width:%d%%\">Start; end</th><th style=\"width:%d%%\">Tool; bath "
+                   "or bottle lot</th><th style=\"width:%d%%\">%s</th>",
+                   among > 1 ? 10 : 15, among > 1 ? 12 : 14, among > 1 ? 6 : 9,
                    s->second_signature ? "Initials; second signature" : "Initials");
-    for (int w = 0; w < wafers; w++) {
-        fw_text_printf(out, "<tr><td>%d</td>", w + 1);
+}
+
+static void measure_head(const fw_process_accept *a, int columns, fw_text *out) {
+    fw_text_printf(out, columns > 1 ? "<th colspan=\"%d\">" : "<th>", columns);
+    measure(a, out);
+    fw_text_add(out, columns > 1 ? " <span class=\"muted\">" : "<br><span class=\"muted\">");
+    limits(a, out);
+    fw_text_add(out, "</span></th>");
+}
+
+/* one thing that is measured stands once above all wafers of a row; several stand above each */
+static void lines_head(const fw_process_step *s, int n, bool shared, bool of_dies, fw_text *out) {
+    const int own = s->naccept + 1 + (shared ? 0 : 3);
+    fw_text_add(out, "<thead>");
+    if (n > 1 && s->naccept == 1) {
+        fw_text_add(out, "<tr>");
+        measure_head(&s->accept[0], own * n + (shared ? 3 : 0), out);
+        fw_text_add(out, "</tr>");
+    }
+    fw_text_add(out, "<tr>");
+    for (int k = 0; k < n; k++) {
+        fw_text_printf(out, "<th style=\"width:%d%%\">%s</th>", of_dies ? 7 : 4,
+                       of_dies ? "Dies of wafer" : "Wafer");
         for (int i = 0; i < s->naccept; i++)
-            sites(&s->accept[i], w, out);
-        const int rest = wafers - w, rows = load < rest ? load : rest;
-        for (int k = 0; k < 3 && w % load == 0; k++)
-            fw_text_printf(out, "<td class=\"w\" rowspan=\"%d\"></td>", rows);
-        fw_text_add(out, "</tr>\n");
+            if (n > 1 && s->naccept == 1)
+                fw_text_add(out, s->accept[i].sites > 1 ? "<th>Sites</th>" : "<th></th>");
+            else
+                measure_head(&s->accept[i], 1, out);
+        if (!shared) common_heads(s, n, out);
+    }
+    if (shared) common_heads(s, 1, out);
+    fw_text_add(out, "</tr></thead>");
+}
+
+static void common_cells(int rows, fw_text *out) {
+    for (int k = 0; k < 3; k++)
+        fw_text_printf(out, "<td class=\"w\" rowspan=\"%d\"></td>", rows);
+}
+
+/* a line for each wafer, or for so many; what a load has in common is written once for it */
+static void wafer_lines(const fw_process_step *s, int wafers, bool of_dies, fw_text *out) {
+    const int load = fw_process_step_load(s), n = abreast(s, wafers, load);
+    const bool shared = load > 1;
+    fw_text_printf(out, "<table class=\"small wafers%s\">",
+                   n * cells_of(s) >= WIDE_CELLS ? " narrow" : "");
+    lines_head(s, n, shared, of_dies, out);
+    fw_text_add(out, "<tbody>\n");
+    for (int first = 0; first < wafers; first += shared ? load : n) {
+        const int rest = wafers - first, group = shared ? load : n,
+                  count = group < rest ? group : rest;
+        for (int at = 0; at < count; at += n) {
+            fw_text_add(out, "<tr>");
+            for (int w = first + at; w < first + at + n; w++) {
+                const bool is = w < first + count;
+                fw_text_printf(out, is ? "<td>%d</td>" : "<td class=\"off\"></td>", w + 1);
+                for (int i = 0; i < s->naccept; i++)
+                    if (is)
+                        sites(&s->accept[i], w, out);
+                    else
+                        fw_text_add(out, "<td class=\"off\"></td>");
+                if (!shared && is) common_cells(1, out);
+                if (!shared && !is) fw_text_add(out, "<td class=\"off\" colspan=\"3\"></td>");
+            }
+            if (shared && at == 0) common_cells((count + n - 1) / n, out);
+            fw_text_add(out, "</tr>\n");
+        }
     }
     fw_text_add(out, "</tbody></table>\n");
 }
@@ -135,14 +191,35 @@ void fw_recipe_html_wafers(const fw_process_step *s, bool of_dies, const fw_reci
     for (int first = 0; first < wafers && !lines; first += WAFERS_ABREAST)
         some_wafers(s, first, wafers - first < WAFERS_ABREAST ? wafers - first : WAFERS_ABREAST,
                     lot, wafers == 1, of_dies, out);
-    if (wafers == 1) {
-        one_line(s, of_dies, out);
-        return;
+    if (wafers == 1) one_line(s, of_dies, out);
+}
+
+/* what to do where it went wrong and, of several wafers, what became of them, in one line */
+void fw_recipe_html_outcome(const fw_process_step *s, bool of_dies, const fw_recipe_header *header,
+                            fw_text *out) {
+    const bool counted = fw_recipe_wafers(header) > 1 && !fw_process_step_is_of_lot(s);
+    if (s->non_fail == 0 && !counted) return;
+    fw_text_add(out, "<div class=\"small outcome\"><div>");
+    for (int i = 0; i < s->non_fail; i++) {
+        const fw_process_on_fail *f = &s->on_fail[i];
+        fw_text_add(out, i ? ". <b>If</b> " : "<b>If</b> ");
+        fw_text_escaped(out, f->condition);
+        fw_text_add(out, ": <b>");
+        fw_text_escaped(out, f->then);
+        if (f->go_to[0]) {
+            fw_text_add(out, strcmp(f->go_to, s->id) == 0 ? ", repeat " : ", back to ");
+            fw_text_escaped(out, f->go_to);
+        }
+        fw_text_add(out, "</b>; ");
+        fw_text_escaped(out, f->text);
     }
-    fw_text_printf(out,
-                   "<p class=\"small\">%s in ______ out ______ scrapped ______ on hold "
-                   "______&ensp;Deviation no. ______</p>\n",
-                   of_dies ? "Dies" : "Wafers");
+    fw_text_add(out, s->non_fail ? ".</div>" : "</div>");
+    if (counted)
+        fw_text_printf(out,
+                       "<div class=\"counts\">%s in _____ out _____ scrapped _____ on hold _____ "
+                       "Deviation no. _____</div>",
+                       of_dies ? "Dies" : "Wafers");
+    fw_text_add(out, "</div>\n");
 }
 
 /* ---- hazards ---- */
@@ -236,8 +313,8 @@ void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out,
                 "<h3>Hazards: read before the lot begins</h3>\n<p>Emergency number ____________ "
                 "&ensp; Nearest shower, eye wash, first aid ____________</p>\n"
-                "<table class=\"small\"><thead><tr><th></th><th style=\"width:29%\">Hazard, bench: "
-                "steps</th><th>Wear and keep ready</th><th>First aid</th><th style=\"width:19%\">"
+                "<table class=\"small\"><thead><tr><th></th><th style=\"width:26%\">Hazard, bench: "
+                "steps</th><th>Wear and keep ready</th><th>First aid</th><th style=\"width:16%\">"
                 "Waste</th></tr></thead><tbody>\n");
     for (int i = 0; i < met.n; i++)
         hazard(flow, met.of[i], i + 1, out);

@@ -96,7 +96,8 @@ static void overrides_table(const fw_process_flow *flow, fw_text *out) {
 static const char style[] =
     "@page{size:A4;margin:10mm 12mm 12mm}\n"
     "*{box-sizing:border-box}\n"
-    "body{font:8.5pt/1.17 Helvetica,Arial,'Liberation Sans',sans-serif;color:#000;background:#fff;"
+    "body{font:8.5pt/1.17 Helvetica,Arial,'Liberation Sans','DejaVu Sans "
+    "Condensed',sans-serif;color:#000;background:#fff;"
     "max-width:186mm;margin:0 auto;padding:4mm 0}\n"
     "h1{font-size:17pt;line-height:1.15;margin:0 0 1mm}\n"
     "h2{font-size:11pt;line-height:1.2;margin:0}\n"
@@ -128,14 +129,25 @@ static const char style[] =
     ".pair{display:flex;gap:4mm;align-items:flex-start}\n.pair>div:first-child{flex:1}\n"
     ".release{margin:2mm 0;break-inside:avoid}.release svg{width:120mm;height:auto;display:block}\n"
     ".pair>div:last-child{width:58mm}\n.pair svg{width:58mm;height:auto;display:block}\n"
+    ".summary .box{width:2.5mm;height:2.5mm;vertical-align:-0.3mm}\n"
+    ".made>div:last-child,.made svg{width:47mm!important}\n"
     ".small{font-size:7.2pt}\n.muted{color:#444}\ntd .muted{font-size:6.5pt;line-height:1.1}\n"
-    ".hazard{border:0.9pt solid #000;padding:0.3mm 1.5mm;margin:0.8mm 0;font-size:8pt}\n"
+    ".tool,.hazard{display:inline-block;vertical-align:middle;margin:0.5mm 3mm 0.5mm 0}\n"
+    ".hazard{border:0.9pt solid #000;padding:0.2mm 1.5mm;font-size:8pt}\n"
     ".window td{text-align:center;white-space:nowrap}\n.window span{font-size:7.2pt;color:#333}\n"
-    ".actual td{height:6.4mm;width:12.5%;font-size:7pt;color:#444}\n.sources{columns:2}\n"
-    ".wafers td{height:5.4mm}\n.wafers td.w{white-space:nowrap}\n.wafers td.off{background:#ddd;"
+    ".actual "
+    "td{height:6.4mm;width:12.5%;font-size:7pt;color:#444}\n.sources{columns:3;column-gap:9mm;"
+    "padding-left:5mm}\n"
+    ".wafers td{height:5.3mm}\n.wafers .box{vertical-align:middle}\n"
+    ".wafers th{font-size:6.8pt;line-height:1.05}\n.wafers td.w{white-space:nowrap}\n.wafers "
+    "td.off{background:#ddd;"
     "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"
-    ".s{display:inline-block;width:8.6mm;height:4.4mm;border:0.4pt solid #888;margin-right:0.5mm}\n"
+    ".s{display:inline-block;width:8.6mm;height:4.4mm;border:0.4pt solid #888;margin-right:0.5mm;"
+    "vertical-align:middle}\n"
     ".narrow .s{width:6.8mm}\n"
+    ".outcome{display:flex;justify-content:space-between;align-items:flex-end;gap:4mm;margin:0.5mm "
+    "0}\n"
+    ".counts{white-space:nowrap}\n"
     ".rejected{border:2.2pt solid #000;text-align:center;font-size:13pt;font-weight:bold;"
     "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n.because{font-weight:bold}\n"
     "@media screen{.rejected{position:sticky;top:0;background:#fff;z-index:1}}\n"
@@ -359,7 +371,7 @@ static void summary_row(const fw_process_step *s, fw_text *out) {
 
 static void summary(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out,
-                "<h3>Steps and times</h3>\n<table class=\"small\"><thead><tr><th>Step</th>"
+                "<h3>Steps and times</h3>\n<table class=\"small summary\"><thead><tr><th>Step</th>"
                 "<th>Title; (2) needs two signatures</th><th>In</th><th class=\"n\">Planned</th>"
                 "<th class=\"n\">First look</th><th class=\"n\">Clear by</th><th class=\"n\">"
                 "Stop</th><th class=\"n\">At the machine</th></tr></thead><tbody>\n");
@@ -374,15 +386,32 @@ static void summary(const fw_process_flow *flow, fw_text *out) {
                 "</b></td></tr>\n</tbody></table>\n"
                 "<p class=\"small\">First look = planned (1 - k u), clear by = planned (1 + k u), "
                 "stop = clear by (1 + overrun); u is the relative standard uncertainty of the "
-                "time, k = 2. At the machine: planned (1 + overrun), with pauses and with what "
-                "is done at the same bench before the wafer leaves it."
+                "time, k = 2. At the machine: planned (1 + overrun), with pauses, with what is "
+                "done at the same bench before the wafer leaves it, and with handling."
                 "</p>\n");
 }
 
+/* does a value of some step name it? Others stand in the pack, and in the report */
+static fw_status is_cited(const fw_process_flow *flow, const fw_process_source *source,
+                          fw_arena *arena, bool *cited) {
+    *cited = false;
+    for (int i = 0; i < flow->nstep && !*cited; i++) {
+        fw_recipe_row *row;
+        int n;
+        FW_TRY(fw_recipe_step_rows(arena, &flow->step[i], &row, &n));
+        for (int k = 0; k < n && !*cited; k++)
+            *cited = row[k].q->source && strcmp(row[k].q->source, source->text) == 0;
+    }
+    return FW_OK;
+}
+
 static void sources(const fw_process_flow *flow, fw_text *out) {
-    fw_text_add(out, "<h3>Sources</h3>\n<ol class=\"small sources\">\n");
+    bool cited;
+    fw_text_add(out, "<h3>Sources of the values above</h3>\n<ol class=\"small sources\">\n");
     for (int i = 0; i < flow->nsource; i++) {
-        fw_text_add(out, "<li>");
+        if (is_cited(flow, &flow->source[i], out->arena, &cited) != FW_OK) out->failed = 1;
+        if (out->failed || !cited) continue;
+        fw_text_printf(out, "<li value=\"%d\">", i + 1);
         fw_text_escaped(out, flow->source[i].text);
         fw_text_add(out, " <span class=\"muted\">(");
         fw_text_escaped(out, flow->source[i].kind);

@@ -91,6 +91,25 @@ static void waits(fw_json *out, const fw_process_flow *flow, int index) {
     fw_json_end(out);
 }
 
+/* which plate it prints and how that is put on; in which parts it is done */
+static void plate_and_parts(fw_json *out, const fw_process_step *s) {
+    const fw_process_align *a = &s->align;
+    if (s->mask[0]) {
+        fw_json_object(out, "plate");
+        words(out, "id", s->mask);
+        words(out, "side", fw_process_step_on_back(s) ? "back" : "front");
+        words(out, "aligned_to", a->to);
+        words(out, "marks", a->to ? a->marks : NULL);
+        number(out, "overlay_m", a->to && !a->overlay->unknown ? a->overlay->value : (double)NAN);
+        fw_json_end(out);
+    }
+    if (!s->pulse) return;
+    fw_json_object(out, "parts");
+    number(out, "part_s", s->pulse->unknown ? (double)NAN : s->pulse->value);
+    number(out, "pause_s", s->pause->unknown ? (double)NAN : s->pause->value);
+    fw_json_end(out);
+}
+
 static fw_status step(fw_json *out, const fw_process_flow *flow, int index) {
     const fw_process_step *s = &flow->step[index];
     fw_recipe_row *row = NULL;
@@ -111,6 +130,7 @@ static fw_status step(fw_json *out, const fw_process_flow *flow, int index) {
     finishes(out, s);
     number(out, "booked_s", s->time.computable ? s->booked_s : (double)NAN);
     waits(out, flow, index);
+    plate_and_parts(out, s);
     fw_json_end(out);
     return FW_OK;
 }

@@ -52,6 +52,7 @@ static const char *paint_name(const fw_process_flow *flow, const char *material,
 typedef struct legend_entry {
     const char *material;
     bool exposed, unknown; /* unknown: some layer's thickness is not stated */
+    bool back;             /* was put on the back; said where the front has some, too */
     double thickness_m, top_m, reach_m;
 } legend_entry;
 
@@ -66,8 +67,8 @@ typedef struct legend_list {
 static void legend_add(legend_list *legend, const legend_entry *layer) {
     legend_entry *e = legend->entry;
     int at = 0;
-    while (at < legend->n &&
-           (strcmp(e[at].material, layer->material) != 0 || e[at].exposed != layer->exposed))
+    while (at < legend->n && (strcmp(e[at].material, layer->material) != 0 ||
+                              e[at].exposed != layer->exposed || e[at].back != layer->back))
         at++;
     if (at == legend->most) return;
     if (at == legend->n) {
@@ -78,6 +79,16 @@ static void legend_add(legend_list *legend, const legend_entry *layer) {
     e[at].top_m = fmax(e[at].top_m, layer->top_m);
     e[at].reach_m = fmax(e[at].reach_m, layer->reach_m);
     legend->column_m[at] += layer->thickness_m;
+}
+
+/* ", exposed, back" */
+static void legend_more(const legend_list *legend, const legend_entry *e, fw_text *out) {
+    bool both = false;
+    for (int i = 0; i < legend->n; i++)
+        both = both || (!legend->entry[i].back && e->back &&
+                        strcmp(legend->entry[i].material, e->material) == 0);
+    fw_text_add(out, e->exposed ? ", exposed" : "");
+    fw_text_add(out, both ? ", back" : "");
 }
 
 /* two coats of one material add up within a column; of all columns the thickest counts */
@@ -200,6 +211,7 @@ static void collect(const fw_process_stack *s, legend_list *legend) {
             const fw_process_cell *c = &s->cell[column][i];
             legend_add(legend, &(legend_entry){.material = c->material,
                                                .exposed = c->exposed,
+                                               .back = c->back,
                                                .thickness_m = c->thickness_m,
                                                .top_m = c->bottom + c->height});
         }
@@ -208,7 +220,8 @@ static void collect(const fw_process_stack *s, legend_list *legend) {
     legend_from_the_top(legend);
 }
 
-static void label(fw_text *out, const fw_process_flow *flow, const legend_entry *l, int y) {
+static void label(fw_text *out, const fw_process_flow *flow, const legend_list *list,
+                  const legend_entry *l, int y) {
     fw_svg_put(out,
                "rect x='{i}' y='{i}' width='9' height='9' fill='{r}' stroke='#222' "
                "stroke-width='0.5'\n",
@@ -216,7 +229,7 @@ static void label(fw_text *out, const fw_process_flow *flow, const legend_entry 
     fw_svg_open(out, "text x='{i}' y='{i}'", SECTION + 23, y + 8);
     char shown[32];
     fw_text_escaped(out, l->exposed ? l->material : paint_name(flow, l->material, shown));
-    fw_text_add(out, l->exposed ? ", exposed" : "");
+    legend_more(list, l, out);
     if (l->unknown)
         fw_text_add(out, " ?");
     else {
@@ -257,7 +270,7 @@ fw_status fw_recipe_section_svg(const fw_process_flow *flow, int index, fw_text 
     draw_bands(out, &stack, &row, high, scale, true);
     fw_svg_path_end(out);
     for (int i = 0; i < legend.n; i++)
-        label(out, flow, &legend.entry[i], 2 + 15 * i);
+        label(out, flow, &legend, &legend.entry[i], 2 + 15 * i);
     fw_svg_end(out);
     return fw_text_end(out);
 }
@@ -412,6 +425,7 @@ static void exact_collect(const fw_process_films *films, legend_list *list) {
             if (!f->in[column] || (f->cut && !f->in[FW_STACK_STRUCTURE])) continue;
             legend_add(list, &(legend_entry){.material = f->material,
                                              .exposed = f->exposed,
+                                             .back = f->back,
                                              .thickness_m = f->thickness_m,
                                              .top_m = f->top_m,
                                              .reach_m = f->reach_m});
@@ -433,13 +447,13 @@ static void swatch(fw_text *out, const legend_entry *e, double x, double y) {
     fw_svg_path_end(out);
 }
 
-static void legend(const fw_process_flow *flow, const legend_entry *e, double x, double y,
-                   fw_text *out) {
+static void legend(const fw_process_flow *flow, const legend_list *list, const legend_entry *e,
+                   double x, double y, fw_text *out) {
     char shown[32];
     swatch(out, e, x, y);
     fw_svg_open(out, "text x='{1}' y='{1}'", x + 13.0, y + 8.0);
     fw_text_escaped(out, e->exposed ? e->material : paint_name(flow, e->material, shown));
-    fw_text_add(out, e->exposed ? ", exposed" : "");
+    legend_more(list, e, out);
     if (e->reach_m > 0.0) {
         fw_text_add(out, " beyond ");
         fw_text_number(out, e->reach_m * 1e6, 3);
@@ -487,8 +501,8 @@ int fw_recipe_section_legend(const fw_process_flow *flow, const fw_process_films
     exact_collect(films, &list);
     int rows = (list.n + columns - 1) / columns;
     for (int i = 0; i < list.n; i++)
-        legend(flow, &list.entry[i], width / columns * (i / rows) + 1.0, y + 14.0 * (i % rows),
-               out);
+        legend(flow, &list, &list.entry[i], width / columns * (i / rows) + 1.0,
+               y + 14.0 * (i % rows), out);
     return rows;
 }
 

@@ -380,11 +380,25 @@ static void one_wafer(fw_text *out, const fw_schedule *s) {
     fw_text_add(out, ".</p>\n");
 }
 
+/* with its day where that is another one than that of the moment before; *day is kept */
+static void put_after(fw_text *out, const fw_schedule_calendar *c, double seconds, long *day) {
+    const long minutes = lround(seconds / 60.0);
+    if (minutes / 1440 != *day)
+        fw_recipe_put_moment(out, c, seconds);
+    else
+        fw_text_printf(out, "%02ld:%02ld", minutes / 60 % 24, minutes % 60);
+    *day = minutes / 1440;
+}
+
 static void all_wafers(fw_text *out, const fw_schedule *s) {
-    fw_text_add(out, "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end "
-                     "(operator)</th></tr></thead><tbody>\n");
+    const bool several = s->shop->operators > 1;
+    fw_text_printf(out,
+                   "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end"
+                   "%s</th></tr></thead><tbody>\n",
+                   several ? " (operator)" : "");
     for (int i = 0; i < s->shop->ntask; i++) {
         int n = 0;
+        long day = -1;
         fw_text_add(out, "<tr><td class=\"id\">");
         fw_text_escaped(out, s->shop->task[i].id);
         fw_text_add(out, s->shop->task[i].unknown ? " (time unknown)</td><td>" : "</td><td>");
@@ -394,10 +408,10 @@ static void all_wafers(fw_text *out, const fw_schedule *s) {
             fw_text_add(out, n++ ? "; " : "");
             fw_recipe_put_wafers(out, r);
             fw_text_add(out, ": ");
-            fw_recipe_put_moment(out, &s->shop->calendar, r->start_s);
+            put_after(out, &s->shop->calendar, r->start_s, &day);
             fw_text_add(out, " to ");
-            fw_recipe_put_moment(out, &s->shop->calendar, r->end_s);
-            if (r->operator_ >= 0) fw_text_printf(out, " (%d)", r->operator_ + 1);
+            put_after(out, &s->shop->calendar, r->end_s, &day);
+            if (several && r->operator_ >= 0) fw_text_printf(out, " (%d)", r->operator_ + 1);
         }
         fw_text_add(out, "</td></tr>\n");
     }

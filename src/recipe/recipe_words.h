@@ -58,10 +58,12 @@ void fw_recipe_put_limits(fw_text *out, const char *low, const char *high);
 /* "rinse in deionised water", "dry by spinning" */
 const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *finish);
 
-/* html_wafers.c: a column for every wafer of the schedule; the hazards of a step by number; the table of hazards; what
+/* html_wafers.c: cells for every wafer of the schedule, and what to do where it went wrong; the hazards of a step by number; the table of hazards; what
    deviated */
 void fw_recipe_html_wafers(const fw_process_step *step, bool of_dies,
                            const fw_recipe_header *header, fw_text *out);
+void fw_recipe_html_outcome(const fw_process_step *step, bool of_dies,
+                            const fw_recipe_header *header, fw_text *out);
 void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_step *step,
                                 fw_text *out);
 void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out);

@@ -152,13 +152,10 @@ static bool done(const search *s) {
     return s->best.any && at_bound(s->best.makespan_s, s->bound_s);
 }
 
-static bool try_rule(search *s, fw_schedule_rule rule) {
-    fw_schedule_placing *p = &s->placing;
+/* what was placed is the best now */
+static void take(search *s, fw_schedule_rule rule) {
+    const fw_schedule_placing *p = &s->placing;
     best *b = &s->best;
-    if (!fw_schedule_place_all(p, rule)) return false;
-    if (b->any && (p->makespan_s > b->makespan_s + 1e-6 ||
-                   (p->makespan_s > b->makespan_s - 1e-6 && p->sum_s > b->sum_s + 1e-6)))
-        return false;
     b->any = true;
     b->rule = rule;
     b->tie_s = p->tie_s;
@@ -168,7 +165,16 @@ static bool try_rule(search *s, fw_schedule_rule rule) {
     memcpy(b->run, p->run, (size_t)p->nrun * sizeof *p->run);
     memcpy(b->priority, p->begin_s, cells(s) * sizeof *p->begin_s);
     memcpy(b->load, p->load, (size_t)s->shop->ntask * sizeof *p->load);
-    return true;
+}
+
+static void try_rule(search *s, fw_schedule_rule rule) {
+    const fw_schedule_placing *p = &s->placing;
+    const best *b = &s->best;
+    if (!fw_schedule_place_all(&s->placing, rule)) return;
+    if (b->any && (p->makespan_s > b->makespan_s + 1e-6 ||
+                   (p->makespan_s > b->makespan_s - 1e-6 && p->sum_s > b->sum_s + 1e-6)))
+        return;
+    take(s, rule);
 }
 
 /* a few wafers earlier or later at a step, and perhaps in all that follows; or another load */
@@ -201,6 +207,51 @@ static void improve(search *s, int effort) {
         p->tie_s = uniform(s) < 0.2 ? ties_s[below(s, TIES)] : s->best.tie_s;
         change(s);
         try_rule(s, FW_RULE_LIST);
+    }
+}
+
+/* ---- wafers in their order, among equals ----
+   One wafer is as good as another, so that people expect 1 before 2 at every step. Starts of one step, given to its
+   wafers in ascending order, are the same list with other numbers; placed again it is kept where it ends no later. */
+
+/* pairs of wafers of which the one with the larger number is earlier at a step */
+static long inversions(const search *s, const double *begin_s) {
+    const int n = s->shop->wafers;
+    long sum = 0;
+    for (int task = 0; task < s->shop->ntask; task++)
+        for (int v = 1; v < n; v++)
+            for (int u = 0; u < v; u++)
+                sum += begin_s[task * n + u] > begin_s[task * n + v] + 1e-6;
+    return sum;
+}
+
+static int ascending(const void *a, const void *b) {
+    return fw_order_doubles(*(const double *)a, *(const double *)b);
+}
+
+/* of the best schedule, steps `from` to `to` in order, placed again */
+static void try_in_order(search *s, int from, int to) {
+    fw_schedule_placing *p = &s->placing;
+    best *b = &s->best;
+    const size_t n = (size_t)s->shop->wafers;
+    memcpy(p->priority, b->priority, cells(s) * sizeof *p->priority);
+    memcpy(p->load, b->load, (size_t)s->shop->ntask * sizeof *p->load);
+    for (int task = from; task <= to; task++)
+        qsort(p->priority + (size_t)task * n, n, sizeof *p->priority, ascending);
+    p->tie_s = b->tie_s;
+    if (!fw_schedule_place_all(p, FW_RULE_LIST) || p->makespan_s > b->makespan_s + 1e-6 ||
+        inversions(s, p->begin_s) >= inversions(s, b->priority))
+        return;
+    take(s, b->rule);
+}
+
+static void prefer_order(search *s) {
+    const int last = s->shop->ntask - 1;
+    const long before = s->shop->wafers > 1 ? inversions(s, s->best.priority) : 0;
+    if (before > 0) try_in_order(s, 0, last);
+    for (int from = 0; from <= last && inversions(s, s->best.priority) > 0; from++) {
+        try_in_order(s, from, last);
+        try_in_order(s, from, from);
     }
 }
 
@@ -363,6 +414,7 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
         return FW_OK;
     }
     improve(&s, effort > 0 ? effort : usual_effort(shop));
+    prefer_order(&s);
     out->feasible = true;
     out->rule = fw_schedule_rule_text(s.best.rule);
     out->nrun = s.best.nrun;

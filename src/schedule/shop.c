@@ -52,8 +52,8 @@ static void make_task(making *m, int index) {
     t->load = t->load > m->shop->wafers ? m->shop->wafers : t->load;
     if (t->alone && s->equipment) m->machine[t->machine].places = s->equipment->capacity;
     if (t->unknown) return;
-    t->duration_s = fmax(s->attended_s, s->booked_s);
-    t->latest_s = fmax(t->duration_s, s->booked_stop_s);
+    t->duration_s = s->booked_s;
+    t->latest_s = s->booked_stop_s;
 }
 
 static fw_status wrong(making *m, const char *part, size_t n, const char *what) {

@@ -3,6 +3,7 @@
 """A flow that is XML alone (processes/soi-deep-rie.xml and masks/soi-deep-rie.xml; no line of code knows it) plans the devices
 of the gallery; and one number of the device moves verdict, mask, times and run sheet together."""
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -88,6 +89,64 @@ class ThirdFlow(unittest.TestCase):
             self.assertNotEqual(before, after)
         self.assertAlmostEqual(made[40][1] / made[50][1], 0.8, delta=1e-3)
         self.assertAlmostEqual(made[40][2] / made[50][2], 0.8, 9)
+
+
+class BothFaces(unittest.TestCase):
+    """soi-double-sided: windows etched from the back by a plate of its own, aligned to the front"""
+    FLOW = "soi-double-sided"
+    STAGE = ROOT / "docs/gallery/comb-stage/device.xml"
+
+    def setUp(self):
+        self.here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.here)
+        self.device = self.here / "device.xml"
+        self.device.write_text(self.STAGE.read_text().replace("silicon-on-glass", self.FLOW))
+
+    def test_is_planned_whole(self):
+        done = run("plan", self.device, "--cut", "-900,100,100,100", "--wafers", "2", "-o", self.here / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+        def document(name):
+            return json.loads((self.here / "out" / name.replace("FLOW", self.FLOW)).read_text())
+        recipe = {s["id"]: s for s in document("recipes/FLOW.json")["steps"]}
+        self.assertEqual({k: (s["plate"]["id"], s["plate"]["side"], s["plate"]["aligned_to"]) for k, s in recipe.items() if "plate" in s},
+                         {"B06": ("device", "front", ""), "B17": ("window", "back", "device")})
+        self.assertEqual(recipe["B17"]["plate"]["overlay_m"], 5e-6)
+        sheet = (self.here / f"out/recipes/{self.FLOW}.html").read_text()
+        self.assertIn("on the back, mirrored, to device on the front", sheet)
+        self.assertIn("positive photoresist, back 10", sheet)
+        # the back is written as drawn, the front as its mirror image, since the wafer is turned over
+        self.assertEqual([document(f"masks/FLOW-plate.{p}.order.json")["mirrored_in_data"] for p in ("device", "window")], [True, False])
+        runs = document("recipes/FLOW.schedule.json")["runs"]
+        for wafer in (1, 2):  # the front is cut before the back is, on every wafer
+            start = {r["step"]: r["start_s"] for r in runs if r["first_wafer"] <= wafer < r["first_wafer"] + r["wafers"]}
+            self.assertLess(start["B09"], start["B20"])
+        films = {s["id"]: [f["material"] for f in s["films"]] for s in document("recipes/FLOW.sections.json")["steps"] if s["changes"]}
+        self.assertEqual(films["B15"].count("resist"), 3)  # on what stands, beside it, and on the back
+        self.assertNotIn("resist", films["B22"])
+        self.assertEqual(films["B23"], ["silicon-substrate", "buried-oxide", "silicon-100"])
+
+    def test_a_plate_of_the_wrong_face(self):
+        data = self.here / "data"
+        for folder in ("processes", "masks"):
+            shutil.copytree(ROOT / folder, data / folder, ignore=shutil.ignore_patterns("gallery"))
+        table, pack = data / f"masks/{self.FLOW}.xml", data / f"processes/{self.FLOW}.xml"
+        for file, old, new, says in (
+                (table, "wrong-reading", "right-reading", 'step B17 prints plate "window" on the back'),
+                (table, 'title="the device, on the front" layers="1/0 NOT 2/0 NOT 3/0" reading="right',
+                 'title="the device, on the front" layers="1/0 NOT 2/0 NOT 3/0" reading="wrong', 'step B06 prints plate "device" on the front'),
+                (table, 'name="WINDOW" purpose="windows in the handle below what moves" tone="data clear"',
+                 'name="WINDOW" purpose="windows in the handle below what moves" tone="data dark"', "step B17 exposes 'window', which lies inside"),
+                (pack, '<plate id="window" inside="window" outside="handle"/>', '<plate id="window" inside="handle" outside="window"/>',
+                 "which lies outside of the polygons")):
+            whole = file.read_text()
+            self.assertIn(old, whole)
+            file.write_text(whole.replace(old, new))
+            done = run("check", self.device, "--corners", "none", env={**os.environ, "FLEXWRIGHT_DATA": str(data)})
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("FW-D546", done.stderr)
+            self.assertIn(says, done.stderr)
+            file.write_text(whole)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "silicon-on-glass")
+PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "soi-double-sided", "silicon-on-glass")
 HEAD = """# What is said of a flow with a step or a rinse too few or too many, or two steps in the wrong order
 
 Every step of the packs left out once, every pair of neighbouring steps exchanged once, every rinse, drying, cooling
@@ -27,7 +27,9 @@ SHARP = "loose and free parts are sharp: no tool brings that, the pack says it"
 GAS = "hydrogen comes of the current: no tool brings it, the pack says it"
 FINE = {
     "S04": LOOKS, "S12": LOOKS, "S15": LOOKS, "S19": LOOKS, "S23": LOOKS, "C19": LOOKS, "C23": LOOKS, "C28": LOOKS,
-    "D11": LOOKS, "D13": LOOKS,
+    "D11": LOOKS, "D13": LOOKS, "B11": LOOKS, "B21": LOOKS, "B24": LOOKS,
+    "B02 B01": "the wafer may be cleaned before it is measured", "B11 B10": "the cut may be measured with its resist",
+    "B12 B11": "the cut may be measured with the primer on it", "B22 B21": "the windows may be looked at without the resist",
     "S10": "only some resists need it, and the resist is not stated",
     "S02 S01": "the wafer may be cleaned before it is measured", "C02 C01": "the wafer may be cleaned before it is measured",
     "D02 D01": "the wafer may be cleaned before it is measured",
@@ -54,7 +56,7 @@ FINE = {
     "the rinse of G20": "solvents may be dried", "the rinse of G27": "solvents may be dried",
     "the rinse of G38": "the saw rinses with water itself", "the rinse of G46": "the other one is left",
     "rinse 2 of G46": "the first one is left",
-    **{f"h.sharp of {name}": SHARP for name in "S20 S21 D13 G19 G44 G45 G50".split()},
+    **{f"h.sharp of {name}": SHARP for name in "S20 S21 D13 B21 B24 G19 G44 G45 G50".split()},
     "h.hydrogen of C05": GAS, "h.hydrogen of C22": GAS,
     "h.voltage of G51": "the prober brings what is probed with, which the pack says",
     "G50 G49": "the device may be looked at without its tethers as well",
@@ -67,11 +69,12 @@ CLEANS = "a clean wafer is cleaned"
 DRIES = "a dry wafer bears the dryer once more, and nothing else comes of it"
 BAKES = "a wafer without resist bears the bake, and a resist that is developed bears it twice as long"
 FINE_AGAIN = {
-    **{name: LOOKS_AGAIN for name in "S04 S12 S15 S19 S23 C19 C23 C28 D11 D13 G16 G17 G29 G35 G40 G43 G49 G51".split()},
-    **{name: CLEANS for name in "S02 C06 D02 G02 G18 G20".split()},
+    **{name: LOOKS_AGAIN for name in "S04 S12 S15 S19 S23 C19 C23 C28 D11 D13 B11 B21 B24 G16 G17 G29 G35 G40 G43 G49 G51".split()},
+    **{name: CLEANS for name in "S02 C06 D02 B02 G02 G18 G20".split()},
     **{name: DRIES for name in "S22 C08 C27 G47".split()},
-    **{name: BAKES for name in "S13 C09 D08 G04 G09 G21 G30 G36".split()},
+    **{name: BAKES for name in "S13 C09 D08 B08 B19 G04 G09 G21 G30 G36".split()},
     "S06": "a primer of one molecule does not grow", "D03": "a primer of one molecule does not grow",
+    "B03": "a primer of one molecule does not grow", "B12": "a primer of one molecule does not grow",
     "C03": "a second filling is mixed; none of it meets the wafer, and the bill of the lot has it",
     "C04": "mounted and looked at for leaks once more",
     "C14": "the rim is free already", "C15": "twice the time is within the day that it may wait",

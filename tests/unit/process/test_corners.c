@@ -136,8 +136,10 @@ static void mistakes_have_a_place(void **state) {
         {"<corner of=\"youngs\" name=\"Young's modulus\"/>",
          "<corner of=\"youngs\" name=\"Young's modulus\" q=\"made.A\"/>"},
         {"<corner of=\"youngs\" name=\"Young's modulus\"/>",
-         "<corner of=\"edge\" name=\"a\" q=\"litho.edge\"/><corner of=\"edge\" name=\"b\" "
-         "q=\"litho.edge\"/><corner of=\"edge\" name=\"c\" q=\"litho.edge\"/>"},
+         "<corner of=\"edge\" name=\"a\" q=\"wax.d\"/><corner of=\"edge\" name=\"b\" "
+         "q=\"paste.d\"/><corner of=\"edge\" name=\"c\" q=\"carrier.d\"/>"},
+        {"<corner of=\"youngs\" name=\"Young's modulus\"/>",
+         "<corner of=\"edge\" name=\"again\" q=\"litho.edge\"/>"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         diags = fw_diags_new(arena);

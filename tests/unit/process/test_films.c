@@ -7,7 +7,9 @@
 #include <string.h>
 
 #define SOI "soi-deep-rie"
-static const char *const packs[] = {COPPER, SILICON, SOI, "silicon-on-glass"};
+#define DOUBLE "soi-double-sided"
+static const char *const packs[] = {COPPER, SILICON, SOI, "silicon-on-glass", DOUBLE};
+enum { PACKS = sizeof packs / sizeof *packs };
 static const fw_process_mask_gap gaps[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
 
 static fw_process_flow *computed(fw_process_flow *f) {
@@ -60,7 +62,7 @@ static bool stack_has(const fw_process_stack *s, const char *material, int colum
  */
 static void same_materials_as_the_lint(void **state) {
     (void)state;
-    for (int p = 0; p < 4; p++) {
+    for (int p = 0; p < PACKS; p++) {
         fw_process_flow *f = computed(pack(packs[p]));
         for (int i = 0; i < f->nstep; i++) {
             fw_process_films films;
@@ -86,7 +88,7 @@ static void same_materials_as_the_lint(void **state) {
 /* films of one column lie on each other without overlap, and as thick as they are stated */
 static void films_lie_on_each_other(void **state) {
     (void)state;
-    for (int p = 0; p < 4; p++) {
+    for (int p = 0; p < PACKS; p++) {
         fw_process_flow *f = computed(pack(packs[p]));
         for (int i = 0; i < f->nstep; i++) {
             fw_process_films films;
@@ -275,6 +277,54 @@ static void reach_is_checked(void **state) {
     assert_non_null(strstr(diags.item[diags.count - 1].message, "kind='remove'"));
 }
 
+/* A window from the back: covered on both faces until it is opened, (1 - A) of the way wider than its plate at the back and
+   of the over-etch at its end; resist of either face goes with that face alone. Own sums: D = 400 um, E = 1.1 D. */
+static void windows_from_the_back(void **state) {
+    (void)state;
+    fw_process_flow *f = read_pack(arena, DOUBLE, NULL, NULL, &diags);
+    measured(f, "back.A", 0.98, 0);
+    computed(f);
+    bool open[FW_STACK_MOST];
+    int opened = 0;
+    for (int k = 0; k < fw_process_flow_columns(f); k++)
+        opened += open[k] = fw_process_where_holds(f, "window", k);
+    assert_int_equal(opened, 2);
+    fw_process_films coated = films_after(f, "B15"), developed = films_after(f, "B18"),
+                     etched = films_after(f, "B20"), bare = films_after(f, "B22"),
+                     end = films_after(f, "B24");
+    for (int k = 0; k < fw_process_flow_columns(f); k++) {
+        const bool field = fw_process_where_holds(f, "field", k);
+        int back[2] = {0}, front[2] = {0};
+        for (int i = 0; i < coated.n; i++)
+            if (coated.film[i].in[k] && strcmp(coated.film[i].material, "resist") == 0)
+                (coated.film[i].back ? back : front)[0]++;
+        for (int i = 0; i < developed.n; i++)
+            if (developed.film[i].in[k] && strcmp(developed.film[i].material, "resist") == 0)
+                (developed.film[i].back ? back : front)[1]++;
+        assert_int_equal(front[0], 1);
+        assert_int_equal(front[1], 1); /* the cover is not exposed */
+        assert_int_equal(back[0], 1);
+        assert_int_equal(back[1], !open[k]);
+        assert_int_equal(film_of(&etched, "silicon-substrate", k) == NULL, open[k]);
+        assert_non_null(film_of(&etched, "buried-oxide", k));
+        assert_null(film_of(&bare, "resist", k));
+        assert_int_equal(film_of(&end, "buried-oxide", k) == NULL, open[k] || field);
+        const fw_process_film *handle = film_of(&etched, "silicon-substrate", k);
+        if (!handle) continue;
+        assert_near(handle->further[0].foot_m, 0.02 * 440e-6, 1e-12);
+        assert_near(handle->further[0].head_m, 0.02 * 40e-6, 1e-12);
+    }
+    /* the back's resist is thinner by what its etch takes, the cover is not met */
+    for (int i = 0; i < etched.n; i++)
+        if (strcmp(etched.film[i].material, "resist") == 0)
+            assert_near(etched.film[i].thickness_m,
+                        etched.film[i].back ? 10e-6 - 440e-6 / 75 : 5e-6, 1e-12);
+    bool nothing_below, hollow;
+    const char *material;
+    assert_null(fw_process_flow_gap(f, &nothing_below, &hollow, &material));
+    assert_true(nothing_below && !hollow);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(same_materials_as_the_lint, setup, teardown),
@@ -285,6 +335,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(depth_by_width, setup, teardown),
         cmocka_unit_test_setup_teardown(soi, setup, teardown),
         cmocka_unit_test_setup_teardown(partial_and_back, setup, teardown),
+        cmocka_unit_test_setup_teardown(windows_from_the_back, setup, teardown),
         cmocka_unit_test_setup_teardown(reach_is_checked, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,6 +6,8 @@
 #include "process/calibrate.h"
 #include <math.h>
 
+#define DOUBLE "soi-double-sided"
+
 static void expect(int number, const char *says) {
     const fw_diag *d = said_of(number, says);
     if (!d)
@@ -114,6 +116,50 @@ static void mistakes_of_a_flow(void **state) {
         /* etched from below, through carrier and paste */
         {SILICON, "thickness=\"si.d\" where=\"field\" profile",
          "thickness=\"si.d\" side=\"back\" where=\"field\" profile", 564, "'thermal-paste' covers"},
+        /* the other face: what is put there, exposed, developed and etched, and by which plate */
+        {DOUBLE, "thickness=\"back.resist\" side=\"back\"/>", "thickness=\"back.resist\"/>", 172, "'resist'"},
+        {DOUBLE, "where=\"window\" side=\"back\"/>\n    <set name=\"lamp", "where=\"window\"/>\n    <set name=\"lamp", 373,
+         "exposes the front (its <change>)"},
+        {DOUBLE, "<change kind=\"remove\" material=\"resist\" where=\"window\" side=\"back\"/>",
+         "<change kind=\"remove\" material=\"resist\" where=\"window\"/>", 274, "develops 'resist'"},
+        {DOUBLE, "where=\"window\" side=\"back\" profile", "where=\"window\" profile", 339, "step B20 works on 'silicon-substrate'"},
+        {DOUBLE, "where=\"window\" side=\"back\" profile", "where=\"handle\" side=\"back\" profile", 564,
+         "'silicon-substrate' in the structure, handle from the back, where 'resist' covers it"},
+        {DOUBLE, "where=\"window\" side=\"back\" profile", "where=\"handle\" side=\"back\" profile", 275,
+         "lies open in the structure, window too"},
+        {DOUBLE, "thickness=\"handle.d\" where=\"window\" side", "thickness=\"soi.d\" where=\"window\" side", 349, "400 um lie in"},
+        {DOUBLE, "<change kind=\"remove\" material=\"resist\" side=\"back\"/>", "", 345, "'resist' is still there"},
+        {DOUBLE, "<align to=\"device\" side=\"back\"", "<align to=\"device\"", 373, "aligns a plate of the front"},
+        {DOUBLE, "<change kind=\"remove\" material=\"buried-oxide\" thickness=\"box.d\" where=\"window\" side=\"back\"/>", "", 338,
+         "nothing frees the device"},
+        /* what nothing frees, and what nothing insulates */
+        {"soi-deep-rie", " where=\"field\" reach=\"release.reach\"", " where=\"field\"", 338, "nothing frees the device"},
+        {"soi-deep-rie", "reach=\"release.reach\"/>", "reach=\"box.d\"/>", 561, "reaches 'box.d' sideways"},
+        /* set by another kind, or of none */
+        {SILICON, "q=\"hard.T\" tol-lo=\"110\" tol-hi=\"120\"", "q=\"hard.t\" tol-lo=\"\" tol-hi=\"\"", 548, "sets a 'temperature' to 'hard.t'"},
+        {SILICON, "name=\"power\" q=\"rie.power\" tol-lo=\"245\" tol-hi=\"255\"", "name=\"power\" q=\"rie.p\" tol-lo=\"\" tol-hi=\"\"", 548,
+         "sets a 'power' to 'rie.p', which is in mTorr"},
+        {SILICON, "id=\"litho.gap\" value=\"5\" u=\"5\" unit=\"um\"", "id=\"litho.gap\" value=\"5\" u=\"5\" unit=\"kg2\"", 547, "'litho.gap' is in kg2"},
+        {"soi-deep-rie", "value=\"500\" urel=\"0.3\" unit=\"V/um\"", "value=\"500\" urel=\"0.3\" unit=\"kg2\"", 547,
+         "is a voltage per length"},
+        /* no time for it */
+        {SILICON, "id=\"hard.t\" value=\"5\" u=\"0.5\" unit=\"min\"", "id=\"hard.t\" value=\"5\" u=\"0.5\" unit=\"s\"", 532, "less than ten seconds"},
+        {SILICON, "id=\"rie.part\" value=\"30\"", "id=\"rie.part\" value=\"0\"", 278, "parts of less than a second"},
+        {SILICON, "id=\"al-rinse.t\" value=\"5\" u=\"0.5\"", "id=\"al-rinse.t\" value=\"0\" u=\"0\"", 347, "in no time (al-rinse.t)"},
+        /* words that say nothing, and dates that are none */
+        {SILICON, "title=\"Develop, rinse, dry\"", "title=\"  \"", 171, "its title says nothing"},
+        {SILICON, "<endpoint>Five sites measured.</endpoint>", "<endpoint> </endpoint>", 171, "its endpoint says nothing"},
+        {SILICON, "<on-fail if=\"grass\"", "<on-fail if=\"\"", 171, "condition of an <on-fail>"},
+        {SILICON, "date=\"2025-01-01\">typical", "date=\"yesterday\">typical", 171, "date=\"yesterday\" is no day"},
+        /* done again from nowhere; sawn when free; vented where nothing is pumped; a band that counts twice */
+        {SILICON, "then=\"rework\" goto=\"S05\"", "then=\"rework\"", 276, "not from which step"},
+        {SILICON, "<step id=\"S22\" op=\"clean\"", "<step id=\"S22\" op=\"dice\"", 337, "devices are free already"},
+        {SILICON, "<finish kind=\"rinse\" q=\"al-rinse.t\"/>", "<finish kind=\"vent\"/><finish kind=\"rinse\" q=\"al-rinse.t\"/>", 505,
+         "vents 'al-bench'"},
+        {SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+         "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/><corner of=\"thickness\" name=\"again\" q=\"si.d\"/>", 260, "count twice"},
+        {SILICON, "class=\"profilometer, microscope, four-point probe\" capacity=\"1\"",
+         "class=\"profilometer, microscope, four-point probe\" capacity=\"1\" takes=\"coper\"", 165, "no material contaminates with that"},
         /* acid with nobody beside it */
         {COPPER, "op=\"anodise\" title=\"Anodise: make the surface porous\" equipment=\"hf-bench\" "
                  "in-source=\"yes\" batch=\"1\" second-signature=\"yes\" attended=\"2\"",

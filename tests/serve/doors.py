@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""doors.py PROGRAM: a value that is wrong is refused wherever it comes in, for the same reason. Of the device: in the file, by
+--set, and of the page by preview, edit and jobs. Of a process: in the pack, by --lab, and of the page by preview and jobs.
+Wrong values are made for every attribute that has a range, and for every quantity of every flow."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as tree
+
+from client import ROOT, Server
+
+PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+ALL = bool(os.environ.get("FW_TEST_ALL"))
+DEVICES = [ROOT / f"docs/gallery/{name}/device.xml" for name in ("reference-six-bar", "comb-stage", "free-form-gripper", "copper-nodder")]
+SPACE, PACK = "{urn:flexwright:device:1}", "{urn:flexwright:process:1}"
+CHECK = ("--corners", "none", "--advice", "none", "--measurements", "none", "-q")
+
+
+def codes(text):
+    return frozenset(re.findall(r"error: .*\[(FW-D\d+)\]", text))
+
+
+def check(*arguments, environment=None, **options):
+    done = subprocess.run([PROGRAM, "check", *map(str, arguments), *CHECK], capture_output=True, text=True, timeout=60,
+                          env={**os.environ, **(environment or {})}, **options)
+    return done.returncode, codes(done.stderr)
+
+
+def wrong_numbers(a):
+    """of an attribute of the table: below and above its range, of another kind, without a unit, no number"""
+    unit = "" if a["unit"] == "1" else " " + a["unit"]
+    lowest, highest = a["minimum"], a["maximum"]
+    out = [f"nan{unit}", f"1e999{unit}", "4 kg s", f"1,5{unit}", "high"]
+    if lowest is not None:
+        out.append(f"{lowest - max(1e-3, abs(lowest)) * 0.5:.12g}{unit}")
+    if highest is not None:
+        out.append(f"{highest * 1.5:.12g}{unit}" if highest > 0 else f"{highest + 1:.12g}{unit}")
+    if unit:
+        out.append("7")
+    return out
+
+
+class Doors(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.here = pathlib.Path(cls.temporary.name)
+        cls.server = Server(PROGRAM, cls.here)
+        cls.addClassCleanup(cls.server.stop)
+        cls.server.enter()
+        cls.table = {(e["parent"], e["name"]): e for e in cls.server.json("GET", "/api/table")["elements"]}
+
+    def preview(self, text, **more):
+        """status and numbers of the errors, as check has them"""
+        answer = self.server.json("POST", "/api/preview", {"text": text, "options": {"corners": "none"}, **more})
+        return answer["exit_status"], frozenset(d["code"] for d in answer["diagnostics"] if d["severity"] == "error")
+
+    def job(self, text, **more):
+        job = self.server.job({"kind": "check", "text": text, **more})
+        return job["exit_status"], codes("\n".join(job["messages"]))
+
+    # ---- the device ----
+    def places(self, element, path=""):
+        """(path, row of the table) of every attribute with a range: of the first element of each kind in each parent"""
+        count = {}
+        for child in element:
+            name = child.tag.replace(SPACE, "")
+            count[name] = count.get(name, 0) + 1
+            row = self.table.get((element.tag.replace(SPACE, ""), name))
+            if row is None or count[name] > 1:
+                continue
+            key = child.get(row["key"]) if row["key"] else None
+            several = sum(x.tag == child.tag for x in element) > 1
+            here = f"{path}{name}" + (f"[{key}]" if key else f"[{count[name]}]" if several else "")
+            for a in row["attributes"]:
+                if a["type"] == "number" and child.get(a["name"]) is not None:
+                    yield f"{here}/@{a['name']}", a
+            yield from self.places(child, here + "/")
+
+    def test_of_the_device(self):
+        seen, tried, jobs = set(), 0, 0
+        for file in DEVICES:
+            text = file.read_text()
+            for path, a in self.places(tree.fromstring(text)):
+                kind = re.sub(r"\[[^]]*\]", "", path)
+                if kind in seen:
+                    continue
+                seen.add(kind)
+                for number, value in enumerate(wrong_numbers(a)):
+                    if not ALL and (len(seen) + number) % 5:
+                        continue
+                    with self.subTest(path=path, value=value):
+                        tried += 1
+                        by_set = check(file, "--set", f"{path}={value}")
+                        self.assertEqual(by_set[0], 3)
+                        self.assertTrue(by_set[1])
+                        edited = self.server.json("POST", "/api/edit", {"text": text, "changes": [{"path": path, "value": value}]})
+                        self.assertEqual(edited["status"], "ok")
+                        self.assertEqual(check("-", input=edited["text"], cwd=file.parent), by_set, "in the file")
+                        self.assertEqual(self.preview(text, set={path: value}), by_set, "set by the page")
+                        self.assertEqual(self.preview(edited["text"]), by_set, "edited by the page")
+                        if tried % 25 == 1:
+                            jobs += 1
+                            self.assertEqual(self.job(text, set={path: value}), by_set, "set by a job")
+        self.assertGreater(tried, 50)
+        self.assertGreater(jobs, 1)
+
+    # ---- a process ----
+    def test_of_a_process(self):
+        """every quantity of every flow, too large, too small, below 0, exact where nobody is, and in units of another kind: the pack
+        itself, a laboratory, and the page say the same of it"""
+        data = self.here / "data"
+        for folder in ("processes", "masks"):
+            shutil.copytree(ROOT / folder, data / folder, ignore=shutil.ignore_patterns("gallery"), dirs_exist_ok=True)
+        text = DEVICES[0].read_text()
+        tried = refused = jobs = 0
+        for flow in sorted(p.stem for p in (ROOT / "masks").glob("*.xml")):
+            device = re.sub(r'\s*<(flow ref|workspace flow)="copper[^>]*/>', "", text)
+            device = re.sub(r'\s*<scene [^>]*flow="copper.*?</scene>', "", device, flags=re.S).replace("al-masked-rie", flow)
+            pack = (ROOT / f"processes/{flow}.xml").read_text()
+            rows = re.findall(r'<q [^>]*id="([\w.-]+)"[^>]*/>', pack)
+            for number, identity in enumerate(rows):
+                row = re.search(rf'<q [^>]*id="{re.escape(identity)}"[^>]*/>', pack)[0]
+                unit = re.search(r'unit="([^"]*)"', row)[1]
+                was = re.search(r' value="([^"]*)"', row)
+                if re.search(r'src="mask"', row):
+                    continue
+                value = float(was[1]) if was else 1.0
+                for kind, (now, of) in enumerate(((value * 1e12 or 1e12, unit), (-abs(value) * 1e3 - 1e6, unit), (value, "kg2"),
+                                                  (value * 1.01, unit))):
+                    if not ALL and (number + kind) % (48 if kind == 3 else 14):  # what is fine costs most
+                        continue
+                    with self.subTest(flow=flow, id=identity, value=now, unit=of):
+                        tried += 1
+                        q = f'<q id="{identity}" value="{now:.12g}" urel="0.01" unit="{of}" status="typical" src="lab"/>'
+                        lab = ('<process xmlns="urn:flexwright:process:1" flow="%s"><source id="lab" kind="handbook" date="2026-11-20">'
+                               'lab</source>%s</process>' % (flow, q))
+                        (self.here / "lab.xml").write_text(lab)
+                        own = re.sub(r' (value|unit|u|urel|lo|hi|status|src|u-status|unknown)="[^"]*"', "", row)
+                        own = own.replace("/>", f' value="{now:.12g}" urel="0.01" unit="{of}" status="typical" src="lab"/>')
+                        (data / f"processes/{flow}.xml").write_text(pack.replace(row, own).replace(
+                            "  <source ", '  <source id="lab" kind="handbook" date="2026-11-20">lab</source>\n  <source ', 1))
+                        by_lab = check("-", "--flow", flow, "--lab", self.here / "lab.xml", input=device)
+                        by_pack = check("-", "--flow", flow, input=device, environment={"FLEXWRIGHT_DATA": str(data)})
+                        by_page = self.preview(device, lab={"lab.xml": lab}, options={"flow": flow})
+                        self.assertEqual(by_lab[0] == 3, by_pack[0] == 3, f"laboratory {by_lab}, pack {by_pack}")
+                        self.assertEqual(by_lab, by_page, "preview")
+                        refused += by_lab[0] == 3
+                        if kind == 2:
+                            self.assertEqual(by_lab[0], 3)
+                        if tried % 40 == 1:
+                            jobs += 1
+                            self.assertEqual(self.job(device, files={"lab.xml": lab}, options={"lab": "lab.xml", "flow": flow}), by_lab)
+            (data / f"processes/{flow}.xml").write_text(pack)
+        self.assertGreater(refused, tried / 3)
+        self.assertGreater(jobs, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
