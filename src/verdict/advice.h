@@ -27,6 +27,11 @@ typedef enum fw_verdict_look {
     FW_LOOK_WHOLE   /* as closely as any verdict */
 } fw_verdict_look;
 
+typedef struct fw_verdict_trial_end { /* the device with one parameter at its min or max */
+    const fw_device *device;          /* NULL: it cannot be read so */
+    bool read;
+} fw_verdict_trial_end;
+
 typedef struct fw_verdict_trial {
     double work;                /* fw_verdict_options.work of the trials so far */
     double most_work;           /* no search goes on beyond that */
@@ -51,6 +56,8 @@ typedef struct fw_verdict_trial {
     double *made; /* (ncheck) the largest at the corners that were run; NaN: none was */
     int ncheck;
     bool brief; /* clearances that are enough have no value */
+    fw_verdict_trial_end
+        *end; /* (2 device->nparameter) as they are asked for; NULL: none was yet */
 } fw_verdict_trial;
 
 /* copies the device and takes over the verdict that it has */
@@ -144,6 +151,8 @@ fw_status fw_verdict_variables_of_parameters(fw_verdict_trial *trial,
 fw_status fw_verdict_variables_of_attributes(fw_verdict_trial *trial,
                                              fw_verdict_variable **variable, int *count);
 /* the loads of a scene, a required box; *ok false: nothing of it can be set */
+/* length and width of the flexure of `changed` are such that min and max of the parameters which they hang on allow */
+bool fw_verdict_flexure_within(fw_verdict_trial *trial, int flexure);
 fw_status fw_verdict_variable_of_loads(fw_verdict_trial *trial, int scene,
                                        fw_verdict_variable *variable, bool *ok);
 fw_status fw_verdict_variable_of_box(fw_verdict_trial *trial, int box,

@@ -150,6 +150,138 @@ fw_status fw_verdict_variables_of_parameters(fw_verdict_trial *trial,
     return FW_OK;
 }
 
+/* ---- what min and max of parameters allow ---- */
+
+/* what a variable changes: the loads of a scene, or one length of a flexure */
+typedef struct subject {
+    int scene, flexure; /* one of them, the other FW_NONE */
+    double (*of)(const fw_device_flexure *flexure);
+} subject;
+
+static double length_of(const fw_device_flexure *f) {
+    return f->length_m;
+}
+static double radius_of(const fw_device_flexure *f) {
+    return f->radius_m;
+}
+static double width_of(const fw_device_flexure *f) {
+    return f->width_m;
+}
+
+/* the device with a parameter at its min (k 0) or max, or at half and twice its value where it has none; read once. NULL: it
+   cannot be read so, or the parameter is there already */
+static fw_status at_end(fw_verdict_trial *trial, int i, int k, const fw_device **out) {
+    const fw_device_parameter *p = &trial->device->parameter[i];
+    const double end = k == 0 ? p->min : p->max;
+    const double to = isfinite(end) ? end : p->value * (k == 0 ? 0.5 : 2);
+    fw_verdict_trial_end *kept;
+    if (!trial->end)
+        FW_NEED(trial->end = fw_arena_array(trial->arena, fw_verdict_trial_end,
+                                            2 * (size_t)trial->device->nparameter));
+    kept = &trial->end[2 * i + k];
+    if (!kept->read && to != p->value) {
+        const fw_verdict_restated *r = &trial->options->restated;
+        const char *unit = si_unit(trial->arena, p->dimension);
+        fw_verdict_variant_verdict *variant = fw_arena_array(
+            trial->arena, fw_verdict_variant_verdict, (size_t)trial->verdict->nvariant);
+        const char *text =
+            unit ? fw_arena_printf(trial->arena, "%.17g%s%s", to, *unit ? " " : "", unit) : NULL;
+        if (!variant || !text) return FW_NOMEM;
+        const fw_device_set set = {p->name, text};
+        fw_status status = r->with(r->context, trial->arena, &set, 1, &kept->device, variant);
+        if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+        if (status != FW_OK) kept->device = NULL;
+    }
+    kept->read = true;
+    *out = kept->device;
+    return FW_OK;
+}
+
+/* of the loads or the length in `then`: the least and largest share of what they are now */
+static fw_status shares_of(fw_verdict_trial *trial, const subject *what, const fw_device *then,
+                           double *low, double *high) {
+    fw_effects_load_values *values; /* now, then */
+    if (what->scene == FW_NONE) {
+        double share = what->of(&then->flexure[what->flexure]) /
+                       what->of(&trial->device->flexure[what->flexure]);
+        *low = fmin(*low, share), *high = fmax(*high, share);
+        return FW_OK;
+    }
+    FW_NEED(values = fw_arena_array(trial->arena, fw_effects_load_values, 2));
+    fw_effects_find_load_values(&trial->device->scene[what->scene], &values[0]);
+    fw_effects_find_load_values(&then->scene[what->scene], &values[1]);
+    for (int i = 0; values[0].count == values[1].count && i < values[0].count; i++) {
+        const fw_effects_load_value *now = &values[0].item[i];
+        double share = values[1].item[i].value / now->value;
+        if (now->squared) share *= share;
+        *low = fmin(*low, share), *high = fmax(*high, share);
+    }
+    return FW_OK;
+}
+
+/* how far parameters let something go */
+typedef struct leeway {
+    bool hangs;     /* it is another with another value of one of them */
+    bool free[2];   /* no min or max holds its least, its largest share */
+    double most[2]; /* what the ends lead to; 1 and 1: to nothing else */
+} leeway;
+
+static fw_status add_leeway(fw_verdict_trial *trial, const subject *what, int i, leeway *w) {
+    const fw_device_parameter *p = &trial->device->parameter[i];
+    for (int k = 0; k < 2; k++) {
+        const bool declared = isfinite(k == 0 ? p->min : p->max);
+        const fw_device *then;
+        double low = 1, high = 1;
+        FW_TRY(at_end(trial, i, k, &then));
+        if (then) FW_TRY(shares_of(trial, what, then, &low, &high));
+        const bool less = low<1 - 1e-9, more = high> 1 + 1e-9;
+        w->hangs = w->hangs || less || more;
+        w->free[0] = w->free[0] || (!declared && less);
+        w->free[1] = w->free[1] || (!declared && more);
+        if (declared) w->most[0] = fmin(w->most[0], low), w->most[1] = fmax(w->most[1], high);
+    }
+    return FW_OK;
+}
+
+/* What hangs on parameters goes no farther than the min and max of that one which lets it go farthest: as shares of
+   what it is now, 0 and INFINITY where nothing holds it. */
+static fw_status share_between(fw_verdict_trial *trial, const subject *what, double share[2]) {
+    leeway w = {.most = {1, 1}};
+    bool bounded = false;
+    const fw_device *d = trial->device;
+    for (int i = 0; i < d->nparameter; i++)
+        bounded = bounded || isfinite(d->parameter[i].min) || isfinite(d->parameter[i].max);
+    for (int i = 0; bounded && i < d->nparameter; i++)
+        FW_TRY(add_leeway(trial, what, i, &w));
+    share[0] = w.hangs && !w.free[0] ? w.most[0] : 0;
+    share[1] = w.hangs && !w.free[1] ? w.most[1] : (double)INFINITY;
+    return FW_OK;
+}
+
+/* *ok: something is left to choose from */
+static fw_status keep_between(fw_verdict_trial *trial, const subject *what, fw_verdict_value *v,
+                              bool *ok) {
+    double share[2];
+    FW_TRY(share_between(trial, what, share));
+    v->low = fmax(v->low, share[0] * v->now), v->high = fmin(v->high, share[1] * v->now);
+    v->range = fmax(v->high - v->now, v->now - v->low);
+    *ok = v->range > 1e-6 * v->now;
+    return FW_OK;
+}
+
+bool fw_verdict_flexure_within(fw_verdict_trial *trial, int flexure) {
+    const fw_device_flexure *f = &trial->changed->flexure[flexure];
+    double (*const of[])(const fw_device_flexure *) = {length_of, width_of};
+    for (int k = 0; k < 2; k++) {
+        double share[2], now = of[k](&trial->device->flexure[flexure]), to = of[k](f);
+        if (share_between(trial, &(subject){FW_NONE, flexure, of[k]}, share) != FW_OK) return false;
+        if (to < share[0] * now - 1e-12 || to > share[1] * now + 1e-12) return false;
+    }
+    return true;
+}
+
+/* ---- those of flexures, loads and boxes ---- */
+
 static fw_verdict_value micrometres(const char *path, double m, double least, double most) {
     fw_verdict_value v = {.path = path, .unit_text = "um", .now = 1e6 * m, .digit = 0.1};
     fw_quantity_unit_parse("um", 2, &v.unit, NULL, NULL);
@@ -157,14 +289,19 @@ static fw_verdict_value micrometres(const char *path, double m, double least, do
     return v;
 }
 
-static fw_status add_attribute(fw_verdict_trial *trial, const fw_device_flexure *f,
-                               const char *attribute, double m, double least, double most,
-                               fw_verdict_variable *v) {
+static fw_status add_attribute(fw_verdict_trial *trial, int flexure, const char *attribute,
+                               double (*of)(const fw_device_flexure *), double least, double most,
+                               fw_verdict_variable *variable, int *count) {
+    const fw_device_flexure *f = &trial->device->flexure[flexure];
     const char *path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute);
+    fw_verdict_variable *v = &variable[*count];
+    bool ok;
     FW_NEED(path);
     *v = (fw_verdict_variable){.kind = FW_PROPOSE_FLEXURES,
-                               .value = micrometres(path, m, least, most)};
+                               .value = micrometres(path, of(f), least, most)};
     FW_NEED(v->name = fw_arena_printf(trial->arena, "%s of flexure %s", attribute, f->id));
+    FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, of}, &v->value, &ok));
+    *count += ok;
     return FW_OK;
 }
 
@@ -177,9 +314,12 @@ static fw_verdict_value share(double least, double most) {
 }
 
 /* an arc that states both keeps its angle */
-static fw_status add_length_and_radius(fw_verdict_trial *trial, const fw_device_flexure *f,
-                                       fw_verdict_variable *v) {
+static fw_status add_length_and_radius(fw_verdict_trial *trial, int flexure,
+                                       fw_verdict_variable *variable, int *count) {
+    const fw_device_flexure *f = &trial->device->flexure[flexure];
+    fw_verdict_variable *v = &variable[*count];
     fw_verdict_part *part;
+    bool length, radius;
     *v = (fw_verdict_variable){
         .kind = FW_PROPOSE_FLEXURES, .value = share(shortest, longest), .npart = 2};
     FW_NEED(part = fw_arena_array(trial->arena, fw_verdict_part, 2));
@@ -189,22 +329,25 @@ static fw_status add_length_and_radius(fw_verdict_trial *trial, const fw_device_
     FW_NEED(part[1].path = fw_arena_printf(trial->arena, "flexure[%s]/@radius", f->id));
     FW_NEED(v->name = fw_arena_printf(trial->arena, "length and radius of flexure %s", f->id));
     v->part = part;
+    FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, length_of}, &v->value, &length));
+    FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, radius_of}, &v->value, &radius));
+    *count += length && radius;
     return FW_OK;
 }
 
-static fw_status add_flexure(fw_verdict_trial *trial, const fw_device_flexure *f,
-                             fw_verdict_variable *variable, int *count) {
+static fw_status add_flexure(fw_verdict_trial *trial, int flexure, fw_verdict_variable *variable,
+                             int *count) {
+    const fw_device_flexure *f = &trial->device->flexure[flexure];
     bool radius = f->kind == FW_FLEXURE_CSFH && f->radius_given;
     if (f->kind == FW_FLEXURE_PATH) return FW_OK;
     if (radius && f->length_given)
-        FW_TRY(add_length_and_radius(trial, f, &variable[(*count)++]));
+        FW_TRY(add_length_and_radius(trial, flexure, variable, count));
     else
-        FW_TRY(add_attribute(trial, f, radius ? "radius" : "length",
-                             radius ? f->radius_m : f->length_m, shortest, longest,
-                             &variable[(*count)++]));
+        FW_TRY(add_attribute(trial, flexure, radius ? "radius" : "length",
+                             radius ? radius_of : length_of, shortest, longest, variable, count));
     if (!fw_device_flexure_varies(f))
         FW_TRY(
-            add_attribute(trial, f, "width", f->width_m, narrowest, widest, &variable[(*count)++]));
+            add_attribute(trial, flexure, "width", width_of, narrowest, widest, variable, count));
     return FW_OK;
 }
 
@@ -231,6 +374,7 @@ fw_status fw_verdict_variable_of_loads(fw_verdict_trial *trial, int scene, fw_ve
     }
     v->part = part, v->npart = values->count;
     FW_NEED(v->name = fw_arena_printf(trial->arena, "loads of scene %s", s->name));
+    if (*ok) FW_TRY(keep_between(trial, &(subject){scene, FW_NONE, NULL}, &v->value, ok));
     return FW_OK;
 }
 
@@ -270,7 +414,7 @@ fw_status fw_verdict_variables_of_attributes(fw_verdict_trial *trial,
     *count = 0;
     FW_NEED(*variable = fw_arena_array(trial->arena, fw_verdict_variable, most));
     for (int i = 0; i < d->nflexure; i++)
-        FW_TRY(add_flexure(trial, &d->flexure[i], *variable, count));
+        FW_TRY(add_flexure(trial, i, *variable, count));
     for (int i = 0; i < d->nscene; i++) {
         FW_TRY(fw_verdict_variable_of_loads(trial, i, &(*variable)[*count], &ok));
         *count += ok;

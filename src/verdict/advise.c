@@ -91,7 +91,8 @@ static bool lengthen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, d
     f->length_m = ceil(length / unit - 1e-6) * unit;
     if (f->kind == FW_FLEXURE_CSFH) f->radius_m = f->length_m / f->angle_rad;
     const fw_device_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
-    return f->length_m <= most_longer * was->length_m;
+    return f->length_m <= most_longer * was->length_m &&
+           fw_verdict_flexure_within(trial, (int)(f - trial->changed->flexure));
 }
 
 /* ---- proposals ---- */
@@ -132,7 +133,7 @@ static fw_status start_again(advice *a) {
     const size_t n = (size_t)was.verdict->nvariant;
     FW_TRY(fw_verdict_trial_start(t->arena, t->device, t->options, t->verdict, t));
     t->work = was.work;
-    t->most_work = was.most_work;
+    t->most_work = was.most_work, t->end = was.end;
     memcpy(t->suspect, was.suspect, n * FW_FABRICATION_INPUTS * sizeof *t->suspect);
     memcpy(t->suspected, was.suspected, n * sizeof *t->suspected);
     return FW_OK;
@@ -217,7 +218,8 @@ static bool widen_one(fw_verdict_trial *trial, fw_device_flexure *f, double by) 
     const fw_device_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
     bool slender = f->width_m <= 0.25 * f->length_m &&
                    (f->kind != FW_FLEXURE_CSFH || f->width_m <= 0.5 * f->radius_m);
-    return slender && f->width_m <= most_wider * was->width_m;
+    return slender && f->width_m <= most_wider * was->width_m &&
+           fw_verdict_flexure_within(trial, (int)(f - trial->changed->flexure));
 }
 
 /* what a scene bears goes with the stiffness of all flexures, t^3 */
