@@ -79,6 +79,24 @@ module FlexwrightRules
       [[a[1], b[1]], [b[1], a[1]]].any? { |from, to| blunt(points.size, along, turn, drawn, from, to, reach) }
     end
 
+    # is this edge a chord of an arc, and no line? Those of one arc are equal.
+    def chord(edge)
+      at = @at[[edge.x1, edge.y1, edge.x2, edge.y2]]
+      return true unless at
+      _, along, turn, = @all[at[0]]
+      i, n = at[1], along.size
+      own = Math.hypot(*along[i])
+      [[i - 1, turn[i]], [(i + 1) % n, turn[(i + 1) % n]]].any? do |k, t|
+        t.abs < CORNER_RAD && (Math.hypot(*along[k]) - own).abs < 2 * GRID
+      end
+    end
+
+    # two lines at a square angle, whatever the grid made of it: the drawing's do not face each other
+    def square_lines(e, f)
+      dot = (e.dx * f.dx + e.dy * f.dy) / (e.length.to_f * f.length)
+      dot > -(GRID / e.length + GRID / f.length) && !chord(e) && !chord(f)
+    end
+
     def blunt(n, along, turn, drawn, from, to, reach)
       length, corner, i = 0.0, nil, from
       while i != to
@@ -102,7 +120,7 @@ module FlexwrightRules
       v = value(e, f, sign)
       next unless v < limit - 1e-6
       dot = (e.dx * f.dx + e.dy * f.dy) / (e.length.to_f * f.length)
-      next if dot > -Math.sin(AT_CORNERS_RAD) - 1e-12 && contours.around_blunt_corner(e, f, 4 * limit)
+      next if dot > -Math.sin(AT_CORNERS_RAD) - 1e-12 && (contours.square_lines(e, f) || contours.around_blunt_corner(e, f, 4 * limit))
       out << [pair, v]
     end
     out
