@@ -79,6 +79,24 @@ module FlexwrightRules
       [[a[1], b[1]], [b[1], a[1]]].any? { |from, to| blunt(points.size, along, turn, drawn, from, to, reach) }
     end
 
+    # is this edge a chord of an arc, and no line? Those of one arc are equal.
+    def chord(edge)
+      at = @at[[edge.x1, edge.y1, edge.x2, edge.y2]]
+      return true unless at
+      _, along, turn, = @all[at[0]]
+      i, n = at[1], along.size
+      own = Math.hypot(*along[i])
+      [[i - 1, turn[i]], [(i + 1) % n, turn[(i + 1) % n]]].any? do |k, t|
+        t.abs < CORNER_RAD && (Math.hypot(*along[k]) - own).abs < 2 * GRID
+      end
+    end
+
+    # two lines at a square angle, whatever the grid made of it: the drawing's do not face each other
+    def square_lines(e, f)
+      dot = (e.dx * f.dx + e.dy * f.dy) / (e.length.to_f * f.length)
+      dot > -(GRID / e.length + GRID / f.length) && !chord(e) && !chord(f)
+    end
+
     def blunt(n, along, turn, drawn, from, to, reach)
       length, corner, i = 0.0, nil, from
       while i != to
@@ -102,7 +120,7 @@ module FlexwrightRules
       v = value(e, f, sign)
       next unless v < limit - 1e-6
       dot = (e.dx * f.dx + e.dy * f.dy) / (e.length.to_f * f.length)
-      next if dot > -Math.sin(AT_CORNERS_RAD) - 1e-12 && contours.around_blunt_corner(e, f, 4 * limit)
+      next if dot > -Math.sin(AT_CORNERS_RAD) - 1e-12 && (contours.square_lines(e, f) || contours.around_blunt_corner(e, f, 4 * limit))
       out << [pair, v]
     end
     out
@@ -161,24 +179,20 @@ module FlexwrightRules
   def self.between(inner, outer, limit)
     out = []
     reach = limit.ceil + 1
-    edges = outer.edges.each.to_a.sort_by { |e| [e.x1, e.x2].min }
-    left = edges.map { |e| [e.x1, e.x2].min }
-    widest = edges.map { |e| e.dx.abs }.max || 0
+    edges = RBA::Shapes::new # found by their boxes
+    edges.insert(outer.edges)
     inner.edges.each do |e|
-      x0, x1, y0, y1 = [e.x1, e.x2].min - reach, [e.x1, e.x2].max + reach, [e.y1, e.y2].min - reach, [e.y1, e.y2].max + reach
-      first = left.bsearch_index { |x| x >= x0 - widest } || left.size
-      (first...left.size).each do |k|
-        f = edges[k]
-        break if left[k] > x1
-        next if [f.x1, f.x2].max < x0 || [f.y1, f.y2].max < y0 || [f.y1, f.y2].min > y1
-        v = apart([e.x1, e.y1, e.x2, e.y2], [f.x1, f.y1, f.x2, f.y2])
+      p = [e.x1, e.y1, e.x2, e.y2]
+      edges.each_touching(e.bbox.enlarged(reach, reach)) do |shape|
+        f = shape.edge
+        v = apart(p, [f.x1, f.y1, f.x2, f.y2])
         out << [RBA::EdgePair::new(e, f), v] if v < limit - 1e-6
       end
     end
     places(out)
   end
 
-  # windows of a side, by a step, of which the last ones end at the end; those out of bounds
+  # windows of a side, by a step, of which the last ones end at the end; those out of bounds, as one where they meet but with $every
   def self.windows(region, all, least, most, side, step)
     out = RBA::Region::new
     return out if all.empty?
@@ -189,13 +203,15 @@ module FlexwrightRules
       (0...n).map { |i| [from, [from + i * step, to - side].min].max }
     end
     starts.call(all.bottom, all.top).each do |y|
+      band = region & RBA::Region::new(RBA::Box::new(all.left, y.round, all.right, (y + high).round)) # a row of windows
       starts.call(all.left, all.right).each do |x|
         window = RBA::Box::new(x.round, y.round, (x + wide).round, (y + high).round)
-        share = (region & RBA::Region::new(window)).area / window.area.to_f
+        share = band.area(window) / window.area.to_f
         out.insert(window) if share < least * (1 - 1e-9) || share > most * (1 + 1e-9)
       end
     end
-    out.merged
+    $every ? out.merged_semantics = false : out.merge
+    out
   end
 end
 

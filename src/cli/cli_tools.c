@@ -135,8 +135,13 @@ static fw_status write_figure(fw_arena *arena, const fw_cli_options *options, fw
     const char *unknown;
     fw_text pdf = fw_text_new(arena);
     FW_TRY(fw_input_read(arena, options->device, MOST_FIGURE, diags, &svg, &n));
-    const fw_status status = fw_report_figure_pdf(arena, svg, &pdf, &unknown);
-    const fw_place place = {options->device, 0, 0};
+    int line = 0;
+    const fw_status status = fw_report_figure_pdf(arena, svg, n, &pdf, &unknown, &line);
+    const fw_place place = {options->device, line, line > 0};
+    if (status == FW_INPUT && line > 0)
+        return fw_diag_error(diags, 549, place,
+                             "this is no picture: here it is no XML; name a .svg file that this "
+                             "program wrote");
     if (status == FW_INPUT && !unknown)
         return fw_diag_error(
             diags, 549, place,

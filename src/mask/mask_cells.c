@@ -162,8 +162,9 @@ void fw_mask_cells_order_text(const fw_mask *mask, fw_text *out) {
    What a cell has in common with the frame, a base or another cell on a layer of the device is taken off the cell, exactly,
    and the edge that they then share becomes a joint of both, so that together they are one region: its area counts once, the
    rules see no edge between them, and nothing is counted as an overlap. After the bias: the frame is as it is on the
-   mask, its arcs near a cell as chords. What cannot be united so (a part of the frame wholly inside of a cell) stays as it
-   is, and the rules refuse it (FW-D152). Cost: pairs of cells and pieces whose boxes meet. Test: tests/klayout/cells.py */
+   mask, its arcs near a cell as chords. Around what lies wholly inside of it a cell is cut in parts, down through the middle
+   of each hole, whose cuts are joints, too. What cannot be united so (edges that run within 1e-12 m of each other) stays
+   as it is, and the rules refuse it (FW-D152). Cost: pairs of cells and pieces whose boxes meet. Test: tests/klayout/cells.py */
 
 typedef struct uniter {
     fw_arena *arena;
@@ -174,6 +175,7 @@ typedef struct uniter {
 } uniter;
 
 static const double ONE_PLACE_M = 1e-12; /* of the boolean */
+static const double LEAST_M2 = 1e-18;    /* a square of the grid: less in common is nothing */
 
 static bool stands(const uniter *u, int k) {
     const fw_layout_piece *p = u->shape[k].piece;
@@ -230,11 +232,11 @@ static int edge_under(const fw_geometry_contour *q, const fw_geometry_segment *s
     return -1;
 }
 
-/* nothing of the other lies wholly inside of the cell */
-static bool can_meet(const fw_geometry_region *left) {
+/* an outline of what is left of a cell that something lies wholly inside of; -1: there is none */
+static int hole_of(const fw_geometry_region *left) {
     for (int k = 0; k < left->count; k++)
-        if (fw_geometry_contour_area(&left->contour[k]) < 0) return false;
-    return true;
+        if (fw_geometry_contour_area(&left->contour[k]) < 0) return k;
+    return -1;
 }
 
 /* joints are lines: arcs near a cell become chords within the tolerance, as they are on the mask */
@@ -267,9 +269,34 @@ static fw_status straighten(uniter *u, fw_geometry_contour *q, fw_geometry_box n
     return FW_OK;
 }
 
+/* cuts lines of c where an outline has corners on them, so that each then lies on one edge of it at most */
+static fw_status cut_at_corners(const uniter *u, fw_geometry_contour *c,
+                                const fw_geometry_contour *q) {
+    for (int j = 0; j < q->count; j++) {
+        const fw_geometry_vec2 corner = q->segment[j].a;
+        for (int i = 0; i < c->count; i++) {
+            const fw_geometry_segment s = c->segment[i];
+            if (s.kind != FW_LINE || near_to(s.a, corner) || near_to(s.b, corner) ||
+                !isfinite(on_line(&s, corner)))
+                continue;
+            const size_t had = (size_t)c->count;
+            fw_geometry_segment *list =
+                fw_arena_grow(u->arena, c->segment, had, had + 1, sizeof *list);
+            FW_NEED(list);
+            for (int k = c->count++; k > i; k--)
+                list[k] = list[k - 1];
+            list[i].b = list[i + 1].a = corner;
+            c->segment = list;
+            break;
+        }
+    }
+    return FW_OK;
+}
+
 /* joints of both along the edges that they share now; ends of edges take the bits of those of the other */
 static fw_status join_edges(uniter *u, fw_geometry_contour *q, fw_geometry_contour *c,
                             int *joined) {
+    FW_TRY(cut_at_corners(u, c, q));
     for (int i = 0; i < c->count; i++) {
         fw_geometry_segment *s = &c->segment[i];
         const int under = s->kind == FW_LINE ? edge_under(q, s) : -1;
@@ -297,6 +324,51 @@ static fw_status add_shape(uniter *u, const fw_mask_shape *shape) {
     return FW_OK;
 }
 
+/* adds a region in parts without holes, of which neighbours share an edge along each cut; `most` cuts at the most */
+static fw_status part_at_holes(uniter *u, const fw_geometry_region *left, int most,
+                               fw_geometry_region *parts) {
+    const int hole = hole_of(left);
+    if (hole < 0) {
+        const size_t had = (size_t)parts->count, more = had + (size_t)left->count;
+        FW_NEED(parts->contour =
+                    fw_arena_grow(u->arena, parts->contour, had, more, sizeof *parts->contour));
+        for (int k = 0; k < left->count; k++)
+            parts->contour[parts->count++] = left->contour[k];
+        return FW_OK;
+    }
+    if (most == 0) return FW_GEOMETRY;
+    const fw_geometry_box inner = fw_geometry_contour_box(&left->contour[hole]);
+    fw_geometry_box all = inner;
+    for (int k = 0; k < left->count; k++)
+        all = fw_box_join(all, fw_geometry_contour_box(&left->contour[k]));
+    const double beyond = all.x1 - all.x0, cut = 0.5 * (inner.x0 + inner.x1);
+    for (int side = 0; side < 2; side++) {
+        const fw_geometry_box half = {side ? cut : all.x0 - beyond, all.y0 - beyond,
+                                      side ? all.x1 + beyond : cut, all.y1 + beyond};
+        fw_geometry_contour around;
+        fw_geometry_region one;
+        FW_TRY(fw_geometry_contour_rectangle(u->arena, half, &around));
+        const fw_geometry_region within = {&around, 1};
+        FW_TRY(fw_geometry_region_boolean(u->arena, left, &within, FW_INTERSECTION, &one));
+        FW_TRY(part_at_holes(u, &one, most - 1, parts));
+    }
+    return FW_OK;
+}
+
+/* a cell around something: what is left of it in parts that are joined to each other */
+static fw_status surround(uniter *u, fw_geometry_region *left) {
+    enum { CUTS = 32 };
+    fw_geometry_region parts = {NULL, 0};
+    int joined = 0;
+    if (hole_of(left) < 0) return FW_OK;
+    FW_TRY(part_at_holes(u, left, CUTS, &parts));
+    for (int i = 0; i < parts.count; i++)
+        for (int j = i + 1; j < parts.count; j++)
+            FW_TRY(join_edges(u, &parts.contour[i], &parts.contour[j], &joined));
+    *left = parts;
+    return FW_OK;
+}
+
 /* takes what q has in common with cell k off it. *gone: nothing is left */
 static fw_status take_off(uniter *u, int k, int q, bool *gone) {
     fw_geometry_region left;
@@ -304,15 +376,18 @@ static fw_status take_off(uniter *u, int k, int q, bool *gone) {
     FW_TRY(straighten(u, &together, fw_geometry_contour_box(&u->shape[k].contour)));
     const fw_geometry_region cell = {&u->shape[k].contour, 1}, other = {&together, 1};
     int joined = 0;
-    const fw_status status =
-        fw_geometry_region_boolean(u->arena, &cell, &other, FW_DIFFERENCE, &left);
+    fw_status status = fw_geometry_region_boolean(u->arena, &cell, &other, FW_DIFFERENCE, &left);
     *gone = status == FW_OK && left.count == 0;
+    if (status == FW_OK) status = surround(u, &left);
     if (status == FW_GEOMETRY || *gone) return FW_OK;
     FW_TRY(status);
-    if (!can_meet(&left)) return FW_OK;
     for (int i = 0; i < left.count; i++)
         FW_TRY(join_edges(u, &together, &left.contour[i], &joined));
-    if (joined == 0) return FW_OK;
+    /* edges that others have joined already are no more to be joined, but what they are around of is taken off */
+    double taken = fw_geometry_contour_area(&u->shape[k].contour);
+    for (int i = 0; i < left.count; i++)
+        taken -= fw_geometry_contour_area(&left.contour[i]);
+    if (joined == 0 && !(taken > LEAST_M2)) return FW_OK;
     u->shape[q].contour = together;
     for (int i = 0; i < left.count; i++) {
         fw_mask_shape own = u->shape[k];

@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A figure of the program as PDF, for a paper: the drawing operators of a page for the elements that our
-   pictures have. In: SVG as this program writes it (paths of lines and arcs, rectangles, circles, lines, polylines,
-   lettering, groups and pictures within it with translate, rotate and scale, classes of one style sheet). What moves is
-   drawn as it stands at the beginning. Out: PDF 1.4, one page, a pixel three quarters of a point; the same bytes for the same
-   figure, with no date and no name of a machine. Lettering is Helvetica and Symbol, which every reader has, with
+   pictures have. In: SVG as this program writes it (paths, rectangles, circles, ellipses, lines, polylines, polygons,
+   lettering, groups, pictures within it, what `use` repeats; translate, rotate, scale and matrix; classes of one style
+   sheet). What moves is drawn as it stands at the beginning. Out: PDF 1.4, one page; the same bytes for the same
+   figure, with no date and no name of a machine. A pixel is three quarters of a point and a millimetre a millimetre,
+   but what would be less than an inch is enlarged by a power of ten. What is repeated is written once for each style
+   that it takes (a form of the file). Lettering is Helvetica and Symbol, which every reader has, with
    their own widths; arcs are curves of third order of at most 90 degrees, right to 3e-4 of the radius. FW_INPUT:
    an element or a letter that this does not know, named in *unknown. Test: tests/cli/test_manners.py, figures. */
 #include "base/constants.h"
 #include "report/report_page.h"
+#include "xml/xml.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEEP = 64, MOST_STATES = 64, DASHES = 8 };
+enum { DEEP = 64, DASHES = 8 };
+enum { MOST_ELEMENTS = 5000000 }; /* that a form repeats is counted once */
 
 typedef struct paint {
     bool drawn;
@@ -23,27 +27,28 @@ typedef struct style {
     paint fill, stroke;
     double width, fill_opacity, stroke_opacity, opacity, size, dash[DASHES];
     int ndash, anchor; /* -1 start, 0 middle, 1 end */
-    bool bold, hidden, even_odd, round;
+    int cap, join;     /* as PDF counts them */
+    bool bold, hidden, even_odd;
 } style;
 
-typedef struct tag {                    /* of an element, in the text of the figure */
-    const char *name, *attribute, *end; /* end: '>' or "/>" */
-    size_t length;
-    bool closes, empty;
-} tag;
+typedef struct repeated { /* what `use` draws, in one style */
+    const fw_xml_node *node;
+    style style;
+} repeated;
 
 typedef struct converter {
     fw_arena *arena;
-    const char *svg, *rules; /* rules: of the style sheet; NULL */
-    fw_text *out;            /* the page's operators */
-    style stack[DEEP];
-    bool saved[DEEP]; /* the graphics state was, for a transform */
+    const fw_xml_node *root;
+    const char *rules; /* of the style sheet; NULL */
+    fw_report_pdf pdf;
+    fw_text *out;  /* the operators of the page, or of the form that is being written */
+    repeated *use; /* (pdf.nform, of room for nroom) */
+    int nroom, nstate_room;
     int depth;
-    double box[DEEP]
-              [4]; /* of the picture that an element is in, for what is stated in per cent of it */
+    long elements;
+    double box[4]; /* of the picture that an element is in, for what is stated in per cent of it */
     double x, y;   /* of lettering, behind what was shown last */
-    double state[MOST_STATES][2];
-    int nstate;
+    bool blank;    /* a blank is due before what lettering follows */
     const char **unknown;
 } converter;
 
@@ -53,41 +58,35 @@ static bool is_space(char c) {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r';
 }
 
-static tag tag_at(const char *s) {
-    tag t = {.closes = s[1] == '/'};
-    t.name = s + (t.closes ? 2 : 1);
-    t.length = strcspn(t.name, " \n\t/>");
-    t.attribute = t.name + t.length;
-    for (t.end = t.attribute; *t.end && *t.end != '>'; t.end += *t.end != '\0')
-        if (*t.end == '"') t.end += strcspn(t.end + 1, "\"") + 1;
-    t.empty = *t.end && t.end[-1] == '/';
-    return t;
+static bool is_named(const fw_xml_node *n, const char *name) {
+    return n->name && strcmp(n->name, name) == 0;
 }
 
-static bool is_named(const tag *t, const char *name) {
-    return strlen(name) == t->length && memcmp(t->name, name, t->length) == 0;
+static bool is_one_of(const fw_xml_node *n, const char *const *name) {
+    for (; *name; name++)
+        if (is_named(n, *name)) return true;
+    return false;
 }
 
-/* the value of an attribute, n bytes of it; NULL: it has none */
-static const char *value_of(const tag *t, const char *name, size_t *n) {
-    const size_t length = strlen(name);
-    for (const char *s = t->attribute; s < t->end;) {
-        while (s < t->end && (is_space(*s) || *s == '/'))
-            s++;
-        const size_t own = strcspn(s, "=/> \n");
-        if (s[own] != '=' || s[own + 1] != '"') break;
-        const char *value = s + own + 2;
-        *n = strcspn(value, "\"");
-        if (own == length && memcmp(s, name, own) == 0) return value;
-        s = value + *n + 1;
+static double number_of(const fw_xml_node *n, const char *name, double usual) {
+    const char *v = fw_xml_node_value(n, name);
+    return v ? strtod(v, NULL) : usual;
+}
+
+/* the first element of a name, or with an id, of a tree; NULL: there is none */
+static const fw_xml_node *found_in(const fw_xml_node *root, const char *name, const char *id) {
+    for (const fw_xml_node *n = root; n;) {
+        const char *own = id ? fw_xml_node_value(n, "id") : NULL;
+        if (n->name && (id ? own && strcmp(own, id) == 0 : is_named(n, name))) return n;
+        if (n->first) {
+            n = n->first;
+            continue;
+        }
+        while (n && !n->next)
+            n = n == root ? NULL : n->parent;
+        n = n ? n->next : NULL;
     }
     return NULL;
-}
-
-static double number_of(const tag *t, const char *name, double usual) {
-    size_t n;
-    const char *v = value_of(t, name, &n);
-    return v ? strtod(v, NULL) : usual;
 }
 
 static bool says(const char *v, size_t n, const char *word) {
@@ -120,7 +119,10 @@ static void set(style *s, const char *name, size_t length, const char *v, size_t
     if (says(name, length, "visibility")) s->hidden = says(v, n, "hidden");
     if (says(name, length, "display") && says(v, n, "none")) s->hidden = true;
     if (says(name, length, "fill-rule")) s->even_odd = says(v, n, "evenodd");
-    if (says(name, length, "stroke-linecap")) s->round = says(v, n, "round");
+    if (says(name, length, "stroke-linecap"))
+        s->cap = says(v, n, "round") ? 1 : says(v, n, "square") ? 2 : 0;
+    if (says(name, length, "stroke-linejoin"))
+        s->join = says(v, n, "round") ? 1 : says(v, n, "bevel") ? 2 : 0;
     if (!says(name, length, "stroke-dasharray")) return;
     s->ndash = 0;
     for (char *next; s->ndash < DASHES; v = next + (*next == ',')) {
@@ -131,39 +133,40 @@ static void set(style *s, const char *name, size_t length, const char *v, size_t
 }
 
 /* does a selector of the style sheet, an element or a class, mean this one? */
-static bool selects(const char *selector, size_t n, const tag *t) {
-    size_t k;
-    if (n > 0 && *selector != '.') return n == t->length && memcmp(selector, t->name, n) == 0;
-    const char *list = value_of(t, "class", &k);
-    for (const char *s = list; list && s < list + k;) {
-        const size_t own = strcspn(s, " \"");
+static bool selects(const char *selector, size_t n, const fw_xml_node *node) {
+    if (n > 0 && *selector != '.') return says(selector, n, node->name);
+    const char *list = fw_xml_node_value(node, "class");
+    for (const char *s = list; s && *s;) {
+        const size_t own = strcspn(s, " ");
         if (own == n - 1 && memcmp(s, selector + 1, own) == 0) return true;
-        s += own + 1;
+        s += own + (s[own] == ' ');
     }
     return false;
 }
 
 static void declarations(style *s, const char *from, const char *until) {
     while (from < until) {
-        const size_t name = strcspn(from, ":;}\""), all = strcspn(from, ";}\"");
+        const size_t name = strcspn(from, ":;}"), all = strcspn(from, ";}");
         const char *v = from + name + 1;
         while (is_space(*v))
             v++;
         if (name < all) set(s, from, name, v, (size_t)(from + all - v));
         from += all + 1;
+        while (from < until && is_space(*from))
+            from++;
     }
 }
 
-static void apply_rules(const converter *c, const tag *t, style *s) {
-    for (const char *r = c->rules; r && *r && *r != '<';) {
-        const char *body = r + strcspn(r, "{<");
-        if (*body != '{') return;
+static void apply_rules(const converter *c, const fw_xml_node *node, style *s) {
+    for (const char *r = c->rules; r && *r;) {
+        const char *body = r + strcspn(r, "{");
+        if (!*body) return;
         const char *end = body + strcspn(body, "}");
         for (const char *one = r; one < body;) {
             while (is_space(*one) || *one == ',')
                 one++;
-            const size_t n = strcspn(one, ",{ ");
-            if (selects(one, n, t)) declarations(s, body + 1, end);
+            const size_t n = strcspn(one, ",{ \n");
+            if (selects(one, n, node)) declarations(s, body + 1, end);
             one += n + 1;
         }
         r = end + (*end == '}');
@@ -172,59 +175,60 @@ static void apply_rules(const converter *c, const tag *t, style *s) {
     }
 }
 
-static style style_of(const converter *c, const tag *t, const style *around) {
+static style style_of(const converter *c, const fw_xml_node *node, const style *around) {
     static const char *const name[] = {"fill",           "stroke",           "stroke-width",
                                        "fill-opacity",   "stroke-opacity",   "opacity",
                                        "font-size",      "font-weight",      "text-anchor",
                                        "visibility",     "stroke-dasharray", "fill-rule",
-                                       "stroke-linecap", "display"};
+                                       "stroke-linecap", "stroke-linejoin",  "display"};
     style s = *around;
-    size_t n;
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
-        const char *v = value_of(t, name[i], &n);
-        if (v) set(&s, name[i], strlen(name[i]), v, n);
+        const char *v = fw_xml_node_value(node, name[i]);
+        if (v) set(&s, name[i], strlen(name[i]), v, strlen(v));
     }
-    apply_rules(c, t, &s);
-    const char *own = value_of(t, "style", &n);
-    if (own) declarations(&s, own, own + n);
+    apply_rules(c, node, &s);
+    const char *own = fw_xml_node_value(node, "style");
+    if (own) declarations(&s, own, own + strlen(own));
     return s;
 }
 
 /* ---- writing ---- */
 
-static void number(fw_text *out, double v) {
-    fw_text_fixed(out, v, 6);
-    fw_text_add(out, " ");
-}
-
-static void numbers(fw_text *out, const double *v, int n, const char *operator) {
-    for (int i = 0; i < n; i++)
-        number(out, v[i]);
-    fw_text_printf(out, "%s\n", operator);
-}
-
 static void colour(fw_text *out, unsigned rgb, const char *operator) {
     const double v[3] = {(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0};
-    numbers(out, v, 3, operator);
+    fw_report_pdf_numbers(out, v, 3, operator);
 }
 
-static void states(converter *c, const style *s) {
-    const double fill = s->opacity * s->fill_opacity, stroke = s->opacity * s->stroke_opacity;
+/* which of the file's pairs of opacities this is */
+static fw_status state_of(converter *c, double fill, double stroke, int *number) {
+    fw_report_pdf *p = &c->pdf;
     int i = 0;
-    while (i < c->nstate && !(c->state[i][0] == fill && c->state[i][1] == stroke))
+    while (i < p->nstate && !(p->state[i][0] == fill && p->state[i][1] == stroke))
         i++;
-    if (i == MOST_STATES) i = 0;
-    if (i == c->nstate) c->nstate++;
-    c->state[i][0] = fill, c->state[i][1] = stroke;
+    *number = i;
+    if (i < p->nstate) return FW_OK;
+    if (i == c->nstate_room) {
+        c->nstate_room = 2 * i + 16;
+        p->state = fw_arena_grow(c->arena, p->state, (size_t)i, (size_t)c->nstate_room,
+                                 sizeof p->state[0]);
+        FW_NEED(p->state);
+    }
+    p->state[i][0] = fill, p->state[i][1] = stroke;
+    p->nstate++;
+    return FW_OK;
+}
+
+static fw_status states(converter *c, const style *s) {
+    int i;
+    FW_TRY(state_of(c, s->opacity * s->fill_opacity, s->opacity * s->stroke_opacity, &i));
     fw_text_printf(c->out, "/G%d gs\n", i);
     if (s->fill.drawn) colour(c->out, s->fill.rgb, "rg");
-    if (!s->stroke.drawn) return;
+    if (!s->stroke.drawn) return FW_OK;
     colour(c->out, s->stroke.rgb, "RG");
-    numbers(c->out, &s->width, 1, "w");
-    fw_text_printf(c->out, "%d J\n[", s->round);
-    for (int k = 0; k < s->ndash; k++)
-        number(c->out, s->dash[k]);
-    fw_text_add(c->out, "] 0 d\n");
+    fw_report_pdf_numbers(c->out, &s->width, 1, "w");
+    fw_text_printf(c->out, "%d J %d j\n[", s->cap, s->join);
+    fw_report_pdf_numbers(c->out, s->dash, s->ndash, "] 0 d");
+    return FW_OK;
 }
 
 static void finish(converter *c, const style *s) {
@@ -237,331 +241,311 @@ static void finish(converter *c, const style *s) {
                    fill && s->even_odd ? "*" : "");
 }
 
-static void curve(fw_text *out, double x, double y, double r, double from, double to) {
-    const int parts = (int)ceil(fabs(to - from) / (0.5 * FW_PI) - 1e-9);
-    const double step = parts > 0 ? (to - from) / parts : 0, k = 4.0 / 3.0 * tan(0.25 * step);
-    for (int i = 0; i < parts; i++) {
-        const double a = from + i * step, b = a + step;
-        const double v[6] = {x + r * (cos(a) - k * sin(a)),
-                             y + r * (sin(a) + k * cos(a)),
-                             x + r * (cos(b) + k * sin(b)),
-                             y + r * (sin(b) - k * cos(b)),
-                             x + r * cos(b),
-                             y + r * sin(b)};
-        numbers(out, v, 6, "c");
-    }
-}
-
-/* of a circle, as paths have it */
-static void arc_to(fw_text *out, const double p[2], double r, bool large, bool sweep,
-                   const double q[2]) {
-    const double dx = q[0] - p[0], dy = q[1] - p[1], d = hypot(dx, dy);
-    r = fmax(r, 0.5 * d);
-    const double high = sqrt(fmax(r * r - 0.25 * d * d, 0)) * (large == sweep ? -1 : 1);
-    if (!(d > 0)) return;
-    const double x = 0.5 * (p[0] + q[0]) - high * dy / d, y = 0.5 * (p[1] + q[1]) + high * dx / d;
-    const double from = atan2(p[1] - y, p[0] - x);
-    double to = atan2(q[1] - y, q[0] - x);
-    if (sweep && to < from) to += FW_TURN;
-    if (!sweep && to > from) to -= FW_TURN;
-    curve(out, x, y, r, from, to);
-}
-
-/* false: a command that none of our figures has */
-static bool path(fw_text *out, const char *d, const char *end) {
-    double at[2] = {0, 0}, first[2] = {0, 0}, v[7];
-    for (char way = 0; d < end;) {
-        while (d < end && (is_space(*d) || *d == ','))
-            d++;
-        if (d >= end) return true;
-        if (strchr("MmLlHhVvAaZz", *d)) way = *d++;
-        const bool relative = way >= 'a';
-        const char upper = relative ? (char)(way - 32) : way;
-        if (upper == 'Z') {
-            fw_text_add(out, "h\n");
-            at[0] = first[0], at[1] = first[1], way = 0;
-            continue;
-        }
-        const int n = upper == 'A' ? 7 : upper == 'M' || upper == 'L' ? 2 : upper ? 1 : 0;
-        for (int i = 0; i < n; i++) {
-            char *next;
-            while (is_space(*d) || *d == ',')
-                d++;
-            v[i] = strtod(d, &next);
-            if (next == d || next > end) return false;
-            d = next;
-        }
-        if (n == 0) return false;
-        const double dx = relative ? at[0] : 0, dy = relative ? at[1] : 0;
-        const double to[2] = {upper == 'V' ? at[0] : v[n > 2 ? 5 : 0] + dx,
-                              upper == 'H' ? at[1] : v[n > 2 ? 6 : n - 1] + dy};
-        if (upper == 'A')
-            arc_to(out, at, v[0], v[3] != 0, v[4] != 0, to);
-        else
-            numbers(out, to, 2, upper == 'M' ? "m" : "l");
-        at[0] = to[0], at[1] = to[1];
-        if (upper == 'M') first[0] = at[0], first[1] = at[1], way = relative ? 'l' : 'L';
-    }
-    return true;
-}
-
 /* ---- lettering ---- */
 
-/* the next letter of a text up to `end`; entities are what they stand for */
-static unsigned next_letter(const char **at) {
-    static const struct {
-        const char *name;
-        char is;
-    } entity[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
-    for (size_t i = 0; **at == '&' && i < sizeof entity / sizeof entity[0]; i++) {
-        const size_t n = strlen(entity[i].name);
-        if (strncmp(*at, entity[i].name, n) != 0) continue;
-        *at += n;
-        return (unsigned char)entity[i].is;
+typedef struct
+    run { /* of lettering: blanks are one, as SVG has them, and none stands at its beginning or end */
+    const char *at;
+    bool first, due; /* nothing was shown before; a blank is due */
+} run;
+
+/* the next letter; 0: the end */
+static unsigned next_letter(run *r) {
+    while (is_space(*r->at))
+        r->due = !r->first, r->at++;
+    if (!*r->at) return 0;
+    if (r->due) {
+        r->due = false;
+        return ' ';
     }
-    return fw_text_character(at);
+    r->first = false;
+    return fw_text_character(&r->at);
 }
 
-static fw_status show_once(converter *c, const char *from, const char *end, const style *s,
-                           double x, int mode) {
+static void show_once(converter *c, const char *text, const style *s, bool first, int mode) {
+    run r = {text, first, c->blank};
     int font = 0;
+    bool raised = false;
+    fw_report_letter l;
     fw_text_printf(c->out, "BT %d Tr 1 0 0 -1 ", mode);
-    number(c->out, x);
-    numbers(c->out, &c->y, 1, "Tm");
-    while (from < end) {
-        fw_report_letter l;
-        if (!fw_report_letter_of(next_letter(&from), s->bold, &l)) return FW_INPUT;
-        if (l.font != font) {
-            fw_text_printf(c->out, "%s/F%d ", font ? "> Tj\n" : "", l.font);
-            number(c->out, s->size);
-            fw_text_add(c->out, "Tf <");
+    const double at[2] = {c->x, c->y};
+    fw_report_pdf_numbers(c->out, at, 2, "Tm");
+    for (unsigned u; (u = next_letter(&r)) != 0;) {
+        fw_report_letter_of(u, s->bold, &l); /* they are known: width_of looked */
+        if (l.font != font || l.raised != raised) {
+            if (font) fw_text_add(c->out, "> Tj\n");
+            if (l.raised != raised) {
+                const double rise = l.raised ? FW_REPORT_PDF_RISE * s->size : 0;
+                fw_report_pdf_numbers(c->out, &rise, 1, "Ts");
+            }
+            const double size = l.raised ? FW_REPORT_PDF_SMALL * s->size : s->size;
+            fw_text_printf(c->out, "/F%d ", l.font);
+            fw_report_pdf_numbers(c->out, &size, 1, "Tf");
+            fw_text_add(c->out, "<");
         }
-        font = l.font;
+        font = l.font, raised = l.raised;
         fw_text_printf(c->out, "%02x", l.code);
     }
-    fw_text_add(c->out, font ? "> Tj ET\n" : "ET\n");
-    return FW_OK;
+    fw_text_add(c->out, font ? "> Tj" : "");
+    fw_text_add(c->out, raised ? " 0 Ts ET\n" : " ET\n");
 }
 
-/* width of lettering up to `end`; false: a letter is not known */
-static bool width_of(converter *c, const char *from, const char *end, const style *s,
-                     double *wide) {
-    while (from < end) {
-        const char *one = from;
-        fw_report_letter l;
-        if (!fw_report_letter_of(next_letter(&from), s->bold, &l)) {
-            *c->unknown = fw_text_shown(c->arena, one, (size_t)(from - one));
+/* adds the width of a text; false: a letter is not known */
+static bool width_of(converter *c, run *r, const style *s, double *wide) {
+    fw_report_letter l;
+    for (;;) {
+        const char *one = r->at;
+        const unsigned u = next_letter(r);
+        if (u == 0) return true;
+        if (!fw_report_letter_of(u, s->bold, &l)) {
+            while (is_space(*one))
+                one++;
+            *c->unknown = fw_text_shown(c->arena, one, (size_t)(r->at - one));
             return false;
         }
         *wide += l.width * s->size;
     }
-    return true;
 }
 
-/* of all runs of an element of lettering, up to one that has a place of its own; `at` behind its first tag */
-static bool width_of_all(converter *c, const char *at, const style *s, double *wide) {
-    const style *now = s;
-    style inner;
-    size_t n;
-    for (int deep = 0; *at; at++) {
-        const char *end = at + strcspn(at, "<");
-        if (!width_of(c, at, end, now, wide)) return false;
-        if (!*end) return true;
-        const tag t = tag_at(end);
-        if (!*t.end) return true;
-        if (t.closes ? deep-- == 0 : value_of(&t, "x", &n) != NULL) return true;
-        deep += !t.closes && !t.empty;
-        inner = t.closes ? *s : style_of(c, &t, s);
-        now = t.closes ? s : &inner;
-        at = t.end;
+static bool is_left_out(const fw_xml_node *n) {
+    static const char *const name[] = {"title", "desc", "style",    "script",           "animate",
+                                       "set",   "defs", "metadata", "animateTransform", NULL};
+    return is_one_of(n, name);
+}
+
+/* of what an element of lettering holds, up to what has a place of its own; false: likewise */
+static bool width_of_all(converter *c, const fw_xml_node *node, const style *s, run *r,
+                         double *wide, bool *ended) {
+    for (const fw_xml_node *n = node->first; n && !*ended; n = n->next) {
+        if (!n->name) {
+            r->at = n->text;
+            if (!width_of(c, r, s, wide)) return false;
+        } else if (!is_left_out(n)) {
+            *ended = fw_xml_node_value(n, "x") != NULL;
+            const style own = style_of(c, n, s);
+            if (!*ended && !width_of_all(c, n, &own, r, wide, ended)) return false;
+        }
     }
     return true;
 }
 
-static fw_status show(converter *c, const char *from, const char *end) {
-    const style *s = &c->stack[c->depth];
+static fw_status show(converter *c, const char *text, const style *s, bool *first) {
     double wide = 0;
-    if (from >= end || s->hidden) return FW_OK;
-    if (!width_of(c, from, end, s, &wide)) return FW_INPUT;
-    states(c, s);
-    if (s->stroke.drawn && s->width > 0) FW_TRY(show_once(c, from, end, s, c->x, 1));
-    if (s->fill.drawn) FW_TRY(show_once(c, from, end, s, c->x, 0));
+    run r = {text, *first, c->blank};
+    if (!width_of(c, &r, s, &wide)) return FW_INPUT;
+    if (wide > 0 && !s->hidden) {
+        FW_TRY(states(c, s));
+        if (s->stroke.drawn && s->width > 0) show_once(c, text, s, *first, 1);
+        if (s->fill.drawn) show_once(c, text, s, *first, 0);
+    }
+    *first = r.first, c->blank = r.due;
     c->x += wide;
+    return FW_OK;
+}
+
+/* text, tspan and a: at places of their own or behind what was shown before */
+static fw_status lettering(converter *c, const fw_xml_node *node, const style *s, bool *first) {
+    const char *x = fw_xml_node_value(node, "x");
+    const bool begins = is_named(node, "text");
+    c->y = number_of(node, "y", begins ? 0 : c->y) + number_of(node, "dy", 0);
+    c->x += number_of(node, "dx", 0);
+    if (x || begins) {
+        double wide = 0;
+        bool ended = false;
+        *first = true, c->blank = false;
+        run r = {"", true, false};
+        if (!width_of_all(c, node, s, &r, &wide, &ended)) return FW_INPUT;
+        c->x = (x ? strtod(x, NULL) : 0) + number_of(node, "dx", 0) - (s->anchor + 1) * 0.5 * wide;
+    }
+    for (const fw_xml_node *n = node->first; n; n = n->next) {
+        if (!n->name) {
+            FW_TRY(show(c, n->text, s, first));
+        } else if (is_named(n, "tspan") || is_named(n, "a")) {
+            const style own = style_of(c, n, s);
+            if (c->depth >= DEEP) return FW_INPUT;
+            c->depth++;
+            FW_TRY(lettering(c, n, &own, first));
+            c->depth--;
+        } else if (!is_left_out(n)) {
+            *c->unknown = fw_text_shown(c->arena, n->name, strlen(n->name));
+            return FW_INPUT;
+        }
+    }
     return FW_OK;
 }
 
 /* ---- elements ---- */
 
-static void transform(converter *c, const char *v, const char *end) {
-    while (v < end) {
-        double n[6] = {0}, m[6] = {1, 0, 0, 1, 0, 0};
-        int count = 0;
-        const char *word = v;
-        v += strcspn(v, "(\"");
-        if (*v++ != '(') return;
-        for (char *next; count < 6 && v < end; v = next + strspn(next, ", ")) {
-            n[count] = strtod(v, &next);
-            if (next == v) break;
-            count++;
-        }
-        v += strcspn(v, ")\"");
-        if (*v++ != ')') return;
-        v += strspn(v, " ,");
-        if (strncmp(word, "translate", 9) == 0) m[4] = n[0], m[5] = n[1];
-        if (strncmp(word, "scale", 5) == 0) m[0] = n[0], m[3] = count > 1 ? n[1] : n[0];
-        if (strncmp(word, "matrix", 6) == 0) memcpy(m, n, sizeof m);
-        if (strncmp(word, "rotate", 6) == 0) {
-            const double a = n[0] * FW_PI / 180, co = cos(a), si = sin(a);
-            m[0] = co, m[1] = si, m[2] = -si, m[3] = co;
-            m[4] = n[1] - co * n[1] + si * n[2], m[5] = n[2] - si * n[1] - co * n[2];
-        }
-        numbers(c->out, m, 6, "cm");
-    }
-}
-
 /* a picture within the picture: its place, cut off at its edges */
-static void inner(converter *c, const tag *t) {
-    size_t n;
-    char *next;
-    const char *box = value_of(t, "viewBox", &n);
-    const double x = number_of(t, "x", 0), y = number_of(t, "y", 0);
-    double b[4] = {0, 0, number_of(t, "width", 0), number_of(t, "height", 0)};
+static void inner(converter *c, const fw_xml_node *n) {
+    const char *box = fw_xml_node_value(n, "viewBox");
+    const double x = number_of(n, "x", 0), y = number_of(n, "y", 0);
+    double b[4] = {0, 0, number_of(n, "width", 0), number_of(n, "height", 0)};
     const double wide = b[2], high = b[3];
-    for (int i = 0; box && i < 4; i++, box = next)
-        b[i] = strtod(box, &next);
+    fw_report_pdf_list(box, 4, b);
     const double k = b[2] > 0 && b[3] > 0 ? fmin(wide / b[2], high / b[3]) : 1;
     const double m[6] = {
         k, 0, 0, k, x + 0.5 * (wide - k * b[2]) - k * b[0], y + 0.5 * (high - k * b[3]) - k * b[1]};
-    numbers(c->out, m, 6, "cm");
-    numbers(c->out, b, 4, "re W n");
-    memcpy(c->box[c->depth], b, sizeof b);
+    fw_report_pdf_matrix(c->out, m);
+    fw_report_pdf_numbers(c->out, b, 4, "re W n");
+    memcpy(c->box, b, sizeof b);
 }
 
-static bool shape(converter *c, const tag *t, const style *s) {
-    size_t n;
-    double v[4] = {number_of(t, "x", 0), number_of(t, "y", 0), number_of(t, "width", 0),
-                   number_of(t, "height", 0)};
-    const char *wide = value_of(t, "width", &n);
-    if (wide && n > 0 && wide[n - 1] == '%') memcpy(v, c->box[c->depth], sizeof v); /* all of it */
-    states(c, s);
-    if (is_named(t, "rect")) {
-        numbers(c->out, v, 4, "re");
-    } else if (is_named(t, "circle")) {
-        const double x = number_of(t, "cx", 0), y = number_of(t, "cy", 0), r = number_of(t, "r", 0),
-                     from[2] = {x + r, y};
-        numbers(c->out, from, 2, "m");
-        curve(c->out, x, y, r, 0, FW_TURN);
-    } else if (is_named(t, "line")) {
-        const double a[2] = {number_of(t, "x1", 0), number_of(t, "y1", 0)},
-                     b[2] = {number_of(t, "x2", 0), number_of(t, "y2", 0)};
-        numbers(c->out, a, 2, "m");
-        numbers(c->out, b, 2, "l");
+/* false: a value that is none of ours */
+static bool outline(converter *c, const fw_xml_node *n) {
+    double v[4] = {number_of(n, "x", 0), number_of(n, "y", 0), number_of(n, "width", 0),
+                   number_of(n, "height", 0)};
+    if (is_named(n, "rect")) {
+        const char *wide = fw_xml_node_value(n, "width");
+        if (wide && strchr(wide, '%')) memcpy(v, c->box, sizeof v); /* all of it */
+        fw_report_pdf_rectangle(c->out, v, number_of(n, "rx", number_of(n, "ry", 0)),
+                                number_of(n, "ry", number_of(n, "rx", 0)));
+    } else if (is_named(n, "circle") || is_named(n, "ellipse")) {
+        const double r = number_of(n, "r", 0);
+        fw_report_pdf_ellipse(c->out, number_of(n, "cx", 0), number_of(n, "cy", 0),
+                              number_of(n, "rx", r), number_of(n, "ry", r));
+    } else if (is_named(n, "line")) {
+        const double a[2] = {number_of(n, "x1", 0), number_of(n, "y1", 0)},
+                     b[2] = {number_of(n, "x2", 0), number_of(n, "y2", 0)};
+        fw_report_pdf_numbers(c->out, a, 2, "m");
+        fw_report_pdf_numbers(c->out, b, 2, "l");
     } else {
-        const char *d = value_of(t, "d", &n);
-        if (d && !path(c->out, d, d + n)) return false;
+        const bool path = is_named(n, "path");
+        const char *d = fw_xml_node_value(n, path ? "d" : "points");
+        return !d || (path ? fw_report_pdf_path(c->out, d)
+                           : fw_report_pdf_points(c->out, d, is_named(n, "polygon")));
     }
-    finish(c, s);
     return true;
 }
 
-/* what is behind an element that is not drawn */
-static const char *skip(const char *s, const tag *t) {
-    if (t->empty) return t->end + 1;
-    for (; *s; s++)
-        if (s[0] == '<' && s[1] == '/' && strncmp(s + 2, t->name, t->length) == 0)
-            return s + strcspn(s, ">") + 1;
-    return s;
-}
+static fw_status element(converter *c, const fw_xml_node *n, const style *around);
 
-static bool is_shape(const tag *t) {
-    return is_named(t, "path") || is_named(t, "rect") || is_named(t, "circle") ||
-           is_named(t, "line");
-}
-
-static bool is_group(const tag *t) {
-    return is_named(t, "g") || is_named(t, "svg") || is_named(t, "text") || is_named(t, "tspan") ||
-           is_named(t, "a");
-}
-
-static bool is_left_out(const tag *t) {
-    return is_named(t, "title") || is_named(t, "desc") || is_named(t, "style") ||
-           is_named(t, "script") || is_named(t, "animate") || is_named(t, "animateTransform") ||
-           is_named(t, "set") || is_named(t, "?xml") || is_named(t, "metadata");
-}
-
-static void leave(converter *c) {
-    if (c->saved[c->depth]) fw_text_add(c->out, "Q\n");
-    c->depth--;
-}
-
-/* false: it has a letter that is not known */
-static bool enter(converter *c, const tag *t, const style *s) {
-    size_t n;
-    const char *v = value_of(t, "transform", &n);
-    const bool within = is_named(t, "svg") && c->depth > 0;
-    c->stack[++c->depth] = *s;
-    memcpy(c->box[c->depth], c->box[c->depth - 1], sizeof c->box[0]);
-    c->saved[c->depth] = v || within;
-    if (v || within) fw_text_add(c->out, "q\n");
-    if (v) transform(c, v, v + n);
-    if (within) inner(c, t);
-    if (!is_named(t, "text") && !is_named(t, "tspan")) return true;
-    double wide = 0;
-    v = value_of(t, "x", &n);
-    c->y = number_of(t, "y", is_named(t, "text") ? 0 : c->y) + number_of(t, "dy", 0);
-    if (!v && is_named(t, "tspan")) return true;
-    if (s->anchor >= 0 && !t->empty && !width_of_all(c, t->end + 1, s, &wide)) return false;
-    c->x = (v ? strtod(v, NULL) : 0) - (s->anchor + 1) * 0.5 * wide;
-    return true;
-}
-
-static fw_status element(converter *c, const char **at) {
-    const tag t = tag_at(*at);
-    *at = *t.end ? t.end + 1 : t.end;
-    if (t.closes) {
-        if (c->depth > 0) leave(c);
-        return FW_OK;
-    }
-    if (is_left_out(&t)) {
-        *at = is_named(&t, "?xml") ? *at : skip(*at, &t);
-        return FW_OK;
-    }
-    const style s = style_of(c, &t, &c->stack[c->depth]);
-    *c->unknown = fw_text_shown(c->arena, t.name, t.length);
-    if (c->depth + 2 >= DEEP || !(is_shape(&t) || is_group(&t))) return FW_INPUT;
-    if (!enter(c, &t, &s)) return FW_INPUT;
-    if (is_shape(&t) && !s.hidden && !shape(c, &t, &s)) return FW_INPUT;
-    if (t.empty) leave(c);
+static fw_status inside(converter *c, const fw_xml_node *n, const style *s) {
+    for (const fw_xml_node *child = n->first; child; child = child->next)
+        if (child->name) FW_TRY(element(c, child, s));
     return FW_OK;
 }
 
-static bool in_text(const converter *c, const char *s) {
-    while (s > c->svg && *--s != '>') {
-    }
-    while (s > c->svg && *s != '<')
-        s--;
-    const tag t = tag_at(s);
-    return is_named(&t, "tspan") || (is_named(&t, "text") && !t.closes);
+static bool same_paint(paint a, paint b) {
+    return a.drawn == b.drawn && (!a.drawn || a.rgb == b.rgb);
 }
 
-/* the first element of a name; NULL: there is none */
-static const char *first_of(const char *s, const char *name) {
-    while ((s = strchr(s, '<'))) {
-        const tag t = tag_at(s);
-        if (is_named(&t, name) && !t.closes) return s;
-        s++;
-    }
-    return NULL;
+static bool same_style(const style *a, const style *b) {
+    bool same = same_paint(a->fill, b->fill) && same_paint(a->stroke, b->stroke) &&
+                a->width == b->width && a->fill_opacity == b->fill_opacity &&
+                a->stroke_opacity == b->stroke_opacity && a->opacity == b->opacity &&
+                a->size == b->size && a->ndash == b->ndash && a->anchor == b->anchor &&
+                a->cap == b->cap && a->join == b->join && a->bold == b->bold &&
+                a->hidden == b->hidden && a->even_odd == b->even_odd;
+    for (int i = 0; same && i < a->ndash; i++)
+        same = a->dash[i] == b->dash[i];
+    return same;
 }
 
-fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, fw_text *pdf,
-                               const char **unknown) {
+/* the number of the form that draws a node in a style; it is written where there is none yet */
+static fw_status form_of(converter *c, const fw_xml_node *node, const style *s, int *number) {
+    fw_report_pdf *p = &c->pdf;
+    int i = 0;
+    while (i < p->nform && !(c->use[i].node == node && same_style(&c->use[i].style, s)))
+        i++;
+    *number = i;
+    if (i < p->nform) return FW_OK;
+    fw_text form = fw_text_new(c->arena), *before = c->out;
+    c->out = &form;
+    const fw_status status = is_named(node, "symbol") ? inside(c, node, s) : element(c, node, s);
+    c->out = before;
+    FW_TRY(status);
+    FW_TRY(fw_text_end(&form));
+    if (p->nform == c->nroom) { /* what it repeats itself is in the list already */
+        const size_t had = (size_t)p->nform, room = 2 * had + 16;
+        FW_NEED(c->use = fw_arena_grow(c->arena, c->use, had, room, sizeof *c->use));
+        FW_NEED(p->form = fw_arena_grow(c->arena, p->form, had, room, sizeof *p->form));
+        c->nroom = (int)room;
+    }
+    *number = p->nform++;
+    c->use[*number] = (repeated){node, *s};
+    p->form[*number] = form;
+    return FW_OK;
+}
+
+static fw_status again(converter *c, const fw_xml_node *n, const style *s) {
+    const char *id = fw_xml_node_value(n, "href");
+    const fw_xml_node *node = id && *id == '#' ? found_in(c->root, NULL, id + 1) : NULL;
+    int number;
+    if (!node) {
+        *c->unknown = id ? fw_text_shown(c->arena, id, strlen(id)) : "use";
+        return FW_INPUT;
+    }
+    const double m[6] = {1, 0, 0, 1, number_of(n, "x", 0), number_of(n, "y", 0)};
+    fw_report_pdf_matrix(c->out, m);
+    FW_TRY(form_of(c, node, s, &number));
+    fw_text_printf(c->out, "/X%d Do\n", number);
+    return FW_OK;
+}
+
+static fw_status element(converter *c, const fw_xml_node *n, const style *around) {
+    static const char *const shape[] = {"path",    "rect",     "circle",  "line",
+                                        "ellipse", "polyline", "polygon", NULL},
+                             *const group[] = {"g", "svg", "a", NULL};
+    const bool drawn = is_one_of(n, shape), text = is_named(n, "text"), use = is_named(n, "use");
+    if (is_left_out(n) || is_named(n, "symbol")) return FW_OK;
+    *c->unknown = fw_text_shown(c->arena, n->name, strlen(n->name));
+    if (!(drawn || text || use || is_one_of(n, group))) return FW_INPUT;
+    for (const char *const *no = (const char *const[]){"clip-path", "mask", "filter", NULL}; *no;
+         no++)
+        if (fw_xml_node_value(n, *no)) {
+            *c->unknown = *no;
+            return FW_INPUT;
+        }
+    if (c->depth >= DEEP || ++c->elements > MOST_ELEMENTS) return FW_INPUT;
+    const style s = style_of(c, n, around);
+    const char *moved = fw_xml_node_value(n, "transform");
+    const bool within = is_named(n, "svg") && n != c->root, saved = moved || within || use;
+    double box[4];
+    bool first = true;
+    fw_status status = FW_OK;
+    memcpy(box, c->box, sizeof box);
+    c->depth++;
+    if (saved) fw_text_add(c->out, "q\n");
+    fw_report_pdf_transform(c->out, moved);
+    if (within) inner(c, n);
+    if (drawn && !s.hidden) {
+        FW_TRY(states(c, &s));
+        if (!outline(c, n)) return FW_INPUT;
+        finish(c, &s);
+    } else if (text) {
+        status = lettering(c, n, &s, &first);
+    } else if (use && !s.hidden) {
+        status = again(c, n, &s);
+    } else if (!drawn && !use) {
+        status = inside(c, n, &s);
+    }
+    if (saved) fw_text_add(c->out, "Q\n");
+    c->depth--;
+    memcpy(c->box, box, sizeof box);
+    return status;
+}
+
+/* points of a unit that a size is stated in */
+static double points_of(const char *size) {
+    static const struct {
+        const char *unit;
+        double points;
+    } known[] = {{"mm", 72 / 25.4}, {"cm", 72 / 2.54}, {"in", 72}, {"pt", 1}, {"", 0.75}};
+    char *unit;
+    const double v = strtod(size, &unit);
+    size_t i = 0;
+    while (*known[i].unit && strncmp(unit, known[i].unit, 2) != 0)
+        i++;
+    return v * known[i].points;
+}
+
+fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, size_t n, fw_text *pdf,
+                               const char **unknown, int *line) {
     fw_text page = fw_text_new(arena);
-    const char *start = first_of(svg, "svg"), *sheet = first_of(svg, "style");
-    converter c = {.arena = arena, .svg = svg, .out = &page, .unknown = unknown};
-    c.rules = sheet ? sheet + strcspn(sheet, ">") : NULL;
-    if (c.rules && *c.rules) c.rules++;
-    c.stack[0] = (style){.fill = {true, 0},
+    fw_xml_node *tree;
+    converter c = {.arena = arena, .out = &page, .unknown = unknown};
+    const style usual = {.fill = {true, 0},
                          .width = 1,
                          .fill_opacity = 1,
                          .stroke_opacity = 1,
@@ -569,30 +553,27 @@ fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, fw_text *pdf,
                          .size = 16,
                          .anchor = -1};
     *unknown = NULL;
-    if (!start) return FW_INPUT;
-    const tag root = tag_at(start);
-    double size[2] = {number_of(&root, "width", 0), number_of(&root, "height", 0)};
-    size_t n;
-    char *next;
-    const char *box = value_of(&root, "viewBox", &n);
-    double view[4] = {0, 0, size[0], size[1]};
-    for (int i = 0; box && i < 4; i++, box = next)
-        view[i] = strtod(box, &next);
+    FW_TRY(fw_xml_tree(arena, svg, n, &tree, line));
+    if (!is_named(tree, "svg")) return FW_INPUT;
+    c.root = tree;
+    const fw_xml_node *sheet = found_in(tree, "style", NULL);
+    c.rules = sheet && sheet->first ? sheet->first->text : NULL;
+    const char *wide = fw_xml_node_value(tree, "width"), *high = fw_xml_node_value(tree, "height");
+    double view[4] = {0, 0, wide ? strtod(wide, NULL) : 0, high ? strtod(high, NULL) : 0};
+    fw_report_pdf_list(fw_xml_node_value(tree, "viewBox"), 4, view);
     if (!(view[2] > 0 && view[3] > 0)) return FW_INPUT;
-    memcpy(c.box[0], view, sizeof view);
-    const double k = 0.75, wide = k * view[2], high = k * view[3];
-    const double flip[6] = {k, 0, 0, -k, -k * view[0], high + k * view[1]};
-    numbers(&page, flip, 6, "cm");
-    for (const char *s = start; *s;) {
-        if (*s == '<') {
-            FW_TRY(element(&c, &s));
-            continue;
-        }
-        const char *end = s + strcspn(s, "<");
-        if (in_text(&c, s)) FW_TRY(show(&c, s, end));
-        s = end;
-    }
+    memcpy(c.box, view, sizeof view);
+    const double points = wide && !strchr(wide, '%') ? points_of(wide) : 0.75 * view[2];
+    double k = points / view[2];
+    if (!(k * view[2] > 1e-9 && k * view[3] > 1e-9 && k * (view[2] + view[3]) < 1e9))
+        return FW_INPUT;
+    while (k * fmax(view[2], view[3]) < 72)
+        k *= 10;
+    c.pdf = (fw_report_pdf){.page = &page, .wide = k * view[2], .high = k * view[3]};
+    const double flip[6] = {k, 0, 0, -k, -k * view[0], c.pdf.high + k * view[1]};
+    fw_report_pdf_matrix(&page, flip);
+    FW_TRY(element(&c, tree, &usual));
     FW_TRY(fw_text_end(&page));
-    fw_report_pdf_file(&page, wide, high, (const double(*)[2])c.state, c.nstate, pdf);
+    fw_report_pdf_file(&c.pdf, pdf);
     return fw_text_end(pdf);
 }

@@ -284,9 +284,9 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
 /* "diagnostics": each once */
 void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_json *out);
 
-/* A figure that this program wrote, as PDF (figure_pdf.c). svg: its whole text. FW_INPUT: *unknown is what of it the writer
-   does not know; NULL: it is no picture of a stated size */
-fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, fw_text *pdf,
-                               const char **unknown);
+/* A figure that this program wrote, as PDF (figure_pdf.c). svg: its text of n bytes. FW_INPUT: *unknown is what of it the
+   writer does not know; NULL: it is no picture of a stated size, where *line is not 0 because that line is no XML */
+fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, size_t n, fw_text *pdf,
+                               const char **unknown, int *line);
 
 #endif

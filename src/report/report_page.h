@@ -272,15 +272,36 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *input,
 
 /* ---- figure_pdf_file.c: for figures as PDF ---- */
 
+typedef struct fw_report_pdf { /* one page of so many points */
+    double wide, high;
+    const fw_text *page;
+    double (*state)[2]; /* (nstate) opacities of fills and lines, named G0, G1, ... */
+    fw_text *form;      /* (nform) what the page repeats, named X0, X1, ... */
+    int nstate, nform;
+} fw_report_pdf;
+
 typedef struct fw_report_letter {
     int font; /* 1, 2: Helvetica, bold; 3: Symbol */
     unsigned char code;
+    bool raised;  /* a small one above the line, of FW_REPORT_PDF_SMALL times the size */
     double width; /* of the size */
 } fw_report_letter;
+#define FW_REPORT_PDF_SMALL 0.6
+#define FW_REPORT_PDF_RISE  0.33
 /* false: none of them has it */
 bool fw_report_letter_of(unsigned u, bool bold, fw_report_letter *letter);
-/* the file around a page of so many points; state: opacities of fills and lines, named G0, G1, ... in it */
-void fw_report_pdf_file(const fw_text *page, double wide, double high, const double (*state)[2],
-                        int nstate, fw_text *pdf);
+void fw_report_pdf_file(const fw_report_pdf *parts, fw_text *pdf);
+
+/* operators: numbers and a word; outlines from what SVG says of them, false: they are none */
+void fw_report_pdf_numbers(fw_text *out, const double *v, int n, const char *operator);
+void fw_report_pdf_matrix(fw_text *out, const double *m);
+void fw_report_pdf_rectangle(fw_text *out, const double *box, double rx, double ry);
+void fw_report_pdf_ellipse(fw_text *out, double x, double y, double rx, double ry);
+bool fw_report_pdf_points(fw_text *out, const char *points, bool closed);
+bool fw_report_pdf_path(fw_text *out, const char *d);
+/* an element's attribute transform; NULL: it has none */
+void fw_report_pdf_transform(fw_text *out, const char *transform);
+/* how many numbers a list begins with, at most `most`; NULL: none */
+int fw_report_pdf_list(const char *list, int most, double *v);
 
 #endif

@@ -194,11 +194,12 @@ static fw_status variant_texts(const fw_wafer *w, fw_arena *a, const char ***out
     for (int v = 0; v < w->nvariant; v++) {
         const fw_wafer_variant *u = &w->variant[v];
         char used[32];
-        const char *values = fw_wafer_values(a, w, u);
+        const char *values = fw_wafer_values(a, w, u), *number = "";
         FW_NEED(values);
+        if (w->nvariant > 1) FW_NEED(number = fw_arena_printf(a, "%d  ", v + 1));
         fw_percent_text(used, sizeof used, u->utilisation);
         FW_NEED(text[v] = fw_arena_printf(
-                    a, "%d: %s%s%d dies, %s%s%s%s", v + 1, values, *values ? ", " : "", u->dies,
+                    a, "%s%s%s%d dies, %s%s%s%s", number, values, *values ? ": " : "", u->dies,
                     u->decision ? u->decision : "not judged", isfinite(u->utilisation) ? ", " : "",
                     isfinite(u->utilisation) ? used : "",
                     isfinite(u->utilisation) ? " % of limit" : ""));

@@ -37,6 +37,20 @@ const fw_xml_attribute *fw_xml_attribute_of(const fw_xml_element *element,
 /* place of byte `offset` of the value; the value's own place where it is not exact */
 fw_place fw_xml_inside(const fw_xml_attribute *attribute, size_t offset);
 
+/* Any document as a tree, with texts and elements in the order in which they stand: for pictures, whose values are
+   long. DOCTYPE and with it entities are refused, and no other file is opened. */
+typedef struct fw_xml_node {
+    const char *name; /* of an element, without its prefix; NULL: a text */
+    const char *text; /* of a text, as it stands there */
+    const char **
+        attribute; /* names without prefixes and values in turn, NULL behind them; of a text NULL */
+    struct fw_xml_node *parent, *first, *last, *next;
+} fw_xml_node;
+
+/* FW_INPUT: no XML, or refused; *line says where, from 1 */
+fw_status fw_xml_tree(fw_arena *arena, const char *xml, size_t n, fw_xml_node **root, int *line);
+const char *fw_xml_node_value(const fw_xml_node *of, const char *name); /* or NULL */
+
 /* The raw bytes of an XML text: where tags and attributes stand, and what is refused before a
    parser sees it. Private to xml/. */
 

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <limits.h>
 #include <pthread.h>
+#include <stdbool.h>
 #include <string.h>
 
 typedef struct node { /* an element while it is being read */
@@ -443,4 +444,147 @@ fw_place fw_xml_inside(const fw_xml_attribute *attribute, size_t offset) {
         }
     }
     return place;
+}
+
+/* ---- any document as a tree ---- */
+
+typedef struct grower {
+    fw_arena *arena;
+    xmlParserCtxtPtr parser;
+    fw_xml_node *root, *current;
+    fw_text text; /* of the text that is being read */
+    int line;     /* of the first refusal; 0: none */
+    bool no_memory;
+} grower;
+
+static void refuse(grower *g) {
+    if (g->line == 0) g->line = g->parser->input ? g->parser->input->line : 1;
+    xmlStopParser(g->parser);
+}
+
+/* as parser_lacks_memory */
+static bool goes_on(grower *g) {
+    if (errno == ENOMEM) g->no_memory = true;
+    errno = 0;
+    if (g->no_memory) xmlStopParser(g->parser);
+    return !g->no_memory && g->line == 0;
+}
+
+static fw_xml_node *grown(grower *g) {
+    fw_xml_node *n = fw_arena_one(g->arena, fw_xml_node);
+    if (!n) {
+        g->no_memory = true;
+        return NULL;
+    }
+    n->parent = g->current;
+    if (!g->current)
+        g->root = n;
+    else if (g->current->last)
+        g->current->last = g->current->last->next = n;
+    else
+        g->current->first = g->current->last = n;
+    return n;
+}
+
+static void end_text(grower *g) {
+    if (g->text.failed) g->no_memory = true;
+    if (g->text.length == 0 || g->no_memory || !g->current) return;
+    fw_xml_node *n = grown(g);
+    if (n) n->text = fw_arena_strndup(g->arena, g->text.data, g->text.length);
+    if (!n || !n->text) g->no_memory = true;
+    g->text.length = 0;
+}
+
+static void grow_element(void *context, const xmlChar *name, const xmlChar *prefix,
+                         const xmlChar *space, int nspaces, const xmlChar **spaces, int count,
+                         int ndefaulted, const xmlChar **given) {
+    grower *g = context;
+    (void)prefix, (void)space, (void)nspaces, (void)spaces, (void)ndefaulted;
+    if (!goes_on(g)) return;
+    end_text(g);
+    fw_xml_node *n = grown(g);
+    const char **a = fw_arena_array(g->arena, const char *, 2 * (size_t)count + 1);
+    if (n) n->name = fw_arena_strdup(g->arena, (const char *)name);
+    bool room = n && n->name && a;
+    for (int i = 0; room && i < count; i++) {
+        const xmlChar *const *own = given + (ptrdiff_t)5 * i;
+        a[2 * i] = fw_arena_strdup(g->arena, (const char *)own[0]);
+        a[2 * i + 1] = fw_arena_strndup(g->arena, (const char *)own[3], (size_t)(own[4] - own[3]));
+        room = a[2 * i] && a[2 * i + 1];
+    }
+    g->no_memory |= !room;
+    if (room) n->attribute = a, g->current = n;
+    errno = 0;
+}
+
+static void end_grown(void *context, const xmlChar *name, const xmlChar *prefix,
+                      const xmlChar *space) {
+    grower *g = context;
+    (void)name, (void)prefix, (void)space;
+    if (!goes_on(g) || !g->current) return;
+    end_text(g);
+    g->current = g->current->parent;
+    errno = 0;
+}
+
+static void grow_text(void *context, const xmlChar *text, int length) {
+    grower *g = context;
+    if (!goes_on(g) || length <= 0) return;
+    fw_text_bytes(&g->text, text, (size_t)length);
+    errno = 0;
+}
+
+static void refuse_subset(void *context, const xmlChar *name, const xmlChar *external,
+                          const xmlChar *system) {
+    (void)name, (void)external, (void)system;
+    refuse(context);
+}
+
+static void refuse_error(void *context, xmlErrorPtr error) {
+    grower *g = context;
+    if (error->code == XML_ERR_NO_MEMORY) g->no_memory = true;
+    if (error->level >= XML_ERR_ERROR && goes_on(g)) refuse(g);
+}
+
+fw_status fw_xml_tree(fw_arena *arena, const char *xml, size_t n, fw_xml_node **root, int *line) {
+    grower g = {.arena = arena, .text = fw_text_new(arena)};
+    *root = NULL;
+    *line = 1;
+    if (n == 0) return FW_INPUT; /* the parser takes it for a lack of memory */
+    if (n > INT_MAX) return FW_LIMIT;
+    xmlInitParser();
+    errno = 0;
+    FW_NEED(g.parser = xmlCreateMemoryParserCtxt(xml, (int)n));
+    xmlSAXHandler sax = {.initialized = XML_SAX2_MAGIC,
+                         .startElementNs = grow_element,
+                         .endElementNs = end_grown,
+                         .characters = grow_text,
+                         .ignorableWhitespace = grow_text,
+                         .cdataBlock = grow_text,
+                         .internalSubset = refuse_subset,
+                         .serror = refuse_error};
+    *g.parser->sax = sax;
+    g.parser->userData = &g;
+    /* NOENT: as above. HUGE: paths and files are longer than what libxml2 takes otherwise */
+    xmlCtxtUseOptions(g.parser, XML_PARSE_NONET | XML_PARSE_NOENT | XML_PARSE_HUGE);
+    xmlStructuredErrorFunc before = xmlStructuredError;
+    void *of_before = xmlStructuredErrorContext;
+    xmlSetStructuredErrorFunc(NULL, say_nothing);
+    xmlParseDocument(g.parser);
+    goes_on(&g);
+    xmlSetStructuredErrorFunc(of_before, before);
+    if (!g.parser->wellFormed && g.line == 0) refuse(&g);
+    if (g.parser->myDoc) xmlFreeDoc(g.parser->myDoc);
+    g.parser->myDoc = NULL;
+    xmlFreeParserCtxt(g.parser);
+    if (g.no_memory) return FW_NOMEM;
+    *line = g.line;
+    *root = g.root;
+    return g.line != 0 || !g.root ? FW_INPUT : FW_OK;
+}
+
+const char *fw_xml_node_value(const fw_xml_node *of, const char *name) {
+    for (const char **a = of->attribute; a && *a; a += 2)
+        if (strcmp(a[0], name) == 0) return a[1];
+    return NULL;
 }

@@ -3,14 +3,18 @@
 """test_manners.py PROGRAM: progress on a terminal alone, refusals before the work, what was probably meant,
 diagnostics as JSON."""
 import json
+import math
 import os
 import pathlib
 import pty
+import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ET
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
@@ -107,17 +111,48 @@ class Manners(unittest.TestCase):
         self.assertIn("did you mean 'name'?", first["message"])
         self.assertEqual(json.loads(run("check", SIX_BAR, "--json").stdout)["schema"], "flexwright.verdict/1")
 
+    KNOWN = set("m l c h re W n S f B f* B* rg RG w J j d gs cm q Q BT ET Tr Tm Tf Ts Tj Do".split())
+
+    def streams_of(self, data, what):
+        """[page, forms it repeats ...] of a PDF as text, its parts being where its table says"""
+        table = int(re.search(rb"startxref\n(\d+)", data).group(1))
+        rows = data[table:].split(b"\n")
+        count = int(rows[1].split()[1])
+        found = []
+        for number in range(1, count):
+            at = int(rows[2 + number].split()[0])
+            self.assertTrue(data[at:].startswith(b"%d 0 obj" % number), (what, number))
+            head = data[at:data.index(b"obj", at + 20)]
+            length = re.search(rb"/Length (\d+)>>stream\n", head)
+            if length:
+                start = at + length.end()
+                found.append(data[start:start + int(length.group(1))].decode("ascii"))
+                self.assertEqual(data[start + int(length.group(1)):][:10], b"\nendstream")
+                for word in re.sub(r"\[[^\]]*\]|<[0-9a-f]*>", "0", found[-1]).split():
+                    self.assertTrue(word in self.KNOWN or re.fullmatch(r"-?[0-9.]+|/[GFX][0-9]+", word), (what, word))
+                self.assertEqual(found[-1].split().count("q"), found[-1].split().count("Q"))
+        self.assertEqual(len(found) + 7, count - 1, what)
+        return found
+
     def test_figures_as_pdf(self):
         """every kind of picture becomes one page with all its shapes and letters, the same bytes twice; a file whose parts are
         where its table says; what is not ours is named"""
         leaf, comb = (str(ROOT / "docs/gallery" / n / "device.xml") for n in ("leaf-four-bar", "comb-stage"))
+        shape = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
         with tempfile.TemporaryDirectory() as where:
             run("plan", leaf, "-o", where + "/plan", "--corners", "none", "-q")
             run("modes", leaf, "-o", where + "/modes", "-q")
             run("statics", comb, "-o", where + "/statics", "-q")
             run("workspace", SIX_BAR, "-o", where + "/workspace", "-q")
-            figures = [p for p in sorted(pathlib.Path(where).rglob("*.svg")) if p.parent.name != "masks"]
-            self.assertGreaterEqual(len(figures), 8)
+            run("study", str(ROOT / "docs/studies/width-and-arc.xml"), "-o", where + "/study", "-q")
+            (pathlib.Path(where) / "kept").mkdir()
+            for kept in ("masks/gallery/comb-stage/silicon-on-glass-wafer.svg", "masks/gallery/comb-stage/silicon-on-glass-wafer-map.svg",
+                         "masks/gallery/reference-six-bar/al-masked-rie-coupons.svg", "docs/pictures/tradeoff-reference-six-bar.svg",
+                         "docs/pictures/effect-fringe-field.svg", "docs/pictures/theory-masks.svg"):
+                shutil.copy(ROOT / kept, where + "/kept")
+            figures = sorted(pathlib.Path(where).rglob("*.svg"))
+            self.assertGreaterEqual(len(figures), 20)
+            self.assertTrue(any("study" in str(p) for p in figures))
             for svg in figures:
                 pdf = svg.with_suffix(".pdf")
                 for out in (pdf, svg.with_suffix(".again")):
@@ -126,28 +161,40 @@ class Manners(unittest.TestCase):
                 data = pdf.read_bytes()
                 self.assertEqual(data, svg.with_suffix(".again").read_bytes())
                 self.assertNotRegex(data, b"Date|ID|" + where.encode())
-                table = int(re.search(rb"startxref\n(\d+)", data).group(1))
-                rows = data[table:].split(b"\n")
-                for number in range(1, 8):
-                    at = int(rows[2 + number].split()[0])
-                    self.assertTrue(data[at:].startswith(b"%d 0 obj" % number), (svg, number))
-                length, start = re.search(rb"4 0 obj<</Length (\d+)>>stream\n", data).group(1), data.index(b"stream\n") + 7
-                page = data[start:start + int(length)].decode("ascii")
-                self.assertEqual(data[start + int(length):][:10], b"\nendstream")
-                known = set("m l c h re W n S f B f* B* rg RG w J d gs cm q Q BT ET Tr Tm Tf Tj".split())
-                for word in re.sub(r"\[[^\]]*\]|<[0-9a-f]*>", "0", page).split():
-                    self.assertTrue(word in known or re.fullmatch(r"-?[0-9.]+|/[GF][0-9]+", word), (svg, word))
-                self.assertEqual(page.split().count("q"), page.split().count("Q"))
-                text = re.sub(r"(?s)<(title|desc|style)\b.*?</\1>", "", svg.read_text(encoding="utf-8"))
-                shapes = len(re.findall(r"<(?:path|rect|circle|line)\b(?![^>]*visibility=\"hidden\")", text))
-                drawn = sum(word in ("S", "f", "B", "f*", "B*", "n") for word in page.split()) - page.count("re W n")
-                self.assertLessEqual(abs(drawn - shapes), text.count("hidden"), svg)
+                page, *forms = self.streams_of(data, svg)
+                tree = ET.parse(svg).getroot()
+                below = {child: parent for parent in tree.iter() for child in parent}
+
+                def up(e):
+                    while e is not None:
+                        yield e
+                        e = below.get(e)
+                local = {e: e.tag.split("}")[-1] for e in tree.iter()}
+                here = [e for e in tree.iter() if not any(local[u] == "defs" or u.get("visibility") == "hidden" for u in up(e))]
+                words = page.split()
+                drawn = sum(word in ("S", "f", "B", "f*", "B*", "n") for word in words) - page.count("re W n")
+                self.assertLessEqual(abs(drawn - sum(local[e] in shape for e in here)), len(list(tree.iter())) - len(here), svg)
+                uses = [e for e in here if local[e] == "use"]
+                self.assertEqual(words.count("Do"), len(uses), svg)
+                self.assertLessEqual(len(forms), sum(local[e] == "use" for e in tree.iter()))
+                for form in forms:
+                    self.assertTrue(any(word in ("S", "f", "B", "f*", "B*", "Do") for word in form.split()), svg)
                 for word in ("leaf-four-bar", "Schedule"):
-                    if re.search(r">[^<]*%s" % word, text):
+                    if any(word in (e.text or "") for e in here if local[e] in ("text", "tspan")):
                         self.assertIn(word.encode().hex(), page, svg)
-            for bad, says in (("<svg width='1' height='1'/>", "no picture"), ('<svg width="9" height="9"><image/></svg>', "image"),
+                side = re.search(rb"MediaBox\[0 0 ([0-9.]+) ([0-9.]+)", data)
+                self.assertGreaterEqual(max(map(float, side.groups())), 72)
+                if (tree.get("width") or "").endswith("mm"):  # true, or so many times ten
+                    times = float(side.group(1)) / (float(tree.get("width")[:-2]) * 72 / 25.4)
+                    self.assertLess(abs(math.log10(times) - round(math.log10(times))), 1e-5, svg)
+            for bad, says in (("<svg width='1' height='1'", "no picture"), ("<html/>", "no picture"), ('<svg width="9" height="9"><image/></svg>', "image"),
                               ('<svg width="9" height="9"><text x="1">\u6f22</text></svg>', "\u6f22"), ("<svg", "no picture"),
-                              ('<svg width="9" height="9"><path d="M1 1Z5"/></svg>', "path"), ('<svg width="9" height="9"><g transform="rotate', None), ('<svg width="9" height="9"><text x="1" text-anchor="end">a<tspan', None)):
+                              ('<svg width="9" height="9"><path d="M1 1Z5"/></svg>', "path"), ('<svg width="9" height="9"><g transform="rotate', "no picture"),
+                              ('<svg width="9" height="9"><g id="a"><use href="#a"/></g></svg>', "use"), ('<svg width="9" height="9"><use href="#b"/></svg>', "#b"),
+                              ('<svg width="9" height="9"><circle r="1" clip-path="url(#a)"/></svg>', "clip-path"),
+                              ('<!DOCTYPE svg [<!ENTITY a "b">]><svg width="9" height="9"><text>&a;</text></svg>', "no picture"),
+                              ('<svg width="9" height="9"><polygon points="1 1 2"/></svg>', "polygon"), ('<svg width="9" height="9"><text x="1" text-anchor="end">a<tspan', "no picture"),
+                              ('<svg width="1e-300" height="9" viewBox="0 0 1 1"/>', "no picture"), ('<svg width="9" height="9"><g transform="rotate"/></svg>', None)):
                 path = pathlib.Path(where, "bad.svg")
                 path.write_text(bad, encoding="utf-8")
                 done = run("figure", str(path), "-o", where + "/bad.pdf")
@@ -158,6 +205,61 @@ class Manners(unittest.TestCase):
                     self.assertFalse(pathlib.Path(where, "bad.pdf").exists())
                 self.assertIn(done.returncode, (0, 3), bad)
                 pathlib.Path(where, "bad.pdf").unlink(missing_ok=True)
+
+    def figure(self, body):
+        """the operators of a picture of 1000 by 1000 with that in it"""
+        done = run("figure", "-", "-o", "-", input='<svg xmlns="http://www.w3.org/2000/svg" width="1000" height="1000">%s</svg>' % body)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), body)
+        return self.streams_of(done.stdout.encode(), body)
+
+    def test_curves_of_figures(self):
+        """elliptic arcs by their equation and the flags' meaning; curves of second order as those of third, and mirrored ones as written out"""
+        draw = random.Random(7)
+        for _ in range(60):
+            rx, ry, turn, p = draw.uniform(20, 200), draw.uniform(20, 200), draw.uniform(-90, 90), [draw.uniform(300, 700) for _ in range(2)]
+            large, sweep = draw.random() < 0.5, draw.random() < 0.5
+            a, span = draw.uniform(0, 2 * math.pi), draw.uniform(0.1, 3.0)
+            span = (2 * math.pi - span if large else span) * (1 if sweep else -1)
+            co, si = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+
+            def on(t):
+                return [p[0] + co * rx * math.cos(t) - si * ry * math.sin(t), p[1] + si * rx * math.cos(t) + co * ry * math.sin(t)]
+            q, r = on(a), on(a + span)
+            relative = draw.random() < 0.5
+            end = [r[0] - q[0], r[1] - q[1]] if relative else r
+            page = self.figure('<path d="M%r %r%s%r %r %r %d %d %r,%r"/>' % (*q, "a" if relative else "A", rx, ry, turn, large, sweep, *end))[0]
+            pieces = [list(map(float, m.split())) for m in re.findall(r"^((?:\S+ ){6})c$", page, re.M)]
+            self.assertEqual(len(pieces), math.ceil(abs(span) / (math.pi / 2) - 1e-9))
+            at, total = q, 0
+            for x1, y1, x2, y2, x3, y3 in pieces:
+                angles = []
+                for k in range(9):
+                    t = k / 8
+                    b = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3)
+                    x = sum(c * v for c, v in zip(b, (at[0], x1, x2, x3))) - p[0]
+                    y = sum(c * v for c, v in zip(b, (at[1], y1, y2, y3))) - p[1]
+                    u, w = (co * x + si * y) / rx, (co * y - si * x) / ry
+                    self.assertLess(abs(math.hypot(u, w) - 1), 3e-4)
+                    angles.append(math.atan2(w, u))
+                total += (angles[-1] - angles[0] + math.pi) % (2 * math.pi) - math.pi
+                at = [x3, y3]
+            self.assertLess(math.dist(at, r), 1e-4)
+            self.assertLess(abs(total - span), 1e-4)
+        self.assertEqual(self.figure('<path d="M10 20Q40 80 70 20T130 20"/>'), self.figure('<path d="M10 20C30 60 50 60 70 20C90 -20 110 -20 130 20"/>'))
+        self.assertEqual(self.figure('<path d="M10 20c0 10 20 20 30 0s30-20 30 0"/>'),
+                         self.figure('<path d="M10,20 C10,30 30,40 40,20 C50,0 70,0 70,20"/>'))
+        self.assertEqual(self.figure('<polygon points="1,2 3,4 5 6"/>'), self.figure('<path d="M1 2L3 4L5 6Z"/>'))
+        self.assertEqual(self.figure('<rect x="1" y="2" width="8" height="6" rx="9"/>')[0].count(" c\n"), 4)
+
+    def test_what_figures_repeat(self):
+        """in one style once, in each style of its own; blanks of lettering as one; raised figures"""
+        two = self.figure('<defs><g id="a"><path d="M0 0L1 1"/></g></defs><use href="#a" x="3"/><use href="#a" y="4"/><use href="#a" fill="#f00"/>')
+        self.assertEqual(len(two), 3)
+        self.assertEqual(two[0].count("Do"), 3)
+        self.assertIn("1 0 0 1 3 0 cm", two[0])
+        self.assertEqual(self.figure("<text> a \n  b<tspan> c </tspan></text>"), self.figure("<text>a b<tspan> c</tspan></text>"))
+        page = self.figure("<text font-size='10'>10\u207b\u2079 m</text>")[0]
+        self.assertRegex(page, r"<3130> Tj\n3\.3 Ts\n/F3 6 Tf\n<2d> Tj\n/F1 6 Tf\n<39> Tj\n0 Ts\n/F1 10 Tf\n<206d> Tj")
 
     def test_doctor_knows_every_flow(self):
         listed = run("doctor").stdout

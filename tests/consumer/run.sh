@@ -38,11 +38,15 @@ try() { # try NAME PROGRAM
 {
     cc -std=c99 $strict consumer.c -o c99 $(pkg-config --cflags --libs flexwright)
     cc -std=c17 $strict consumer.c -o c17 $(pkg-config --cflags --libs flexwright)
+    cc -std=c17 $strict consumer.c -o alone $(pkg-config --cflags --libs flexwright) -Wl,-rpath,$(pkg-config --variable=libdir flexwright)
     c++ -std=c++17 $strict -x c++ consumer.c -x none -o cxx $(pkg-config --cflags --libs flexwright)
 }
 try pkg-config-c99 ./c99
 try pkg-config-c17 ./c17
 try pkg-config-c++17 ./cxx
+unset LD_LIBRARY_PATH # as docs/c-api.md has it
+try pkg-config-rpath ./alone
+export LD_LIBRARY_PATH="$lib"
 mkdir found
 cp "$here/CMakeLists.txt" consumer.c found/
 cmake -S found -B found/build -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null

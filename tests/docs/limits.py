@@ -71,7 +71,7 @@ SILENT = ["Breaking tethers", "Stiffness of contacts", "Residual stress that var
           "Leaves that bend out between",
           "Contacts and weight in the picture", "Studies on the page", "Browsers other than Chromium", "Wide kernels and FMA"]
 # looked at by another test
-ELSEWHERE = {"Cells that go around": "tests/klayout/cells.py", "OASIS as cells": "tests/klayout/cells.py",
+ELSEWHERE = {"OASIS as cells": "tests/klayout/cells.py",
              "Lettering and leaning walls": "tests/accept/step.py",
              "The full judgement while a slider": "tests/docs/json_keys.py",
              "How wafers of different lots": "tests/unit/process/test_wafers.c",

@@ -86,6 +86,17 @@ class Tree(unittest.TestCase):
             found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:device:1").strip()
             self.assertTrue(found.endswith("/device.rng"), found)
 
+    def test_pages(self):
+        """every page is there with all that it links to, and the devices that its examples name"""
+        pages = self.prefix / "share/doc/flexwright"
+        links = 0
+        for page in pages.rglob("*.md"):
+            for link in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8")):
+                links += 1
+                self.assertTrue("://" in link or (page.parent / link).exists(), (page, link))
+        self.assertGreater(links, 300)
+        self.assertTrue((pages / "docs/gallery/reference-six-bar/device.xml").is_file())
+
     def test_klayout_package(self):
         """whole, with the gallery's devices; it finds the program of its own prefix and makes the technologies"""
         package = self.prefix / "share/flexwright/klayout"

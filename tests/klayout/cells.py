@@ -248,14 +248,35 @@ class Cells(unittest.TestCase):
             self.assertIn("FW-D144" if k else "FW-D145", done.stderr)
             self.assertNotIn("FW-D152", done.stderr)
 
-    def test_what_lies_inside_of_a_cell_is_not_cut_out_of_it(self):
-        klayout("import pya\nfor n, a in (('small', 20000), ('large', 90000)):\n  l = pya.Layout(); l.dbu = 0.001; c = l.create_cell('C')\n"
-                "  c.shapes(l.layer(1, 0)).insert(pya.Box(-a, -a, a, a)); l.write(n + '.gds')\npya.Application.instance().exit(0)\n", self.where)
-        cell = '<cell id="%s" file="%s.gds" x="-0.7 mm" y="3.4 mm" layers="1/0>mask"/>'
-        done = self.make("around", cell % ("s", "small") + cell % ("l", "large"))
-        self.assertIn("FW-D152", done.stderr)
-        done = self.make("within", cell % ("l", "large") + cell % ("s", "small"))
-        self.assertNotIn("FW-D152", done.stderr)
+    def test_cells_around_what_is_there(self):
+        """cells around others, one of them with an arm over the frame and two cells in it: one region with them, whatever their order"""
+        klayout("import pya\nfor n, boxes in (('small', [(-20, -20, 20, 20)]), ('large', [(-90, -90, 90, 90)]), ('long', [(-300, -90, 300, 90)]),\n"
+                "  ('arm', [(-90, -90, 90, 90), (80, -30, 400, 30)])):\n"
+                "  l = pya.Layout(); l.dbu = 0.001; c = l.create_cell('C')\n"
+                "  r = pya.Region([pya.Box(*[1000 * v for v in b]) for b in boxes]).merged()\n"
+                "  c.shapes(l.layer(1, 0)).insert(r); l.write(n + '.gds')\npya.Application.instance().exit(0)\n", self.where)
+        small, away = ("small", -0.7, 3.4), ("small", -0.55, 3.42)
+        rng, boxes = random.Random(22), []
+        for k in range(4):  # of any size, upon each other
+            half = [(rng.randint(5, 200), rng.randint(5, 80)) for _ in range(rng.randint(2, 5))]
+            boxes.append([("b%d-%d" % (k, i), 1e-3 * rng.randint(-760, -560), 1e-3 * rng.randint(3330, 3440)) for i in range(len(half))])
+            klayout("import pya\nfor i, (w, h) in enumerate(%r):\n  l = pya.Layout(); l.dbu = 0.001; c = l.create_cell('C')\n"
+                    "  c.shapes(l.layer(1, 0)).insert(pya.Box(-1000 * w, -1000 * h, 1000 * w, 1000 * h)); l.write('b%d-%%d.gds' %% i)\n"
+                    "pya.Application.instance().exit(0)\n" % (half, k), self.where)
+        for k, cells in enumerate(([small, ("large", -0.7, 3.4)], [("large", -0.7, 3.4), small], [small, away, ("long", -0.6, 3.4)],
+                                   [small, ("arm", -0.7, 3.4)], [("small", -0.7, 3.4), ("large", -0.69, 3.41), ("long", -0.62, 3.4)], *boxes)):
+            done = self.make("around%d" % k, "".join('<cell id="c%d" file="%s.gds" x="%g mm" y="%g mm" layers="1/0>mask"/>' % (i, *c)
+                                                     for i, c in enumerate(cells)))
+            self.assertNotIn("FW-D152", done.stderr, cells)
+            self.assertNotIn("FW-D146", done.stderr, cells)
+            parts = [["plain/masks/%s.gds" % FLOW, [1, 0]]]
+            parts += [["%s.gds" % name, [1, 0], [round(1e6 * x), round(1e6 * y), 0, False]] for name, x, y in cells]
+            file = "around%d/masks/%s.gds" % (k, FLOW)
+            ((area, off, thick),) = self.compare([[file, [1, 0], parts]])
+            self.assertEqual(thick, 0, cells)
+            self.assertLess(off, 20000, cells)
+            layers = {y["gds"]: y for y in json.loads((self.where / ("around%d" % k) / "masks" / (FLOW + ".json")).read_text())["layers"]}
+            self.assertAlmostEqual(layers["1/0"]["polygon_area_um2"], 1e-6 * area, delta=1e-3)  # counted once
 
 
 if __name__ == "__main__":

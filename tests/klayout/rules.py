@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """rules.py PROGRAM [--keep DIR]: the DRC script of a flow's rules before the program's own checker, on random devices.
 
-FW_DRC_COUNT (4; with FW_TEST_ALL=1, as in ./test --all, 24; 200 on demand) devices of random_devices.py from seed FW_DRC_FIRST (40) on,
+FW_DRC_COUNT (2; with FW_TEST_ALL=1, as in ./test --all, 24; 200 on demand) devices of random_devices.py from seed FW_DRC_FIRST (40) on,
 whose masks break rules: limits are larger than the tables', as warnings. What the script finds lies in places of the certificate, and
 each of its places has something of the script's in it."""
 import collections
@@ -64,14 +64,41 @@ def off_edge(x, y, edge):
     return math.hypot(x - ax - t * dx, y - ay - t * dy)
 
 
-def inside(points, box, near):
-    return any(box[0] - near <= x <= box[2] + near and box[1] - near <= y <= box[3] + near for x, y in points)
-
-
-def reaches(points, box, near):
-    """do the points' own box and that box meet?"""
+def box_of(points):
     x, y = [p[0] for p in points], [p[1] for p in points]
-    return min(x) <= box[2] + near and max(x) >= box[0] - near and min(y) <= box[3] + near and max(y) >= box[1] - near
+    return min(x), min(y), max(x), max(y)
+
+
+class Shapes:
+    """shapes by where their own boxes are, so that those near a box are found without looking at all"""
+
+    CELL, MOST = 20000, 4096  # nm; cells of one shape, beyond which it is looked at always
+
+    def __init__(self, shapes):
+        self.all, self.large, self.at = shapes, [], collections.defaultdict(list)
+        self.boxes = [box_of(s) for s in shapes]
+        for i, box in enumerate(self.boxes):
+            cells = self.cells(box, 0)
+            for cell in cells or ():
+                self.at[cell].append(i)
+            if cells is None:
+                self.large.append(i)
+
+    def cells(self, box, near):
+        """of a box; None: too many"""
+        x0, y0, x1, y1 = (int((v + d) // self.CELL) for v, d in zip(box, (-near, -near, near, near)))
+        if (x1 - x0 + 1) * (y1 - y0 + 1) > self.MOST:
+            return None
+        return [(i, j) for i in range(x0, x1 + 1) for j in range(y0, y1 + 1)]
+
+    def reach(self, box, near):
+        """each shape, some twice, whose own box meets that one"""
+        cells = self.cells(box, near)
+        some = range(len(self.all)) if cells is None else (i for c in (self.large, *(self.at.get(c, ()) for c in cells)) for i in c)
+        for i in some:
+            x0, y0, x1, y1 = self.boxes[i]
+            if x0 <= box[2] + near and x1 >= box[0] - near and y0 <= box[3] + near and y1 >= box[1] - near:
+                yield self.all[i], self.boxes[i]
 
 
 class Verdict:
@@ -96,28 +123,30 @@ class Verdict:
             near += 0.25e3 * rule["min"]
         if kind in ("area", "density"):  # of outlines, whose boxes chords do not reach
             near += self.edge_error_nm
-        boxes = [[1e3 * v for v in f["box_um"]] for f in findings]
+        name = "%s: %s" % (name, drc.category(rule))
+        places = Shapes([[[1e3 * v for v in f["box_um"][k:k + 2]] for k in (0, 2)] for f in findings])
+        shapes = Shapes(found)
         self.count[kind + " places"] += len(findings)
         self.count[kind + " shapes"] += len(found)
-        for shape in found:
-            if not any(reaches(shape, box, near) for box in boxes):
-                self.say("%s: %s: KLayout alone has %s" % (name, drc.category(rule), shape))
-        for f, box in zip(findings, boxes):
+        for shape, box in zip(shapes.all, shapes.boxes):
+            if not any(True for _ in places.reach(box, near)):
+                self.say("%s: KLayout alone has %s" % (name, shape))
+        for f, (low, high) in zip(findings, places.all):
+            box = (*low, *high)
             ends = [[1e3 * v for v in p] for p in f["at_um"]]
             if kind in CHORDS and f["value"] > 0:
                 there = any(len(s) == 4 and min(max(off_edge(*ends[0], s[:2]), off_edge(*ends[1], s[2:])),
-                                                max(off_edge(*ends[0], s[2:]), off_edge(*ends[1], s[:2]))) < 1 for s in found)
+                                                max(off_edge(*ends[0], s[2:]), off_edge(*ends[1], s[:2]))) < 1 for s, _ in shapes.reach(box, near))
             elif kind in CHORDS:
-                there = any(reaches(s, box, near) for s in found)
-            elif kind == "density":
-                there = any(inside(s, box, near) for s in found)
-            else:  # a corner, an edge, an island or hole: the very same
-                there = any(reaches(s, box, near) and abs(min(p[0] for p in s) - box[0]) < near and abs(max(p[1] for p in s) - box[3]) < near
-                            for s in found)
+                there = any(True for _ in shapes.reach(box, near))
+            else:  # a corner, an edge, an island or hole, of a place's windows the worst: the very same
+                if kind == "density":
+                    box = (*ends[0], *ends[1])
+                there = any(max(abs(a - b) for a, b in zip(own, box)) < near for _, own in shapes.reach(box, near))
             if not there and kind == "edge":
-                self.missed.append("%s: %s: KLayout has not %s" % (name, drc.category(rule), f["at_um"]))
+                self.missed.append("%s: KLayout has not %s" % (name, f["at_um"]))
             elif not there:
-                self.say("%s: %s: KLayout has not %s" % (name, drc.category(rule), {k: f[k] for k in ("value", "at_um", "pieces")}))
+                self.say("%s: KLayout has not %s" % (name, {k: f[k] for k in ("value", "at_um", "pieces")}))
 
 
 def draw(program, seed, where, data):
@@ -138,10 +167,31 @@ def draw(program, seed, where, data):
     return found, done
 
 
+def asked_of_klayout(masks, where):
+    """what the scripts find in masks, of each {"categories", "s"}; KLayout starts once for a few tens of them: what one finds
+    may be some megabytes"""
+    for start in range(0, len(masks), 25):
+        some, jobs = masks[start:start + 25], []
+        for _, certificate, gds in some:
+            gds.with_suffix(".lydrc").write_text(drc.script(certificate), encoding="utf-8")
+            jobs.append({"script": str(gds.with_suffix(".lydrc")), "gds": str(gds), "result": str(gds.with_suffix(".found.json"))})
+        (where / "jobs.json").write_text(json.dumps(jobs))
+        (where / "home").mkdir(exist_ok=True)
+        done = subprocess.run(["klayout", "-b", "-r", HERE / "run_rules.rb", "-rd", "jobs=%s" % (where / "jobs.json")], capture_output=True,
+                              text=True, check=False, env=dict(os.environ, QT_QPA_PLATFORM="offscreen", LC_ALL="C",
+                                                               KLAYOUT_HOME=str(where / "home"), KLAYOUT_PATH=str(where / "home")))
+        for (name, certificate, _), job in zip(some, jobs):
+            result = pathlib.Path(job["result"])
+            if not result.exists():
+                sys.exit("KLayout does not run: " + done.stdout + done.stderr)
+            yield name, certificate, json.loads(result.read_text(encoding="utf-8"))
+            result.unlink()
+
+
 def main():
     asked, first, count = random_masks.asked_of(__doc__, "DRC", first=40, few=2, every=24)
     verdict, masks, seed = Verdict(), [], first
-    devices = 0
+    devices, seconds = 0, []
     with tempfile.TemporaryDirectory() as temporary:
         where = asked.keep or pathlib.Path(temporary)
         where.mkdir(parents=True, exist_ok=True)
@@ -152,22 +202,11 @@ def main():
                 verdict.say("seed %d: status %d: %s" % (seed, done.returncode, done.stderr[-500:]))
             seed, devices = seed + 1, devices + bool(found)
             masks += found
-        for _, certificate, gds in masks:
-            gds.with_suffix(".lydrc").write_text(drc.script(certificate), encoding="utf-8")
-        (where / "jobs.json").write_text(json.dumps([{"script": str(gds.with_suffix(".lydrc")), "gds": str(gds)} for _, _, gds in masks]))
-        home = where / "home"
-        home.mkdir()
-        done = subprocess.run(["klayout", "-b", "-r", HERE / "run_rules.rb", "-rd", "jobs=%s" % (where / "jobs.json"), "-rd",
-                               "result=%s" % (where / "result.json")], capture_output=True, text=True, check=False,
-                              env=dict(os.environ, QT_QPA_PLATFORM="offscreen", LC_ALL="C", KLAYOUT_HOME=str(home), KLAYOUT_PATH=str(home)))
-        if not (where / "result.json").exists():
-            sys.exit("KLayout does not run: " + done.stdout + done.stderr)
-        seconds = []
-        for (name, certificate, _), result in zip(masks, json.loads((where / "result.json").read_text(encoding="utf-8"))):
+        for name, certificate, result in asked_of_klayout(masks, where):
             seconds.append(result["s"])
             for rule in certificate["rules"]:
-                shapes = [s for path, some in result["categories"].items() for s in some
-                          if path == drc.category(rule) or path.startswith(drc.category(rule) + ", ")]
+                what = drc.category(rule)
+                shapes = [s for path, some in result["categories"].items() if path == what or path.startswith(what + ", ") for s in some]
                 own = [f for f in certificate["findings"] if f["rule"] == rule["kind"] and f["layer"] == rule["layer"] and f["other"] == rule["other"]
                        and f["limit"] in (rule["min"], rule["max"])]
                 verdict.edge_error_nm = certificate["edge_error_nm"]

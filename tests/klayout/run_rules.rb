@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# klayout -b -r run_rules.rb -rd jobs=JOBS.json -rd result=RESULT.json: of each {"script", "gds"} what the DRC script finds,
+# klayout -b -r run_rules.rb -rd jobs=JOBS.json: of each {"script", "gds", "result"} what the DRC script finds, written to its result,
 # {"categories": {NAME: [[[x, y], ...], ...]}, "s": SECONDS}, in nm
 require "json"
 $every = true # every pair of edges, not the worst of each place
-out = JSON.parse(File.read($jobs)).map do |job|
+JSON.parse(File.read($jobs)).each do |job|
   $input, $report = job["gds"], job["gds"] + ".lyrdb"
   start = Time.now
   RBA::Macro::new(job["script"]).run
@@ -21,6 +21,6 @@ out = JSON.parse(File.read($jobs)).map do |job|
       (found[db.category_by_id(item.category_id).name] ||= []) << shape if shape
     end
   end
-  {"categories" => found, "s" => Time.now - start}
+  File.delete($report)
+  File.write(job["result"], JSON.generate({"categories" => found, "s" => Time.now - start}))
 end
-File.write($result, JSON.generate(out))

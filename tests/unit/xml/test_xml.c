@@ -156,8 +156,49 @@ static void memory_runs_out(void **state) {
         }
 }
 
+/* elements and texts in their order, values without their prefixes, entities and sections as what they stand for */
+static void documents_as_trees(void **state) {
+    (void)state;
+    const char *text = "<?xml version='1.0'?><!-- c --><s xmlns:x='u' x:href='#a&amp;b' k='1'>t&lt;<b/>u<![CDATA[<v>]]></s>";
+    fw_arena *arena = fw_arena_new(0);
+    fw_xml_node *root;
+    int line = -1;
+    assert_int_equal(fw_xml_tree(arena, text, strlen(text), &root, &line), FW_OK);
+    assert_string_equal(root->name, "s");
+    assert_string_equal(fw_xml_node_value(root, "href"), "#a&b");
+    assert_string_equal(fw_xml_node_value(root, "k"), "1");
+    assert_null(fw_xml_node_value(root, "x"));
+    assert_string_equal(root->first->text, "t<");
+    assert_null(root->first->name);
+    assert_string_equal(root->first->next->name, "b");
+    assert_ptr_equal(root->first->next->parent, root);
+    assert_string_equal(root->last->text, "u<v>");
+    assert_null(root->last->next);
+    static const struct {
+        const char *text;
+        int line;
+    } bad[] = {{"", 1}, {"x", 1}, {"<a>\n<b>\n</a>", 3}, {"<a>", 1}, {"<a/>\n<b/>", 2},
+               {"\n<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>", 2}, {"<a>&b;</a>", 1}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_int_equal(fw_xml_tree(arena, bad[i].text, strlen(bad[i].text), &root, &line), FW_INPUT);
+        assert_int_equal(line, bad[i].line);
+    }
+    fw_arena_free(arena);
+    for (long n = 1;; n++) {
+        arena = fw_arena_new(0);
+        fw_arena_fail_at(n, 0);
+        const fw_status s = fw_xml_tree(arena, text, strlen(text), &root, &line);
+        const long used = fw_arena_count();
+        fw_arena_fail_at(0, 0);
+        fw_arena_free(arena);
+        assert_int_equal(s, used >= n ? FW_NOMEM : FW_OK);
+        if (used < n) break;
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(documents_as_trees),
         cmocka_unit_test(places_of_everything),
         cmocka_unit_test(values_with_entities_are_not_exact),
         cmocka_unit_test(a_mark_and_line_ends),
