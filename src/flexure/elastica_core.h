@@ -70,11 +70,15 @@ struct fw_flexure_elastica {
     bool hinged;
     double p[FW_UNKNOWN], kept[FW_UNKNOWN]; /* moment (hinged: rotation) at the start, Fx, Fy */
     int solved;                             /* level of the last solution, -1: none */
-    double last[6];                         /* its twist and wrench */
+    bool
+        halved; /* the mesh before it has a solution that is good enough; after `again`: it is that */
+    bool moved;       /* by `again` since the solution */
+    double square;    /* as in fw_flexure_newton, of the solution; 0: not known */
+    double last[6];   /* its twist and wrench */
     double judged[2]; /* rotation and force of the last one whose error was looked at */
-    double sign;                            /* of its determinant over `unloaded` */
-    fw_flexure_elastica_end kind[3];        /* for which `unloaded` was worked out */
-    double unloaded;                        /* determinant of the unloaded beam; 0: none is held */
+    double sign;      /* of its determinant over `unloaded` */
+    fw_flexure_elastica_end kind[3]; /* for which `unloaded` was worked out */
+    double unloaded;                 /* determinant of the unloaded beam; 0: none is held */
     int passes;
 };
 
