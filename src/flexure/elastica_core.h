@@ -54,6 +54,14 @@ typedef struct fw_flexure_mesh {
     double growth;                        /* product of all `grown`; 1: none */
 } fw_flexure_mesh;
 
+/* weights of start, nodes and end of an element at places along a mesh, kept: a motion asks for the same
+   ones each time */
+enum { FW_PLACES = FW_NODES + 2, FW_KEPT_PLACES = 33 };
+typedef struct fw_flexure_between {
+    int level, n; /* n 0: none */
+    double part[FW_KEPT_PLACES], by[FW_KEPT_PLACES][FW_PLACES];
+} fw_flexure_between;
+
 struct fw_flexure_elastica {
     const fw_flexure_beam *beam;
     fw_flexure_beam_linear linear;
@@ -80,6 +88,7 @@ struct fw_flexure_elastica {
     fw_flexure_elastica_end kind[3]; /* for which `unloaded` was worked out */
     double unloaded;                 /* determinant of the unloaded beam; 0: none is held */
     int passes;
+    fw_flexure_between between;
 };
 
 /* the end of the beam after a pass: twist and wrench for unchanged unknowns, and by them */
