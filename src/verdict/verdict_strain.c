@@ -66,7 +66,7 @@ double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double
 /* ---- strain ---- */
 
 static const double tolerance = 1e-8;
-/* along a motion, from one solution to the next: what is told there is a bound, and some 1e-2 of it is left */
+/* along a motion, from one solution to the next: what is left is some 1e-6 */
 static const double followed = 1e-5;
 /* directions that are looked at where the axis is not known; between two of them no part of the
    force is more than 1/cos(pi/DIRECTIONS) of what it is along the nearer one */
@@ -91,7 +91,7 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *h,
 
 /* The beam turned by theta under a dead force at W on its second body, in the first one's frame.
    Where the strip is pressed, more than one equilibrium has this force: it is that near the closed
-   form's. Error 1e-8, and 1e-6 where one solution
+   form's. Error 1e-8, and 1e-5 where one solution
    follows another. Cost 6 us (2 us then), and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
    docs/theory/hinge-models.md. Test: test_strain_exact.c. */
 static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
