@@ -63,7 +63,13 @@ static inline bent placed(const flexed *f, const fw_effects_port_state *s) {
 static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool law) {
     bent b = placed(f, s);
     const double o = f->sense, at[3] = {o * b.th, o * b.x, o * b.y};
-    if (law) fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &b.law);
+    fw_effects_bent *last = f->last;
+    if (law && !(last->known && memcmp(last->at, at, sizeof at) == 0)) {
+        fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &last->law);
+        memcpy(last->at, at, sizeof at);
+        last->known = true;
+    }
+    if (law) b.law = last->law;
     if (fw_effects_flexed_loses(f)) {
         if (!law) softness_alone(f, &b);
         rates(s, &b);

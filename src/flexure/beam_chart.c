@@ -15,7 +15,7 @@
    In: rad, m; out: as fw_flexure_hinge_law_bend. The lattice is the beam's alone, so that the force
    is a function of the pose, to the last bit, until so many corners are made that new ones are refused. Valid: where the beam has solutions at all corners of
    the cell; a cell whose forces off its middle are farther than 1e-6 from the beam's own is not used.
-   Error: 1e-7 of the forces as a rule, 5e-6 at most. Cost 0.3 us where the cell is there, 0.1 ms a new
+   Error: 1e-7 of the forces as a rule, 5e-6 at most. Cost 0.1 us where the cell is there, 0.1 ms a new
    corner (seven solutions). Source:
    Hermite interpolation, Davis, Interpolation and Approximation, 1975; Legendre's transform. Test:
    test_beam_chart.c. */
