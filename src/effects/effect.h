@@ -68,6 +68,13 @@ fw_status fw_effects_loads_new(fw_arena *arena, const fw_mechanism *mechanism,
 
 typedef struct fw_effects_exact fw_effects_exact;
 
+/* what the closed form said last: force, energy and validity ask for one pose in turn */
+typedef struct fw_effects_bent {
+    bool known;
+    double at[3];
+    fw_flexure_hinge_bent law;
+} fw_effects_bent;
+
 typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, pin on body b */
     fw_flexure_hinge_law law;
     double sense;               /* o: 1 where body a has the root at polar angle -a, else -1 */
@@ -75,6 +82,7 @@ typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, 
     double loss_s[2];           /* tau along and across the axis */
     double factor, varying;     /* U times factor + varying law(t): temperature */
     fw_flexure_hinge_rest rest; /* what does not depend on the rotation */
+    fw_effects_bent *last;      /* of this law, whatever it is multiplied by */
     fw_effects_exact *exact;    /* NULL: closed form */
 } fw_effects_flexed;
 

@@ -49,17 +49,27 @@ static inline void rates(const fw_effects_port_state *s, bent *b) {
     b->z_rate = b->c * uy - b->n * ux - b->x * turning - b->law.drift_slope * b->th_rate;
 }
 
-static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool law) {
-    const double *pa = s->p, *pb = s->p + 3, o = f->sense;
+static inline bent placed(const flexed *f, const fw_effects_port_state *s) {
+    const double *pa = s->p, *pb = s->p + 3;
     double psi = f->axis_rad + 0.5 * (pa[2] + pb[2]), c = cos(psi), n = sin(psi);
     double dx = pb[0] - pa[0], dy = pb[1] - pa[1];
-    bent b = {.c = c,
-              .n = n,
-              .x = c * dx + n * dy,
-              .y = c * dy - n * dx,
-              .th = pb[2] - pa[2] - f->free_rad};
-    const double at[3] = {o * b.th, o * b.x, o * b.y};
-    if (law) fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &b.law);
+    return (bent){.c = c,
+                  .n = n,
+                  .x = c * dx + n * dy,
+                  .y = c * dy - n * dx,
+                  .th = pb[2] - pa[2] - f->free_rad};
+}
+
+static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool law) {
+    bent b = placed(f, s);
+    const double o = f->sense, at[3] = {o * b.th, o * b.x, o * b.y};
+    fw_effects_bent *last = f->last;
+    if (law && !(last->known && memcmp(last->at, at, sizeof at) == 0)) {
+        fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &last->law);
+        memcpy(last->at, at, sizeof at);
+        last->known = true;
+    }
+    if (law) b.law = last->law;
     if (fw_effects_flexed_loses(f)) {
         if (!law) softness_alone(f, &b);
         rates(s, &b);
@@ -81,18 +91,22 @@ static inline double warmth(const fw_effects_force_element *e, const fw_effects_
 
 /* -(M dth + X dw + Y dv), with the gradients of th, w and v written out: elastic force times warm, and what the
    material dissipates; warm 0: that alone */
-static inline void modal_load(const flexed *h, const fw_effects_port_state *s, double warm,
-                              double *f) {
-    const bent b = bend(h, s, warm != 0);
-    double o = h->sense * warm, lost = h->loss_s[1] * b.law.ky_N_per_m * b.z_rate;
-    double moment = o * b.law.gradient[0] - lost * b.law.drift_slope;
-    double X = o * b.law.gradient[1] + h->loss_s[0] * b.law.kx_N_per_m * b.w_rate;
-    double Y = o * b.law.gradient[2] + lost;
-    double both = 0.5 * (Y * b.x - X * b.y); /* half of the couple that the offset makes */
-    f[0] = X * b.c - Y * b.n, f[1] = X * b.n + Y * b.c;
+static inline void load_of(const flexed *h, const bent *b, double warm, double *f) {
+    double o = h->sense * warm, lost = h->loss_s[1] * b->law.ky_N_per_m * b->z_rate;
+    double moment = o * b->law.gradient[0] - lost * b->law.drift_slope;
+    double X = o * b->law.gradient[1] + h->loss_s[0] * b->law.kx_N_per_m * b->w_rate;
+    double Y = o * b->law.gradient[2] + lost;
+    double both = 0.5 * (Y * b->x - X * b->y); /* half of the couple that the offset makes */
+    f[0] = X * b->c - Y * b->n, f[1] = X * b->n + Y * b->c;
     f[3] = -f[0], f[4] = -f[1];
     f[2] = both + moment;
     f[5] = both - moment;
+}
+
+static inline void modal_load(const flexed *h, const fw_effects_port_state *s, double warm,
+                              double *f) {
+    const bent b = bend(h, s, warm != 0);
+    load_of(h, &b, warm, f);
 }
 
 static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
@@ -425,11 +439,27 @@ static bool solve(const fw_effects_flexed *h, const double twist[3], bool tangen
     return x->held;
 }
 
+/* while a motion is followed, as of the closed form: the lattice has the same coordinates */
+static bool charted_load(const fw_effects_flexed *h, const fw_effects_port_state *s, double warm,
+                         double *f) {
+    bent b = placed(h, s);
+    const double o = h->sense, at[3] = {o * b.th, o * b.x, o * b.y};
+    if (!h->exact->chart || !fw_flexure_chart_bend(h->exact->chart, at, false, &b.law))
+        return false;
+    if (fw_effects_flexed_loses(h)) {
+        softness_alone(h, &b);
+        rates(s, &b);
+    }
+    load_of(h, &b, warm, f);
+    return true;
+}
+
 static void exact_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
                         double *f) {
     const fw_effects_flexed *h = e->data;
-    const place at = place_of(h, s->p);
     double rate, warm = warmth(e, s, &rate);
+    if (charted_load(h, s, warm, f)) return;
+    const place at = place_of(h, s->p);
     if (!solve(h, at.twist, false)) {
         modal_load(h, s, warm, f);
         return;

@@ -103,9 +103,11 @@ fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *lo
     fw_effects_flexed *f = fw_arena_one(c->arena, fw_effects_flexed);
     fw_effects_force_element *e =
         fw_effects_loads_add_element(c->arena, loads, &fw_effects_flexed_class, 2);
-    if (!f || !e) return FW_NOMEM;
+    fw_effects_bent *last = fw_arena_one(c->arena, fw_effects_bent);
+    if (!f || !e || !last) return FW_NOMEM;
     *f = (fw_effects_flexed){
         .law = h->law,
+        .last = last,
         .sense = h->first_is_a ? 1 : -1,
         .factor = 1,
         .free_rad = pin->free_angle_rad,

@@ -131,6 +131,9 @@ static void refine(fw_flexure_elastica *e, int level, const fw_flexure_goal *g, 
         judge(n, coarse, g, k, &err);
         report(e, n, g, k, &err, out);
         e->solved = level + 1;
+        e->halved = err.mesh <= w->tolerance;
+        e->moved = false;
+        e->square = n->square;
         e->sign = n->stability < 0 ? -1 : 1;
         out->mesh = e->mesh[level + 1].count;
         out->code = err.whole <= w->tolerance ? FW_ELASTICA_OK : FW_ELASTICA_ROUGH;
@@ -218,7 +221,8 @@ static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, d
                                                  : 1};
     double reached = -1;
     bool found = false;
-    for (int level = warm ? e->solved - 1 : first_level(e, guess); level < FW_LEVELS - 1; level++) {
+    for (int level = warm ? e->solved - !e->moved : first_level(e, guess); level < FW_LEVELS - 1;
+         level++) {
         fw_flexure_mesh_fill(e, level);
         part = g;
         found = fw_flexure_elastica_reach(e, level, &part, &w, &n);
@@ -262,21 +266,28 @@ void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_
     find(e, task, tolerance, false, guess, NULL, out);
 }
 
-/* of the last solution whose error is known: for half as much again the mesh is as good */
+/* of the last solution whose error is known: for half as much again the mesh is as good, and so is the
+   one before it, whose error that was */
 static const double more = 1.5, more_turn = 0.02, more_force = 1;
 
 bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
                                double tolerance) {
     fw_flexure_goal g = {.eased = false};
-    fw_flexure_newton n = {
-        .tolerance = 0.1 * tolerance, .last = 1e-3, .contract = 0.4, .sign = e->sign};
+    fw_flexure_newton n = {.tolerance = 0.1 * tolerance,
+                           .last = 0.01,
+                           .contract = 0.4,
+                           .sign = e->sign,
+                           .square = e->square};
     if (e->solved < 0 || !sensible(task, &g, e)) return false;
     for (int i = 0; i < 3; i++)
         if (e->kind[i] != g.given[i]) return false;
+    if (!e->moved && e->halved) e->solved--;
+    e->moved = true;
     if (!fw_flexure_newton_run(e, e->solved, &g, &n)) {
         e->solved = -1;
         return false;
     }
+    e->square = n.square;
     memcpy(e->last, n.end.value, sizeof e->last);
     return fabs(e->last[0]) <= more * e->judged[0] + more_turn &&
            hypot(e->last[4], e->last[5]) <= more * e->judged[1] + more_force;

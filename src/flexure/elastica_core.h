@@ -54,6 +54,14 @@ typedef struct fw_flexure_mesh {
     double growth;                        /* product of all `grown`; 1: none */
 } fw_flexure_mesh;
 
+/* weights of start, nodes and end of an element at places along a mesh, kept: a motion asks for the same
+   ones each time */
+enum { FW_PLACES = FW_NODES + 2, FW_KEPT_PLACES = 33 };
+typedef struct fw_flexure_between {
+    int level, n; /* n 0: none */
+    double part[FW_KEPT_PLACES], by[FW_KEPT_PLACES][FW_PLACES];
+} fw_flexure_between;
+
 struct fw_flexure_elastica {
     const fw_flexure_beam *beam;
     fw_flexure_beam_linear linear;
@@ -70,12 +78,17 @@ struct fw_flexure_elastica {
     bool hinged;
     double p[FW_UNKNOWN], kept[FW_UNKNOWN]; /* moment (hinged: rotation) at the start, Fx, Fy */
     int solved;                             /* level of the last solution, -1: none */
-    double last[6];                         /* its twist and wrench */
+    bool
+        halved; /* the mesh before it has a solution that is good enough; after `again`: it is that */
+    bool moved;       /* by `again` since the solution */
+    double square;    /* as in fw_flexure_newton, of the solution; 0: not known */
+    double last[6];   /* its twist and wrench */
     double judged[2]; /* rotation and force of the last one whose error was looked at */
-    double sign;                            /* of its determinant over `unloaded` */
-    fw_flexure_elastica_end kind[3];        /* for which `unloaded` was worked out */
-    double unloaded;                        /* determinant of the unloaded beam; 0: none is held */
+    double sign;      /* of its determinant over `unloaded` */
+    fw_flexure_elastica_end kind[3]; /* for which `unloaded` was worked out */
+    double unloaded;                 /* determinant of the unloaded beam; 0: none is held */
     int passes;
+    fw_flexure_between between;
 };
 
 /* the end of the beam after a pass: twist and wrench for unchanged unknowns, and by them */

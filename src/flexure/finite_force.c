@@ -220,7 +220,20 @@ static double first_guess(const terms *t) {
     return second < 0 ? -slope / second : 0;
 }
 
-static double solve(const terms *t, state *s) {
+/* what was looked at, at F + more: first derivatives by the second ones, values to the third order */
+static void advance(const terms *t, double more, state *s) {
+    double x = t->x.alpha.value * more, y = t->x.beta.value * more;
+    curve a = s->a, n = s->n;
+    a.v += x * (a.d + 0.5 * x * a.dd), a.d += x * a.dd;
+    n.v += y * (n.d + 0.5 * y * n.dd), n.d += y * n.dd;
+    s->n = n;
+    soften(t, &a, s);
+}
+
+/* Newton's method: near its end a step leaves its square, and where second derivatives are not asked for
+   those of the last place do for the rest of it */
+static double solve(const terms *t, bool hessian, state *s) {
+    const double near = 1e-6;
     double low, high, F = first_guess(t), second;
     between_poles(t, &low, &high);
     if (!(F > low && F < high)) F = 0;
@@ -233,6 +246,10 @@ static double solve(const terms *t, state *s) {
             high = F;
         double to = F + (second < 0 ? -slope / second : 0);
         if (second < 0 && fabs(to - F) <= 2e-12 * fabs(F)) return to; /* s is that near, too */
+        if (!hessian && second < 0 && fabs(to - F) <= near * fabs(F)) {
+            advance(t, to - F, s);
+            return to;
+        }
         if (!(to > low && to < high) || !(second < 0))
             to = isfinite(high) ? 0.5 * (low + high) : 2 * F + fabs(F - low) + 1 / t->x.beta.value;
         F = to;
@@ -307,7 +324,7 @@ INLINE void bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *r
     state s;
     double second;
     prepare(law, rest, at, hessian, &t);
-    double F = solve(&t, &s), K = law->stiffness_Nm_per_rad, k = s.k.v;
+    double F = solve(&t, hessian, &s), K = law->stiffness_Nm_per_rad, k = s.k.v;
     const shortening *p = &s.s;
     shorten_more(&t, F, &s.s);
     const turning turn = by_rotation(&t, &s, F);

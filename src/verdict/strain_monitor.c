@@ -111,8 +111,9 @@ static fw_status make_beams(fw_verdict_strain_monitor *w) {
 }
 
 /* Exact beams are asked where the closed form, which is right within 3 %, comes to this share of the
-   peak so far; below it decides nothing, unless cycles are counted. */
-static const double asked_share = 0.8;
+   peak so far; below it decides nothing, unless cycles are counted. Where the last strain came to more than the other
+   share they are asked at once. */
+static const double asked_share = 0.8, surely_share = 0.85;
 
 static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynamics_instant *now,
                       fw_verdict_hinge_strains *strain) {
@@ -122,9 +123,11 @@ static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynami
         m, k, now->q, now->angle_rad[hinge->pin], now->reaction_N + 2 * hinge->pin, now->hinge);
     load.least_known = w->hinge[k].least;
     fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
-    if (beam && !w->root && w->hinge[k].strain > 0) {
+    const fw_verdict_strain_peak *peak = &w->hinge[k];
+    bool surely = peak->samples > 0 && peak->s[1] > surely_share * peak->strain;
+    if (beam && !w->root && peak->strain > 0 && !surely) {
         fw_verdict_hinge_strain(hinge, NULL, &load, strain);
-        if (strain->held && strain->peak < asked_share * w->hinge[k].strain) return;
+        if (strain->held && strain->peak < asked_share * peak->strain) return;
     }
     fw_verdict_hinge_strain(hinge, beam, &load, strain);
 }

@@ -81,6 +81,8 @@ double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double
 /* ---- strain ---- */
 
 static const double tolerance = 1e-8;
+/* along a motion, from one solution to the next: what is left is some 1e-6 */
+static const double followed = 1e-5;
 /* directions that are looked at where the axis is not known; between two of them no part of the
    force is more than 1/cos(pi/DIRECTIONS) of what it is along the nearer one */
 enum { DIRECTIONS = 24 };
@@ -104,7 +106,8 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *h,
 
 /* The beam turned by theta under a dead force at W on its second body, in the first one's frame.
    Where the strip is pressed, more than one equilibrium has this force: it is that near the closed
-   form's. Error 1e-8. Cost 6 us, and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
+   form's. Error 1e-8, and 1e-5 where one solution
+   follows another. Cost 6 us (2 us then), and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
    docs/theory/hinge-models.md. Test: test_strain_exact.c. */
 static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
                     fw_flexure_elastica *beam, double th, const double along[2],
@@ -118,7 +121,7 @@ static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *re
     bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
     bool held = (!under || pull < pressed) && apart_m &&
                 fw_flexure_hinge_law_held(&h->law, rest, th, along[1], *apart_m, u, &moment, &pull);
-    if (under && pull >= pressed && fw_flexure_elastica_again(beam, &task, tolerance)) {
+    if (under && pull >= pressed && fw_flexure_elastica_again(beam, &task, followed)) {
         fw_flexure_strip_strain_exact(&h->section, beam, out);
         return true;
     }

@@ -273,6 +273,55 @@ static void forces_along_are_those_at(void **state) {
     }
 }
 
+/* From one solution to the next along a motion, section forces are those of a beam that is asked afresh, to the
+   tolerance; a step from a solution whose error is known says yes nearly always, and a solution
+   that goes on from there is the fresh one's, too */
+static void again_is_afresh(void **state) {
+    (void)state;
+    enum { PLACES = 17, STEPS = 30 };
+    const double tolerance = 1e-5;
+    int asked = 0, followed = 0;
+    for (int n = 0; n < 30; n++) {
+        rig r;
+        fw_flexure_elastica *fresh = NULL;
+        fw_flexure_elastica_result at;
+        double part[PLACES], M[2][PLACES], N[2][PLACES];
+        double turn = uniform(-0.4, 0.4), pull = uniform(-2, 2), phase = uniform(0, 6);
+        wild(&r);
+        assert_int_equal(fw_flexure_elastica_new(r.arena, &r.beam, NULL, false, &fresh), FW_OK);
+        for (int i = 0; i < PLACES; i++)
+            part[i] = i / (PLACES - 1.0);
+        for (int i = 0; i < STEPS; i++) {
+            double a = phase + 0.03 * i, force = pull / (r.soft * r.length);
+            const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                                   {turn * (1 + 0.4 * sin(a)), force * cos(a), force * sin(2 * a)}};
+            fw_flexure_elastica_solve(fresh, &task, 1e-11, false, &at);
+            if (at.code > FW_ELASTICA_ROUGH) break;
+            asked += i > 0;
+            if (i > 0 && fw_flexure_elastica_again(r.e, &task, tolerance))
+                followed++;
+            else
+                fw_flexure_elastica_solve(r.e, &task, 1e-8, false, &at);
+            fw_flexure_elastica_along(r.e, PLACES, part, M[0], N[0]);
+            fw_flexure_elastica_along(fresh, PLACES, part, M[1], N[1]);
+            double most = 0, axial = fabs(force);
+            for (int k = 0; k < PLACES; k++)
+                most = fmax(most, fabs(M[1][k]));
+            for (int k = 0; k < PLACES; k++) {
+                assert_near(M[0][k], M[1][k], tolerance * (most + axial * r.length));
+                assert_near(N[0][k], N[1][k], tolerance * axial);
+            }
+            if (i % 7 != 6) continue;
+            fw_flexure_elastica_result warm;
+            fw_flexure_elastica_solve(r.e, &task, 1e-9, true, &warm);
+            assert_true(warm.code <= FW_ELASTICA_ROUGH);
+            assert_near(warm.wrench[0], at.wrench[0], 1e-7 * (most + axial * r.length));
+        }
+        fw_arena_free(r.arena);
+    }
+    assert_true(asked > 500 && followed > 0.9 * asked);
+}
+
 /* the peak against 4000 places and the ends of the pieces; every section in
  * balance with the end */
 static void inside_any_beam(void **state) {
@@ -445,7 +494,8 @@ int main(void) {
         cmocka_unit_test(nothing_gives_nothing),
         cmocka_unit_test(what_is_refused),
         cmocka_unit_test(memory_runs_out),
-        cmocka_unit_test(forces_along_are_those_at), /* last: it draws from the same numbers */
+        cmocka_unit_test(forces_along_are_those_at), /* last: they draw from the same numbers */
+        cmocka_unit_test(again_is_afresh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
