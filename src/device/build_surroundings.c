@@ -132,7 +132,12 @@ static void check_points(fw_device_reader *r, const fw_xml_record *record,
         if (fw_device_needed(r, record, 78, needs + i, 1, why[i]) && i == 0) return;
     fw_device_refused(r, record, 78, gap, 1,
                       "is that of a hinge's surfaces; for two points write distance instead");
-    if (c->side == FW_CONTACT_OUTSIDE && c->distance_m == 0)
+    if (c->face && c->side != FW_CONTACT_OUTSIDE)
+        fw_diag_error(
+            r->diags, 78, fw_xml_place_of(record, "a-face"),
+            "%s: nothing is inside a flat face; write side=\"outside\", or leave a-face out",
+            fw_xml_label(record, label));
+    if (c->side == FW_CONTACT_OUTSIDE && !c->face && c->distance_m == 0)
         fw_diag_error(r->diags, 78, fw_xml_place_of(record, "distance"),
                       "%s: two circles side by side touch at the sum of their radii, so that "
                       "distance must be above 0",
@@ -159,6 +164,8 @@ fw_status fw_device_build_contact(fw_device_scene_reader *s, int at) {
                                .ay_m = fw_xml_number_or(record, "a-y", 0.0),
                                .bx_m = fw_xml_number_or(record, "b-x", 0.0),
                                .by_m = fw_xml_number_or(record, "b-y", 0.0),
+                               .face = fw_xml_given(record, "a-face"),
+                               .face_rad = fw_xml_number_or(record, "a-face", 0.0),
                                .distance_m = fw_xml_number_of(record, hinge ? "gap" : "distance"),
                                .stiffness_N_per_m = fw_xml_number_of(record, "stiffness"),
                                .damping_Ns_per_m = fw_xml_number_or(record, "damping", 0.0),

@@ -257,6 +257,8 @@ typedef struct fw_device_contact_use {
     fw_device_contact_side side;
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m;
+    bool face;                /* a is a flat face through its point, without end: */
+    double face_rad;          /* its normal, away from a's material, in a's frame */
     double distance_m;        /* NaN, of a hinge: its gap */
     double stiffness_N_per_m; /* NaN, of a hinge: of the line contact of its surfaces */
     double damping_Ns_per_m;

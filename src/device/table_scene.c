@@ -187,6 +187,10 @@ static const fw_xml_attribute_row contact_rows[] = {
      .sentence = "What carries the first round thing (inside: the hole), or ground."},
     {"a-x", PLACE, .fallback = "0 mm", .sentence = "Its centre. " BODY_POINT_X},
     {"a-y", PLACE, .fallback = "0 mm", .sentence = "Its centre. " BODY_POINT_X},
+    {"a-face", TURNS,
+     .sentence = "With a and b, outside: a is no round thing but a flat face through its point, "
+                 "which counts as endless. "
+                 "Where its normal points, away from a's material, from the x axis of a."},
     {"b", REF(FW_SPACE_BODY), .ground = true,
      .sentence = "What carries the second round thing (inside: the disc), or ground."},
     {"b-x", PLACE, .fallback = "0 mm", .sentence = "Its centre. " BODY_POINT_X},
@@ -295,13 +299,13 @@ const fw_xml_element_row fw_device_table_effects[] = {
      .sentence =
          "Surfaces that touch and push back, without friction of their own: the conjugate "
          "surfaces of a hinge (on), or two round things (a, b). A jaw that holds a bead of "
-         "radius r: a is the jaw and a-x, a-y the centre of a tooth of radius R, or the point "
-         "of a face that turns by less than a degree while it presses, since the force goes "
-         "along the line between the two points; a flat face that turns is a tooth of R = 20 mm, "
-         "whose centre lies so far behind the face. b is what carries the bead (ground where it "
-         "stands still; the other jaw with its face where the bead goes with both) and b-x, b-y "
-         "its centre; side is outside, distance r + R, of a point r, and between the points of "
-         "two faces the bead's diameter. Parts of the two bodies may then meet, unless one of two points "
+         "radius r: a is the jaw and a-x, a-y a point of its flat face, with the face's normal "
+         "a-face, or the centre of a tooth of radius R; b is what carries the bead (ground where "
+         "it stands still; the other jaw with a point of its face where the bead goes with both) "
+         "and b-x, b-y its centre; side is outside, distance r, with a tooth r + R, and between "
+         "two faces the bead's diameter. A point without a-face is a corner: the force goes "
+         "along the line between the two points. Parts of the two bodies may then meet, unless one "
+         "of two points "
          "outside lies farther than the distance and 10 um from what is drawn of its body, as a "
          "bead in the open."},
     {"material-damping", "scene", .once = true, ROWS(damping_rows),

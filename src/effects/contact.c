@@ -3,6 +3,7 @@
    1, the overlap g (positive when pressed) and the force N = k g + c g' along its gradient:
 
      round, inside   g = |D| - distance        outside  g = distance - |D|
+     flat face       g = distance - n.D        n: the normal of the face, which turns with body a
      conjugate       u = D (or -D): W of the convex body from W of the concave one
                      g = |u| - gap             u points to where the surfaces face each other
                      g = n.u - gap             else; n: where they end, the end nearer to u. It
@@ -28,7 +29,9 @@ enum { N = 6 };
 
 typedef struct touch { /* data; ports: point of body a, point of body b */
     double distance_m, k_N_per_m, c_Ns_per_m;
-    double side;             /* 1: |D| beyond the distance presses, -1: below it */
+    double side; /* 1: |D| beyond the distance presses, -1: below it */
+    bool face;   /* port 0 is a point of a flat face with this normal in its body's frame: */
+    double face_rad;
     bool partial;            /* the surfaces face each other only in a sector of directions: */
     double sense;            /* u = sense D */
     double from_rad, to_rad; /* less the turn of the body that they go with */
@@ -77,7 +80,9 @@ static void overlap_at(const fw_effects_force_element *e, const fw_effects_port_
     double from = t->from_rad + p[3 * t->from_port + 2], to = t->to_rad + p[3 * t->to_port + 2];
     double behind = fmod(atan2(uy, ux) - from, 2 * FW_PI); /* from where they begin to u */
     if (behind < 0) behind += 2 * FW_PI;
-    if (!t->partial || behind <= to - from)
+    if (t->face)
+        ended(p, -1, t->face_rad + p[2], 0, -t->distance_m, second, g);
+    else if (!t->partial || behind <= to - from)
         radial(p, t->side, t->distance_m, second, g);
     else if (cos(from) * ux + sin(from) * uy > cos(to) * ux + sin(to) * uy)
         ended(p, t->sense, from, t->from_port, t->distance_m, second, g);
@@ -266,13 +271,15 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_effects_loads *loads,
 
 static fw_status add_round(const fw_effect_case *c, fw_effects_loads *loads,
                            const fw_device_contact_use *use) {
-    if (!(use->distance_m > 0) || !(use->stiffness_N_per_m > 0) ||
-        !isfinite(use->stiffness_N_per_m))
+    if (!(use->face ? use->distance_m >= 0 : use->distance_m > 0) ||
+        !(use->stiffness_N_per_m > 0) || !isfinite(use->stiffness_N_per_m))
         return unknown(c, use, "two round things need a distance and a stiffness above 0");
     const touch t = {.distance_m = use->distance_m,
                      .k_N_per_m = use->stiffness_N_per_m,
                      .c_Ns_per_m = isnan(use->damping_Ns_per_m) ? 0 : use->damping_Ns_per_m,
                      .side = use->side == FW_CONTACT_INSIDE ? 1 : -1,
+                     .face = use->face,
+                     .face_rad = use->face_rad,
                      .sense = 1};
     const fw_effects_port port[2] = {{use->body_a, use->ax_m, use->ay_m},
                                      {use->body_b, use->bx_m, use->by_m}};
@@ -314,13 +321,16 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
             fw_mechanism_local_place(c->mechanism, use->body_a, use->ax_m, use->ay_m);
         fw_geometry_vec2 b =
             fw_mechanism_local_place(c->mechanism, use->body_b, use->bx_m, use->by_m);
-        double apart = hypot(b.x - a.x, b.y - a.y), past = apart - use->distance_m;
+        const double normal = use->face_rad + drawn_turn(c->mechanism, use->body_a);
+        double apart = use->face ? cos(normal) * (b.x - a.x) + sin(normal) * (b.y - a.y)
+                                 : hypot(b.x - a.x, b.y - a.y);
+        double past = apart - use->distance_m;
         if (use->side != FW_CONTACT_INSIDE) past = -past;
         char deep[32], far[32], at[32];
         if (!(past > drawn_closed)) continue;
         fw_diag_warning(diags, 134, use->place,
-                        "contact %s overlaps by %s um in the drawn pose: its points are %s um "
-                        "apart and touch at a distance of %s um; correct the points, the "
+                        "contact %s overlaps by %s um in the drawn pose: what touches is %s um "
+                        "apart and touches at a distance of %s um; correct the points, the "
                         "distance or the side",
                         fw_text_name(use->id), fw_number_text(deep, sizeof deep, 1e6 * past, 4),
                         fw_number_text(far, sizeof far, 1e6 * apart, 4),

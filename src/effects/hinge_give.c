@@ -337,6 +337,7 @@ static double room(const fw_effect_case *c, const fw_device_contact_use *use) {
         return fw_effects_contact_gap(c, use, h) - fw_effects_hinge_give_most(c, use->joint) -
                turn * hypot(h->off_a_m.x, h->off_a_m.y);
     }
+    if (use->face) return 0; /* whose normal turns: not bounded */
     fw_geometry_vec2 a = fw_mechanism_local_place(m, use->body_a, use->ax_m, use->ay_m);
     fw_geometry_vec2 b = fw_mechanism_local_place(m, use->body_b, use->bx_m, use->by_m);
     double now = hypot(b.x - a.x, b.y - a.y), moves = 0;

@@ -194,6 +194,22 @@ class Proposals(unittest.TestCase):
         self.assertEqual(proposal["kind"], "several")
         self.assertGreaterEqual(len(proposal["set"]), 2)
 
+    def test_parameters_hold_what_hangs_on_them(self):
+        """a width or a pull goes no farther than min and max of its parameter, by whichever name it is set; a length that hangs on
+        none is free"""
+        device = self.changed(STAGE, ('measure="final" min="40 um"', 'measure="final" min="75 um"'), ('max="200 uN"', 'max="120 uN"'),
+                              ('max="2.6 mm"', 'max="2.21 mm"'), ('min="8 um" max="16 um"', 'min="11.9 um" max="16 um"'))
+        document = json.loads(run("check", device, "--corners", "none", "--json").stdout)
+        self.assertTrue(document["advice"])
+        sets = [s for p in document["advice"] for s in p["set"]]
+        for s in sets:
+            value = number(s["value"])
+            if s["path"] in ("width", "flexure[leaf]/@width"):
+                self.assertTrue(11.9e-6 - 1e-12 <= value <= 16e-6 + 1e-12, s)
+            if s["path"] == "pull" or "tendon" in s["path"]:
+                self.assertLessEqual(value, 120e-6 + 1e-12, s)
+        self.assertIn("flexure[leaf]/@length", [s["path"] for s in sets])
+
     def test_of_what_meets(self):
         """jaws that close too far (trials look at clearances at more corners than a check does)"""
         device = pathlib.Path(self.directory.name) / "gripper.xml"

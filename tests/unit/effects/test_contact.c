@@ -50,6 +50,8 @@ static void element_laws(void **state) {
         fw_device_contact_use use = {.id = "touch",
                                      .joint = round ? FW_NONE : 0,
                                      .side = i % 2 ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
+                                     .face = i % 10 == 0,
+                                     .face_rad = 0.1 * i,
                                      .body_a = FW_GROUND,
                                      .body_b = 0,
                                      .distance_m = 2e-6,
@@ -184,6 +186,48 @@ static void moments_close_the_gap(void **state) {
             assert_int_equal(switched(e, p, w) > 0, beyond);
             fw_arena_free(r.arena);
         }
+}
+
+/* A flat face is the limit of a round tooth of radius R whose centre lies R behind the face: the force differs by the sagitta
+   of the place that touches, k y^2/2R. It goes along the face's normal, through the bead's centre, wherever on the face that
+   is. */
+static void a_face_is_a_large_tooth(void **state) {
+    (void)state;
+    unsigned seed = 11;
+    const double R = 1, k = 2000, distance = 15e-6;
+    for (int i = 0; i < 50; i++) {
+        rig r[2];
+        double f[2][6], normal = 3 * random_(&seed), turn = 0.3 * random_(&seed);
+        const double along = 200e-6 * random_(&seed), past = 3e-6 * (random_(&seed) + 1.1);
+        for (int tooth = 0; tooth < 2; tooth++) {
+            fw_device_contact_use use = {.joint = FW_NONE,
+                                         .side = FW_CONTACT_OUTSIDE,
+                                         .face = !tooth,
+                                         .face_rad = normal,
+                                         .body_a = 0,
+                                         .body_b = FW_GROUND,
+                                         .ax_m = tooth ? -R * cos(normal) : 0,
+                                         .ay_m = tooth ? -R * sin(normal) : 0,
+                                         .distance_m = distance + (tooth ? R : 0),
+                                         .stiffness_N_per_m = k,
+                                         .damping_Ns_per_m = nan_};
+            rig_lever(&r[tooth], 0.4, true, false, nan_, nan_);
+            const fw_effects_force_element *e = touching(&r[tooth], &use);
+            const double n = normal + turn, back = tooth ? -R : 0, d = distance - past;
+            const double p[6] = {back * cos(n), back * sin(n), turn, d * cos(n) - along * sin(n), d * sin(n) + along * cos(n), 0};
+            const double w[6] = {0};
+            const bool on = true;
+            const fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
+            e->class_->force(e, &s, f[tooth]);
+            fw_arena_free(r[tooth].arena);
+        }
+        assert_relative(hypot(f[0][3], f[0][4]), k * past, 1e-9);
+        assert_near(f[0][3] * sin(normal + turn) - f[0][4] * cos(normal + turn), 0, 1e-12);
+        assert_true(f[0][3] * cos(normal + turn) + f[0][4] * sin(normal + turn) > 0);
+        assert_near(f[0][2], k * past * along, 1e-12 * k * 1e-3); /* the couple on the body of the face */
+        for (int c = 3; c < 5; c++)
+            assert_near(f[0][c], f[1][c], 2 * k * along * along / (2 * R) + 1e-3 * k * past);
+    }
 }
 
 /* a body that falls on a round thing with speed v: it leaves it where k g + c g' = 0 with
@@ -339,6 +383,7 @@ int main(void) {
         cmocka_unit_test(covered_directions),
         cmocka_unit_test(forces_close_the_gap),
         cmocka_unit_test(moments_close_the_gap),
+        cmocka_unit_test(a_face_is_a_large_tooth),
         cmocka_unit_test(bouncing),
         cmocka_unit_test(line_contact),
         cmocka_unit_test(what_is_not_known),
