@@ -47,6 +47,7 @@ describe("rules and looks", () => {
             await page.keyboard.press("ArrowRight");
             assert.equal(await page.evaluate(() => document.activeElement.id), next);
         }
+        await page.waitForFunction(() => globalThis.flexwright.settled(false)); // what waits for an answer cannot be pressed
         const seen = new Set();
         for (let i = 0; i < 60; i++) {
             await page.keyboard.press("Tab");
