@@ -332,12 +332,15 @@ describe("what is there is dragged", () => {
         const corner = "device/mechanism/body[left]/outline/line[1]"; // from (-100, 250) to (140, 250) in the jaw
         await handle(corner).waitFor();
         assert.deepEqual(await place(corner), [-460, 250]);
-        await drag(page, [-460, 250], [-500, 250], { release: false }); // an acute corner has no mask
-        await page.waitForFunction(() => globalThis.flexwright.settled(false));
-        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.diagnostics.filter((d) => d.severity === "error")), []); // the held corner was judged
-        assert.match(await page.evaluate(() => JSON.stringify(globalThis.flexwright.state.set)), /outline\/line\[1\]\/@to-x":"100 um"/);
+        await drag(page, [-460, 250], [-420, 250], { release: false });
+        await page.waitForFunction(() => Object.keys(globalThis.flexwright.state.set).length > 0 && globalThis.flexwright.settled(false));
+        // the held corner was judged: it is acute, and no mask of it can be made
+        const errors = await page.evaluate(() => globalThis.flexwright.state.diagnostics.filter((d) => d.severity === "error").map((d) => [d.code, /left \(edge \d+\): width of 0 um at \((-4\d\d)/.exec(d.message)?.[1]]));
+        assert.deepEqual(errors.map(([code]) => code), ["FW-D144", "FW-D144"]);
+        assert.ok(errors.every(([, x]) => Math.abs(Number(x) + 420) <= 3), JSON.stringify(errors));
+        assert.match(await page.evaluate(() => JSON.stringify(globalThis.flexwright.state.set)), /outline\/line\[1\]\/@to-x":"180 um"/);
         await changed(page, () => page.mouse.up());
-        assert.equal(await text(page), xml.replace('<line to-x="140 um" to-y="250 um"/>', '<line to-x="100 um" to-y="250 um"/>'));
+        assert.equal(await text(page), xml.replace('<line to-x="140 um" to-y="250 um"/>', '<line to-x="180 um" to-y="250 um"/>'));
         await page.click("#undo");
         await handle("device/mechanism/revolute[A]").focus();
         await changed(page, () => page.keyboard.press("Shift+ArrowUp"));
