@@ -140,6 +140,58 @@ static void alignment(const fw_process_flow *flow, const fw_process_step *s, fw_
     fw_text_add(out, " apart. Read: ______</p>\n");
 }
 
+static double asked_of(const fw_wiring_net *net) {
+    return fmax(fabs(net->low_V), fabs(net->high_V));
+}
+
+/* the least voltage at which a gap beside the net may break down; HUGE_VAL: none is known */
+static double breaks_at(const fw_wiring *w, int net) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < w->ngap; i++)
+        if ((w->gap[i].a == net || w->gap[i].b == net) && w->gap[i].volts > 0.0)
+            least = fmin(least, w->gap[i].breakdown_V[0]); /* fmin ignores what is not known */
+    return least;
+}
+
+/* "stator of cx: up to 200 V, which is all that the equipment bears; the device asks for 240 V" */
+static void tested_to(const fw_process_step *s, const fw_wiring *w, int net, fw_text *out) {
+    const double asked = asked_of(&w->net[net]), breaks = breaks_at(w, net),
+                 bears = s->bears->unknown ? HUGE_VAL : s->bears->value,
+                 most = fmin(asked, fmin(bears, breaks));
+    fw_text_escaped(out, w->net[net].name);
+    fw_text_add(out, " up to <b>");
+    fw_text_number(out, most < asked && most == breaks ? floor(most) : most, 4);
+    fw_text_add(out, " V</b>");
+    if (most == asked) return;
+    fw_text_add(out, most == bears ? ", all that the equipment bears"
+                                   : ", above which a gap may break down");
+    fw_text_add(out, " (the device asks for ");
+    fw_text_number(out, asked, 4);
+    fw_text_add(out, " V)");
+}
+
+/* a step that drives the device: how far, drive by drive */
+static void drives(const fw_process_step *s, const fw_wiring *w, fw_text *out) {
+    int n = 0;
+    if (!s->bears || !w || w->ndrive == 0) return;
+    fw_text_add(out, "<p class=\"note\"><b>Voltages:</b> ");
+    for (int i = 0; i < w->nnet; i++) {
+        if (!fw_wiring_is_driven(&w->net[i])) continue;
+        fw_text_add(out, n++ ? "; " : "");
+        tested_to(s, w, i, out);
+    }
+    fw_text_add(out, n ? ". " : "no scene drives anything. ");
+    if (s->bears->unknown)
+        fw_text_add(out, "What the equipment bears is not known: ______ V (");
+    else {
+        fw_text_add(out, "The equipment bears ");
+        fw_text_number(out, s->bears->value, 4);
+        fw_text_printf(out, " V (%s, ", fw_quantity_value_status_text(s->bears->status));
+    }
+    fw_text_escaped(out, s->bears->id);
+    fw_text_add(out, ").</p>\n");
+}
+
 /* other ways of doing it, and the one that was chosen */
 static void ways(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < flow->nalternative; i++) {
@@ -443,6 +495,7 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     fw_text_add(out, "\">\n");
     step_head(flow, s, changes, out);
     fw_recipe_html_hazard_line(flow, s, out);
+    drives(s, header->wiring, out);
     holds(s, out);
     exposures(flow, s, out);
     if (slicer && changes && section_notes(flow, index, out) != FW_OK) out->failed = 1;

@@ -112,6 +112,35 @@ class Effects(unittest.TestCase):
             done = run("check", device, "--corners", "none", "--advice", "none")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_drives_are_tested_up_to_what_the_equipment_bears(self):
+        """the step on the probe station says how far, drive by drive; where the device asks for more the headline says so"""
+        device = ROOT / "docs/gallery/comb-stage/device.xml"
+        asked = float(re.search(r'name="volts" value="([0-9.]+) V"', device.read_text()).group(1))
+        with tempfile.TemporaryDirectory() as here:
+            lab = pathlib.Path(here) / "lab.xml"
+            for bears in (None, asked, 0.5 * asked):
+                options = ["--corners", "none", "--advice", "none"]
+                if bears is not None:
+                    lab.write_text('<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="lab" flow="silicon-on-glass">'
+                                   '<source id="own" kind="measured" date="2026-01-01">data sheet</source><q id="prober.bears" '
+                                   f'value="{bears}" u="0" unit="V" status="stated" src="own"/></process>')
+                    options += ["--lab", lab]
+                out = pathlib.Path(here) / f"out{bears}"
+                done = run("plan", device, "-o", out, *options)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                sheet = (out / "recipes/silicon-on-glass.html").read_text()
+                step = re.search(r'<section class="step" id="G51">.*?</section>', sheet, re.S).group(0)
+                said = re.findall(r"stator of comb drive (\w+) up to <b>([0-9.]+) V</b>(, all that the equipment bears)?", step)
+                little = bears is not None and bears < asked
+                self.assertEqual([(d, float(v), bool(all_)) for d, v, all_ in said],
+                                 [(d, bears if little else asked, little) for d in ("upper", "lower")])
+                self.assertIn(f"insulation to {200 if bears is None else bears:g} V", step)
+                self.assertIn("voltage on probes and chip", step)
+                self.assertNotIn("bonder", step)
+                headline = [line for line in done.stdout.splitlines() if line.startswith("not guaranteed: ")]
+                self.assertEqual(["FW-D594" in line for line in headline], [little], done.stdout)
+                self.assertEqual("FW-D594" in sheet, little)
+
     def test_what_moves_a_device_is_in_its_mask(self):
         said, whole = self.drawn("comb-stage")
         self.assertNotIn("FW-D131", said)
