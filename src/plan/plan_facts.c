@@ -202,6 +202,35 @@ static const fw_verdict_variant_verdict *verdict_of(const fw_plan *plan, const f
     return plan->verdict.variant && i < plan->verdict.nvariant ? &plan->verdict.variant[i] : NULL;
 }
 
+/* ---- ways of doing a step that nobody chose ---- */
+
+/* a laboratory may have replaced its value */
+static const fw_quantity *own(const fw_process_flow *flow, const fw_quantity *q) {
+    return q ? fw_process_flow_quantity(flow, q->id) : NULL;
+}
+
+fw_status fw_plan_judge_alternatives(fw_plan *plan, const fw_plan_flow *pf) {
+    const fw_verdict_variant_verdict *v = verdict_of(plan, pf);
+    for (int i = 0; v && v->variant && pf->flow && i < pf->flow->nalternative; i++) {
+        fw_process_alternative *a = &pf->flow->alternative[i];
+        fw_mechanism_drying drying;
+        fw_process_drying of = a->drying;
+        const char *words;
+        int number;
+        a->unfit = NULL;
+        if (a->chosen || of.how != FW_DRIED_PULLED || strcmp(of.step->id, a->step) != 0) continue;
+        of.tension = own(pf->flow, of.tension), of.angle = own(pf->flow, of.angle);
+        FW_TRY(fw_plan_drying_of(plan, pf, &of, &drying));
+        const fw_verdict_decision bears = fw_verdict_drying_bears(v, &drying, &number);
+        if (bears == FW_ACCEPT) continue;
+        FW_TRY(fw_verdict_drying_words(plan->arena, v, &words));
+        FW_NEED(a->unfit =
+                    fw_arena_printf(plan->arena, "%s (with it the verdict is %s, FW-D%d)", words,
+                                    bears == FW_REJECT ? "reject" : "inconclusive", number));
+    }
+    return FW_OK;
+}
+
 /* ---- nets and what equipment bears ---- */
 
 /* drives that ask for more than a step bears that is to test them (FW-D594) */

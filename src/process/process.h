@@ -304,9 +304,20 @@ typedef struct fw_process_tool_time {
     fw_place place;
 } fw_process_tool_time;
 
+typedef struct fw_process_drying {
+    fw_mechanism_dried how;
+    const fw_process_step *step;
+    const fw_process_finish *finish;
+    const fw_quantity *tension, *angle;
+} fw_process_drying;
+
 typedef struct fw_process_alternative { /* another way of doing a step */
     const char *id, *title, *step;
     bool chosen;
+    fw_process_drying
+        drying; /* of the flow with it; zeroed where it is chosen. Its quantities: by id */
+    const char *
+        unfit; /* why the verdict does not accept it for this device; NULL: it does, or was not asked */
     const char *instead_of; /* title of the step whose place it took; NULL: not chosen */
     fw_place place;
 } fw_process_alternative;
@@ -483,12 +494,6 @@ const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, 
 /* How devices that are free are dried: the finish that pulls hardest, or the last one that does not pull. FW_DRIED_NEVER:
    nothing wets them any more; UNKNOWN: the flow frees nothing. tension and angle of a meniscus, which may be NULL.
    Test: test_wafer_state.c */
-typedef struct fw_process_drying {
-    fw_mechanism_dried how;
-    const fw_process_step *step;
-    const fw_process_finish *finish;
-    const fw_quantity *tension, *angle;
-} fw_process_drying;
 fw_process_drying fw_process_flow_drying(const fw_process_flow *flow);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */

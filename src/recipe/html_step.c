@@ -197,13 +197,14 @@ static void ways(const fw_process_flow *flow, const fw_process_step *s, fw_text 
     for (int i = 0; i < flow->nalternative; i++) {
         const fw_process_alternative *a = &flow->alternative[i];
         if (strcmp(a->step, s->id) != 0) continue;
-        fw_text_add(out, a->chosen ? "<p class=\"small\"><b>Chosen by the laboratory:</b> "
-                                   : "<p class=\"small\"><b>Another way:</b> ");
+        fw_text_add(out, a->chosen  ? "<p class=\"small\"><b>Chosen by the laboratory:</b> "
+                         : a->unfit ? "<p class=\"small\"><b>Not for this device:</b> <s>"
+                                    : "<p class=\"small\"><b>Another way:</b> ");
         fw_text_escaped(out, a->title);
         fw_text_add(out, " (");
         fw_text_escaped(out, a->id);
-        fw_text_add(out, a->chosen ? "), instead of: " : ")");
-        fw_text_escaped(out, a->instead_of ? a->instead_of : "");
+        fw_text_add(out, a->chosen ? "), instead of: " : a->unfit ? ")</s>: " : ")");
+        fw_text_escaped(out, a->chosen ? a->instead_of : a->unfit ? a->unfit : "");
         fw_text_add(out, ".</p>\n");
     }
 }
