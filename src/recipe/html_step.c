@@ -239,7 +239,17 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
     }
 }
 
-static void value_cell(const fw_quantity *q, fw_text *out) {
+/* What is computed, to the second digit of its uncertainty: nobody can set what stands behind that, and nothing bears it. Below
+   100 four digits are printed of everything, which are few enough. */
+static double as_known(const fw_quantity *q, bool derived) {
+    const double value = fw_quantity_in_unit(q), u = fw_recipe_row_uncertainty(q);
+    if (!derived || !(u > 0.0) || !(fabs(value) >= 100.0) || !(u < fabs(value))) return value;
+    const double place = fmax(pow(10.0, floor(log10(u)) - 1.0), 1e-3);
+    return place >= 1.0 ? floor(value / place + 0.5) * place
+                        : floor(value * (1.0 / place) + 0.5) / (1.0 / place);
+}
+
+static void value_cell(const fw_quantity *q, bool derived, fw_text *out) {
     if (q->unknown) {
         fw_text_add(out, "____________");
         if (strcmp(q->unit, "1") != 0) {
@@ -249,7 +259,7 @@ static void value_cell(const fw_quantity *q, fw_text *out) {
         return;
     }
     fw_text_add(out, "<b>");
-    fw_recipe_put_value(out, fw_quantity_in_unit(q));
+    fw_recipe_put_value(out, as_known(q, derived));
     fw_text_add(out, "</b>");
     double u = fw_recipe_row_uncertainty(q);
     if (u > 0.0) {
@@ -268,7 +278,7 @@ static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, 
     fw_text_add(out, "<tr><td>");
     fw_text_escaped(out, row->name);
     fw_text_add(out, "</td><td class=\"n\">");
-    value_cell(q, out);
+    value_cell(q, row->derived, out);
     fw_text_add(out, "</td><td>");
     fw_recipe_put_limits(out, row->low, row->high);
     fw_text_add(out, "</td><td>");

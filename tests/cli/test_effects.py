@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every scene of tests/data/effects runs in simulate and statics, with the effects that it is about."""
 import json
+import math
 import pathlib
 import re
 import tempfile
@@ -140,6 +141,19 @@ class Effects(unittest.TestCase):
                 headline = [line for line in done.stdout.splitlines() if line.startswith("not guaranteed: ")]
                 self.assertEqual(["FW-D594" in line for line in headline], [little], done.stdout)
                 self.assertEqual("FW-D594" in sheet, little)
+
+    def test_computed_settings_have_no_digits_that_their_uncertainty_does_not_bear(self):
+        """sheets of the gallery, which are what the program makes: 1970 +- 400 rpm, not 1968.36"""
+        seen = 0
+        for sheet in (ROOT / "recipes/gallery").glob("*/*.html"):
+            for table in re.findall(r"Computed for this step</th></tr>(.*?)</tbody>", sheet.read_text(), re.S):
+                for value, u in re.findall(r'<b>([0-9.]+)</b> ± ([0-9.]+) ', table):
+                    if not 100 <= float(value) < 1e5 or float(u) >= float(value):
+                        continue
+                    place = 10.0 ** (math.floor(math.log10(float(u))) - 1)
+                    self.assertAlmostEqual(float(value) / place, round(float(value) / place), 6, f"{sheet.name}: {value} +- {u}")
+                    seen += 1
+        self.assertGreater(seen, 20)
 
     def test_what_moves_a_device_is_in_its_mask(self):
         said, whole = self.drawn("comb-stage")
