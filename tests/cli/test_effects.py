@@ -142,6 +142,35 @@ class Effects(unittest.TestCase):
                 self.assertEqual(["FW-D594" in line for line in headline], [little], done.stdout)
                 self.assertEqual("FW-D594" in sheet, little)
 
+    def test_widths_are_accepted_where_the_verdict_judged_them(self):
+        """top and bottom of the narrowest flexure, 6 um, of 50 um silicon: printed edge 0.15 um and that of the aluminium 0.22 um
+        either way, and what an anisotropy takes at the top, (1 - A) 50 um in the nominal time at every edge"""
+        device = ROOT / "docs/gallery/comb-stage/device.xml"
+        lab = ('<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="lab" flow="silicon-on-glass">'
+               '<source id="own" kind="measured" date="2026-01-01">ladder</source><q id="made.A" value="0.985" lo="0.97" hi="1" '
+               'unit="1" status="assumed" src="own"/></process>')
+        with tempfile.TemporaryDirectory() as here:
+            found = []
+            for name, text, taken in (("pack", None, 0.5), ("lab", lab, 1.5)):
+                options, out = ["--corners", "none", "--advice", "none", "--force"], pathlib.Path(here) / name
+                if text:
+                    (pathlib.Path(here) / "lab.xml").write_text(text)
+                    options += ["--lab", pathlib.Path(here) / "lab.xml"]
+                done = run("plan", device, "-o", out, *options)
+                self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+                step = re.search(r'<section class="step" id="G49">.*?</section>', (out / "recipes/silicon-on-glass.html").read_text(),
+                                 re.S).group(0)
+                limit = {end: (float(low), float(high)) for end, low, high in re.findall(
+                    r"flexure width at the (top|bottom) against the drawn one.*?([-0-9.]+) to ([-0-9.]+) %", step)}
+                edge = 200 * 0.37 / 6
+                for end in ("top", "bottom"):
+                    self.assertAlmostEqual(limit[end][1], edge, delta=0.2)
+                self.assertLessEqual(limit["top"][0], -edge - 200 * taken / 6)
+                self.assertGreater(limit["top"][0], -edge - 1.3 * 200 * taken / 6)  # with the over-etch
+                self.assertTrue(limit["top"][0] < limit["bottom"][0] <= -edge + 0.2)
+                found.append(limit)
+            self.assertLess(found[1]["top"][0], found[0]["top"][0] - 30)
+
     def test_computed_settings_have_no_digits_that_their_uncertainty_does_not_bear(self):
         """sheets of the gallery, which are what the program makes: 1970 +- 400 rpm, not 1968.36"""
         seen = 0
