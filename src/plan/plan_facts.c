@@ -202,6 +202,62 @@ static const fw_verdict_variant_verdict *verdict_of(const fw_plan *plan, const f
     return plan->verdict.variant && i < plan->verdict.nvariant ? &plan->verdict.variant[i] : NULL;
 }
 
+/* ---- ways of doing a step that nobody chose ---- */
+
+/* a laboratory may have replaced its value */
+static const fw_quantity *own(const fw_process_flow *flow, const fw_quantity *q) {
+    return q ? fw_process_flow_quantity(flow, q->id) : NULL;
+}
+
+fw_status fw_plan_judge_alternatives(fw_plan *plan, const fw_plan_flow *pf) {
+    const fw_verdict_variant_verdict *v = verdict_of(plan, pf);
+    for (int i = 0; v && v->variant && pf->flow && i < pf->flow->nalternative; i++) {
+        fw_process_alternative *a = &pf->flow->alternative[i];
+        fw_mechanism_drying drying;
+        fw_process_drying of = a->drying;
+        const char *words;
+        int number;
+        a->unfit = NULL;
+        if (a->chosen || of.how != FW_DRIED_PULLED || strcmp(of.step->id, a->step) != 0) continue;
+        of.tension = own(pf->flow, of.tension), of.angle = own(pf->flow, of.angle);
+        FW_TRY(fw_plan_drying_of(plan, pf, &of, &drying));
+        const fw_verdict_decision bears = fw_verdict_drying_bears(v, &drying, &number);
+        if (bears == FW_ACCEPT) continue;
+        FW_TRY(fw_verdict_drying_words(plan->arena, v, &words));
+        FW_NEED(a->unfit =
+                    fw_arena_printf(plan->arena, "%s (with it the verdict is %s, FW-D%d)", words,
+                                    bears == FW_REJECT ? "reject" : "inconclusive", number));
+    }
+    return FW_OK;
+}
+
+/* ---- nets and what equipment bears ---- */
+
+/* drives that ask for more than a step bears that is to test them (FW-D594) */
+static fw_status judge_bearing(fw_plan *plan, fw_process_flow *flow, const fw_process_step *s,
+                               const fw_wiring *w) {
+    const char *worst = NULL;
+    double most = 0.0;
+    int beyond = 0;
+    for (int i = 0; s->bears && !s->bears->unknown && i < w->ndrive; i++) {
+        double asked = fmax(fabs(w->drive[i].low_V), fabs(w->drive[i].high_V));
+        if (!(asked > s->bears->value * (1.0 + 1e-9))) continue;
+        beyond++;
+        if (asked > most) most = asked, worst = w->drive[i].id;
+    }
+    if (!beyond) return FW_OK;
+    char volts[32], bears[32];
+    return fw_process_flow_add_reason(
+        plan->arena, flow, -1,
+        fw_arena_printf(plan->arena,
+                        "drive %s asks for %s V%s, and what step %s tests it with bears %s V (%s): "
+                        "beyond that nothing is tested before it is used; ask for less, or state "
+                        "what the laboratory's own equipment bears [FW-D594]",
+                        worst, fw_number_text(volts, sizeof volts, most, 4),
+                        beyond > 1 ? ", and is not the only one" : "", s->id,
+                        fw_number_text(bears, sizeof bears, s->bears->value, 4), s->bears->id));
+}
+
 fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
     const fw_layout *layout;
     int left_out;
@@ -225,8 +281,12 @@ fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
             "insulating carrier: leave pad=\"edge\" out for this flow"));
     for (int i = w->nrefusal - 1; i >= 0 && w->carrier.insulates; i--)
         FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, w->refusal[i]));
+    const int before = pf->flow->nreason;
     for (int i = 0; i < w->nopen; i++)
         FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, -1, w->open[i]));
+    for (int i = 0; i < pf->flow->nstep; i++)
+        FW_TRY(judge_bearing(plan, pf->flow, &pf->flow->step[i], w));
+    fw_process_flow_lead(pf->flow, before);
     return FW_OK;
 }
 

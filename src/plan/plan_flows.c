@@ -363,6 +363,7 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     FW_TRY(fw_plan_find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));
     FW_TRY(fw_process_flow_judge_drives(plan->arena, pf->flow,
                                         pf->use && pf->use->insulating_carrier, drive, n, diags));
+    FW_TRY(fw_plan_judge_alternatives(plan, pf));
     return fw_plan_wiring(plan, pf);
 }
 

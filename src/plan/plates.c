@@ -475,20 +475,25 @@ static fw_status put_adhesion(fw_arena *arena, const fw_process_flow *flow,
     return FW_OK;
 }
 
+fw_status fw_plan_drying_of(fw_plan *plan, const fw_plan_flow *pf, const fw_process_drying *of,
+                            fw_mechanism_drying *drying) {
+    *drying = (fw_mechanism_drying){.how = of->how};
+    drying->water_N_per_m = known(pf->flow, "water.tension");
+    drying->alcohol_N_per_m = known(pf->flow, "isopropanol.tension");
+    FW_TRY(put_adhesion(plan->arena, pf->flow, drying));
+    if (of->how == FW_DRIED_PULLED) put_meniscus(of, drying);
+    if (of->how == FW_DRIED_NEVER) drying->words = "it never gets wet once it is free";
+    if (!of->finish) return FW_OK;
+    const char *how = fw_recipe_finish_words(plan->arena, of->finish);
+    FW_NEED(how && (drying->words = fw_arena_printf(plan->arena, "step %s (%s)", of->step->id, how))
+                ? how
+                : NULL);
+    return FW_OK;
+}
+
 fw_status fw_plan_find_drying(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_drying *drying) {
     *drying = (fw_mechanism_drying){.how = FW_DRIED_UNKNOWN};
     if (!pf->flow) return FW_OK;
     const fw_process_drying of = fw_process_flow_drying(pf->flow);
-    drying->how = of.how;
-    drying->water_N_per_m = known(pf->flow, "water.tension");
-    drying->alcohol_N_per_m = known(pf->flow, "isopropanol.tension");
-    FW_TRY(put_adhesion(plan->arena, pf->flow, drying));
-    if (of.how == FW_DRIED_PULLED) put_meniscus(&of, drying);
-    if (of.how == FW_DRIED_NEVER) drying->words = "it never gets wet once it is free";
-    if (!of.finish) return FW_OK;
-    const char *how = fw_recipe_finish_words(plan->arena, of.finish);
-    FW_NEED(how && (drying->words = fw_arena_printf(plan->arena, "step %s (%s)", of.step->id, how))
-                ? how
-                : NULL);
-    return FW_OK;
+    return fw_plan_drying_of(plan, pf, &of, drying);
 }

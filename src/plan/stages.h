@@ -51,6 +51,11 @@ fw_status fw_plan_find_drives(fw_arena *arena, const fw_device *d, const char *f
 double fw_plan_free_perimeter(const fw_geometry_contour *contour);
 /* nets, contacts and gaps in a flow, once, and what they add to its judgement (plan_facts.c) */
 fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf);
+/* after the verdict: which alternatives of the flow it does not accept for this device, and why */
+fw_status fw_plan_judge_alternatives(fw_plan *plan, const fw_plan_flow *pf);
+/* what a way of drying means for a device: find_drying for the flow's own */
+fw_status fw_plan_drying_of(fw_plan *plan, const fw_plan_flow *pf, const fw_process_drying *of,
+                            fw_mechanism_drying *drying);
 /* FW-D507, where a laboratory states another thickness of the device than the description (plan_facts.c) */
 void fw_plan_check_thickness(fw_plan *plan, const fw_plan_flow *pf);
 /* times, bias and judgement of every flow, from the exact outlines */

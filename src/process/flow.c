@@ -273,6 +273,28 @@ static fw_status derive_losses(fw_arena *arena, const fw_process_flow *flow, fw_
 
 /* ---- edges ---- */
 
+/* between which widths, against the drawn one, the verdict judges the narrowest flexure: one of its ends at the ends of all
+   ranges of the corners, to 0.1 % outwards. Not known where the anisotropy has no range. */
+static void fill_judged(fw_process_flow *flow, const char *least, const char *most, double width_m,
+                        double low_m, double high_m) {
+    const double a = 2.0 * fmin(low_m, high_m) / width_m, b = 2.0 * fmax(low_m, high_m) / width_m;
+    const bool known = isfinite(low_m) && isfinite(high_m) && usable(width_m);
+    fill(flow, least, known ? floor(1e3 * a) / 1e3 : (double)NAN, 0.0);
+    fill(flow, most, known ? ceil(1e3 * b) / 1e3 : (double)NAN, 0.0);
+}
+
+static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *facts) {
+    const fw_process_fixed_point *p = &flow->edges;
+    const fw_process_edge none = {.top_m = (double)NAN, .bottom_m = (double)NAN};
+    const bool known = facts && p->solved && p->ncls > 0;
+    const fw_process_edge low = known ? p->cls[p->field].low : none,
+                          high = known ? p->cls[p->field].high : none;
+    const double width_m = facts ? facts->deepest_hinge_width_m : (double)NAN;
+    fill_judged(flow, "mask.top-least", "mask.top-most", width_m, low.top_m, high.top_m);
+    fill_judged(flow, "mask.bottom-least", "mask.bottom-most", width_m, low.bottom_m,
+                high.bottom_m);
+}
+
 /* edges, bias and gaps; the narrowest opening goes to the laws of the steps */
 static fw_status solve_edges(fw_arena *arena, fw_process_flow *flow,
                              const fw_process_mask_facts *facts) {
@@ -284,6 +306,7 @@ static fw_status solve_edges(fw_arena *arena, fw_process_flow *flow,
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0;
     double opening = p->ncls && p->solved ? p->cls[0].opening_m : (double)NAN;
     if (p->ncls) fill(flow, FW_MASK_OPENING, opening, u);
+    fill_widths(flow, facts);
     fw_process_release_fill(flow, facts);
     return FW_OK;
 }

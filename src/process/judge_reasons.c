@@ -45,6 +45,12 @@ fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int
     return FW_OK;
 }
 
+void fw_process_flow_lead(fw_process_flow *flow, int from) {
+    if (from >= flow->nreason || flow->manufacturable == 0) return;
+    fw_process_judge_to_front(flow, from);
+    if (!flow->fails) flow->fails = flow->reason[0];
+}
+
 static fw_process_answer worse(fw_process_answer a, fw_process_answer b) {
     if (a == FW_ANSWER_NO || b == FW_ANSWER_NO) return FW_ANSWER_NO;
     return a == FW_ANSWER_OPEN || b == FW_ANSWER_OPEN ? FW_ANSWER_OPEN : FW_ANSWER_FINE;

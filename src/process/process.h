@@ -247,6 +247,8 @@ typedef struct fw_process_step {
     double attended_s;                /* somebody must be there for this long; 0: unattended */
     double finish_s;                  /* of all <finish>es; computed */
     const fw_quantity *pulse, *pause; /* done in parts with pauses between; NULL: at a stretch */
+    const fw_quantity
+        *bears; /* V: it drives the device, with what bears so much; NULL: it does not */
     /* what the machine is taken for: the time of the law with the over-etch, the pauses, the finishes, and what handling
        takes beyond them (attended_s). Nominal, and at the stop time; 0 where the time is not computable */
     double booked_s, booked_stop_s;
@@ -302,9 +304,20 @@ typedef struct fw_process_tool_time {
     fw_place place;
 } fw_process_tool_time;
 
+typedef struct fw_process_drying {
+    fw_mechanism_dried how;
+    const fw_process_step *step;
+    const fw_process_finish *finish;
+    const fw_quantity *tension, *angle;
+} fw_process_drying;
+
 typedef struct fw_process_alternative { /* another way of doing a step */
     const char *id, *title, *step;
     bool chosen;
+    fw_process_drying
+        drying; /* of the flow with it; zeroed where it is chosen. Its quantities: by id */
+    const char *
+        unfit; /* why the verdict does not accept it for this device; NULL: it does, or was not asked */
     const char *instead_of; /* title of the step whose place it took; NULL: not chosen */
     fw_place place;
 } fw_process_alternative;
@@ -467,6 +480,9 @@ bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags);
    not guaranteed, said behind them. `why` is kept. */
 fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,
                                      const char *why);
+/* those from `from` on hold with all that is assumed: they are said before what is not known, the first of them in the
+   headline where nothing else fails there. Nothing where the flow cannot make the device. */
+void fw_process_flow_lead(fw_process_flow *flow, int from);
 /* what the step etches isotropically inside of a plate (*at, which may be NULL): the depth of its hollows; NULL: none does */
 const fw_quantity *fw_process_flow_hollow(const fw_process_flow *flow, const char *plate,
                                           const struct fw_process_step **at);
@@ -478,12 +494,6 @@ const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, 
 /* How devices that are free are dried: the finish that pulls hardest, or the last one that does not pull. FW_DRIED_NEVER:
    nothing wets them any more; UNKNOWN: the flow frees nothing. tension and angle of a meniscus, which may be NULL.
    Test: test_wafer_state.c */
-typedef struct fw_process_drying {
-    fw_mechanism_dried how;
-    const fw_process_step *step;
-    const fw_process_finish *finish;
-    const fw_quantity *tension, *angle;
-} fw_process_drying;
 fw_process_drying fw_process_flow_drying(const fw_process_flow *flow);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */

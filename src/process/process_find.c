@@ -219,6 +219,8 @@ static fw_status keep_step(fw_process_pack *pack, fw_process_step *s) {
 fw_status fw_process_pack_texts(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++)
         FW_TRY(keep_step(pack, &pack->flow->step[i]));
+    for (int i = 0; i < pack->flow->nequipment; i++)
+        FW_TRY(keep(pack, &pack->flow->equipment[i].text, pack->flow->equipment[i].place));
     for (int i = 0; i < pack->flow->nopen_point; i++)
         FW_TRY(keep(pack, &pack->flow->open_point[i], pack->flow->place));
     return fw_process_flow_fill_texts(pack->arena, pack->flow, pack->diags);

@@ -473,11 +473,12 @@ static fw_status tell(fw_process_pack *pack, const char *alternative, const fw_d
 }
 
 /* in the place of its step, chosen or not, and out again */
-static fw_status lint_alternative(fw_process_pack *pack, const fw_xml_record *e, const char *step) {
+static fw_status lint_alternative(fw_process_pack *pack, const fw_xml_record *e,
+                                  fw_process_alternative *a) {
     fw_diags diags = fw_diags_new(pack->arena);
     fw_process_pack other = {
         .arena = pack->arena, .diags = &diags, .base = pack->base, .root = pack->root};
-    fw_xml_record *before, *old = step_of(pack->root, step, &before),
+    fw_xml_record *before, *old = step_of(pack->root, a->step, &before),
                            *inner = (fw_xml_record *)inner_step(e);
     const fw_xml_record *next = inner->next;
     FW_NEED(other.flow = fw_arena_one(pack->arena, fw_process_flow));
@@ -489,16 +490,17 @@ static fw_status lint_alternative(fw_process_pack *pack, const fw_xml_record *e,
         ((fw_xml_record *)pack->root)->first_child = old;
     inner->next = next;
     FW_TRY(status);
-    return tell(pack, fw_process_pack_text(e, "id"), &diags);
+    if (diags.errors == 0) a->drying = fw_process_flow_drying(other.flow);
+    return tell(pack, a->id, &diags);
 }
 
 static fw_status lint_alternatives(fw_process_pack *pack) {
-    const fw_process_flow *f = pack->flow;
+    fw_process_flow *f = pack->flow;
     for (const fw_xml_record *e = pack->root->first_child; e; e = e->next)
         for (int i = 0; fw_xml_is(e, "alternative") && i < f->nalternative; i++)
             if (!f->alternative[i].chosen &&
                 strcmp(f->alternative[i].id, fw_process_pack_text(e, "id")) == 0)
-                FW_TRY(lint_alternative(pack, e, f->alternative[i].step));
+                FW_TRY(lint_alternative(pack, e, &f->alternative[i]));
     return FW_OK;
 }
 

@@ -211,6 +211,10 @@ static const fw_xml_attribute_row step_rows[] = {
          "of each wafer, in a box of their own."},
     {"second-signature", WORD(yes_no), .fallback = "no", .sentence = "Two people sign."},
     {"attended", AMOUNT, .fallback = "0", .sentence = "How many minutes somebody must be there."},
+    {"bears", TO(QUANTITY),
+     .sentence =
+         "Of a step that puts the device's own voltages on its drives: the highest one that "
+         "what it is done with bears."},
 };
 static const fw_xml_attribute_row change_rows[] = {
     {"kind", WORD(changes), REQUIRED, .sentence = "What the step does to the wafer."},

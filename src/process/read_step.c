@@ -495,6 +495,17 @@ static void batch_fits(fw_process_pack *pack, const fw_xml_record *e, const fw_p
                       s->equipment->capacity);
 }
 
+/* what drives the device bears a voltage, and nothing else (FW-D547) */
+static const fw_quantity *bearing(fw_process_pack *pack, const fw_xml_record *e) {
+    const fw_quantity *q = fw_process_pack_quantity(pack, e, "bears");
+    const fw_quantity_dimension voltage = {.m = 2, .kg = 1, .s = -3, .A = -1};
+    if (q && !fw_quantity_dimension_equal(q->dimension, voltage))
+        fw_diag_error(pack->diags, 547, fw_process_pack_get(e, "bears")->place,
+                      "what a step bears is a voltage, and '%s' is in %s; correct its unit", q->id,
+                      q->unit);
+    return q;
+}
+
 static fw_status read_step(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_xml_attribute *equipment = fw_process_pack_get(e, "equipment");
     *s = (fw_process_step){.id = fw_process_pack_text(e, "id"),
@@ -511,6 +522,7 @@ static fw_status read_step(fw_process_pack *pack, const fw_xml_record *e, fw_pro
                            .second_signature =
                                strcmp(fw_process_pack_text(e, "second-signature"), "yes") == 0,
                            .attended_s = 60.0 * fw_process_pack_number(e, "attended", 0.0),
+                           .bears = bearing(pack, e),
                            .place = e->element->place};
     if (equipment) s->equipment = fw_process_pack_find(pack, equipment, FW_ID_EQUIPMENT);
     batch_fits(pack, e, s);

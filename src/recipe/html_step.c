@@ -140,18 +140,71 @@ static void alignment(const fw_process_flow *flow, const fw_process_step *s, fw_
     fw_text_add(out, " apart. Read: ______</p>\n");
 }
 
+static double asked_of(const fw_wiring_net *net) {
+    return fmax(fabs(net->low_V), fabs(net->high_V));
+}
+
+/* the least voltage at which a gap beside the net may break down; HUGE_VAL: none is known */
+static double breaks_at(const fw_wiring *w, int net) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < w->ngap; i++)
+        if ((w->gap[i].a == net || w->gap[i].b == net) && w->gap[i].volts > 0.0)
+            least = fmin(least, w->gap[i].breakdown_V[0]); /* fmin ignores what is not known */
+    return least;
+}
+
+/* "stator of cx: up to 200 V, which is all that the equipment bears; the device asks for 240 V" */
+static void tested_to(const fw_process_step *s, const fw_wiring *w, int net, fw_text *out) {
+    const double asked = asked_of(&w->net[net]), breaks = breaks_at(w, net),
+                 bears = s->bears->unknown ? HUGE_VAL : s->bears->value,
+                 most = fmin(asked, fmin(bears, breaks));
+    fw_text_escaped(out, w->net[net].name);
+    fw_text_add(out, " up to <b>");
+    fw_text_number(out, most < asked && most == breaks ? floor(most) : most, 4);
+    fw_text_add(out, " V</b>");
+    if (most == asked) return;
+    fw_text_add(out, most == bears ? ", all that the equipment bears"
+                                   : ", above which a gap may break down");
+    fw_text_add(out, " (the device asks for ");
+    fw_text_number(out, asked, 4);
+    fw_text_add(out, " V)");
+}
+
+/* a step that drives the device: how far, drive by drive */
+static void drives(const fw_process_step *s, const fw_wiring *w, fw_text *out) {
+    int n = 0;
+    if (!s->bears || !w || w->ndrive == 0) return;
+    fw_text_add(out, "<p class=\"note\"><b>Voltages:</b> ");
+    for (int i = 0; i < w->nnet; i++) {
+        if (!fw_wiring_is_driven(&w->net[i])) continue;
+        fw_text_add(out, n++ ? "; " : "");
+        tested_to(s, w, i, out);
+    }
+    fw_text_add(out, n ? ". " : "no scene drives anything. ");
+    if (s->bears->unknown)
+        fw_text_add(out, "What the equipment bears is not known: ______ V (");
+    else {
+        fw_text_add(out, "The equipment bears ");
+        fw_text_number(out, s->bears->value, 4);
+        fw_text_printf(out, " V (%s, ", fw_quantity_value_status_text(s->bears->status));
+    }
+    fw_text_escaped(out, s->bears->id);
+    fw_text_add(out, ").</p>\n");
+}
+
 /* other ways of doing it, and the one that was chosen */
 static void ways(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < flow->nalternative; i++) {
         const fw_process_alternative *a = &flow->alternative[i];
         if (strcmp(a->step, s->id) != 0) continue;
-        fw_text_add(out, a->chosen ? "<p class=\"small\"><b>Chosen by the laboratory:</b> "
-                                   : "<p class=\"small\"><b>Another way:</b> ");
+        fw_text_add(out, a->chosen  ? "<p class=\"small\"><b>Chosen by the laboratory:</b> "
+                         : a->unfit ? "<p class=\"small\"><b>Not for this device:</b> <s>"
+                                    : "<p class=\"small\"><b>Another way:</b> ");
         fw_text_escaped(out, a->title);
         fw_text_add(out, " (");
         fw_text_escaped(out, a->id);
-        fw_text_add(out, a->chosen ? "), instead of: " : ")");
-        fw_text_escaped(out, a->instead_of ? a->instead_of : "");
+        fw_text_add(out, a->chosen ? "), instead of: " : a->unfit ? ")</s>: " : ")");
+        fw_text_escaped(out, a->chosen ? a->instead_of : a->unfit ? a->unfit : "");
         fw_text_add(out, ".</p>\n");
     }
 }
@@ -186,7 +239,17 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
     }
 }
 
-static void value_cell(const fw_quantity *q, fw_text *out) {
+/* What is computed, to the second digit of its uncertainty: nobody can set what stands behind that, and nothing bears it. Below
+   100 four digits are printed of everything, which are few enough. */
+static double as_known(const fw_quantity *q, bool derived) {
+    const double value = fw_quantity_in_unit(q), u = fw_recipe_row_uncertainty(q);
+    if (!derived || !(u > 0.0) || !(fabs(value) >= 100.0) || !(u < fabs(value))) return value;
+    const double place = fmax(pow(10.0, floor(log10(u)) - 1.0), 1e-3);
+    return place >= 1.0 ? floor(value / place + 0.5) * place
+                        : floor(value * (1.0 / place) + 0.5) / (1.0 / place);
+}
+
+static void value_cell(const fw_quantity *q, bool derived, fw_text *out) {
     if (q->unknown) {
         fw_text_add(out, "____________");
         if (strcmp(q->unit, "1") != 0) {
@@ -196,7 +259,7 @@ static void value_cell(const fw_quantity *q, fw_text *out) {
         return;
     }
     fw_text_add(out, "<b>");
-    fw_recipe_put_value(out, fw_quantity_in_unit(q));
+    fw_recipe_put_value(out, as_known(q, derived));
     fw_text_add(out, "</b>");
     double u = fw_recipe_row_uncertainty(q);
     if (u > 0.0) {
@@ -215,7 +278,7 @@ static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, 
     fw_text_add(out, "<tr><td>");
     fw_text_escaped(out, row->name);
     fw_text_add(out, "</td><td class=\"n\">");
-    value_cell(q, out);
+    value_cell(q, row->derived, out);
     fw_text_add(out, "</td><td>");
     fw_recipe_put_limits(out, row->low, row->high);
     fw_text_add(out, "</td><td>");
@@ -443,6 +506,7 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     fw_text_add(out, "\">\n");
     step_head(flow, s, changes, out);
     fw_recipe_html_hazard_line(flow, s, out);
+    drives(s, header->wiring, out);
     holds(s, out);
     exposures(flow, s, out);
     if (slicer && changes && section_notes(flow, index, out) != FW_OK) out->failed = 1;

@@ -132,6 +132,9 @@ struct fw_verdict_variant_verdict;
 /* what the drying step of a recipe is told of this device: which liquids it bears; NULL: nobody asked */
 fw_status fw_verdict_drying_words(fw_arena *arena, const struct fw_verdict_variant_verdict *verdict,
                                   const char **words);
+/* what the verdict would be for another way of drying, and the code of its reason; accept where nobody asked */
+fw_verdict_decision fw_verdict_drying_bears(const struct fw_verdict_variant_verdict *verdict,
+                                            const fw_mechanism_drying *drying, int *number);
 
 typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the bands of its hinges */
     const char *scene, *flow;

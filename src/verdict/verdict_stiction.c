@@ -317,17 +317,27 @@ static const char *remedy(fw_arena *arena, const fw_verdict_pull *p) {
         fw_number_text(by, sizeof by, pow(fmin(p->number[0], 1), 0.25), 2));
 }
 
+/* with the elastocapillary number of a way of drying: does what comes down stay there? */
+static fw_verdict_decision pulled_down(const fw_verdict_stiction *to, const double number[2],
+                                       const fw_mechanism_drying *drying) {
+    const bool unknown = !drying->adhesion_words;
+    if (!(number[0] < 1) || (!unknown && to->peel[0] > 1)) return FW_ACCEPT;
+    return number[1] < 1 && !unknown && to->peel[1] < 1 && !to->tethered ? FW_REJECT
+                                                                         : FW_INCONCLUSIVE;
+}
+
 static fw_status judge_below(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
                              fw_verdict_variant_verdict *v) {
     const fw_verdict_pull *p = &to->below;
     const bool unknown = !m->variant->drying.adhesion_words;
-    if (!(p->number[0] < 1) || (!unknown && to->peel[0] > 1)) return FW_OK;
-    bool sure = p->number[1] < 1 && !unknown && to->peel[1] < 1 && !to->tethered;
+    const fw_verdict_decision found = pulled_down(to, p->number, &m->variant->drying);
+    if (found == FW_ACCEPT) return FW_OK;
+    const bool sure = found == FW_REJECT;
     const char *number = range_words(arena, p->number), *peeled = range_words(arena, to->peel),
                *help = remedy(arena, p);
     char gap[32];
     FW_NEED(number && peeled && help ? number : NULL);
-    to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
+    to->decision = found;
     return say(m, "as it dries", 583, to->decision,
                fw_arena_printf(arena,
                                "the liquid of %s pulls %s down to the carrier across %s um "
@@ -463,4 +473,21 @@ fw_status fw_verdict_drying_words(fw_arena *arena, const fw_verdict_variant_verd
                     arena, "from wall to wall %s; how far the carrier is away is not known",
                     *words));
     return FW_OK;
+}
+
+fw_verdict_decision fw_verdict_drying_bears(const fw_verdict_variant_verdict *v,
+                                            const fw_mechanism_drying *drying, int *number) {
+    const fw_verdict_stiction *s = v->stiction;
+    *number = 0;
+    if (!s || drying->how != FW_DRIED_PULLED) return FW_ACCEPT;
+    *number = 585;
+    if (s->why || !v->variant->below.known) return FW_INCONCLUSIVE;
+    fw_verdict_pull below = s->below, beside = s->beside;
+    put_number(drying, &below);
+    put_number(drying, &beside);
+    *number = 583;
+    const fw_verdict_decision down = pulled_down(s, below.number, drying);
+    if (down != FW_ACCEPT || !(beside.number[0] < 1)) return down;
+    *number = 584;
+    return FW_INCONCLUSIVE;
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every scene of tests/data/effects runs in simulate and statics, with the effects that it is about."""
 import json
+import math
 import pathlib
 import re
 import tempfile
@@ -111,6 +112,77 @@ class Effects(unittest.TestCase):
             device.write_text(text.replace('x="0.43 mm" y="0.44 mm"', f'x="{x}" y="{y}"'))
             done = run("check", device, "--corners", "none", "--advice", "none")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_drives_are_tested_up_to_what_the_equipment_bears(self):
+        """the step on the probe station says how far, drive by drive; where the device asks for more the headline says so"""
+        device = ROOT / "docs/gallery/comb-stage/device.xml"
+        asked = float(re.search(r'name="volts" value="([0-9.]+) V"', device.read_text()).group(1))
+        with tempfile.TemporaryDirectory() as here:
+            lab = pathlib.Path(here) / "lab.xml"
+            for bears in (None, asked, 0.5 * asked):
+                options = ["--corners", "none", "--advice", "none"]
+                if bears is not None:
+                    lab.write_text('<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="lab" flow="silicon-on-glass">'
+                                   '<source id="own" kind="measured" date="2026-01-01">data sheet</source><q id="prober.bears" '
+                                   f'value="{bears}" u="0" unit="V" status="stated" src="own"/></process>')
+                    options += ["--lab", lab]
+                out = pathlib.Path(here) / f"out{bears}"
+                done = run("plan", device, "-o", out, *options)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                sheet = (out / "recipes/silicon-on-glass.html").read_text()
+                step = re.search(r'<section class="step" id="G51">.*?</section>', sheet, re.S).group(0)
+                said = re.findall(r"stator of comb drive (\w+) up to <b>([0-9.]+) V</b>(, all that the equipment bears)?", step)
+                little = bears is not None and bears < asked
+                self.assertEqual([(d, float(v), bool(all_)) for d, v, all_ in said],
+                                 [(d, bears if little else asked, little) for d in ("upper", "lower")])
+                self.assertIn(f"insulation to {200 if bears is None else bears:g} V", step)
+                self.assertIn("voltage on probes and chip", step)
+                self.assertNotIn("bonder", step)
+                headline = [line for line in done.stdout.splitlines() if line.startswith("not guaranteed: ")]
+                self.assertEqual(["FW-D594" in line for line in headline], [little], done.stdout)
+                self.assertEqual("FW-D594" in sheet, little)
+
+    def test_widths_are_accepted_where_the_verdict_judged_them(self):
+        """top and bottom of the narrowest flexure, 6 um, of 50 um silicon: printed edge 0.15 um and that of the aluminium 0.22 um
+        either way, and what an anisotropy takes at the top, (1 - A) 50 um in the nominal time at every edge"""
+        device = ROOT / "docs/gallery/comb-stage/device.xml"
+        lab = ('<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="lab" flow="silicon-on-glass">'
+               '<source id="own" kind="measured" date="2026-01-01">ladder</source><q id="made.A" value="0.985" lo="0.97" hi="1" '
+               'unit="1" status="assumed" src="own"/></process>')
+        with tempfile.TemporaryDirectory() as here:
+            found = []
+            for name, text, taken in (("pack", None, 0.5), ("lab", lab, 1.5)):
+                options, out = ["--corners", "none", "--advice", "none", "--force"], pathlib.Path(here) / name
+                if text:
+                    (pathlib.Path(here) / "lab.xml").write_text(text)
+                    options += ["--lab", pathlib.Path(here) / "lab.xml"]
+                done = run("plan", device, "-o", out, *options)
+                self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+                step = re.search(r'<section class="step" id="G49">.*?</section>', (out / "recipes/silicon-on-glass.html").read_text(),
+                                 re.S).group(0)
+                limit = {end: (float(low), float(high)) for end, low, high in re.findall(
+                    r"flexure width at the (top|bottom) against the drawn one.*?([-0-9.]+) to ([-0-9.]+) %", step)}
+                edge = 200 * 0.37 / 6
+                for end in ("top", "bottom"):
+                    self.assertAlmostEqual(limit[end][1], edge, delta=0.2)
+                self.assertLessEqual(limit["top"][0], -edge - 200 * taken / 6)
+                self.assertGreater(limit["top"][0], -edge - 1.3 * 200 * taken / 6)  # with the over-etch
+                self.assertTrue(limit["top"][0] < limit["bottom"][0] <= -edge + 0.2)
+                found.append(limit)
+            self.assertLess(found[1]["top"][0], found[0]["top"][0] - 30)
+
+    def test_computed_settings_have_no_digits_that_their_uncertainty_does_not_bear(self):
+        """sheets of the gallery, which are what the program makes: 1970 +- 400 rpm, not 1968.36"""
+        seen = 0
+        for sheet in (ROOT / "recipes/gallery").glob("*/*.html"):
+            for table in re.findall(r"Computed for this step</th></tr>(.*?)</tbody>", sheet.read_text(), re.S):
+                for value, u in re.findall(r'<b>([0-9.]+)</b> ± ([0-9.]+) ', table):
+                    if not 100 <= float(value) < 1e5 or float(u) >= float(value):
+                        continue
+                    place = 10.0 ** (math.floor(math.log10(float(u))) - 1)
+                    self.assertAlmostEqual(float(value) / place, round(float(value) / place), 6, f"{sheet.name}: {value} +- {u}")
+                    seen += 1
+        self.assertGreater(seen, 20)
 
     def test_what_moves_a_device_is_in_its_mask(self):
         said, whole = self.drawn("comb-stage")

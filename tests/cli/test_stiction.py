@@ -82,6 +82,19 @@ class Stiction(unittest.TestCase):
         self.assertEqual(whole["verdict"], "accept")
         self.assertIn("isopropyl alcohol, and not from water", stiff["needs"])
 
+    def test_the_sheet_says_which_way_is_not_for_this_device(self):
+        """whatever dries a device by another way is struck out on its sheet where the verdict with it says no, and only there"""
+        for lab, more in (("", {}), (SLIPPERY, {}), ("", {"thickness": "80 um", "width": "20 um"})):
+            whole, _ = self.check(lab=lab, **more)
+            self.lab.write_text(LAB.replace('<choose alternative="alcohol-dry"/>', "") % lab)
+            out = pathlib.Path(self.folder.name) / f"out{lab[:9]}{len(more)}"
+            done = run("plan", self.file, *(("--lab", self.lab) if lab else ()), "-o", out, *QUICK)
+            self.assertIn(done.returncode, (0, 4), done.stderr)
+            sheet = (out / "recipes/silicon-on-glass.html").read_text()
+            struck = re.findall(r"Not for this device:</b> <s>[^<]*\(alcohol-dry\)</s>: it needs drying without a meniscus.*FW-D583", sheet)
+            offered = re.findall(r"Another way:</b> [^<]*\(alcohol-dry\)", sheet)
+            self.assertEqual((len(struck), len(offered)), (1, 0) if whole["verdict"] == "inconclusive" else (0, 1), whole["verdict"])
+
     def test_plate_on_a_leaf(self):
         """anew: the leaf's compliance as docs/theory/effects/out-of-plane.md has it, the plate in cells, 2 gamma/gap with
         Mastrangelo's wetted sides everywhere, until no equilibrium is left"""

@@ -58,7 +58,7 @@ FINE = {
     "rinse 2 of G46": "the first one is left",
     **{f"h.sharp of {name}": SHARP for name in "S20 S21 D13 B21 B24 G19 G44 G45 G50".split()},
     "h.hydrogen of C05": GAS, "h.hydrogen of C22": GAS,
-    "h.voltage of G51": "the prober brings what is probed with, which the pack says",
+    "h.drive of G51": "the prober brings no voltage by itself: on it other steps push and look, and only the pack says what drives",
     "G50 G49": "the device may be looked at without its tethers as well",
 }
 

@@ -140,6 +140,7 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "name=\"power\" q=\"rie.power\" tol-lo=\"245\" tol-hi=\"255\"", "name=\"power\" q=\"rie.p\" tol-lo=\"\" tol-hi=\"\"", 548,
          "sets a 'power' to 'rie.p', which is in mTorr"},
         {SILICON, "id=\"litho.gap\" value=\"5\" u=\"5\" unit=\"um\"", "id=\"litho.gap\" value=\"5\" u=\"5\" unit=\"kg2\"", 547, "'litho.gap' is in kg2"},
+        {"silicon-on-glass", "bears=\"prober.bears\"", "bears=\"test.t\"", 547, "what a step bears is a voltage, and 'test.t' is in min"},
         {"soi-deep-rie", "value=\"500\" urel=\"0.3\" unit=\"V/um\"", "value=\"500\" urel=\"0.3\" unit=\"kg2\"", 547,
          "is a voltage per length"},
         /* no time for it */
