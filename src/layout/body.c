@@ -570,7 +570,10 @@ fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int only,
                       (int)MOST_JOINTS);
         return FW_GEOMETRY;
     }
-    FW_TRY(draw_soundly(d, &w));
+    if (body < 0) d->base = w.joint[0];
+    const fw_status status = draw_soundly(d, &w);
+    d->base = FW_NONE;
+    FW_TRY(status);
     if (body < 0) return FW_OK;
     return fw_layout_body_measure(d, body, NULL, 0);
 }

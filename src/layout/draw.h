@@ -215,6 +215,7 @@ typedef struct fw_layout_drawing {
     int fault_capacity;
     fw_layout_attachment *attachment; /* (nattachment) what meets the frame */
     int nattachment;
+    int base;      /* while a base is drawn: one of its ground hinges; else FW_NONE */
     int too_wide;  /* the body whose bar was refused last (FW-D137); FW_NONE */
     double fits_m; /* what it could be wide with the necks that it had then */
 } fw_layout_drawing;

@@ -349,6 +349,7 @@ static fw_status draw_narrower(fw_arena *arena, const fw_device *device, int bod
                            .diags = &unsaid,
                            .own = &unsaid,
                            .layout = l,
+                           .base = FW_NONE,
                            .too_wide = FW_NONE};
     const fw_status status = draw(&d);
     *fits_m = d.too_wide == body ? d.fits_m : width_m;
@@ -399,6 +400,7 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
                                .diags = diags,
                                .own = diags,
                                .layout = l,
+                               .base = FW_NONE,
                                .too_wide = FW_NONE};
         for (size_t i = 0; i < diags->count; i++)
             d.said = d.said || comments_drawing(diags->item[i].number);
