@@ -379,6 +379,19 @@ class Probe(unittest.TestCase):
         missed = [r for r in verdict["reasons"] if r["code"] == "FW-D238"]
         self.assertTrue(any("frequency-1" in r["text"] for r in missed), verdict["reasons"])
 
+    def test_a_reason_as_made_has_the_reach_over_all_corners(self):
+        """one number, its band where it is worst, and the end that tables and JSON have of all corners"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8")
+        text = text.replace('measure="parasitic" max="2 um"', 'measure="parasitic" max="1.66 um"')
+        verdict = self.answer(text, "check", "--advice", "none", statuses=(4,))
+        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        self.assertGreater(made["all_corners_band"][1], made["band"][1])
+        said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
+        worst, reach = re.search(r"stroke \(parasitic\) is [\d.]+ um \([\d.]+ um to ([\d.]+) um; no corner of the flow is "
+                                 r"above ([\d.]+) um\)", said).groups()
+        self.near(float(worst) * 1e-6, made["band"][1], 1e-3)
+        self.near(float(reach) * 1e-6, made["all_corners_band"][1], 1e-3)
+
     def test_links_that_bend_are_told_and_in_the_bands(self):
         """the same leaves between links of 120 and of 26 um: the second give, which every band and a warning say"""
         text = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
