@@ -212,6 +212,14 @@ class Bases(unittest.TestCase):
             self.assertIn(f'id="{hinge}" ', row)
             self.assertIn(f'a-x="{x} um" a-y="{y} um"', row)
         self.assertNotRegex(said, r"guide\.xml: error")
+        self.assertNotIn("FW-D206", said)
+        # with the shuttle elsewhere the drawing fails for that, and it is said of each hinge, where it stands
+        with tempfile.TemporaryDirectory() as here:
+            path = pathlib.Path(here) / "guide.xml"
+            path.write_text(text.replace('id="shuttle" x="0 mm"', 'id="shuttle" x="9 mm"'))
+            said = run("check", path, "--corners", "none", "--advice", "none").stderr
+        apart = re.findall(r"guide\.xml:(\d+):1: error: joint (\w) does not close .* put it ([\d.]+) um apart.*FW-D206", said)
+        self.assertEqual(apart, [(str(n), i, "9000") for n, i in enumerate("ABCD", 4)], said)
 
 
 def boxes(plates):
