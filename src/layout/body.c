@@ -456,6 +456,45 @@ static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, in
 
 static const double SOUND_ENOUGH = 1e-3; /* of a limit: 10 nm, below what a mask writer places */
 
+fw_status fw_layout_rotor_flaw(fw_layout_drawing *d, int body, const fw_layout_comb_plan *p,
+                               const fw_geometry_contour *raw, const char **why) {
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    fw_geometry_contour plain;
+    fw_geometry_vec2 at;
+    double radius, tip = fw_layout_comb_tip(p->width_m);
+    char is[32], least[32], x[32], y[32], wide[32];
+    *why = NULL;
+    d->diags = &unsaid;
+    fw_status status = fw_layout_body_round(d, body, raw, &plain, &radius, &at);
+    d->diags = said;
+    if (status == FW_GEOMETRY) return FW_OK;
+    FW_TRY(status);
+    flaw f = worst_of(&plain);
+    bool comb = p->comb->kind == FW_ELECTRODES_COMB;
+    if (share(&f) >= 1.0) return FW_OK;
+    fw_layout_um(is, f.value_m), fw_layout_um(least, f.limit_m);
+    if (comb && *f.what == 'r' && fabs(f.value_m - tip) < 1e-9)
+        *why =
+            fw_arena_printf(d->arena,
+                            "its fingers are %s um wide, so that their tips are rounded with %s um "
+                            "only, and every mask shows %s um; make them %s um wide or wider",
+                            fw_layout_um(wide, p->width_m), is, least,
+                            fw_layout_um(x, p->width_m * f.limit_m / f.value_m));
+    else if (comb && *f.what == 'w' && fabs(f.value_m - p->width_m) < 1e-9)
+        *why = fw_arena_printf(d->arena,
+                               "its fingers are %s um wide, and the least width that every mask "
+                               "shows is %s um; make them wider",
+                               is, least);
+    else
+        *why = fw_arena_printf(d->arena,
+                               "with it the outline of its body would have a %s of only %s um at "
+                               "(%s, %s) um, and every mask shows %s um",
+                               f.what, is, fw_layout_um(x, f.where.x), fw_layout_um(y, f.where.y),
+                               least);
+    FW_NEED(*why);
+    return FW_OK;
+}
+
 /* no head, and no place of the eyelets, that was tried makes the outline sound */
 static fw_status say_flaw(fw_layout_drawing *d, const work *w) {
     flaw f = worst_of(&d->plain[w->slot]);
@@ -531,7 +570,10 @@ fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int only,
                       (int)MOST_JOINTS);
         return FW_GEOMETRY;
     }
-    FW_TRY(draw_soundly(d, &w));
+    if (body < 0) d->base = w.joint[0];
+    const fw_status status = draw_soundly(d, &w);
+    d->base = FW_NONE;
+    FW_TRY(status);
     if (body < 0) return FW_OK;
     return fw_layout_body_measure(d, body, NULL, 0);
 }

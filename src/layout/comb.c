@@ -19,6 +19,10 @@ static const double LONGER_M = 10e-6; /* a stator's plate at either end, beyond 
 static const double BASE_M = 40e-6;   /* the base may be so much wider than its rule */
 enum { FINGERS_MOST = 100, LETTERS = 6 };
 
+double fw_layout_comb_tip(double width_m) {
+    return fmin(TIP_M, 0.4 * width_m);
+}
+
 /* Fingers along +x from a bar behind them, in the frame of the drive:
      finger i   from x = overlap/2 - length to overlap/2,
                 about y = (i - (n - 1)/2) 2 (w + g), w wide
@@ -27,7 +31,7 @@ enum { FINGERS_MOST = 100, LETTERS = 6 };
    test_layout_actuators.c */
 static fw_status draw_fingers(fw_arena *arena, const fw_layout_local *local,
                               const fw_layout_comb_plan *p, int n, fw_geometry_contour *out) {
-    double w = p->width_m, pitch = 2.0 * (w + p->comb->gap_m), r = fmin(TIP_M, 0.4 * w);
+    double w = p->width_m, pitch = 2.0 * (w + p->comb->gap_m), r = fw_layout_comb_tip(w);
     double tip = 0.5 * p->comb->overlap_m, root = tip - p->length_m;
     double half = 0.5 * (n - 1) * pitch + 0.5 * w;
     fw_layout_sketch k = fw_layout_sketch_start(arena, local, fw_v(root - BACK_M, -half));

@@ -58,6 +58,13 @@ const char *fw_layout_um(char buffer[32], double metres) {
 }
 
 const char *fw_layout_body_label(fw_layout_drawing *d, int body) {
+    if (body == FW_GROUND && d->base != FW_NONE) {
+        const fw_geometry_vec2 at = fw_layout_joint_point(d->device, d->base);
+        char x[32], y[32];
+        return fw_arena_printf(d->arena, "base of hinge %s at (%s, %s) um",
+                               d->device->revolute[d->base].id, fw_layout_um(x, at.x),
+                               fw_layout_um(y, at.y));
+    }
     if (body == FW_GROUND) return "base";
     const fw_device_body *b = &d->device->body[body];
     return fw_arena_printf(d->arena, "%s %s", b->platform ? "platform" : "link", b->id);
@@ -65,6 +72,7 @@ const char *fw_layout_body_label(fw_layout_drawing *d, int body) {
 
 fw_place fw_layout_body_place(const fw_layout_drawing *d, int body) {
     if (body >= 0) return d->device->body[body].place;
+    if (d->base != FW_NONE) return d->device->revolute[d->base].place;
     return (fw_place){d->device->file, 0, 0};
 }
 

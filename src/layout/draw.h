@@ -215,6 +215,7 @@ typedef struct fw_layout_drawing {
     int fault_capacity;
     fw_layout_attachment *attachment; /* (nattachment) what meets the frame */
     int nattachment;
+    int base;      /* while a base is drawn: one of its ground hinges; else FW_NONE */
     int too_wide;  /* the body whose bar was refused last (FW-D137); FW_NONE */
     double fits_m; /* what it could be wide with the necks that it had then */
 } fw_layout_drawing;
@@ -269,6 +270,10 @@ fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry
                                fw_geometry_contour *out, double *radius_m, fw_geometry_vec2 *where);
 /* how far an outline is from what a mask can show; >= 1 is good, else *where */
 double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *where);
+/* What is wrong with the outline that a body and a comb's rotor would have together, as a reason; of a flaw of its own
+   fingers with the width that has none. *why NULL: nothing that a mask could not show. */
+fw_status fw_layout_rotor_flaw(fw_layout_drawing *d, int body, const fw_layout_comb_plan *p,
+                               const fw_geometry_contour *raw, const char **why);
 /* shift_m: of the places along their edges */
 fw_status fw_layout_platform_lugs(fw_layout_drawing *d, int body, double shift_m,
                                   fw_geometry_contour *lug, int *nlug);
@@ -317,6 +322,8 @@ fw_status fw_layout_actuators_letters(fw_layout_drawing *d);
 fw_status fw_layout_tracks_route(fw_layout_drawing *d);
 fw_status fw_layout_tracks_cut(fw_layout_drawing *d, const fw_geometry_contour *half,
                                fw_geometry_region *parts);
+/* radius of the tips of fingers */
+double fw_layout_comb_tip(double width_m);
 /* rotor's and stator's electrodes alone: world outlines. docs/theory/layout.md, section 5 */
 fw_status fw_layout_comb_rotor(fw_arena *arena, const fw_layout_comb_plan *plan,
                                fw_geometry_contour *rotor);

@@ -40,11 +40,10 @@ static void plan_comb(fw_layout_drawing *d, const fw_device_comb *c) {
         }
     double length = c->length_m;
     if (isnan(length)) length = 2.0 * c->overlap_m;
-    d->comb[d->ncomb++] =
-        (fw_layout_comb_plan){.comb = c,
-                              .at_edge = c->pad_at_edge,
-                              .width_m = fw_device_comb_width_m(c),
-                              .length_m = length};
+    d->comb[d->ncomb++] = (fw_layout_comb_plan){.comb = c,
+                                                .at_edge = c->pad_at_edge,
+                                                .width_m = fw_device_comb_width_m(c),
+                                                .length_m = length};
 }
 
 fw_status fw_layout_actuators_plan(fw_layout_drawing *d) {
@@ -293,8 +292,12 @@ static fw_status dress(fw_layout_drawing *d, int body) {
         if (p->off || p->comb->body_b != body) continue;
         FW_TRY(add_rotor(d, p, &with, &why));
         if (!why) FW_TRY(rounds(d, body, body, &with, soundness_now(d, body), &good));
-        if (!why && !good)
-            why = "between its rotor and its body there would be steps or slits that no mask shows";
+        if (!why && !good) {
+            FW_TRY(fw_layout_rotor_flaw(d, body, p, &with, &why));
+            if (!why)
+                why = "between its rotor and its body there would be steps or slits that no mask "
+                      "shows";
+        }
         if (why)
             FW_TRY(comb_off(d, p, why));
         else

@@ -279,9 +279,10 @@ static void set_unknown(void *context, const double *unknown) {
 /* ---- the estimate ---- */
 
 typedef struct bounds {
-    fw_chance_estimate estimate; /* of the one with most failures */
-    double low, high;            /* interval of the probability of failing */
-    double probability;          /* by its middle reading */
+    fw_chance_estimate most,
+        least; /* at the values of what is only assumed with most, least failures */
+    double *most_at, *least_at; /* those values */
+    double low, high;           /* interval of the probability of failing, over both */
 } bounds;
 
 static fw_status estimate(yielding *y, bounds *out) {
@@ -297,9 +298,10 @@ static fw_status estimate(yielding *y, bounds *out) {
     fw_status status;
     if (joint->unknowns == 0) {
         y->unknown = NULL;
-        status = fw_chance_estimate_run(y->chance, &of, &o, &out->estimate, &why);
-        out->low = out->estimate.low, out->high = out->estimate.high;
-        out->probability = 0.5 * (out->estimate.probability_low + out->estimate.probability_high);
+        *out = (bounds){.most_at = NULL};
+        status = fw_chance_estimate_run(y->chance, &of, &o, &out->most, &why);
+        out->least = out->most;
+        out->low = out->most.low, out->high = out->most.high;
     } else {
         double *low = fw_arena_array(study->arena, double, joint->unknowns),
                *high = fw_arena_array(study->arena, double, joint->unknowns);
@@ -317,9 +319,8 @@ static fw_status estimate(yielding *y, bounds *out) {
         status = fw_chance_range_run(y->chance, &of, &unknowns, &o, &range, &why);
         y->unknown = NULL;
         if (status == FW_OK) {
-            out->estimate = range.most;
-            out->low = range.low, out->high = range.high;
-            out->probability = 0.5 * (range.least.probability_low + range.most.probability_high);
+            *out = (bounds){range.most,     range.least, range.most_at,
+                            range.least_at, range.low,   range.high};
         }
     }
     if (status == FW_INPUT)
@@ -355,13 +356,13 @@ static fw_status describe(yielding *y, const bounds *b, fw_study_flow_yield *out
         unit[k] = place ? "m" : s->group[k].unit;
     }
     out->ninput = (int)n, out->input = name, out->unit = unit;
-    if (b->estimate.points == 0) return FW_OK;
-    const fw_chance_design_point *p = &b->estimate.point[0];
+    if (b->most.points == 0) return FW_OK;
+    const fw_chance_design_point *p = &b->most.point[0];
     double *share = fw_arena_array(study->arena, double, n),
            *at = fw_arena_array(study->arena, double, n);
     FW_NEED(share && at ? share : NULL);
     const fw_chance_place *place = place_of(y, p->u);
-    fw_study_scatter_point(s, p->u, NULL, place, drawn, point);
+    fw_study_scatter_point(s, p->u, b->most_at, place, drawn, point);
     shares_of(y, p, share);
     for (int k = 0; k < s->groups; k++)
         at[k] = s->group[k].count == 1 ? point[s->group[k].at] : (double)NAN;
@@ -381,6 +382,45 @@ static fw_status judge_nominal(const yielding *y, const fw_verdict_variant_verdi
                               made);
 }
 
+/* the yield where so many fail; what it points to outlives the estimators */
+static fw_status end_of(const yielding *y, const fw_chance_estimate *e, const double *at,
+                        fw_study_yield_end *out) {
+    fw_arena *arena = y->study->arena;
+    size_t n = y->scatter.joint.unknowns;
+    fw_chance_step *step = fw_arena_array(arena, fw_chance_step, FW_CHANCE_STEPS);
+    double *values = fw_arena_array(arena, double, n + 1);
+    FW_NEED(step && values ? step : NULL);
+    memcpy(step, e->step, e->steps * sizeof *step);
+    if (n > 0) memcpy(values, at, n * sizeof *values);
+    *out = (fw_study_yield_end){.value = 1 - 0.5 * (e->probability_low + e->probability_high),
+                                .low = 1 - e->high,
+                                .high = 1 - e->low,
+                                .at = values,
+                                .step = step,
+                                .steps = e->steps};
+    return FW_OK;
+}
+
+static fw_status both_ends(const yielding *y, const bounds *b, fw_study_flow_yield *out) {
+    const fw_study_scatter *s = &y->scatter;
+    size_t n = s->joint.unknowns;
+    const char **name = fw_arena_array(y->study->arena, const char *, n + 1),
+               **unit = fw_arena_array(y->study->arena, const char *, n + 1);
+    FW_NEED(name && unit ? name : NULL);
+    for (size_t k = 0; k < n; k++)
+        for (int i = 0; i < s->groups; i++) {
+            int v = (int)s->joint.unknown[k] - s->group[i].first;
+            if (v >= 0 && v < s->group[i].variables)
+                name[k] = s->group[i].what, unit[k] = s->group[i].unit;
+        }
+    out->nassumed = (int)n, out->assumed = name, out->assumed_unit = unit;
+    out->each = (long)b->most.evaluations;
+    FW_TRY(end_of(y, &b->most, b->most_at, &out->least));
+    FW_TRY(end_of(y, &b->least, b->least_at, &out->most));
+    out->value = n > 0 ? (double)NAN : out->least.value;
+    return FW_OK;
+}
+
 static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
                               fw_study_flow_yield *out) {
     fw_arena *arena = y->study->arena;
@@ -390,16 +430,11 @@ static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
     FW_TRY(estimate(y, &plain));
     FW_TRY(describe(y, &plain, out));
     out->sampled_low = 1 - plain.high, out->sampled_high = 1 - plain.low;
-    out->value = 1 - plain.probability;
-    out->method = fw_chance_method_text(plain.estimate.method);
-    FW_NEED(out->reason = fw_arena_strdup(arena, plain.estimate.reason));
-    if (plain.estimate.caution)
-        FW_NEED(out->caution = fw_arena_strdup(arena, plain.estimate.caution));
-    out->unevaluated = (long)plain.estimate.unevaluated;
-    fw_chance_step *step = fw_arena_array(arena, fw_chance_step, FW_CHANCE_STEPS);
-    FW_NEED(out->step = step);
-    memcpy(step, plain.estimate.step, plain.estimate.steps * sizeof *step);
-    out->steps = plain.estimate.steps;
+    FW_TRY(both_ends(y, &plain, out));
+    out->method = fw_chance_method_text(plain.most.method);
+    FW_NEED(out->reason = fw_arena_strdup(arena, plain.most.reason));
+    if (plain.most.caution) FW_NEED(out->caution = fw_arena_strdup(arena, plain.most.caution));
+    out->unevaluated = (long)plain.most.unevaluated;
     const double up = nominal.up, down = isfinite(nominal.down) ? nominal.down : 0;
     y->shift = up;
     FW_TRY(estimate(y, &worst));

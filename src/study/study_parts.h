@@ -299,10 +299,22 @@ typedef struct fw_study_found {  /* size: a design */
     long i; /* its sample */
 } fw_study_found;
 
+typedef struct fw_study_yield_end { /* the yield at values of what is only assumed */
+    double value, low, high;        /* by the utilisations themselves; interval of sampling alone */
+    const double *at;               /* SI, of fw_study_flow_yield.assumed */
+    const fw_chance_step *step;     /* (steps) of the probability of failing */
+    size_t steps;
+} fw_study_yield_end;
+
 typedef struct fw_study_flow_yield { /* yield of one flow */
     const char *flow;                /* may be NULL */
     double low, high;                /* interval of the yield, the model's own band in it */
-    double value;                    /* by the utilisations themselves; the range's middle */
+    /* by the utilisations themselves; NaN where something is only assumed: then it is a range, from least to most */
+    double value;
+    fw_study_yield_end least, most;                   /* equal where nothing is only assumed */
+    int nassumed;                                     /* what is only assumed */
+    const char *const *assumed, *const *assumed_unit; /* (nassumed) */
+    long each; /* devices of one estimate; there is one at each corner of what is only assumed */
     double sampled_low,
         sampled_high; /* interval of sampling alone, by the utilisations themselves */
     const char *method, *reason, *caution; /* sentences; caution may be NULL */
@@ -314,9 +326,6 @@ typedef struct fw_study_flow_yield { /* yield of one flow */
     const double *at;         /* (ninput) SI: the nearest device that fails; NULL: none found */
     const char *const *unit;  /* (ninput) */
     double beta;              /* its distance in standard deviations; NaN */
-    const fw_chance_step
-        *step; /* (steps) of the probability of failing, by the utilisations themselves */
-    size_t steps;
     const fw_study_levels *levels; /* NULL: neither a level nor a trend is stated */
 } fw_study_flow_yield;
 

@@ -368,8 +368,12 @@ static fw_status histogram(fw_study_sheet *s, const points *p) {
             count[(int)fmin(BARS - 1, BARS * (p->used[i] - least) / (most - least))]++;
     for (int i = 0; i < BARS; i++)
         top = count[i] > top ? count[i] : top;
-    fw_text *out =
-        fw_study_sheet_add(s, "used", "How much of their limits the devices use that were judged");
+    const char *title = "How much of their limits the devices use that were judged";
+    for (int k = 0; k < s->study->result->nyield; k++)
+        if (s->study->result->yield[k].nassumed > 0)
+            title =
+                "How much of their limits devices use, over all corners of what is only assumed";
+    fw_text *out = fw_study_sheet_add(s, "used", title);
     if (!out) return FW_OK;
     fw_svg_axes a = {LEFT, RIGHT, TOP, BOTTOM, least, most, 0, 1.05 * top, 6, 5};
     fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);

@@ -58,6 +58,9 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
         fw_text_printf(out, "each device judged as %s\n",
                        a->kind == FW_STUDY_IS_yield ? "made"
                                                     : fw_device_study_judge_text(a->judge));
+    for (int k = 0; k < study->options.nset; k++)
+        fw_text_printf(out, "  --set \"%s=%s\"\n", study->options.set[k].path,
+                       study->options.set[k].value);
     for (int k = 0; k < study->ninput; k++)
         range_of(out, study, k);
     for (int r = 0; r < study->nresponse; r++) {
@@ -251,21 +254,59 @@ static void say_levels(fw_text *out, const fw_study_levels *l) {
                        l->not_judged);
 }
 
+static void between(fw_text *out, double low, double high) {
+    percent(out, low);
+    fw_text_add(out, " to ");
+    percent(out, high);
+}
+
+static void say_end(fw_text *out, const fw_study_flow_yield *y, const fw_study_yield_end *end) {
+    percent(out, end->value);
+    fw_text_add(out, " (");
+    between(out, end->low, end->high);
+    fw_text_add(out, " by sampling");
+    for (int k = 0; k < y->nassumed; k++) {
+        fw_quantity_unit unit = {.factor = 1};
+        const char *of = y->assumed_unit[k];
+        fw_quantity_unit_parse(of, strlen(of), &unit, NULL, NULL);
+        fw_text_printf(out, "%s %s ", k ? "," : ";", y->assumed[k]);
+        number(out, fw_quantity_unit_from_si(&unit, end->at[k]), of);
+    }
+}
+
+/* one number, or from the least to the most over what is only assumed: the two are never one population */
+static void say_share(fw_text *out, const fw_study_flow_yield *y) {
+    say_end(out, y, &y->least);
+    if (y->nassumed > 0) {
+        fw_text_add(out, ") to ");
+        say_end(out, y, &y->most);
+        fw_text_add(out, "), as is what is only assumed; ");
+    } else {
+        fw_text_add(out, "; ");
+    }
+    between(out, y->low, y->high);
+    fw_text_add(out, " with what the model may be off by");
+    fw_text_add(out, y->nassumed > 0 ? "\n" : ")\n");
+}
+
+/* of a number of devices that was asked for and is not the one that was judged */
+static void say_devices(fw_text *out, const fw_study *study, const fw_study_flow_yield *y) {
+    fw_text_printf(out, "  %ld devices by %s: %s\n", y->evaluations, y->method, y->reason);
+    if (study->asked->samples <= 0 || study->asked->samples == y->evaluations) return;
+    fw_text_printf(out, "  samples=\"%d\" is the most for one estimate, and one took %ld",
+                   study->asked->samples, y->each);
+    if (y->nassumed > 0)
+        fw_text_printf(out, "; there is one at each of %ld corners of what is only assumed",
+                       1L << y->nassumed);
+    fw_text_add(out, "\n");
+}
+
 static void say_yield(fw_text *out, const fw_study *study) {
     for (int i = 0; i < study->result->nyield; i++) {
         const fw_study_flow_yield *y = &study->result->yield[i];
         fw_text_printf(out, "%s: yield ", y->flow ? y->flow : study->device_name);
-        percent(out, y->value);
-        fw_text_add(out, " (");
-        percent(out, y->sampled_low);
-        fw_text_add(out, " to ");
-        percent(out, y->sampled_high);
-        fw_text_add(out, " by sampling; ");
-        percent(out, y->low);
-        fw_text_add(out, " to ");
-        percent(out, y->high);
-        fw_text_add(out, " with what the model may be off by)\n");
-        fw_text_printf(out, "  %ld devices by %s: %s\n", y->evaluations, y->method, y->reason);
+        say_share(out, y);
+        say_devices(out, study, y);
         if (y->caution) fw_text_printf(out, "  %s\n", y->caution);
         if (y->unevaluated > 0)
             fw_text_printf(out, "  %ld of them could not be judged: they count both ways\n",

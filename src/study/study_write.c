@@ -20,6 +20,18 @@ static void settings(fw_json *j, const fw_study *study, char (*text)[FW_STUDY_TE
     fw_json_end(j);
 }
 
+/* what was set on the command line, of every device: studies of one file differ by it */
+static void given(fw_json *j, const fw_study *study) {
+    fw_json_list(j, "set");
+    for (int k = 0; k < study->options.nset; k++) {
+        fw_json_object(j, NULL);
+        fw_json_text(j, "path", study->options.set[k].path);
+        fw_json_text(j, "value", study->options.set[k].value);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+}
+
 static void inputs(fw_json *j, const fw_study *study) {
     fw_json_list(j, "inputs");
     for (int k = 0; k < study->ninput; k++) {
@@ -193,7 +205,7 @@ static void levels(fw_json *j, const fw_study_levels *l) {
     fw_json_end(j);
 }
 
-static void steps(fw_json *j, const fw_study_flow_yield *y) {
+static void steps(fw_json *j, const fw_study_yield_end *y) {
     fw_json_list(j, "convergence");
     for (size_t k = 0; k < y->steps; k++) {
         fw_json_object(j, NULL);
@@ -205,6 +217,28 @@ static void steps(fw_json *j, const fw_study_flow_yield *y) {
         fw_json_end(j);
         fw_json_end(j);
     }
+    fw_json_end(j);
+}
+
+/* of a range: its least and its most, each where it was found */
+static void yield_end(fw_json *j, const char *key, const fw_study_flow_yield *y,
+                      const fw_study_yield_end *end) {
+    fw_json_object(j, key);
+    fw_json_real(j, "yield", end->value);
+    fw_json_list(j, "sampling_interval");
+    fw_json_real(j, NULL, end->low);
+    fw_json_real(j, NULL, end->high);
+    fw_json_end(j);
+    fw_json_list(j, "assumed");
+    for (int k = 0; k < y->nassumed; k++) {
+        fw_json_object(j, NULL);
+        fw_json_text(j, "what", y->assumed[k]);
+        fw_json_text(j, "unit", y->assumed_unit[k]);
+        fw_json_real(j, "value_SI", end->at[k]);
+        fw_json_end(j);
+    }
+    fw_json_end(j);
+    steps(j, end);
     fw_json_end(j);
 }
 
@@ -224,12 +258,20 @@ static void yields(fw_json *j, const fw_study *study) {
         fw_json_real(j, NULL, y->sampled_low);
         fw_json_real(j, NULL, y->sampled_high);
         fw_json_end(j);
+        if (y->nassumed > 0) {
+            yield_end(j, "least", y, &y->least);
+            yield_end(j, "most", y, &y->most);
+        } else {
+            fw_json_null(j, "least");
+            fw_json_null(j, "most");
+        }
         fw_json_real(j, "confidence", study->asked->confidence);
         fw_json_real(j, "model_band", y->band);
         fw_json_text(j, "method", y->method);
         fw_json_text(j, "reason", y->reason);
         fw_json_text(j, "caution", y->caution);
         fw_json_whole(j, "devices", y->evaluations);
+        fw_json_whole(j, "devices_of_one_estimate", y->each);
         fw_json_whole(j, "not_judged", y->unevaluated);
         fw_json_real(j, "distance_sigma", y->beta);
         fw_json_list(j, "by");
@@ -243,7 +285,7 @@ static void yields(fw_json *j, const fw_study *study) {
         }
         fw_json_end(j);
         levels(j, y->levels);
-        steps(j, y);
+        if (y->nassumed == 0) steps(j, &y->least);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -273,6 +315,7 @@ fw_status fw_study_json(const fw_study *study, fw_text *out) {
     else
         fw_json_null(&j, "example_at");
     fw_json_end(&j);
+    given(&j, study);
     inputs(&j, study);
     responses_json(&j, study);
     size(&j, study);

@@ -56,20 +56,49 @@ void fw_study_shade(char text[8], double share) {
 
 /* ---- the estimate against the number of devices ---- */
 
+enum { ENDS = 2 }; /* the least and the most yield; one where nothing is only assumed */
+
+static void band(fw_text *out, const fw_svg_axes *a, const fw_study_yield_end *y,
+                 const char *colour) {
+    fw_svg_path(out, "fill='{r}' fill-opacity='0.18'", colour);
+    for (size_t k = 0; k < 2 * y->steps; k++) {
+        const fw_chance_step *step = &y->step[k < y->steps ? k : 2 * y->steps - 1 - k];
+        double v = 100 * (1 - (k < y->steps ? step->low : step->high));
+        fw_svg_point(out, k ? 'L' : 'M', fw_svg_axes_x(a, (double)step->evaluations),
+                     fw_svg_axes_y(a, fmin(fmax(v, a->y0), a->y1)), 2);
+    }
+    fw_svg_path_end(out);
+    fw_svg_path(out, "fill='none' stroke='{r}' stroke-width='1.8'", colour);
+    for (size_t k = 0; k < y->steps; k++) {
+        double v = 100 * (1 - y->step[k].probability);
+        fw_svg_point(out, k ? 'L' : 'M', fw_svg_axes_x(a, (double)y->step[k].evaluations),
+                     fw_svg_axes_y(a, fmin(fmax(v, a->y0), a->y1)), 2);
+    }
+    fw_svg_path_end(out);
+}
+
 static fw_status convergence(fw_study_sheet *s, const fw_study_flow_yield *y, const char *of) {
+    static const char *const colour[ENDS] = {"#0072b2", "#d55e00"};
     fw_arena *arena = s->study->arena;
-    if (y->steps < 2) return FW_OK;
+    const fw_study_yield_end *end[ENDS] = {&y->least, &y->most};
+    const int ends = y->nassumed > 0 ? ENDS : 1;
+    if (y->least.steps < 2) return FW_OK;
     fw_text *out = fw_study_sheet_add(
         s, fw_study_picture_name(arena, "convergence", of),
         fw_arena_printf(arena, "Yield of %s as it was known after so many devices", of));
     if (!out) return FW_OK;
-    double least = 100, most = 0, last = (double)y->step[y->steps - 1].evaluations;
-    for (size_t k = 0; k < y->steps; k++) {
-        /* the first steps know nothing; what counts is how the interval closes from a fifth of the way on */
-        if ((double)y->step[k].evaluations < 0.2 * last) continue;
-        least = fmin(least, 100 * (1 - y->step[k].high));
-        most = fmax(most, 100 * (1 - y->step[k].low));
-    }
+    double least = 100, most = 0, last = 0;
+    for (int e = 0; e < ends; e++)
+        if (end[e]->steps > 0)
+            last = fmax(last, (double)end[e]->step[end[e]->steps - 1].evaluations);
+    for (int e = 0; e < ends; e++)
+        for (size_t k = 0; k < end[e]->steps; k++) {
+            const fw_chance_step *step = &end[e]->step[k];
+            /* the first steps know nothing; what counts is how the interval closes from a fifth of the way on */
+            if ((double)step->evaluations < 0.2 * last) continue;
+            least = fmin(least, 100 * (1 - step->high));
+            most = fmax(most, 100 * (1 - step->low));
+        }
     double room = fmax(0.08 * (most - least), 1e-9);
     fw_svg_axes a = {
         LEFT, RIGHT, TOP, BOTTOM, 0, last * 1.02, fmax(least - room, 0), fmin(most + room, 100),
@@ -77,21 +106,8 @@ static fw_status convergence(fw_study_sheet *s, const fw_study_flow_yield *y, co
     if (!(a.y1 > a.y0)) a.y0 = a.y1 - 1;
     fw_study_picture_begin(out, FW_STUDY_HIGH, s->item[s->n - 1].title);
     fw_study_picture_grid(out, &a);
-    fw_svg_path(out, "fill='#0072b2' fill-opacity='0.18'");
-    for (size_t k = 0; k < 2 * y->steps; k++) {
-        const fw_chance_step *step = &y->step[k < y->steps ? k : 2 * y->steps - 1 - k];
-        double v = 100 * (1 - (k < y->steps ? step->low : step->high));
-        fw_svg_point(out, k ? 'L' : 'M', fw_svg_axes_x(&a, (double)step->evaluations),
-                     fw_svg_axes_y(&a, fmin(fmax(v, a.y0), a.y1)), 2);
-    }
-    fw_svg_path_end(out);
-    fw_svg_path(out, "fill='none' stroke='#0072b2' stroke-width='1.8'");
-    for (size_t k = 0; k < y->steps; k++) {
-        double v = 100 * (1 - y->step[k].probability);
-        fw_svg_point(out, k ? 'L' : 'M', fw_svg_axes_x(&a, (double)y->step[k].evaluations),
-                     fw_svg_axes_y(&a, fmin(fmax(v, a.y0), a.y1)), 2);
-    }
-    fw_svg_path_end(out);
+    for (int e = 0; e < ends; e++)
+        band(out, &a, end[e], colour[e]);
     fw_svg_put(
         out,
         "text x='{c}' y='{c}' font-size='12' text-anchor='middle' fill='#1f2328'>devices that "
@@ -101,9 +117,11 @@ static fw_status convergence(fw_study_sheet *s, const fw_study_flow_yield *y, co
                TOP - 7.0);
     fw_svg_put(
         out,
-        "text x='{c}' y='{c}' font-size='11' text-anchor='end' fill='#57606a'>band: interval "
+        "text x='{c}' y='{c}' font-size='11' text-anchor='end' fill='#57606a'>{s}band: interval "
         "of sampling at {p}\n",
-        (double)RIGHT, FW_STUDY_HIGH - 10.0, s->study->asked->confidence);
+        (double)RIGHT, FW_STUDY_HIGH - 10.0,
+        ends > 1 ? "blue: the least, orange: the most, as is what is only assumed; " : "",
+        s->study->asked->confidence);
     fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -5,6 +5,7 @@
    The corners where the low end is lowest and the high end highest to first order are run; elsewhere
    counts first order, widened by the largest error that it was seen to have. Theory:
    docs/theory/as-fabricated.md. Test: test_made.c. */
+#include "base/text.h"
 #include "verdict/verdict_parts.h"
 #include <float.h>
 #include <math.h>
@@ -214,6 +215,18 @@ fw_status fw_verdict_ends_made(fw_verdict_search *s) {
         cover(s, k, &f->requirement[k]);
     }
     return FW_OK;
+}
+
+const char *fw_verdict_ends_why(fw_verdict_search *s, int corner) {
+    const fw_verdict_fabricated_verdict *f = s->fabricated;
+    const fw_verdict_fabricated_corner *c = &f->corner[corner];
+    for (int k = 0; c->why && f->requirement && c->requirement && k < s->v->nrequirement; k++) {
+        if (f->requirement_corner[k] != corner) continue;
+        const char *own = fw_verdict_requirement_text(s->arena, &c->requirement[k]);
+        if (!own || fw_text_same(own, c->why))
+            return own ? fw_verdict_requirement_text(s->arena, &f->requirement[k]) : NULL;
+    }
+    return c->why ? c->why : "it is not accepted";
 }
 
 const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,

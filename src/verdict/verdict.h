@@ -408,8 +408,8 @@ enum {
    body. NaN: there are no holes. at: for low and high 2 times the number of the hinge, and 1 for its second body */
 fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *mechanism,
                                         const fw_dynamics_motion *motion, int at[2]);
-/* the same where hinges turn, else 0: bands of clearances have it */
-double fw_verdict_bending_turning(const fw_dynamics_motion *motion);
+/* the same where hinges turn or give across their strips, else 0: bands of clearances have it */
+double fw_verdict_bending_moving(const fw_dynamics_motion *motion);
 /* that above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion);
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its

@@ -16,15 +16,25 @@ static double turned(const fw_verdict_bending *b, int body) {
     return body == FW_GROUND ? 0 : b->turn[body].rad;
 }
 
-/* by its rotation, and by the forces along and across its axis */
+/* a hinge that is softer one way than the other by more than this is a strip that bends there */
+static const double fw_verdict_strip_bends = 0.1;
+
+/* By its rotation, and by the forces along and across its axis. *moving: what of it lets bodies move: rotation, and
+   where the hinge is a strip the deflection across that. A leaf that is bent to an S does not turn and moves what it
+   carries; one that is pressed along its strip goes nowhere. */
 static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin, double angle_rad,
-                       const double force[2], double frame_rad) {
+                       const double force[2], double frame_rad, double *moving) {
     double energy = 0.5 * pin->stiffness_Nm_per_rad * angle_rad * angle_rad;
     const fw_flexure_result *c = &h->closed_form;
+    *moving += energy;
     if (!isfinite(h->axis_rad) || !(c->kx_N_per_m > 0) || !(c->ky_N_per_m > 0)) return energy;
     double x = cos(h->axis_rad + frame_rad), y = sin(h->axis_rad + frame_rad);
     double along = x * force[0] + y * force[1], across = x * force[1] - y * force[0];
-    return energy + 0.5 * (along * along / c->kx_N_per_m + across * across / c->ky_N_per_m);
+    const double by[2] = {0.5 * along * along / c->kx_N_per_m,
+                          0.5 * across * across / c->ky_N_per_m};
+    if (c->kx_N_per_m < fw_verdict_strip_bends * c->ky_N_per_m) *moving += by[0];
+    if (c->ky_N_per_m < fw_verdict_strip_bends * c->kx_N_per_m) *moving += by[1];
+    return energy + (by[0] + by[1]);
 }
 
 /* what may tip the device out of its plane (verdict_out_of_plane.c) */
@@ -98,7 +108,7 @@ static void record_cuts(fw_verdict_bending *b, const fw_mechanism *m,
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->turning_J = b->hardest_N2 = 0;
+        b->hinges_J = b->bodies_J = b->moving_J = b->hardest_N2 = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
         for (int i = 0; i < m->nbody; i++)
@@ -107,7 +117,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->cut_N_per_m[i] = 0;
         return;
     }
-    double hinges = 0, bodies = 0, turning = 0, *each = b->body_J + m->nbody;
+    double hinges = 0, bodies = 0, moving = 0, *each = b->body_J + m->nbody;
     for (int i = 0; i < m->nbody; i++) {
         const double by = now->q[3 * i + 2] - m->drawn[i].phi_rad;
         each[i] = 0;
@@ -118,8 +128,8 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         const fw_mechanism_pin *pin = &m->pin[h->pin];
         const double angle = now->angle_rad[h->pin], *force = now->reaction_N + 2 * h->pin;
         const int body[2] = {pin->body_a, pin->body_b};
-        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])));
-        turning += 0.5 * pin->stiffness_Nm_per_rad * angle * angle;
+        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])),
+                           &moving);
         for (int side = 0; side < 2; side++) {
             const fw_verdict_arm *arm = &b->arm[2 * k + side];
             if (!arm->known) continue;
@@ -134,7 +144,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
-    b->turning_J = fmax(b->turning_J, turning);
+    b->moving_J = fmax(b->moving_J, moving);
     b->hinges_J = fmax(b->hinges_J, hinges);
     b->bodies_J = fmax(b->bodies_J, bodies);
 }
@@ -180,14 +190,14 @@ double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
 }
 
 /* A device that is pressed along its flexures goes nowhere, and what little its bodies give of that changes
-   no strain and no clearance: only where the hinges turn */
-double fw_verdict_bending_turning(const fw_dynamics_motion *motion) {
+   no strain and no clearance: only where the hinges turn, or give across their strips */
+double fw_verdict_bending_moving(const fw_dynamics_motion *motion) {
     const fw_verdict_bending *b = seen(motion);
-    return b && b->turning_J > 0.5 * b->hinges_J ? fw_verdict_bending_share(motion) : 0;
+    return b && b->moving_J > 0.5 * b->hinges_J ? fw_verdict_bending_share(motion) : 0;
 }
 
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
-    const double share = fw_verdict_bending_turning(motion);
+    const double share = fw_verdict_bending_moving(motion);
     return share > fw_verdict_bending_told ? share : 0;
 }
 
@@ -291,9 +301,9 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
                     "give, body %s by %s %%: what is probed may move that much further, and the "
                     "bands allow for "
                     "it. It is narrowest, %s um, at (%s, %s) um: make it wider there, or shorter",
-                    scene->name, fw_number_text(all, sizeof all, 100 * share, 2),
+                    scene->name, fw_number_text(all, sizeof all, 100 * share, 3),
                     m->device->body[most].id,
-                    fw_number_text(one, sizeof one, 100 * b->body_J[most] / b->hinges_J, 2),
+                    fw_number_text(one, sizeof one, 100 * b->body_J[most] / b->hinges_J, 3),
                     fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
                     fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
                     fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));

@@ -451,11 +451,11 @@ static fw_status explain(fw_verdict_search *s) {
     const fw_verdict_hinge_verdict *h =
         fabricated->governing == FW_NONE ? NULL : &c->hinge[fabricated->governing];
     const char *flow = s->v->variant->flow ? s->v->variant->flow : "this flow";
-    bool nominal = fabricated->at == 0;
     if (!h || c->why) {
+        const char *why = fw_verdict_ends_why(s, fabricated->at);
+        FW_NEED(why);
         FW_NEED(fabricated->reason =
-                    fw_arena_printf(s->arena, "as %s makes it (%s): %s", flow, c->what,
-                                    c->why ? c->why : "it is not accepted"));
+                    fw_arena_printf(s->arena, "as %s makes it (%s): %s", flow, c->what, why));
         return FW_OK;
     }
     char used[32], drawn[32];
@@ -464,7 +464,7 @@ static fw_status explain(fw_verdict_search *s) {
     FW_NEED(fabricated->reason = fw_arena_printf(
                 s->arena,
                 "as %s makes it%s (%s) hinge %s uses %s %% of its limit in %s, as drawn %s %%",
-                flow, nominal ? "" : " at worst", c->what, h->id, used, h->scene, drawn));
+                flow, fabricated->at ? " at worst" : "", c->what, h->id, used, h->scene, drawn));
     return FW_OK;
 }
 

@@ -167,6 +167,8 @@ bool fw_verdict_ends_unknown(const fw_verdict_search *s); /* a requirement witho
 unsigned fw_verdict_ends_next(const fw_verdict_search *s);
 /* s->fabricated->requirement */
 fw_status fw_verdict_ends_made(fw_verdict_search *s);
+/* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
+const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 /* corner_search.c, shared */
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
 void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x);

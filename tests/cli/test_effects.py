@@ -192,6 +192,17 @@ class Effects(unittest.TestCase):
         self.assertRegex(said, r"comb drive upper .* not drawn: .*link right at \([-0-9.]+, [-0-9.]+\) um.*FW-D131")
         self.assertEqual(len(re.findall("FW-D131", said)), 1)
         self.assertLess(len(less), len(whole))
+        # fingers so narrow that no mask shows their tips: named with the width, and the width that is named is drawn
+        text = (ROOT / "docs/gallery/comb-stage/device.xml").read_text()
+        said, less = self.drawn("comb-stage", 'overlap="40 um"', 'width="5.5 um" overlap="40 um"')
+        self.assertRegex(said, r"its fingers are 5.5 um wide, so that their tips are rounded with 2.2 um only")
+        self.assertNotIn("steps or slits", said)
+        with tempfile.TemporaryDirectory() as here:
+            device = pathlib.Path(here) / "device.xml"
+            enough = re.search(r"make them ([\d.]+) um wide", said).group(1)
+            device.write_text(text.replace('overlap="40 um"', f'width="{enough} um" overlap="40 um"'))
+            self.assertNotIn("FW-D131", run("mask", device, "--force", "--corners", "none", "--advice", "none",
+                                            "-o", pathlib.Path(here) / "out").stderr)
         said, whole = self.drawn("four-tendons")
         self.assertNotIn("FW-D131", said)
         said, less = self.drawn("four-tendons", 'x="0.6 mm" y="0.12 mm"', 'x="0.65 mm" y="0.12 mm"')

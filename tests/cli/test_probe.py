@@ -379,6 +379,19 @@ class Probe(unittest.TestCase):
         missed = [r for r in verdict["reasons"] if r["code"] == "FW-D238"]
         self.assertTrue(any("frequency-1" in r["text"] for r in missed), verdict["reasons"])
 
+    def test_a_reason_as_made_has_the_reach_over_all_corners(self):
+        """one number, its band where it is worst, and the end that tables and JSON have of all corners"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8")
+        text = text.replace('measure="parasitic" max="2 um"', 'measure="parasitic" max="1.66 um"')
+        verdict = self.answer(text, "check", "--advice", "none", statuses=(4,))
+        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        self.assertGreater(made["all_corners_band"][1], made["band"][1])
+        said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
+        worst, reach = re.search(r"stroke \(parasitic\) is [\d.]+ um \([\d.]+ um to ([\d.]+) um; no corner of the flow is "
+                                 r"above ([\d.]+) um\)", said).groups()
+        self.near(float(worst) * 1e-6, made["band"][1], 1e-3)
+        self.near(float(reach) * 1e-6, made["all_corners_band"][1], 1e-3)
+
     def test_links_that_bend_are_told_and_in_the_bands(self):
         """the same leaves between links of 120 and of 26 um: the second give, which every band and a warning say"""
         text = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
@@ -397,6 +410,33 @@ class Probe(unittest.TestCase):
             used = verdict["hinges"][0]
             wide[name] = used["utilisation_band"][1] / used["utilisation"] - 1
         self.assertGreater(wide["thin"], wide["stiff"] + 0.1)
+
+    def test_bodies_bend_between_leaves_that_do_not_turn(self):
+        """a shuttle between four leaves, pushed across them: they bend to an S and store what they have by deflection.
+        Of two bars on a web it gives, a block does not; pushed along its leaves it goes nowhere, and nothing is told"""
+        def stage(plates, load):
+            hinges = "".join(f'<revolute id="{i}" axis="0 deg" a="ground" a-x="{x} um" a-y="{y} um" b="shuttle" b-x="{x} um" '
+                             f'b-y="{y} um" hinge="leaf"/>' for i, x, y in zip("ABCD", (-700, 700, -700, 700), [
+                                 s * 730 for s in (-1, -1, 1, 1)]))
+            return ('<device xmlns="urn:flexwright:device:1" name="guide"><material ref="silicon-100" thickness="50 um"/>'
+                    '<limits safety-factor="2"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>'
+                    '<flexure id="leaf" kind="leaf" length="900 um" width="8 um"/><mechanism>'
+                    f'<body id="shuttle" x="0 mm" y="0 mm">{plates}</body>{hinges}'
+                    f'</mechanism><scene name="go" duration="20 ms"><force on="shuttle" {load} law="ramp" rise="10 ms"/>'
+                    '<air kind="slide" gap="20 um"/></scene></device>')
+        block = '<plate width="1900 um" height="300 um"/>'
+        bars = ('<plate y="-135 um" width="1900 um" height="30 um"/><plate y="135 um" width="1900 um" height="30 um"/>'
+                '<plate width="60 um" height="300 um"/>')
+        told, band = {}, {}
+        for name, plates, load in (("block", block, 'fx="0.1 mN" fy="0 mN"'), ("bars", bars, 'fx="0.1 mN" fy="0 mN"'),
+                                 ("pressed", bars, 'fx="0 mN" fy="0.1 mN"')):
+            result = run("check", self.file(stage(plates, load)), "--corners", "none", "--advice", "none", "--json")
+            verdict = json.loads(result.stdout)
+            give, used = verdict["hinge_model"][0]["bodies_give"], verdict["hinges"][0]
+            told[name] = ("FW-D510" in result.stderr, give > 0.05)
+            band[name] = used["utilisation_band"][1] / used["utilisation"] - 1
+        self.assertEqual(told, {"block": (False, False), "bars": (True, True), "pressed": (False, True)})
+        self.assertGreater(band["bars"], band["block"] + 0.05)
 
     def test_rims_of_release_holes_are_part_of_the_verdict(self):
         """no holes: nothing to say; with holes less than what is allowed; narrow strips between holes: undecided, and fewer

@@ -296,6 +296,35 @@ class Study(unittest.TestCase):
             if sigmas == 1.3:  # as likely in the other: nothing but the number of samples differs
                 self.assertEqual(self.run_study(file, f"z{sigmas}", "--jobs", 1), result)
 
+    def test_what_is_only_assumed_makes_a_range(self):
+        """its ends are the yields of the two values themselves: the same devices, and never counted together"""
+        path = self.write(bare(), "bare.xml")
+        row = '<uncertain what="push" mean="0.45 mN" sd="0.1 mN"/>'
+        assumed = row + '<uncertain what="arc" spread="interval" from="200 deg" to="260 deg"/>'
+        file = self.write(study("y", "yield", row, path, samples=200), "one.xml")
+        single = [self.run_study(file, f"y{arc}", "--set", f"arc={arc} deg") for arc in (200, 260)]
+        for arc, said in zip((200, 260), single):
+            self.assertEqual(said["set"], [{"path": "arc", "value": f"{arc} deg"}])
+            self.assertIn(f"arc={arc} deg", (self.place / f"y{arc}/study.html").read_text())
+            self.assertEqual([said["yields"][0][end] for end in ("least", "most")], [None, None])
+        least, most = sorted((s["yields"][0] for s in single), key=lambda y: y["yield"])
+        self.assertGreater(most["yield"], least["yield"])
+        done = run("study", self.write(study("y", "yield", assumed, path, samples=200), "range.xml"), "-o", self.place / "r")
+        both = json.loads((self.place / "r/study.json").read_text())
+        self.assertEqual(both["set"], [])
+        found = both["yields"][0]
+        self.assertIsNone(found["yield"])
+        for end, alone in ((found["least"], least), (found["most"], most)):
+            for key in ("yield", "sampling_interval", "convergence"):
+                self.assertEqual(end[key], alone[key])
+        self.assertEqual({round(math.degrees(e["assumed"][0]["value_SI"])) for e in (found["least"], found["most"])}, {200, 260})
+        self.assertEqual(found["sampling_interval"], [least["sampling_interval"][0], most["sampling_interval"][1]])
+        self.assertEqual(found["devices"], 2 * found["devices_of_one_estimate"])
+        for before, end in (("yield", least), (") to", most)):
+            share = f"{100 * end['yield']:.2f}".rstrip("0").rstrip(".")
+            self.assertIn(f"{before} {share} % (", done.stdout)
+        self.assertIn(f'samples="200" is the most for one estimate, and one took {found["devices_of_one_estimate"]}', done.stdout)
+
     def test_levels_and_places_are_those_of_the_closed_form(self):
         """U rises with the load alone, so that its levels are the load's, and a die holds where the load is below a limit"""
         path = self.write(bare().replace("</device>", '<wafer diameter="50.8 mm" flat="16 mm"/></device>'), "bare.xml")

@@ -174,7 +174,7 @@ export class Studies {
         const parts = [`${n.accepted} accepted`, `${n.rejected} rejected`, `${n.inconclusive} inconclusive`, ...(n.failed ? [`${n.failed} could not be made`] : [])];
         return [
             h("p", {}, `${n.run + n.failed} devices: ${parts.join(", ")}.`),
-            ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
+            ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${y.least ? `${percent(y.least.yield)} to ${percent(y.most.yield)}, as is what is only assumed,` : percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
             ...(r.found ?? []).map((f, i) => this.#device(r.found.length > 1 ? `Device ${i + 1} of the front` : "Best device", f)),
             r.kind === "size" && !r.found?.length && r.nearest ? this.#device("No device holds every limit; the nearest", r.nearest) : null,
             ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}: ${x.unit ? si(w.value, x.unit) : number(w.value, 4)}`, w))),
