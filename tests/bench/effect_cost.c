@@ -121,19 +121,21 @@ static fw_multibody_system *system_of(fw_arena *arena, const fw_mechanism *mecha
     return sys;
 }
 
-void measured(fw_multibody_system *sys, double t, const double *y, double *f, long count);
-__attribute__((noinline)) void measured(fw_multibody_system *sys, double t, const double *y,
+/* of two states in turn: what a hinge keeps of its last pose is of no use to the next, as in a motion */
+void measured(fw_multibody_system *sys, double t, const double *const y[2], double *f, long count);
+__attribute__((noinline)) void measured(fw_multibody_system *sys, double t, const double *const y[2],
                                         double *f, long count) {
     for (long i = 0; i < count; i++)
-        fw_multibody_rhs(sys, t, y, f);
+        fw_multibody_rhs(sys, t, y[i & 1], f);
 }
 
 static void run(fw_multibody_system *sys, double t, const request *r, fw_arena *arena) {
     const fw_multibody_model *m = sys->model;
     double *y = fw_arena_array(arena, double, (size_t)m->ny), sum = 0;
     double *f = fw_arena_array(arena, double, (size_t)m->ny);
+    double *beside = fw_arena_array(arena, double, (size_t)m->ny);
     uint64_t z = 5;
-    if (!y || !f) fail("memory");
+    if (!y || !f || !beside) fail("memory");
     for (int i = 0; i < 2 * m->nq; i++) {
         z = z * 6364136223846793005u + 1442695040888963407u;
         y[i] = r->still && i >= m->nq ? 0 : r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
@@ -141,7 +143,10 @@ static void run(fw_multibody_system *sys, double t, const request *r, fw_arena *
     fw_multibody_set_switches(sys, 0, y);
     fw_multibody_friction_begin(sys);
     if (!fw_multibody_friction_decide(sys, t / m->scale.time_s, y)) fail("friction jams");
-    measured(sys, t / m->scale.time_s, y, f, r->count);
+    for (int i = 0; i < m->ny; i++)
+        beside[i] = y[i] * (1 + 1e-12);
+    const double *const both[2] = {y, beside};
+    measured(sys, t / m->scale.time_s, both, f, r->count);
     for (int i = 0; i < 2 * m->nq; i++)
         sum += fabs(f[i]);
     printf("kernel %s\nsum %.17g\n", sys->kernel ? "yes" : "no", sum);
