@@ -27,6 +27,9 @@ CASES = {
     "Solids as hinges": (f"{THEORY}/flexures.xml", None, "hinge --json", '"level": ?"continuum"|"level": "ends".*"strain": 0\\.021'),
     "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=26um "
                          "--set body[coupler]/@width=26um --set body[rocker]/@width=26um", "FW-D510"),
+    "Flexures close to each other": ("docs/gallery/straight-stage/device.xml", None,
+                                     "check --corners none --advice none --set flexure[leaf]/@length=1900um", r"1500 um apart, but their surfaces .*FW-D125"),
+    "Paths with long straight pieces": ("tests/bad/path-ends-meet.xml", None, "check", "FW-D264"),
     "Corners and holes in": ("tests/bad/path-width-steps.xml", None, "check", "FW-D263"),
     "Drift along the axis of a path": (FREE, None, "hinge", r"FW-D265"),
     "Comparison with finite elements": (f"{THEORY}/flexures.xml", None, "hinge --json", '"outside": true'),
