@@ -144,12 +144,18 @@ static void check_alignment(fw_diags *diags, const fw_process_flow *flow,
     }
 }
 
+/* does the step print a plate that is known? *plate: its row; -1: the only one, whatever the step calls it */
+static bool prints(const fw_process_step *s, const fw_mask_table *table, int *plate) {
+    *plate = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
+    return s->mask[0] && (*plate >= 0 || table->nplate <= 1);
+}
+
 /* All plates are drawn as seen from the front: one that prints the back must read the other way round. */
 static void check_faces(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
-        const int named = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
-        if (!s->mask[0] || (named < 0 && table->nplate > 1)) continue;
+        int named;
+        if (!prints(s, table, &named)) continue;
         const char *reading = fw_mask_plate_at(table, named < 0 ? 0 : named).reading;
         const bool back = fw_process_step_on_back(s);
         const int mirror = fw_mask_reading_mirrors(reading);
@@ -169,14 +175,12 @@ static void check_exposed(fw_diags *diags, const fw_process_flow *flow,
                           const fw_mask_table *table) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
-        const int named = s->mask[0] ? fw_mask_plate_named(table, s->mask) : -1;
+        int named, first;
+        const char *wrong;
+        if (!prints(s, table, &named)) continue;
         const fw_mask_plate_row row =
             fw_mask_plate_at(table, named < 0 ? table->device_plate : named);
-        int first;
-        const char *wrong;
-        if (!s->mask[0] || (named < 0 && table->nplate > 1) || !row.layers ||
-            !fw_mask_plate_layers(table, row.layers, NULL, &first, &wrong))
-            continue;
+        if (!row.layers || !fw_mask_plate_layers(table, row.layers, NULL, &first, &wrong)) continue;
         const bool clear = strcmp(table->layer[first].tone, "data clear") == 0;
         for (int k = 0; k < s->nchange; k++) {
             const fw_process_change *c = &s->change[k];

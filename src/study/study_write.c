@@ -64,6 +64,13 @@ static void extreme(fw_json *j, const fw_study_extreme *e) {
     fw_json_real(j, "deviation", sqrt(fmax(variance, 0)));
 }
 
+static void interval(fw_json *j, const char *key, double low, double high) {
+    fw_json_list(j, key);
+    fw_json_real(j, NULL, low);
+    fw_json_real(j, NULL, high);
+    fw_json_end(j);
+}
+
 static void derivatives(fw_json *j, const fw_study *study, int r) {
     const fw_study_result *result = study->result;
     if (!result->derivative) return;
@@ -79,15 +86,9 @@ static void derivatives(fw_json *j, const fw_study *study, int r) {
         if (result->index) {
             const fw_study_index *x = &result->index[at];
             fw_json_real(j, "first", x->first);
-            fw_json_list(j, "first_interval");
-            fw_json_real(j, NULL, x->first_low);
-            fw_json_real(j, NULL, x->first_high);
-            fw_json_end(j);
+            interval(j, "first_interval", x->first_low, x->first_high);
             fw_json_real(j, "total", x->total);
-            fw_json_list(j, "total_interval");
-            fw_json_real(j, NULL, x->total_low);
-            fw_json_real(j, NULL, x->total_high);
-            fw_json_end(j);
+            interval(j, "total_interval", x->total_low, x->total_high);
         }
         fw_json_end(j);
     }
@@ -161,10 +162,7 @@ static void size(fw_json *j, const fw_study *study) {
 static void share(fw_json *j, const char *key, const fw_chance_share *v) {
     fw_json_object(j, key);
     fw_json_real(j, "value", v->value);
-    fw_json_list(j, "interval");
-    fw_json_real(j, NULL, v->low);
-    fw_json_real(j, NULL, v->high);
-    fw_json_end(j);
+    interval(j, "interval", v->low, v->high);
     fw_json_end(j);
 }
 
@@ -211,10 +209,7 @@ static void steps(fw_json *j, const fw_study_yield_end *y) {
         fw_json_object(j, NULL);
         fw_json_whole(j, "devices", (long)y->step[k].evaluations);
         fw_json_real(j, "yield", 1 - y->step[k].probability);
-        fw_json_list(j, "sampling_interval");
-        fw_json_real(j, NULL, 1 - y->step[k].high);
-        fw_json_real(j, NULL, 1 - y->step[k].low);
-        fw_json_end(j);
+        interval(j, "sampling_interval", 1 - y->step[k].high, 1 - y->step[k].low);
         fw_json_end(j);
     }
     fw_json_end(j);
@@ -225,10 +220,7 @@ static void yield_end(fw_json *j, const char *key, const fw_study_flow_yield *y,
                       const fw_study_yield_end *end) {
     fw_json_object(j, key);
     fw_json_real(j, "yield", end->value);
-    fw_json_list(j, "sampling_interval");
-    fw_json_real(j, NULL, end->low);
-    fw_json_real(j, NULL, end->high);
-    fw_json_end(j);
+    interval(j, "sampling_interval", end->low, end->high);
     fw_json_list(j, "assumed");
     for (int k = 0; k < y->nassumed; k++) {
         fw_json_object(j, NULL);
@@ -249,15 +241,9 @@ static void yields(fw_json *j, const fw_study *study) {
         const fw_study_flow_yield *y = &study->result->yield[i];
         fw_json_object(j, NULL);
         fw_json_text(j, "flow", y->flow);
-        fw_json_list(j, "yield_range");
-        fw_json_real(j, NULL, y->low);
-        fw_json_real(j, NULL, y->high);
-        fw_json_end(j);
+        interval(j, "yield_range", y->low, y->high);
         fw_json_real(j, "yield", y->value);
-        fw_json_list(j, "sampling_interval");
-        fw_json_real(j, NULL, y->sampled_low);
-        fw_json_real(j, NULL, y->sampled_high);
-        fw_json_end(j);
+        interval(j, "sampling_interval", y->sampled_low, y->sampled_high);
         if (y->nassumed > 0) {
             yield_end(j, "least", y, &y->least);
             yield_end(j, "most", y, &y->most);

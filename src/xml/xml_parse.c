@@ -372,12 +372,17 @@ static void say_nothing(void *context, xmlErrorPtr error) {
     (void)context, (void)error;
 }
 
+/* once for the process: designs are read in parallel */
+static void begin_library(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, xmlInitParser);
+}
+
 static fw_status parse(reader *r) {
     const char *start = r->xml.data + r->body;
     size_t n = r->xml.n - r->body;
     if (n > INT_MAX) return FW_LIMIT;
-    static pthread_once_t once = PTHREAD_ONCE_INIT; /* designs are read in parallel */
-    pthread_once(&once, xmlInitParser);
+    begin_library();
     errno = 0;
     r->parser = xmlCreateMemoryParserCtxt(start, (int)n);
     FW_NEED(r->parser);
@@ -552,7 +557,7 @@ fw_status fw_xml_tree(fw_arena *arena, const char *xml, size_t n, fw_xml_node **
     *line = 1;
     if (n == 0) return FW_INPUT; /* the parser takes it for a lack of memory */
     if (n > INT_MAX) return FW_LIMIT;
-    xmlInitParser();
+    begin_library();
     errno = 0;
     FW_NEED(g.parser = xmlCreateMemoryParserCtxt(xml, (int)n));
     xmlSAXHandler sax = {.initialized = XML_SAX2_MAGIC,
