@@ -20,6 +20,8 @@ enum {
     ROWS_AT_ONCE = 512        /* of one transaction; a reader sees them then */
 };
 static const double commit_s = 0.5; /* and not later than so */
+static const int patience_ms =
+    20000; /* with a program that reads the store just now and keeps a lock of it */
 
 struct fw_study_store {
     fw_study *study;
@@ -145,13 +147,21 @@ static bool is_ours(sqlite3 *db) {
     return ours;
 }
 
+/* Opens a store. Whoever looks at the samples of a study that runs (sqlite3, a notebook) keeps a lock for as long as it
+   reads; that is waited for, patience_ms long, and does not end the study. */
+static bool open_database(const char *path, int how, sqlite3 **db) {
+    if (sqlite3_open_v2(path, db, how, NULL) != SQLITE_OK) return false;
+    sqlite3_busy_timeout(*db, patience_ms);
+    return true;
+}
+
 fw_status fw_study_store_said(fw_arena *arena, fw_diags *diags, const char *directory,
                               const char *key, const char **value) {
     const char *path = fw_arena_printf(arena, "%s/study.sqlite", directory);
     sqlite3 *db = NULL;
     FW_NEED(path);
     *value = NULL;
-    bool there = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK && is_ours(db);
+    bool there = open_database(path, SQLITE_OPEN_READONLY, &db) && is_ours(db);
     if (there) *value = said(arena, db, key);
     fw_status status = FW_OK;
     if (!there)
@@ -240,8 +250,7 @@ static bool is_empty(fw_study_store *store) {
 
 static fw_status open_file(fw_study_store *store, bool resume) {
     if (access(store->path, F_OK) == 0) {
-        bool open =
-            sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READWRITE, NULL) == SQLITE_OK;
+        bool open = open_database(store->path, SQLITE_OPEN_READWRITE, &store->db);
         bool ours = open && is_ours(store->db), empty = open && !ours && is_empty(store);
         resume = resume && ours && said(store->study->arena, store->db, "hash");
         if (!ours && !empty)
@@ -260,8 +269,7 @@ static fw_status open_file(fw_study_store *store, bool resume) {
                                  "the store of an earlier run could not be removed");
         remove_results(store->study->options.output);
     }
-    if (sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
-                        NULL) != SQLITE_OK)
+    if (!open_database(store->path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, &store->db))
         return failed(store, "the store could not be made");
     FW_TRY(make_tables(store));
     return run(store, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL",

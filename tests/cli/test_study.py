@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """flexwright study: samples say what check says, in any number of threads, shards and attempts the same bytes."""
+import contextlib
 import csv
 import json
 import math
@@ -61,6 +62,23 @@ class Study(unittest.TestCase):
     def rows(self, out):
         with open(self.place / out / "study.csv", newline="") as file:
             return list(csv.DictReader(file))
+
+    def test_somebody_reads_the_store_while_a_study_begins(self):
+        # who looks at the samples keeps a lock while he reads: it is waited for, before the tables and after them
+        path = self.write(study("patient", "sweep", SWEEP))
+        self.run_study(path, "out")
+        store, wanted = self.place / "out/study.sqlite", (self.place / "out/study.csv").read_bytes()
+        with contextlib.closing(sqlite3.connect(store, isolation_level=None)) as db:
+            self.assertEqual(db.execute("PRAGMA journal_mode = DELETE").fetchone(), ("delete",))
+            db.execute("BEGIN")
+            self.assertEqual(db.execute("SELECT count(*) FROM sample").fetchone(), (8,))
+            with subprocess.Popen([PROGRAM, "study", path, "-o", self.place / "out", *FLOW, "--resume"], text=True,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as resumed:
+                with self.assertRaises(subprocess.TimeoutExpired):
+                    resumed.wait(timeout=1)
+                db.execute("COMMIT")
+                self.assertEqual(resumed.wait(timeout=60), 0, resumed.stderr.read())
+        self.assertEqual((self.place / "out/study.csv").read_bytes(), wanted)
 
     def test_a_sample_says_what_check_says(self):
         result = self.run_study(self.write(study("s", "sweep", SWEEP).replace("<study", "<study as=\"drawn\"")), "out")
