@@ -6,7 +6,7 @@ build_packages="gcc libc6-dev cmake ninja-build pkg-config libxml2-dev libcairo2
 liblapacke-dev liblapack-dev libjansson-dev zlib1g-dev
 libmicrohttpd-dev libzip-dev libsqlite3-dev libnlopt-dev libcmocka-dev"
 test_packages="g++ valgrind clang lld libclang-rt-14-dev libxml2-utils python3 klayout python3-gdspy python3-gmsh python3-shapely python3-tk libgeos-dev
-python3-numpy python3-scipy python3-pip python3-setuptools python3-wheel dpkg-dev groff-base calculix-ccx chromium
+python3-numpy python3-scipy python3-pip python3-setuptools python3-wheel dpkg-dev groff-base calculix-ccx chromium-headless-shell
 slurmctld slurmd slurm-client munge parallel"
 # The page is bundled with npm, any that is there; without one the program serves a plain page.
 if [ -z "${FLEXWRIGHT_NO_INSTALL:-}" ] && ! command -v npm >/dev/null; then

@@ -154,15 +154,18 @@ class Inputs(unittest.TestCase):
         self.assertGreater(tried, 4 * refused)
 
 
+BROWSER = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), None)
+
+
 class Printed(unittest.TestCase):
-    @unittest.skipUnless(shutil.which("chromium"), "no browser that prints")
+    @unittest.skipUnless(BROWSER, "no browser that prints")
     def test_a_sheet_has_few_pages(self):
         """of six wafers the silicon flow on at most twelve sheets of A4, and the copper flow on fifteen"""
         with tempfile.TemporaryDirectory() as folder:
             for flow, most in (("al-masked-rie", 12), ("copper-on-porous-silicon", 15)):
                 out = pathlib.Path(folder) / flow
                 run("recipe", DEVICE, "--flow", flow, "-o", out, "-q", "--wafers", 6)
-                subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
+                subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
                                 f"--user-data-dir={folder}/profile", f"--print-to-pdf={out}.pdf",
                                 f"file://{out}/recipes/{flow}.html"], capture_output=True, timeout=120, check=True)
                 printed = pathlib.Path(f"{out}.pdf").read_bytes()

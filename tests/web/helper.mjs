@@ -19,7 +19,7 @@ export const axeSource = require("axe-core").source;
 
 let browser = null;
 export async function theBrowser() {
-    browser ??= await chromium.launch({ executablePath: process.env.FW_CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"] });
+    browser ??= await chromium.launch({ executablePath: process.env.FW_CHROMIUM, args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"] });
     return browser;
 }
 export const closeBrowser = () => browser?.close();

@@ -7,7 +7,8 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 program=$(realpath "$1")
 place=$(realpath "$2")/web-tests
-chromium=${FW_CHROMIUM:-$(command -v chromium || command -v chromium-browser || true)}
+# the shell is Chromium without its windows: the same engine, a fifth less of processor; FW_CHROMIUM=/usr/bin/chromium is the whole
+chromium=${FW_CHROMIUM:-$(command -v chromium-headless-shell || command -v chromium || command -v chromium-browser || true)}
 [ -n "$chromium" ] || { echo "no chromium"; exit 77; }
 command -v npm >/dev/null || { echo "no npm"; exit 77; }
 node=$(command -v node || command -v nodejs)
