@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# run.sh PROGRAM BUILD-DIRECTORY [SCRIPT]: the tests of the page in headless Chromium, or another script of
+# run.sh PROGRAM BUILD-DIRECTORY [SCRIPT]: the tests of the page in headless Chromium, or one file of them, or another script of
 # this directory. Exit status 77: there is no Chromium or
 # no npm on this machine. The libraries are fetched once for each lock file.
 set -eu
@@ -20,9 +20,7 @@ if ! cmp -s "$here/package-lock.json" "$place/done.json"; then
 fi
 export FW_PROGRAM="$program" FW_SOURCE="${here%/tests/web}" FW_WEB_LIBRARIES="$place" FW_CHROMIUM="$chromium"
 export FLEXWRIGHT_DATA="$FW_SOURCE"
-case "${3:-}" in
-"") ;;
-*.test.mjs) exec "$node" --test "$here/$3" ;;
+case "${3:-every.test.mjs}" in
+*.test.mjs) exec "$node" --test "$here/${3:-every.test.mjs}" ;;
 *) exec "$node" "$here/$3" ;;
 esac
-exec "$node" --test "$here"/page.test.mjs "$here"/draw.test.mjs "$here"/compare.test.mjs "$here"/explore.test.mjs "$here"/write.test.mjs "$here"/touch.test.mjs "$here"/laboratory.test.mjs "$here"/cards.test.mjs "$here"/file.test.mjs "$here"/looks.test.mjs "$here"/attached.test.mjs "$here"/probes.test.mjs "$here"/marked.test.mjs "$here"/true.test.mjs "$here"/drive.test.mjs

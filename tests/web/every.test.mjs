@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every test of the page in one Chromium: a browser and a node for each file would cost some two seconds of processor each.
+// A test file of this directory that no line here names makes this one fail.
+import assert from "node:assert/strict";
+import { readdirSync } from "node:fs";
+import { test } from "node:test";
+
+const files = [
+    "page", "draw", "compare", "explore", "write", "touch", "laboratory", "cards", "file", "looks", "attached", "probes", "marked", "true", "drive",
+];
+test("every file of tests is here", () => {
+    const there = readdirSync(import.meta.dirname ?? new URL(".", import.meta.url).pathname).filter((name) => name.endsWith(".test.mjs") && name !== "every.test.mjs");
+    assert.deepEqual([...files].map((name) => `${name}.test.mjs`).sort(), there.sort());
+});
+for (const name of files) await import(`./${name}.test.mjs`);
