@@ -232,7 +232,7 @@ static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
     fw_text_add(
         out, "; all drives grow together, slowly\n  fringe fields that are not counted add up to ");
     fw_text_number(out, 100 * p->fringe, 2);
-    fw_text_add(out, " % of the capacitance and lower it by about half of that\n");
+    fw_text_add(out, " % of the pull and lower it by about half of that\n");
 }
 
 /* where friction may hold it: the pose above, more or less this */

@@ -364,7 +364,7 @@ static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags
     fw_diag_warning(
         diags, 248, out->place,
         "scene %s may pull in: comb drive %s does so at %s V without fringe fields that "
-        "may add up to %s %% to its capacitance, and the scene asks for up to %s V",
+        "may add up to %s %% to its pull, and the scene asks for up to %s V",
         scene, out->comb, fw_number_text(at, sizeof at, out->voltage_V, 5),
         fw_number_text(part, sizeof part, 100 * out->fringe, 2),
         fw_number_text(asked, sizeof asked, out->largest_V, 5));

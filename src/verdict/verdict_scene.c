@@ -116,7 +116,7 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
             : fw_arena_printf(arena,
                               "scene %s asks for up to %s V: comb drive %s pulls in at %s V, or at "
                               "less: fringe fields that the model leaves out add up to %s %% to "
-                              "its capacitance",
+                              "its pull",
                               scene->name, asked, p->comb, at, part);
     return add(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
 }
@@ -137,7 +137,7 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
         "scene %s may throw the rotor of comb drive %s to its stator (dynamic pull-in): it does so "
         "in "
         "a run with the fringe fields that the model leaves out, which add up to %s %% to the "
-        "capacitance",
+        "pull",
         scene->name, p->comb, fw_number_text(part, sizeof part, 100 * p->fringe, 2));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);

@@ -17,7 +17,7 @@ ABOUT = {
     ("tendons", "drawn"): {"tendon"},
     ("comb", "drive"): {"comb-drive", "fringe-field", "air", "material-damping"},
     ("comb", "oscillate"): {"comb-drive", "fringe-field", "material-damping"},
-    ("comb", "pull-back"): {"comb-drive", "joint-damping"},
+    ("comb", "pull-back"): {"comb-drive", "fringe-field", "joint-damping"},
     ("shaken", "shock"): {"base-motion", "gravity", "air"},
     ("shaken", "vibration"): {"base-motion", "air"},
     ("shaken", "warm"): {"temperature", "residual-stress", "applied-load"},
