@@ -261,7 +261,7 @@ static fw_status build_comb(fw_device_scene_reader *s, int at) {
                         .overlap_m = fw_xml_number_of(record, "overlap"),
                         .length_m = fw_xml_number_of(record, "length"),
                         .depth_m = fw_xml_number_of(record, "depth"),
-                        .width_m = fw_xml_number_or(record, "width", FW_FINGER_WIDTH_M),
+                        .width_m = fw_xml_number_or(record, "width", 0.0),
                         .voltage_V = fw_xml_number_of(record, "voltage"),
                         .pad_at_edge = pad && strcmp(pad, "edge") == 0,
                         .place = record->element->place};

@@ -212,7 +212,7 @@ typedef struct fw_device_comb {
     double gap_m, overlap_m,
         length_m;   /* length: of the fingers (NaN: twice the overlap), or plate */
     double depth_m; /* NaN: the device layer's thickness */
-    double width_m; /* of the fingers as drawn; 0: the default */
+    double width_m; /* of the fingers, or of a plate across its face, as drawn; 0: the default */
     double voltage_V;
     const fw_quantity_law *law;
     bool pad_at_edge; /* a track leads from the stator's pad to the edge of the chip */
@@ -223,9 +223,11 @@ typedef struct fw_device_comb {
 #define FW_EYELET_HOLE_M  80e-6
 #define FW_EYELET_RING_M  30e-6
 #define FW_FINGER_WIDTH_M 8e-6
+#define FW_PLATE_BAR_M    40e-6 /* a plate and the bar behind fingers, across their face */
 
 static inline double fw_device_comb_width_m(const fw_device_comb *c) {
-    return c->width_m > 0 ? c->width_m : FW_FINGER_WIDTH_M;
+    if (c->width_m > 0) return c->width_m;
+    return c->kind == FW_ELECTRODES_PLATE ? FW_PLATE_BAR_M : FW_FINGER_WIDTH_M;
 }
 
 typedef struct

@@ -16,8 +16,8 @@
    load factor. First and second derivatives of C are exact.
 
    Inputs SI. Range: |gap change| <= 95 % of the gap at both ends, the fingers engaged and not at
-   the root; small tilts (sin theta = theta). Left out: fringe fields (of combs they are an effect of
-   their own, fringe_field.c, which sets edge), the capacitance of finger tips, and that the fingers of one comb are not at one place (second order
+   the root; small tilts (sin theta = theta). Left out: fringe fields (an effect of their own,
+   fringe_field.c, which sets edge and end), the capacitance of finger tips, and that the fingers of one comb are not at one place (second order
    in theta). Cost about 1200 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
    Sens. Actuators A 21 (1990) 328; R. Legtenberg et al., J. Micromech. Microeng. 6 (1996) 320 (side
    instability). Test: test_comb_drive.c. */
@@ -106,7 +106,7 @@ static double add_edge(const strip *s, const fw_effects_comb_element *c, double 
     double f[3] = {0}, second[3][3] = {{0}}, all = 0;
     for (int side = -1; side <= 1; side += 2) {
         const double a = side / sqrt(12.0);
-        double by[2], at = c->edge(s->m + a * t * l, c->width_m, by);
+        double by[2], at = c->edge(c, s->m + a * t * l, by);
         all += 0.5 * l * at;
         f[0] += 0.5 * (at + l * a * t * by[0]);
         f[1] += 0.5 * l * by[0];
@@ -125,6 +125,27 @@ static double add_edge(const strip *s, const fw_effects_comb_element *c, double 
     return scale * all;
 }
 
+/* the ends of a plate, whose length stays: depth times that of the gaps there, m -+ t l/2 */
+static double add_ends(const strip *s, const fw_effects_comb_element *c, double *slope,
+                       double *bend) {
+    const double l = s->l, scale = c->edge_F_per_m * c->depth_m;
+    double f[3] = {0}, second[3][3] = {{0}}, all = 0;
+    for (int side = -1; side <= 1; side += 2) {
+        const double arm = 0.5 * side * l;
+        double by[2];
+        all += c->end(c, s->m + arm * s->t, by);
+        f[1] += by[0];
+        f[2] += arm * by[0];
+        second[1][1] += by[1];
+        second[1][2] += arm * by[1];
+        second[2][2] += arm * arm * by[1];
+    }
+    second[2][1] = second[1][2];
+    if (slope) add_slope(s, scale, f, slope);
+    if (bend) add_bend(s, scale, f[1], second, bend);
+    return scale * all;
+}
+
 double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const double place[3],
                                    double *slope, double *bend) {
     const double x = place[0], y = place[1], t = place[2];
@@ -134,7 +155,10 @@ double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const doubl
     if (c->kind == FW_ELECTRODES_PLATE) {
         const strip only = {
             .l = c->length_m, .m = c->gap_m - x, .t = t, .by = {{0}, {-1, 0, 0}, {0, 0, 1}}};
-        return add_strip(&only, only.m > 0 ? face : (double)NAN, slope, bend);
+        const double within = add_strip(&only, only.m > 0 ? face : (double)NAN, slope, bend);
+        if (!c->edge || !isfinite(within)) return within;
+        const double edges = add_edge(&only, c, slope, bend);
+        return within + edges + add_ends(&only, c, slope, bend);
     }
     /* the middle of the overlap is at s = -x/2 */
     double off = y - 0.5 * t * x, all = 0;
@@ -149,13 +173,6 @@ double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const doubl
         if (c->edge) all += add_edge(&one, c, slope, bend);
     }
     return all;
-}
-
-double fw_effects_comb_fringe(const fw_effects_comb_element *c) {
-    if (c->edge) /* the lower edges, below which the carrier may stand */
-        return 0.5 * c->edge(c->gap_m, c->width_m, NULL) * c->gap_m / c->depth_m;
-    double share = c->gap_m / (FW_PI * c->depth_m);
-    return share * (1 + log(2 * FW_PI * c->depth_m / c->gap_m));
 }
 
 /* ---- where the rotor is ---- */
@@ -335,10 +352,6 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static double turn_of(const fw_mechanism *m, int body) {
-    return body == FW_GROUND ? 0 : m->body[body].phi_rad;
-}
-
 /* a world point as the body sees it, as drawn */
 static fw_effects_port port_at(const fw_mechanism *m, int body, fw_geometry_vec2 world) {
     if (body == FW_GROUND) return (fw_effects_port){body, world.x, world.y};
@@ -347,31 +360,13 @@ static fw_effects_port port_at(const fw_mechanism *m, int body, fw_geometry_vec2
     return (fw_effects_port){body, c * dx + s * dy, -s * dx + c * dy};
 }
 
-static fw_effects_comb_element electrodes(const fw_effect_case *c, const fw_device_comb *from) {
-    const fw_mechanism *m = c->mechanism;
-    fw_effects_comb_element d = {.kind = from->kind,
-                                 .gap_m = from->gap_m,
-                                 .overlap_m = from->overlap_m,
-                                 .length_m = from->length_m,
-                                 .depth_m = from->depth_m,
-                                 .width_m = fw_device_comb_width_m(from),
-                                 .direction_rad = from->direction_rad,
-                                 .turn_rad = turn_of(m, from->body_b) - turn_of(m, from->body_a),
-                                 .voltage_V = from->voltage_V};
-    if (isnan(d.depth_m) && m->variant) d.depth_m = m->variant->thickness_m;
-    if (d.kind == FW_ELECTRODES_COMB && isnan(d.length_m)) d.length_m = 2 * d.overlap_m;
-    d.face_Fm = FW_VACUUM_PERMITTIVITY_F_PER_m * d.depth_m *
-                (d.kind == FW_ELECTRODES_COMB ? (double)from->fingers : 1);
-    return d;
-}
-
 static fw_status add_one(const fw_effect_case *c, const fw_device_comb *from,
                          fw_effects_loads *loads) {
     fw_effects_comb_element *d;
     fw_effects_force_element *e;
     FW_NEED(d = fw_arena_one(c->arena, fw_effects_comb_element));
     FW_NEED(e = fw_effects_loads_add_element(c->arena, loads, &comb_class, 2));
-    *d = electrodes(c, from);
+    *d = fw_effects_comb_as_drawn(c, from);
     fw_geometry_vec2 world =
         fw_mechanism_local_place(c->mechanism, from->body_b, from->bx_m, from->by_m);
     e->id = from->id ? from->id : "comb-drive";

@@ -22,6 +22,9 @@ fw_effects_torsion *fw_effects_loads_torsion(const fw_mechanism *mechanism, fw_e
                                              int pin);
 /* of a prismatic joint, made on first use */
 fw_effects_slide *fw_effects_loads_slide(fw_effects_loads *loads, int joint);
+/* the electrodes of a drive, without their fringe: element.c */
+fw_effects_comb_element fw_effects_comb_as_drawn(const fw_effect_case *c,
+                                                 const fw_device_comb *from);
 /* what the drawing and the geometry say of a flexure suffices for its law at finite rotation */
 bool fw_effects_hinge_is_known(const fw_mechanism_hinge *hinge);
 /* its pin is no constraint any more: an element stands for it (once, however often it is asked for)

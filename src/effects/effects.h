@@ -417,10 +417,11 @@ typedef struct fw_effects_comb_element {
                                                    of ds over the gap */
     double direction_rad, turn_rad;             /* in the stator's frame; phi_b - phi_a as drawn */
     double voltage_V;
-    double width_m;      /* of the fingers */
-    double edge_F_per_m; /* eps0 fingers, of a comb */
-    /* the fringe, where it counts: fw_effects_comb_edge; else NULL */
-    double (*edge)(double gap_m, double width_m, double slope[2]);
+    double width_m;      /* of the fingers; of a plate across its face */
+    double edge_F_per_m; /* eps0 fingers */
+    /* the field at the edges of a gap and at an end, where it counts: fringe_field.c; else NULL */
+    double (*edge)(const struct fw_effects_comb_element *c, double gap_m, double slope[2]);
+    double (*end)(const struct fw_effects_comb_element *c, double gap_m, double slope[2]);
 } fw_effects_comb_element;
 
 /* NULL: some other class */
@@ -435,11 +436,14 @@ void fw_effects_comb_rate(const fw_effects_force_element *e, const double *p, co
    NaN where the electrodes touch. */
 double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const double place[3],
                                    double *slope, double *bend);
-/* The fringe at both edges of a gap between fingers, over eps0 and their length; slope: its first and second derivative
-   by the gap, 1/m and 1/m^2, may be NULL. */
+/* The fringe at both edges of a gap between fingers, or between two bars of this width and depth, over eps0 and their
+   length; slope: its first and second derivative by the gap, 1/m and 1/m^2, may be NULL. */
 double fw_effects_comb_edge(double gap_m, double width_m, double slope[2]);
-/* how much of C the fringe fields that are not in it would add at most, relative: Palmer's edge formula, or half of
-   what is in it, for what may stand below */
+double fw_effects_plate_edge(double gap_m, double width_m, double depth_m, double slope[2]);
+/* the same at one end of a plate of this length against a longer one, over eps0 and depth */
+double fw_effects_plate_end(double gap_m, double width_m, double length_m, double slope[2]);
+/* what the fringe fields that are not in it may add to the pull, relative, as drawn: what stands below or near changes
+   half of what the long edges do */
 double fw_effects_comb_fringe(const fw_effects_comb_element *c);
 
 /* ---- adhesion.c: surfaces that have met ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Force elements where the bodies are now, at rest. */
-#include "effects/effects.h"
+#include "base/constants.h"
+#include "effects/effect.h"
 #include "effects/modal.h"
 #include <float.h>
 #include <math.h>
@@ -231,4 +232,30 @@ void fw_effects_element_spread(const fw_effects_force_element *e, int nbody, con
             if (whole_damping) spread_block(n, bi, bj, ri, rj, damping + at, stride, whole_damping);
         }
     }
+}
+
+/* ---- electrodes, for the drive and for what it leaves out ---- */
+
+static double turn_of(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? 0 : m->body[body].phi_rad;
+}
+
+fw_effects_comb_element fw_effects_comb_as_drawn(const fw_effect_case *c,
+                                                 const fw_device_comb *from) {
+    const fw_mechanism *m = c->mechanism;
+    fw_effects_comb_element d = {.kind = from->kind,
+                                 .gap_m = from->gap_m,
+                                 .overlap_m = from->overlap_m,
+                                 .length_m = from->length_m,
+                                 .depth_m = from->depth_m,
+                                 .width_m = fw_device_comb_width_m(from),
+                                 .direction_rad = from->direction_rad,
+                                 .turn_rad = turn_of(m, from->body_b) - turn_of(m, from->body_a),
+                                 .voltage_V = from->voltage_V};
+    if (isnan(d.depth_m) && m->variant) d.depth_m = m->variant->thickness_m;
+    if (d.kind == FW_ELECTRODES_COMB && isnan(d.length_m)) d.length_m = 2 * d.overlap_m;
+    d.edge_F_per_m =
+        FW_VACUUM_PERMITTIVITY_F_PER_m * (d.kind == FW_ELECTRODES_COMB ? (double)from->fingers : 1);
+    d.face_Fm = d.edge_F_per_m * d.depth_m;
+    return d;
 }

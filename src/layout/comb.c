@@ -8,11 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-static const double BACK_M = 40e-6;   /* bar behind the fingers, plate, lead */
-static const double TIP_M = 3e-6;     /* rounding of finger tips, within their length */
-static const double PAD_M = 150e-6;   /* side of the part of a pad that is bonded */
-static const double STROKE_M = 5e-6;  /* of the letters on it */
-static const double MARGIN_M = 10e-6; /* around them */
+static const double BACK_M = FW_PLATE_BAR_M; /* bar behind the fingers, plate, lead */
+static const double TIP_M = 3e-6;            /* rounding of finger tips, within their length */
+static const double PAD_M = 150e-6;          /* side of the part of a pad that is bonded */
+static const double STROKE_M = 5e-6;         /* of the letters on it */
+static const double MARGIN_M = 10e-6;        /* around them */
 static const double FREE_M = 60e-6;   /* of lead and pad from what moves, where there is room */
 static const double LEAST_M = 20e-6;  /* and where there is less */
 static const double LONGER_M = 10e-6; /* a stator's plate at either end, beyond the gap */

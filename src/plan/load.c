@@ -338,6 +338,7 @@ static void stand_on_substrate(fw_plan *plan, const fw_device_flow_use *use,
         fw_device_material_find(&plan->materials, glass ? "glass-carrier" : "silicon-substrate");
     if (!of) return; /* a pack without it: not known */
     v->substrate = of->name;
+    v->substrate_insulates = glass;
     v->substrate_expansion = of->expansion;
 }
 

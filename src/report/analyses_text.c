@@ -232,7 +232,11 @@ static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
     fw_text_add(
         out, "; all drives grow together, slowly\n  fringe fields that are not counted add up to ");
     fw_text_number(out, 100 * p->fringe, 2);
-    fw_text_add(out, " % of the capacitance and lower it by about half of that\n");
+    fw_text_add(out, " % of the pull and lower it by about half of that\n");
+    if (!(p->fingers > 1e-3)) return;
+    fw_text_add(out, "  fingers bend: by themselves they surely hold up to ");
+    fw_text_number(out, p->fingers_V, 4);
+    fw_text_add(out, " V, and 1/V^2 of both adds up at most\n");
 }
 
 /* where friction may hold it: the pose above, more or less this */

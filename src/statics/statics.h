@@ -125,16 +125,21 @@ typedef struct fw_statics_pull_in {
     double largest_V; /* of it in the scene */
     double margin;    /* voltage over largest; below 1 the scene's equilibrium does not exist */
     double where[3];  /* of its rotor: along, across (m), tilt (rad) */
-    /* of its capacitance, relative, that is left out at most (fw_effects_comb_fringe) */
+    /* of its pull, relative, that is left out at most (fw_effects_comb_fringe) */
     double fringe;
+    /* V of the comb whose own fingers bend most easily: below that they surely do not snap by themselves; infinite
+       without combs. And (voltage of the scene over it)^2, the largest of any comb */
+    double fingers_V, fingers;
     const char *body;  /* moves most in the motion that becomes free; NULL: NONE */
     double *q, *shape; /* (3 nbody) pose in SI; motion, its largest part 1; NULL: NONE */
     const char *why;   /* NONE: what ended it */
 } fw_statics_pull_in;
 
-/* margin below which it may not hold: fringe fields, which are left out, raise C and so the force
-   by up to `fringe`, and it goes with V^2: sqrt(1 + fringe) */
+/* margin below which it may not hold: fringe fields, which are left out, raise the force by up to `fringe`, and it goes
+   with V^2; fingers that bend add to what gives, so that 1/V^2 adds up: sqrt((1 + fringe)/(1 - (1 + fringe) fingers)) */
 double fw_statics_pull_in_margin(const fw_statics_pull_in *p);
+/* the fingers of a comb may snap by themselves */
+bool fw_statics_pull_in_fingers_snap(const fw_statics_pull_in *p);
 /* what electrodes that touched have to do with the static pull-in voltage, a sentence; NULL:
    memory */
 const char *fw_statics_pull_in_explain(fw_arena *arena, const fw_statics_pull_in *p);

@@ -238,13 +238,13 @@ static void change_comb(const fw_verdict_fabrication *fabricated, const fw_devic
     const double edge = fabricated->edge_m;
     c->gap_m -= 2.0 * edge;
     c->depth_m *= fabricated->thickness_ratio; /* NaN stays: that of the layer */
-    c->width_m = fw_device_comb_width_m(c) + 2.0 * edge;
-    if (c->kind == FW_ELECTRODES_PLATE) {
+    if (c->kind == FW_ELECTRODES_PLATE) {      /* its fringe does not feel what its bar loses */
         double own = c->direction_rad + turned(d, c->body_a) - turned(d, c->body_b);
         c->length_m += 2.0 * edge;
         move(&c->bx_m, &c->by_m, edge, own);
         return;
     }
+    c->width_m = fw_device_comb_width_m(c) + 2.0 * edge;
     if (isnan(c->length_m)) c->length_m = 2.0 * c->overlap_m;
     c->overlap_m += 2.0 * edge;
 }

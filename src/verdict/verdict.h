@@ -73,6 +73,8 @@ typedef struct fw_verdict_across {
     double
         tips; /* factor on the scene's forces below which nothing tips; HUGE_VAL: none does, NaN: not looked at */
     const char *hinge; /* that tips most easily by itself; NULL */
+    double
+        lift_m; /* what electrodes may lift at most (levitation); 0: there are none, or nothing that conducts is below them */
     fw_verdict_decision decision;
 } fw_verdict_across;
 

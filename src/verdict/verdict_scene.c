@@ -116,7 +116,7 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
             : fw_arena_printf(arena,
                               "scene %s asks for up to %s V: comb drive %s pulls in at %s V, or at "
                               "less: fringe fields that the model leaves out add up to %s %% to "
-                              "its capacitance",
+                              "its pull",
                               scene->name, asked, p->comb, at, part);
     return add(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
 }
@@ -137,7 +137,7 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
         "scene %s may throw the rotor of comb drive %s to its stator (dynamic pull-in): it does so "
         "in "
         "a run with the fringe fields that the model leaves out, which add up to %s %% to the "
-        "capacitance",
+        "pull",
         scene->name, p->comb, fw_number_text(part, sizeof part, 100 * p->fringe, 2));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
@@ -145,11 +145,27 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
     return add(v, scene, 248, FW_INCONCLUSIVE, 0.98 / (1 + p->fringe), text);
 }
 
+static fw_status fingers_snap(fw_arena *arena, const fw_device_scene *scene,
+                              const fw_statics_pull_in *p, fw_verdict_variant_verdict *v) {
+    char holds[32], times[32];
+    return add(
+        v, scene, 595, FW_INCONCLUSIVE, 0.98 / ((1 + p->fringe) * p->fingers),
+        fw_arena_printf(arena,
+                        "scene %s: the fingers of a comb bend and may snap by themselves; "
+                        "up to %s V they surely do not, and the scene asks for %s times that",
+                        scene->name, fw_number_text(holds, sizeof holds, p->fingers_V, 4),
+                        fw_number_text(times, sizeof times, sqrt(p->fingers), 3)));
+}
+
 static fw_status judge_pull_in(fw_arena *arena, const fw_device_scene *scene,
                                const fw_statics_pull_in *p, const fw_dynamics_motion *motion,
                                const fw_dynamics_motion_options *options, fw_diags *diags,
                                fw_verdict_variant_verdict *v) {
     if (!p) return FW_OK;
+    if (fw_statics_pull_in_fingers_snap(p)) {
+        FW_TRY(fingers_snap(arena, scene, p, v));
+        if (p->margin >= 1) return FW_OK;
+    }
     if (p->kind != FW_PULL_IN_NONE && p->margin < fw_statics_pull_in_margin(p))
         return beyond(arena, scene, p, v);
     return may_be_thrown(arena, scene, p, motion, options, diags, v);

@@ -17,7 +17,7 @@ ABOUT = {
     ("tendons", "drawn"): {"tendon"},
     ("comb", "drive"): {"comb-drive", "fringe-field", "air", "material-damping"},
     ("comb", "oscillate"): {"comb-drive", "fringe-field", "material-damping"},
-    ("comb", "pull-back"): {"comb-drive", "joint-damping"},
+    ("comb", "pull-back"): {"comb-drive", "fringe-field", "joint-damping"},
     ("shaken", "shock"): {"base-motion", "gravity", "air"},
     ("shaken", "vibration"): {"base-motion", "air"},
     ("shaken", "warm"): {"temperature", "residual-stress", "applied-load"},
@@ -141,6 +141,25 @@ class Effects(unittest.TestCase):
                 headline = [line for line in done.stdout.splitlines() if line.startswith("not guaranteed: ")]
                 self.assertEqual(["FW-D594" in line for line in headline], [little], done.stdout)
                 self.assertEqual("FW-D594" in sheet, little)
+
+    def test_slender_fingers_are_not_accepted(self):
+        """of 2 um, 300 um long, with gaps of 6 um: 3 E I/(kappa L^4), E = 130 GPa along [100], which the voltage is beyond;
+        wider ones of the same scene say nothing"""
+        text = (ROOT / "tests/data/effects/comb.xml").read_text()
+        for wide, beyond in (("2 um", True), ("8 um", False)):
+            there = text.replace('overlap="30 um" voltage', f'overlap="30 um" width="{wide}" length="300 um" voltage')
+            done = run("statics", "-", "--scene", "oscillate", "--json", input=there)
+            drive, = json.loads(done.stdout)["pull_in"]
+            w, g, h, L, eps0 = float(wide[0]) * 1e-6, 6e-6, 50e-6, 300e-6, 8.8541878128e-12
+            x = g / w  # F'' of docs/theory/effects/fringe-field.md, from F' = -ln(1 + 2 x)/(pi x^2 w)
+            bend = (2 * math.log(1 + 2 * x) / x**3 - 2 / (x * x * (1 + 2 * x))) / (math.pi * w * w)
+            youngs = (165.7e9 - 63.9e9) * (165.7e9 + 2 * 63.9e9) / (165.7e9 + 63.9e9)
+            want = math.sqrt(3 * youngs * h * w**3 / 12 / (eps0 * (h / g**3 + bend / 2) * L**4))
+            self.assertAlmostEqual(drive["fingers_V"] / want, 1, delta=2e-3)
+            self.assertEqual("FW-D595" in done.stderr, beyond)
+            verdict = json.loads(run("check", "-", "--json", "--corners", "none", "--advice", "none", input=there).stdout)
+            self.assertEqual(("FW-D595", "oscillate", "inconclusive") in
+                             [(r["code"], r["scene"], r["verdict"]) for r in verdict["reasons"]], beyond)
 
     def test_widths_are_accepted_where_the_verdict_judged_them(self):
         """top and bottom of the narrowest flexure, 6 um, of 50 um silicon: printed edge 0.15 um and that of the aluminium 0.22 um

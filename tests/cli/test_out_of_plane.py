@@ -43,6 +43,26 @@ class OutOfPlane(unittest.TestCase):
         whole = self.stage("check", scene=scene, **options)
         return whole, whole["out_of_plane"][0], whole["out_of_plane"][0]["scenes"][0]
 
+    def test_electrodes_lift(self):
+        """at the middle of a stage whose stiffness there is known: both drives over a silicon carrier, none over glass"""
+        drives = "".join(f'<comb-drive id="{side}" kind="comb" on="stage" x="{x} mm" y="0 mm" direction="{turn} deg" fingers="20" '
+                         f'gap="4 um" overlap="30 um" length="{long} um" voltage="30 V"/>' for side, x, turn, long in
+                         (("r", 0.43, 0, 90), ("l", -0.43, 180, 90)))
+        whole, all_, scene = self.across(scene=drives, flow='<flow ref="soi-deep-rie"/>')
+        force = 2 * 20 * 90e-6 * 8.8541878128e-12 * 30**2 / (2 * 4e-6)
+        self.assertEqual(all_["body"], "stage")
+        # two forces beside the middle lift it evenly; what bodies give comes on top
+        even = force / all_["stiffness_N_per_m"]
+        self.assertTrue(even < scene["lift_m"] < 1.6 * even, (even, scene))
+        done = run("check", self.file, *QUICK)
+        self.assertEqual("FW-D596" in done.stderr, scene["lift_m"] > 0.5e-6)
+        self.file.write_text(self.file.read_text().replace("30 V", "45 V"))
+        again = run("check", self.file, "--json", *QUICK)
+        self.assertAlmostEqual(json.loads(again.stdout)["out_of_plane"][0]["scenes"][0]["lift_m"] / scene["lift_m"], 2.25, delta=1e-6)
+        self.assertRegex(again.stderr, r"lift body \w+ by up to [0-9.]+ um.*FW-D596")
+        glass = self.across(scene=drives, flow=GLASS)[2]
+        self.assertEqual(glass["lift_m"], 0)
+
     def test_nothing_asked(self):
         whole, all_, scene = self.across()
         self.assertEqual(whole["verdict"], "accept")

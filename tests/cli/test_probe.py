@@ -286,7 +286,17 @@ class Probe(unittest.TestCase):
         self.assertAlmostEqual(found["probes"][0]["value"] / (per * (20e-6 + moved)), 1, delta=1e-9)
         found = json.loads(run("statics", "-", "--scene", "plate", "--json", input=asked).stdout)
         moved = found["q"]["plate"][0]
-        self.assertAlmostEqual(found["probes"][0]["value"] / (eps0 * 400e-6 * h / (6e-6 - moved)), 1, delta=1e-9)
+        faces, gap = eps0 * 400e-6 * h / (6e-6 - moved), 6e-6 - moved
+
+        def edge(gap, width, depth):  # of two bars: docs/theory/effects/fringe-field.md
+            y = width / depth
+            A, B = -0.049 + 3.028 * y**0.5 + 8.066 * y, 1.993 + 1.472 * y**0.5 / (1 + y**0.5)
+            return 2 / math.pi * math.log(B + 4.084 / (1 + 0.449 * y**0.25) * (depth / gap) ** 0.5 + A * depth / gap)
+        ends = 0.21 * edge(gap, 40e-6, 400e-6) + 0.58 * edge(2 * gap, 40e-6, 400e-6)
+        whole = faces + eps0 * (400e-6 * edge(gap, 40e-6, h) + 2 * h * ends)
+        self.assertAlmostEqual(found["probes"][0]["value"] / whole, 1, delta=1e-9)
+        bare = json.loads(run("statics", "-", "--scene", "plate", "--effects", "none", "--json", input=asked).stdout)
+        self.assertAlmostEqual(bare["probes"][0]["value"] / (eps0 * 400e-6 * h / (6e-6 - bare["q"]["plate"][0])), 1, delta=1e-9)
         # in a motion, and only of electrodes
         course = json.loads(run("simulate", "-", "--scene", "comb", "--json", input=asked).stdout)["probes"][0]
         self.assertEqual(course["id"], "c")

@@ -221,7 +221,7 @@ class Plan(InTemporary):
         return self.device(text)
 
     def plate(self, name, volts, law="", duration="5 ms", where='y="62 um" direction="90 deg"'):
-        """static pull-in at 27.168 V of a pin, 27.1 V of the flexure, which gives across, too; thrown to the stator
+        """static pull-in at 26.31 V, with the field at its edges; thrown to the stator
         by a step from about 0.92 of it on"""
         return (f'<scene name="{name}" duration="{duration}"><comb-drive id="p" kind="plate" on="arm" '
                 f'x="0.3 mm" {where} gap="6.3 um" length="345 um" depth="50 um" '
@@ -289,17 +289,18 @@ class Plan(InTemporary):
     def test_pull_in_within_the_fringe_fields_is_not_accepted(self):
         slow = 'law="ramp" rise="45 ms"'
         self.assertEqual(self.judged(self.arm(self.plate("a", 24, slow, "50 ms")), 0)["reasons"], [])
-        device = self.arm(self.plate("a", 26.9, slow, "50 ms"))
+        device = self.arm(self.plate("a", 26.1, slow, "50 ms"))
         verdict = self.judged(device, 4)
         self.assertGreater(verdict["pull_in"][0]["margin"], 1)
         self.assertEqual([r["code"] for r in verdict["reasons"]], ["FW-D248"])
         result = self.expect(run("check", device, *QUIET), 4)
         self.assertRegex(result.stdout, r"inconclusive because: scene a .*fringe")
         self.assertRegex(result.stderr, r"fringe .*FW-D248")
-        # a step: thrown to the stator from 25 V on, or from 22.9 V with the fringe fields
-        self.assertEqual(self.judged(self.arm(self.plate("a", 21)), 0)["reasons"], [])
-        reason, = self.judged(self.arm(self.plate("a", 24)), 4)["reasons"]
-        self.assertRegex(reason["text"], "dynamic.*fringe")
+        # a step: thrown to the stator from 24.5 V on, or from 24.1 V with what the fringe may still add; what the hinges
+        # are off by is not known so near
+        self.assertEqual(self.judged(self.arm(self.plate("a", 23.7)), 0)["reasons"], [])
+        reasons = {r["code"]: r["text"] for r in self.judged(self.arm(self.plate("a", 24.3)), 4)["reasons"]}
+        self.assertRegex(reasons["FW-D248"], "dynamic.*fringe")
 
     def test_pull_in_is_a_verdict(self):
         fine = '<scene name="fine" duration="5 ms"><torque on="arm" value="0.001 uN m"/></scene>'
@@ -309,7 +310,7 @@ class Plan(InTemporary):
                          [("h", "fine", "accept")])
         reason, = verdict["reasons"]
         self.assertEqual((reason["code"], reason["scene"], reason["verdict"]), ("FW-D242", "bad", "reject"))
-        self.assertRegex(reason["text"], "pull-in of comb drive p is at 27.1 V, below the 60 V")
+        self.assertRegex(reason["text"], "pull-in of comb drive p is at 26.31 V, below the 60 V")
         result = self.expect(run("plan", device, "-o", self.here / "o", *QUIET), 1)
         self.assertRegex(result.stdout, r"rejected because: p of scene bad .*FW-D242")
         self.assertEqual(json.loads((self.here / "o/verdict.json").read_text())["reasons"], [reason])
@@ -319,14 +320,14 @@ class Plan(InTemporary):
         self.expect(run("simulate", device, "--scene", "fine"), 0)
         self.assertIn("FW-D242", self.expect(run("simulate", device, "--scene", "bad"), 7).stderr)
         # alone; and a voltage that only a sudden start makes too high
-        alone = self.arm(self.plate("a", 26.4))
+        alone = self.arm(self.plate("a", 25.6))
         self.expect(run("plan", alone, "-o", self.here / "alone", *QUIET), 1)
         reason, = self.judged(alone, 1)["reasons"]
         for text in (reason["text"], self.expect(run("simulate", alone), 7).stderr):
             self.assertIn("this is dynamic pull-in", text)
             self.assertNotIn("beyond pull-in", text)
         # just beyond: within what the model may be wrong by
-        reason, = self.judged(self.arm(self.plate("a", 25.7)), 4)["reasons"]
+        reason, = self.judged(self.arm(self.plate("a", 24.95)), 4)["reasons"]
         self.assertEqual(reason["code"], "FW-D242")
         gallery = ROOT / "docs/gallery/comb-stage/device.xml"
         self.expect(run("check", gallery, "--advice", "none", "--set", "volts=115 V"), 1)
@@ -334,7 +335,7 @@ class Plan(InTemporary):
     def test_a_pulse_beyond_pull_in_says_why(self):
         device = self.arm(self.plate("a", 60, 'law="step" end="0.02 ms"'))
         result = self.expect(run("check", device, *QUIET), 4)
-        self.assertRegex(result.stdout, "inconclusive because: scene a .*60 V, beyond the pull-in voltage 27.1 V")
+        self.assertRegex(result.stdout, "inconclusive because: scene a .*60 V, beyond the pull-in voltage 26.31 V")
         self.assertRegex(run("check", device, "-q", *QUIET).stdout, "beyond the pull-in voltage")
 
     def followed(self, text, sentence):
@@ -368,9 +369,9 @@ class Plan(InTemporary):
             "shock": ([scene("a", '<base-motion ay="30000 m/s^2"/>')], "the loads (base motion) of scene a"),
             "pressed": ([scene("a", tendon('pull="4.1 mN"', "-0.58 mm", "0 mm"))],
                         "the loads (tendon pulls) of scene a"),
-            "thrown": ([self.plate("a", 26.4)], "the voltages of scene a"),
+            "thrown": ([self.plate("a", 25.6)], "the voltages of scene a"),
             "pulse": ([self.plate("a", 60, 'law="step" end="0.02 ms"')], "the voltages of scene a"),
-            "fringe": ([self.plate("a", 26.9, 'law="ramp" rise="45 ms"', "50 ms")], "the voltages of scene a"),
+            "fringe": ([self.plate("a", 26.1, 'law="ramp" rise="45 ms"', "50 ms")], "the voltages of scene a"),
             # the stator is there in every scene: below the arm, which scene a lifts
             "several": ([scene("a", force + tendon('pull="1 mN"').replace('x="0.4 mm"', 'x="0.42 mm" y="57 um"')),
                          self.plate("b", 60, where='y="-62 um" direction="-90 deg"'),

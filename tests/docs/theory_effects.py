@@ -241,23 +241,40 @@ def effect_tendon_program(run, _):
 def effect_comb_drive(g):
     force = EPS0 * g["h"] * g["N"] * g["V"] ** 2 / g["gap"]
     depth, gap = g["h"], g["plate"]
-    return {"force": force, "x": force / g["k"], "pullin": sqrt(8 * g["k"] * gap**3 / (27 * EPS0 * g["l"] * depth)),
-            "share": gap / (pi * depth) * (1 + log(2 * pi * depth / gap))}
+    return {"force": force, "x": force / g["k"], "pullin": sqrt(8 * g["k"] * gap**3 / (27 * EPS0 * g["l"] * depth))}
 
 
 def effect_comb_drive_program(run, _):
-    pull_in = at_rest(run, CART, "plate")["pull_in"][0]
-    return {"x": at_rest(run, CART, "comb", "--effects", "none")["q"]["plate"][0], "pullin": pull_in["voltage_V"], "share": pull_in["fringe"]}
+    pull_in = at_rest(run, CART, "plate", "--effects", "none")["pull_in"][0]
+    return {"x": at_rest(run, CART, "comb", "--effects", "none")["q"]["plate"][0], "pullin": pull_in["voltage_V"]}
+
+
+def bars(gap, width, depth):
+    """what the edges of two bars add to C, over eps0 and length, and its slope by the gap"""
+    A, root = (-0.049 + 3.028 * sqrt(width / depth) + 8.066 * width / depth) * depth / gap, sqrt(width / depth)
+    B, D = 1.993 + 1.472 * root / (1 + root), 4.084 / (1 + 0.449 * sqrt(root)) * sqrt(depth / gap)
+    return 2 / pi * log(A + B + D), -2 / pi * (A + D / 2) / (A + B + D) / gap
 
 
 def effect_fringe_field(g):
     x = g["gap"] / g["w"]
     F = (2 * log(1 + 2 * x) - 2 * log(x) + log(1 + 2 * x) / x) / pi
-    return {"F": F, "share": F * g["gap"] / g["h"], "x": EPS0 * g["N"] * (g["h"] / g["gap"] + F) * g["V"] ** 2 / g["k"]}
+    plate = bars(g["gp"], g["b"], g["h"])
+    end = [0.21 * one + 0.58 * two * more for one, two, more in
+           zip(bars(g["gp"], g["b"], g["l"]), bars(2 * g["gp"], g["b"], g["l"]), (1, 2))]
+
+    def pull(at):  # over V^2/2
+        edge, ends = bars(g["gp"] - at, g["b"], g["h"])[1], [bars(n * (g["gp"] - at), g["b"], g["l"])[1] for n in (1, 2)]
+        return EPS0 * (g["l"] * (g["h"] / (g["gp"] - at) ** 2 - edge) - 2 * g["h"] * (0.21 * ends[0] + 1.16 * ends[1]))
+    volts = max(sqrt(2 * g["k"] * at / pull(at)) for at in (g["gp"] * i / 20000 for i in range(5000, 9000)))
+    return {"F": F, "share": F * g["gap"] / g["h"], "x": EPS0 * g["N"] * (g["h"] / g["gap"] + F) * g["V"] ** 2 / g["k"],
+            "Fp": plate[0], "E": end[0], "more": -g["gp"] ** 2 * (plate[1] / g["h"] + 2 * end[1] / g["l"]), "pullin": volts,
+            "left": -g["gp"] ** 2 * plate[1] / g["h"] / 2}
 
 
 def effect_fringe_field_program(run, _):
-    return {"x": at_rest(run, CART, "comb")["q"]["plate"][0]}
+    pull_in = at_rest(run, CART, "plate")["pull_in"][0]
+    return {"x": at_rest(run, CART, "comb")["q"]["plate"][0], "pullin": pull_in["voltage_V"], "left": pull_in["fringe"]}
 
 
 def effect_temperature(g):
