@@ -205,22 +205,31 @@ double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
 
 static const double fw_verdict_rim = 3; /* Kirsch: of a hole in a wide plate that is pulled */
 
+/* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
+typedef struct brought {
+    double moment_Nm, force_N, cut_N_per_m;
+} brought;
+
 /* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
    every strip, and of the narrowest one most; walls farther out leave more */
-static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
+static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_arm *arm, int i,
+                               const brought *by) {
     const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
-    const fw_verdict_arm *arm = &b->arm[i];
     if (!arm->known || !limit) return (fw_verdict_band){0, 0};
-    const double *most = b->hardest_N + 2 * m->nhinge;
     const double allowed_N_per_m =
         limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
     const double walls = m->layout ? 2 * m->layout->edge_m : 0;
     const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
     const double high = fw_verdict_rim *
-                        (most[i / 2 * 2 + 1] * arm->edge_m2 + sqrt(most[i / 2 * 2]) * arm->edge_m) /
+                        (by->moment_Nm * arm->edge_m2 + by->force_N * arm->edge_m) /
                         (fmin(made, 1) * fmin(made, 1));
-    const double low = b->cut_N_per_m[i] / (fmax(made, 1) * fmax(made, 1));
+    const double low = by->cut_N_per_m / (fmax(made, 1) * fmax(made, 1));
     return (fw_verdict_band){low / allowed_N_per_m, high / allowed_N_per_m};
+}
+
+static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
+    const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
+    return (brought){most[1], sqrt(most[0]), b->cut_N_per_m[i]};
 }
 
 fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
@@ -230,7 +239,8 @@ fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics
     if (!saw || !saw->bending.arm || !saw->bending.cut_N_per_m)
         return (fw_verdict_band){(double)NAN, (double)NAN};
     for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_verdict_band here = rims_of(m, &saw->bending, i);
+        const brought by = in_motion(m, &saw->bending, i);
+        const fw_verdict_band here = rims_of(m, &saw->bending.arm[i], i, &by);
         if (here.low > worst.low) worst.low = here.low, at[0] = i;
         if (here.high > worst.high) worst.high = here.high, at[1] = i;
     }
@@ -238,38 +248,81 @@ fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics
     return (fw_verdict_band){worst.low * fmax(1 - off, 0), worst.high * (1 + off)};
 }
 
-fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_mechanism *m,
-                                   const fw_device_scene *scene, const fw_dynamics_motion *motion,
-                                   fw_verdict_variant_verdict *v) {
-    int at[2] = {0, 0};
-    const fw_verdict_band band = fw_verdict_bending_rims(m, motion, at);
-    char low[32], high[32], x[32], y[32];
-    if (!(band.high > 1)) return FW_OK;
-    const bool breaks = band.low > 1;
-    const int i = at[breaks ? 0 : 1];
-    const fw_verdict_strain_monitor *saw = motion->observed;
-    const fw_verdict_arm *arm = &saw->bending.arm[i];
+/* No required pose turns a hinge further, or has a larger joint force, than is proved of all of them; what drift and
+   give of the hinges add to strains they are taken to add to forces. Where nothing bounds that (FW-D535) it is left
+   out: the poses are undecided. */
+double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_workspace_result *w = &v->workspace;
+    double worst = 0;
+    if (!v->arm || !w->required || !w->reachable || !(m->device->release_pitch_m > 0))
+        return (double)NAN;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const int pin = m->hinge[i / 2].pin;
+        if (pin >= FW_SIX) continue;
+        const fw_workspace_load *load = &w->load[pin];
+        const double more =
+            (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
+        const brought by = {.moment_Nm = m->pin[pin].stiffness_Nm_per_rad *
+                                         (fabs(w->peak[pin].angle_rad) + w->peak[pin].error_rad),
+                            .force_N = load->known ? more * load->most_N : 0};
+        const double high = rims_of(m, &v->arm[i], i, &by).high;
+        if (high > worst) worst = high, *at = i;
+    }
+    return worst * (1 + fw_verdict_motion_lasting_error(m));
+}
+
+/* band: over what is allowed, of the rims beside end i; of required poses its low end is not known */
+static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, fw_verdict_band band,
+                           const char *scene, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
     const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+    const bool breaks = band.low > 1, posed = scene == NULL;
+    char low[32], high[32], x[32], y[32];
+    const char *use = posed ? "at most"
+                            : fw_arena_printf(arena, "%s to",
+                                              fw_number_text(low, sizeof low, 100 * band.low, 2)),
+               *where = posed ? "required poses" : fw_arena_printf(arena, "scene %s", scene);
+    FW_NEED(use && where ? use : NULL);
     const char *text = fw_arena_printf(
         arena,
-        "in scene %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
-        "to %s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
-        "smaller holes (release-hole), a wider body there or less load lowers it",
-        scene->name, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
-        breaks ? "do not bear" : "are not known to bear", pin->id,
-        fw_number_text(low, sizeof low, 100 * band.low, 2),
-        fw_number_text(high, sizeof high, 100 * band.high, 3),
+        "in %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
+        "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
+        "smaller holes (release-hole), a wider body there or %s lowers it",
+        where, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
+        breaks ? "do not bear" : "are not known to bear", pin->id, use,
+        fw_number_text(high, sizeof high, 100 * band.high, 4),
         fw_number_text(x, sizeof x, 1e6 * arm->edge.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4));
+        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4),
+        posed ? "a smaller required box" : "less load");
     FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene->name,
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
                                                   .flow = m->variant->flow,
                                                   .number = FW_VERDICT_RIMS,
                                                   .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
                                                   .keep = fmin(fmax(0.98 / band.high, 1e-3), 0.99),
+                                                  .not_by_loads = posed,
                                                   .not_by_width = true,
                                                   .text = text};
     return FW_OK;
+}
+
+fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_device_scene *scene,
+                                   const fw_dynamics_motion *motion,
+                                   fw_verdict_variant_verdict *v) {
+    int at[2] = {0, 0};
+    const fw_verdict_band band = fw_verdict_bending_rims(v->mechanism, motion, at);
+    if (!(band.high > 1)) return FW_OK;
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const int i = at[band.low > 1 ? 0 : 1];
+    return give_rims(arena, &saw->bending.arm[i], i, band, scene->name, v);
+}
+
+fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    int at = 0;
+    const double high = fw_verdict_bending_rims_required(v, &at);
+    if (!(high > 1)) return FW_OK;
+    return give_rims(arena, &v->arm[at], at, (fw_verdict_band){0, high}, NULL, v);
 }
 
 static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,

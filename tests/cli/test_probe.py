@@ -458,6 +458,17 @@ class Probe(unittest.TestCase):
         self.assertTrue(0.1 < shares[1][1] < 1 < shares[2][1], shares)
         self.assertEqual((result.returncode, verdict["verdict"], rims[0]["verdict"]), (4, "inconclusive", "inconclusive"))
         self.assertRegex(rims[0]["text"], r"the rims of release holes of body \w+ are not known to bear what hinge \w brings")
+        posed = text.replace("<die ", "<die %s " % holes).replace(
+            "<flow ", '<workspace x-min="-150 um" x-max="150 um" y-min="-60 um" y-max="60 um" phi-min="-2 deg" phi-max="2 deg"/>\n  <flow ', 1)
+        for phi, decided in (("2 deg", ["workspace"]), ("0.2 deg", [])):
+            small = posed.replace("150 um", "15 um").replace("60 um", "6 um") if not decided else posed
+            result2 = run("check", self.file(small.replace("2 deg", phi)), "--corners", "none", "--advice", "none", "--json")
+            there = json.loads(result2.stdout)
+            used = there["workspace"]["hole_rims"]
+            self.assertEqual([r["scene"] for r in there["reasons"] if r["code"] == "FW-D575" and r["scene"] == "workspace"], decided)
+            self.assertEqual(used > 1, bool(decided), used)
+            for one in there["workspace"]["actuation"]:
+                self.assertGreaterEqual(one["joint_force_most_N"], one["joint_force_N"] * (1 - 1e-9), one)
         changed = [a for a in verdict["advice"] if any(s["path"].startswith("die/@release-") for s in a["set"])]
         self.assertEqual({a["kind"] for a in changed}, {"holes"}, verdict["advice"])
         again = run("check", self.file(text.replace("<die ", "<die %s " % holes)), "--corners", "none", "--advice", "none",

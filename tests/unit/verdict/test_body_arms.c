@@ -222,10 +222,25 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
             assert_true(band.high > 3 * band.low);
             const fw_device_scene pull = {.name = "pull"};
             fw_verdict_reason reason[1];
-            fw_verdict_variant_verdict v = {.reason = reason};
-            assert_int_equal(fw_verdict_bending_judge(s.arena, &s.m, &pull, &motion, &v), FW_OK);
+            fw_verdict_variant_verdict v = {.reason = reason, .mechanism = &s.m};
+            assert_int_equal(fw_verdict_bending_judge(s.arena, &pull, &motion, &v), FW_OK);
             assert_int_equal(v.nreason, 1);
             assert_int_equal(reason[0].decision, load == 0 ? FW_REJECT : FW_INCONCLUSIVE);
+            /* a box of poses that brings as much uses as much, and decides nothing downward */
+            fw_verdict_variant_verdict posed = {.reason = reason, .mechanism = &s.m, .arm = s.arm};
+            assert_true(isnan(fw_verdict_bending_rims_required(&posed, at)));
+            posed.workspace.required = posed.workspace.reachable = true;
+            for (int k = 0; k < 2; k++) {
+                posed.workspace.peak[k].angle_rad = -angle[k];
+                posed.workspace.load[k] = (fw_workspace_load){.known = true, .most_N = force};
+            }
+            assert_relative(fw_verdict_bending_rims_required(&posed, at), band.high, 1e-9);
+            assert_int_equal(fw_verdict_bending_judge_required(s.arena, &posed), FW_OK);
+            assert_int_equal(posed.nreason, 1);
+            assert_int_equal(reason[0].decision, FW_INCONCLUSIVE);
+            device.release_pitch_m = 0;
+            assert_true(isnan(fw_verdict_bending_rims_required(&posed, at)));
+            device.release_pitch_m = 100e-6;
         }
         fw_arena_free(s.arena);
     }
