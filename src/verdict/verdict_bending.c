@@ -16,25 +16,15 @@ static double turned(const fw_verdict_bending *b, int body) {
     return body == FW_GROUND ? 0 : b->turn[body].rad;
 }
 
-/* a hinge that is softer one way than the other by more than this is a strip that bends there */
-static const double fw_verdict_strip_bends = 0.1;
-
-/* By its rotation, and by the forces along and across its axis. *moving: what of it lets bodies move: rotation, and
-   where the hinge is a strip the deflection across that. A leaf that is bent to an S does not turn and moves what it
-   carries; one that is pressed along its strip goes nowhere. */
+/* by its rotation, and by the forces along and across its axis */
 static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin, double angle_rad,
-                       const double force[2], double frame_rad, double *moving) {
-    double energy = 0.5 * pin->stiffness_Nm_per_rad * angle_rad * angle_rad;
+                       const double force[2], double frame_rad) {
+    const double energy = 0.5 * pin->stiffness_Nm_per_rad * angle_rad * angle_rad;
     const fw_flexure_result *c = &h->closed_form;
-    *moving += energy;
     if (!isfinite(h->axis_rad) || !(c->kx_N_per_m > 0) || !(c->ky_N_per_m > 0)) return energy;
     double x = cos(h->axis_rad + frame_rad), y = sin(h->axis_rad + frame_rad);
     double along = x * force[0] + y * force[1], across = x * force[1] - y * force[0];
-    const double by[2] = {0.5 * along * along / c->kx_N_per_m,
-                          0.5 * across * across / c->ky_N_per_m};
-    if (c->kx_N_per_m < fw_verdict_strip_bends * c->ky_N_per_m) *moving += by[0];
-    if (c->ky_N_per_m < fw_verdict_strip_bends * c->kx_N_per_m) *moving += by[1];
-    return energy + (by[0] + by[1]);
+    return energy + 0.5 * (along * along / c->kx_N_per_m + across * across / c->ky_N_per_m);
 }
 
 /* what may tip the device out of its plane (verdict_out_of_plane.c) */
@@ -108,7 +98,7 @@ static void record_cuts(fw_verdict_bending *b, const fw_mechanism *m,
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->moving_J = b->hardest_N2 = 0;
+        b->hinges_J = b->bodies_J = b->hardest_N2 = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
         for (int i = 0; i < m->nbody; i++)
@@ -117,7 +107,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->cut_N_per_m[i] = 0;
         return;
     }
-    double hinges = 0, bodies = 0, moving = 0, *each = b->body_J + m->nbody;
+    double hinges = 0, bodies = 0, *each = b->body_J + m->nbody;
     for (int i = 0; i < m->nbody; i++) {
         const double by = now->q[3 * i + 2] - m->drawn[i].phi_rad;
         each[i] = 0;
@@ -128,8 +118,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         const fw_mechanism_pin *pin = &m->pin[h->pin];
         const double angle = now->angle_rad[h->pin], *force = now->reaction_N + 2 * h->pin;
         const int body[2] = {pin->body_a, pin->body_b};
-        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])),
-                           &moving);
+        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])));
         for (int side = 0; side < 2; side++) {
             const fw_verdict_arm *arm = &b->arm[2 * k + side];
             if (!arm->known) continue;
@@ -144,7 +133,6 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
-    b->moving_J = fmax(b->moving_J, moving);
     b->hinges_J = fmax(b->hinges_J, hinges);
     b->bodies_J = fmax(b->bodies_J, bodies);
 }
@@ -189,15 +177,8 @@ double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     return b ? b->bodies_J / b->hinges_J : 0;
 }
 
-/* A device that is pressed along its flexures goes nowhere, and what little its bodies give of that changes
-   no strain and no clearance: only where the hinges turn, or give across their strips */
-double fw_verdict_bending_moving(const fw_dynamics_motion *motion) {
-    const fw_verdict_bending *b = seen(motion);
-    return b && b->moving_J > 0.5 * b->hinges_J ? fw_verdict_bending_share(motion) : 0;
-}
-
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
-    const double share = fw_verdict_bending_moving(motion);
+    const double share = fw_verdict_bending_share(motion);
     return share > fw_verdict_bending_told ? share : 0;
 }
 
@@ -337,6 +318,19 @@ static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_b
     return narrow;
 }
 
+/* of a device that is pressed along its stiff flexures it is not a share */
+static bool is_share(double share) {
+    return share < 2;
+}
+
+static const char *unit_of(double share) {
+    return is_share(share) ? "% of" : "times";
+}
+
+static const char *number_of(char text[32], double share) {
+    return fw_number_text(text, 32, is_share(share) ? 100 * share : share, 3);
+}
+
 void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags) {
     const fw_verdict_bending *b = seen(motion);
@@ -348,16 +342,16 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
         if (b->body_J[i] > b->body_J[most]) most = i;
     const fw_verdict_arm *arm = narrowest(m, b, most);
     if (!arm) return;
-    fw_diag_warning(diags, 510, m->device->body[most].place,
-                    "bodies are taken as rigid, and in scene %s they may give by up to %s %% of "
-                    "what the hinges "
-                    "give, body %s by %s %%: what is probed may move that much further, and the "
-                    "bands allow for "
-                    "it. It is narrowest, %s um, at (%s, %s) um: make it wider there, or shorter",
-                    scene->name, fw_number_text(all, sizeof all, 100 * share, 3),
-                    m->device->body[most].id,
-                    fw_number_text(one, sizeof one, 100 * b->body_J[most] / b->hinges_J, 3),
-                    fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
-                    fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
-                    fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
+    const double most_share = b->body_J[most] / b->hinges_J;
+    fw_diag_warning(
+        diags, 510, m->device->body[most].place,
+        "bodies are taken as rigid, and in scene %s they may give by up to %s %s what "
+        "the hinges give, body %s by %s %s it: what is probed may move that much further, and the "
+        "bands allow for it. It is narrowest, %s um, at (%s, %s) um: make it wider "
+        "there, or shorter",
+        scene->name, number_of(all, share), unit_of(share), m->device->body[most].id,
+        number_of(one, most_share), unit_of(most_share),
+        fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
+        fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
 }
