@@ -116,6 +116,8 @@ typedef struct fw_verdict_bending {
     double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
     fw_verdict_turn *turn;     /* (nbody) of the instant */
     double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
+    double beside;     /* by how much they are larger beside it: at least 1 */
+    fw_verdict_strain_peak *peak; /* (1 + 2 nhinge) of that sum, of each force squared and moment */
     double *
         hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
                                   force squared, and moment */

@@ -27,24 +27,36 @@ static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin,
     return energy + 0.5 * (along * along / c->kx_N_per_m + across * across / c->ky_N_per_m);
 }
 
-/* what may tip the device out of its plane (verdict_out_of_plane.c) */
+/* What may tip the device out of its plane (verdict_out_of_plane.c), and strain rims. Largest between instants, too: by
+   the parabola through three of them. The forces are those of the hardest instant, as large as the sum of their squares
+   comes to be beside it. */
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                           const fw_dynamics_instant *now) {
     double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
+    fw_verdict_strain_peak *peak = b->peak + 1;
+    if (now->begins) /* no parabola across a jump */
+        for (int i = 0; i <= 2 * m->nhinge; i++)
+            b->peak[i].samples = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const int j = m->hinge[k].pin;
         const double *force = now->reaction_N + 2 * j,
-                     squared = force[0] * force[0] + force[1] * force[1];
+                     squared = force[0] * force[0] + force[1] * force[1],
+                     moment = fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]);
         sum += squared;
-        most[2 * k] = fmax(most[2 * k], squared);
-        most[2 * k + 1] =
-            fmax(most[2 * k + 1], fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]));
+        fw_verdict_strain_peak_add(&peak[2 * k], now->t_s, squared);
+        fw_verdict_strain_peak_add(&peak[2 * k + 1], now->t_s, moment);
+        most[2 * k] = peak[2 * k].strain;
+        most[2 * k + 1] = peak[2 * k + 1].strain;
     }
-    if (!(sum > b->hardest_N2)) return;
-    b->hardest_N2 = sum;
-    for (int k = 0; k < m->nhinge; k++)
-        for (int i = 0; i < 2; i++)
-            b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
+    const double before = b->peak->strain;
+    fw_verdict_strain_peak_add(b->peak, now->t_s, sum);
+    if (sum > b->hardest_N2) {
+        b->hardest_N2 = sum;
+        for (int k = 0; k < m->nhinge; k++)
+            for (int i = 0; i < 2; i++)
+                b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
+    }
+    if (b->peak->strain > before) b->beside = sqrt(b->peak->strain / b->hardest_N2);
 }
 
 /* what a hinge puts on its body at a side, in the axes in which that was drawn */
@@ -101,6 +113,8 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         b->hinges_J = b->bodies_J = b->hardest_N2 = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
+        for (int k = 0; k <= 2 * m->nhinge; k++)
+            b->peak[k] = (fw_verdict_strain_peak){0};
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         for (int i = 0; b->cut_N_per_m && i < 2 * m->nhinge; i++)
@@ -146,6 +160,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
     FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
+    FW_NEED(bending->peak =
+                fw_arena_array(arena, fw_verdict_strain_peak, 2 * (size_t)m->nhinge + 1));
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
     FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));

@@ -242,6 +242,18 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
             assert_true(isnan(fw_verdict_bending_rims_required(&posed, at)));
             device.release_pitch_m = 100e-6;
         }
+        /* the largest between three instants is that of the parabola through them: 1 - (t - 0.2)^2/10 */
+        fw_verdict_bending_record(&seen.bending, &s.m, NULL);
+        for (int i = -1; i <= 1; i++) {
+            const double q[3] = {0, 0, 0}, size = 1 - (i - 0.2) * (i - 0.2) / 10;
+            const double angle[2] = {size, 0}, reaction[4] = {sqrt(size), 0, 0, 0};
+            const fw_dynamics_instant now = {
+                .t_s = i, .q = q, .angle_rad = angle, .reaction_N = reaction};
+            fw_verdict_bending_record(&seen.bending, &s.m, &now);
+        }
+        assert_relative(seen.bending.hardest_N[4], 1, 1e-12);
+        assert_relative(seen.bending.hardest_N[5], 1e-6, 1e-12);
+        assert_relative(seen.bending.beside * seen.bending.hardest_N[0], 1, 1e-12);
         fw_arena_free(s.arena);
     }
 }
