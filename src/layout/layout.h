@@ -100,6 +100,7 @@ typedef struct fw_layout_missing {
     fw_place place;
     const char *why;  /* what is in its way, and where: a clause */
     const char *room; /* the nearest change with which it is drawn; NULL: not looked for */
+    bool narrow;      /* room, where it lies: its fingers are too narrow */
 } fw_layout_missing;
 /* what stands between its `why` and its `room` */
 const char *fw_layout_missing_way(const fw_layout_missing *missing);

@@ -178,7 +178,7 @@ fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item) {
 }
 
 const char *fw_layout_missing_way(const fw_layout_missing *missing) {
-    return missing->number == 130 ? "; instead: " : "; nearest room: ";
+    return missing->number == 130 || missing->narrow ? "; instead: " : "; nearest room: ";
 }
 
 bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q) {

@@ -5,7 +5,7 @@
    Tried are places around the stated one, in the axes in which the file states it: 16 directions at
    distances that grow from 5 um to 2 mm by a factor of 1.4; then, along each direction that has room at
    the least such distance, halves of the step before it, to 1 um. And sizes: for a comb fewer fingers,
-   for plates a shorter face, for fingers that end too near their partners' root longer ones, for an
+   for plates a shorter face, for fingers that end too near their partners' root longer ones, wider ones for those too narrow, for an
    eyelet a smaller ring. In: a layout with missing parts. Out: a clause for each. What is proposed was
    drawn. That nothing nearer has room is not proved: a room less wide than a step may be passed over.
    Cost: at most MOST_TRIES drawings for a part, and MOST_ALL for
@@ -31,6 +31,7 @@ typedef struct change { /* of the part, beside what is stated */
     double x_m, y_m;
     int fingers;     /* 0: as stated */
     double length_m; /* 0: as stated */
+    double width_m;  /* of fingers; 0: as stated */
     double ring;     /* share of hole and ring; 0: as stated */
 } change;
 
@@ -41,6 +42,7 @@ static void change_comb(const change *c, fw_device_comb *comb) {
     comb->by_m += c->y_m;
     if (c->fingers > 0) comb->fingers = c->fingers;
     if (c->length_m > 0.0) comb->length_m = c->length_m;
+    if (c->width_m > 0.0) comb->width_m = c->width_m;
 }
 
 static void change_eyelet(const change *c, fw_device_eyelet *e) {
@@ -178,6 +180,32 @@ static fw_status find_fingers(search *s, int *fingers) {
     return FW_OK;
 }
 
+/* The narrowest fingers that are drawn where these ones lie, to 0.05 um; 0: width is not what they lack. What is up to
+   four times as wide as any mask needs is looked at. */
+static fw_status find_width(search *s, double *width_m) {
+    const double step_m = 0.05e-6, enough_m = 30e-6, grow = 1.25,
+                 stated = s->missing->comb->width_m;
+    double low = stated, high = 0.0;
+    *width_m = 0.0;
+    for (double w = grow * stated; w <= enough_m && high == 0.0; w *= grow) {
+        bool fits;
+        FW_TRY(try_change(s, &(change){.width_m = w}, &fits));
+        *(fits ? &high : &low) = w;
+    }
+    while (high - low > step_m) {
+        const double middle = 0.5 * (low + high);
+        bool fits;
+        FW_TRY(try_change(s, &(change){.width_m = middle}, &fits));
+        *(fits ? &high : &low) = middle;
+    }
+    if (high == 0.0) return FW_OK;
+    bool fits;
+    *width_m = step_m * ceil(high / step_m);
+    FW_TRY(try_change(s, &(change){.width_m = *width_m}, &fits));
+    if (!fits) *width_m = high;
+    return FW_OK;
+}
+
 /* the longest face of plates that has room, or fingers that end far enough from the others' root; 0: none */
 static fw_status find_length(search *s, double *length_m) {
     const fw_device_comb *c = s->missing->comb;
@@ -248,7 +276,21 @@ static fw_status room_of_eyelet(search *s, fw_text *text) {
     return FW_OK;
 }
 
-static fw_status room_of(search *s, const char **out) {
+/* *out NULL: they are wide enough */
+static fw_status width_of_fingers(search *s, const char **out) {
+    const fw_device_comb *c = s->missing->comb;
+    char um[2][32];
+    double width = 0.0;
+    *out = NULL;
+    if (c && c->kind == FW_ELECTRODES_COMB) FW_TRY(find_width(s, &width));
+    if (width > 0.0)
+        FW_NEED(*out =
+                    fw_arena_printf(s->arena, "width=\"%s um\" instead of %s um",
+                                    fw_layout_um(um[0], width), fw_layout_um(um[1], c->width_m)));
+    return FW_OK;
+}
+
+static fw_status room_of(search *s, const char **out, bool *narrow) {
     fw_text text = fw_text_new(s->arena);
     change place = {0};
     double far;
@@ -256,6 +298,8 @@ static fw_status room_of(search *s, const char **out) {
         *out = "not looked for: the search ended with the parts before it";
         return FW_OK;
     }
+    FW_TRY(width_of_fingers(s, out));
+    if ((*narrow = *out != NULL)) return FW_OK;
     FW_TRY(s->missing->comb ? room_of_comb(s, &text) : room_of_eyelet(s, &text));
     fw_text sizes = text;
     text = fw_text_new(s->arena);
@@ -283,7 +327,7 @@ fw_status fw_layout_rooms_find(fw_arena *arena, const fw_device *device, const f
         int most = left < MOST_TRIES ? (int)left : MOST_TRIES;
         search s = {arena, device, layout, &layout->missing[i], most};
         if (found->missing[i].room || !(s.missing->comb || s.missing->eyelet)) continue;
-        FW_TRY(room_of(&s, &found->missing[i].room));
+        FW_TRY(room_of(&s, &found->missing[i].room, &found->missing[i].narrow));
         left -= (size_t)(most - (s.left > 0 ? s.left : 0));
     }
     *out = found;

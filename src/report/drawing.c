@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Colours, the view that holds a device, and its drawing: what all pictures of the room share. */
+#include "base/text.h"
 #include "geometry/contour.h"
 #include "report/figure.h"
 #include "report/report_page.h"
@@ -248,6 +249,16 @@ static void hinges(const fw_device *device, const fw_layout *layout, const fw_ve
     }
 }
 
+/* px that a name and its share take, at 13 px */
+static double label_room(const char *id, double utilisation) {
+    const double least = 62.0, letter = 7.7;
+    double letters = (double)strlen(id);
+    char used[32];
+    if (isfinite(utilisation)) /* three digits, zeros too; " " and " %" */
+        letters += 3 + fmax(4, (double)strlen(fw_percent_text(used, sizeof used, utilisation)));
+    return fmax(least, letter * letters);
+}
+
 /* names stand outside the mechanism, away from the middle of the hinge points */
 static void hinge_labels(const fw_device *device, const fw_layout *layout,
                          const fw_verdict *verdict, const fw_report_view *view, fw_text *out) {
@@ -268,14 +279,14 @@ static void hinge_labels(const fw_device *device, const fw_layout *layout,
         dx = d > 1e-9 ? dx / d : 1.0;
         dy = d > 1e-9 ? dy / d : 0.0;
         double side = fabs(dx) < 0.35 ? 0.0 : dx, tx = x + away * dx;
-        double room = 62.0;
+        double u = fw_report_joint_utilisation(verdict, j);
+        double room = label_room(device->revolute[j].id, u);
         tx = side > 0.0   ? fmin(tx, view->width - room)
              : side < 0.0 ? fmax(tx, room)
                           : fmax(0.6 * room, fmin(view->width - 0.6 * room, tx));
         double ty = fmax(14.0, fmin(view->height - 8.0, y + away * dy + 4.0));
         double bar = scale_bar_m(view) * view->scale + 32.0; /* the scale bar's corner */
         if (tx + room > view->width - bar) ty = fmin(ty, view->height - 42.0);
-        double u = fw_report_joint_utilisation(verdict, j);
         fw_svg_open(out,
                     "text x='{c}' y='{c}' font-size='13' text-anchor='{r}' fill='#1f2328' "
                     "stroke='#fff' stroke-width='3' paint-order='stroke'",

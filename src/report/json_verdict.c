@@ -257,6 +257,7 @@ static void loads(fw_json *json, const fw_verdict_variant_verdict *v) {
         fw_report_json_reals(json, "pose", (double[]){l->x_m, l->y_m, l->phi_rad}, 3);
         fw_json_real(json, "angle_rad", l->angle_rad);
         fw_json_real(json, "joint_force_N", l->force_N);
+        fw_json_real(json, "joint_force_most_N", l->most_N);
         fw_json_real(json, "over_rotation", l->over_rotation);
         fw_json_real(json, "added", l->added);
         fw_json_real(json, "give", l->give);
@@ -268,15 +269,16 @@ static void loads(fw_json *json, const fw_verdict_variant_verdict *v) {
 
 static void workspace(fw_json *json, const fw_report_input *in) {
     bool certified = true, any = false;
-    double volume = (double)NAN;
+    double volume = (double)NAN, rims = (double)NAN;
     fw_json_object(json, "workspace");
     fw_json_list(json, "required");
-    for (int i = 0; i < in->verdict->nvariant; i++) {
+    for (int i = 0, at = 0; i < in->verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
         if (!v->workspace.required) continue;
         any = true;
         certified = certified && v->workspace.certified && v->workspace.reachable;
         volume = fmin(volume, v->workspace.volume_m2_rad); /* fmin ignores the first NaN */
+        rims = fmax(rims, fw_verdict_bending_rims_required(v, &at));
         for (int k = 0; k < in->device->nworkspace; k++)
             if (v->workspace.asked && v->workspace.asked[k])
                 box(json, &in->device->workspace[k], v, v->workspace.box_reachable[k]);
@@ -284,6 +286,7 @@ static void workspace(fw_json *json, const fw_report_input *in) {
     fw_json_end(json);
     fw_json_truth(json, "certified", any && certified);
     fw_json_real(json, "volume", volume); /* least of the boxes, m2 rad */
+    fw_json_real(json, "hole_rims", rims);
     fw_json_list(json, "actuation");
     for (int i = 0; i < in->verdict->nvariant; i++)
         if (in->verdict->variant[i].workspace.required) loads(json, &in->verdict->variant[i]);

@@ -548,7 +548,7 @@ static fw_status conclude(advice *a, const char *why) {
             v->advice_note = fw_arena_printf(
                 arena,
                 "%sa part that finds no room in the drawing is not drawn, which neither flexures "
-                "nor loads change: move it to its nearest room",
+                "nor loads change: give it the place or the size that its reason names",
                 v->nparameter > 0 ? "no change of a parameter was found with which the design is "
                                     "accepted; "
                                   : ""));

@@ -113,10 +113,11 @@ typedef struct fw_verdict_bending {
     const fw_verdict_arm *arm; /* (2 nhinge); NULL: nobody asks */
     double stiff_N;            /* Young's modulus times thickness */
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
-    double moving_J;       /* and of the hinges' rotations and the bending of their strips alone */
-    double *body_J;        /* (2 nbody) the largest of each, then those of the instant */
-    fw_verdict_turn *turn; /* (nbody) of the instant */
+    double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
+    fw_verdict_turn *turn;     /* (nbody) of the instant */
     double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
+    double beside;     /* by how much they are larger beside it: at least 1 */
+    fw_verdict_strain_peak *peak; /* (1 + 2 nhinge) of that sum, of each force squared and moment */
     double *
         hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
                                   force squared, and moment */

@@ -221,7 +221,7 @@ size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         FW_REASONS * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
-        8; /* strips; out of reach or badly held, what hinges give, as made, riders; stiction */
+        9; /* strips; out of reach or badly held, what hinges give, as made, riders, rims; stiction */
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncontact;
     return most;
@@ -278,7 +278,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
-        FW_TRY(fw_verdict_bending_judge(arena, m, scene, v->motion[i], v));
+        FW_TRY(fw_verdict_bending_judge(arena, scene, v->motion[i], v));
         FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief || options->bounded,
                                           diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
@@ -455,6 +455,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     if (!options->hinges_only) FW_TRY(fw_verdict_stiction_judge(arena, m, brief, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
+    FW_TRY(fw_verdict_bending_judge_required(arena, v));
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));
 

@@ -410,9 +410,9 @@ enum {
    body. NaN: there are no holes. at: for low and high 2 times the number of the hinge, and 1 for its second body */
 fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *mechanism,
                                         const fw_dynamics_motion *motion, int at[2]);
-/* the same where hinges turn or give across their strips, else 0: bands of clearances have it */
-double fw_verdict_bending_moving(const fw_dynamics_motion *motion);
-/* that above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */
+/* at most, over all required poses; NaN: there are none, or no holes. at: as above, of one end */
+double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at);
+/* fw_verdict_bending_share above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion);
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (verdict_strain.c), else fw_verdict_model_error.motion */

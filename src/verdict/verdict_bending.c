@@ -16,45 +16,47 @@ static double turned(const fw_verdict_bending *b, int body) {
     return body == FW_GROUND ? 0 : b->turn[body].rad;
 }
 
-/* a hinge that is softer one way than the other by more than this is a strip that bends there */
-static const double fw_verdict_strip_bends = 0.1;
-
-/* By its rotation, and by the forces along and across its axis. *moving: what of it lets bodies move: rotation, and
-   where the hinge is a strip the deflection across that. A leaf that is bent to an S does not turn and moves what it
-   carries; one that is pressed along its strip goes nowhere. */
+/* by its rotation, and by the forces along and across its axis */
 static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin, double angle_rad,
-                       const double force[2], double frame_rad, double *moving) {
-    double energy = 0.5 * pin->stiffness_Nm_per_rad * angle_rad * angle_rad;
+                       const double force[2], double frame_rad) {
+    const double energy = 0.5 * pin->stiffness_Nm_per_rad * angle_rad * angle_rad;
     const fw_flexure_result *c = &h->closed_form;
-    *moving += energy;
     if (!isfinite(h->axis_rad) || !(c->kx_N_per_m > 0) || !(c->ky_N_per_m > 0)) return energy;
     double x = cos(h->axis_rad + frame_rad), y = sin(h->axis_rad + frame_rad);
     double along = x * force[0] + y * force[1], across = x * force[1] - y * force[0];
-    const double by[2] = {0.5 * along * along / c->kx_N_per_m,
-                          0.5 * across * across / c->ky_N_per_m};
-    if (c->kx_N_per_m < fw_verdict_strip_bends * c->ky_N_per_m) *moving += by[0];
-    if (c->ky_N_per_m < fw_verdict_strip_bends * c->kx_N_per_m) *moving += by[1];
-    return energy + (by[0] + by[1]);
+    return energy + 0.5 * (along * along / c->kx_N_per_m + across * across / c->ky_N_per_m);
 }
 
-/* what may tip the device out of its plane (verdict_out_of_plane.c) */
+/* What may tip the device out of its plane (verdict_out_of_plane.c), and strain rims. Largest between instants, too: by
+   the parabola through three of them. The forces are those of the hardest instant, as large as the sum of their squares
+   comes to be beside it. */
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                           const fw_dynamics_instant *now) {
     double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
+    fw_verdict_strain_peak *peak = b->peak + 1;
+    if (now->begins) /* no parabola across a jump */
+        for (int i = 0; i <= 2 * m->nhinge; i++)
+            b->peak[i].samples = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const int j = m->hinge[k].pin;
         const double *force = now->reaction_N + 2 * j,
-                     squared = force[0] * force[0] + force[1] * force[1];
+                     squared = force[0] * force[0] + force[1] * force[1],
+                     moment = fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]);
         sum += squared;
-        most[2 * k] = fmax(most[2 * k], squared);
-        most[2 * k + 1] =
-            fmax(most[2 * k + 1], fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]));
+        fw_verdict_strain_peak_add(&peak[2 * k], now->t_s, squared);
+        fw_verdict_strain_peak_add(&peak[2 * k + 1], now->t_s, moment);
+        most[2 * k] = peak[2 * k].strain;
+        most[2 * k + 1] = peak[2 * k + 1].strain;
     }
-    if (!(sum > b->hardest_N2)) return;
-    b->hardest_N2 = sum;
-    for (int k = 0; k < m->nhinge; k++)
-        for (int i = 0; i < 2; i++)
-            b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
+    const double before = b->peak->strain;
+    fw_verdict_strain_peak_add(b->peak, now->t_s, sum);
+    if (sum > b->hardest_N2) {
+        b->hardest_N2 = sum;
+        for (int k = 0; k < m->nhinge; k++)
+            for (int i = 0; i < 2; i++)
+                b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
+    }
+    if (b->peak->strain > before) b->beside = sqrt(b->peak->strain / b->hardest_N2);
 }
 
 /* what a hinge puts on its body at a side, in the axes in which that was drawn */
@@ -108,16 +110,18 @@ static void record_cuts(fw_verdict_bending *b, const fw_mechanism *m,
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->moving_J = b->hardest_N2 = 0;
+        b->hinges_J = b->bodies_J = b->hardest_N2 = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
+        for (int k = 0; k <= 2 * m->nhinge; k++)
+            b->peak[k] = (fw_verdict_strain_peak){0};
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         for (int i = 0; b->cut_N_per_m && i < 2 * m->nhinge; i++)
             b->cut_N_per_m[i] = 0;
         return;
     }
-    double hinges = 0, bodies = 0, moving = 0, *each = b->body_J + m->nbody;
+    double hinges = 0, bodies = 0, *each = b->body_J + m->nbody;
     for (int i = 0; i < m->nbody; i++) {
         const double by = now->q[3 * i + 2] - m->drawn[i].phi_rad;
         each[i] = 0;
@@ -128,8 +132,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         const fw_mechanism_pin *pin = &m->pin[h->pin];
         const double angle = now->angle_rad[h->pin], *force = now->reaction_N + 2 * h->pin;
         const int body[2] = {pin->body_a, pin->body_b};
-        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])),
-                           &moving);
+        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])));
         for (int side = 0; side < 2; side++) {
             const fw_verdict_arm *arm = &b->arm[2 * k + side];
             if (!arm->known) continue;
@@ -144,7 +147,6 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
-    b->moving_J = fmax(b->moving_J, moving);
     b->hinges_J = fmax(b->hinges_J, hinges);
     b->bodies_J = fmax(b->bodies_J, bodies);
 }
@@ -158,6 +160,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
     FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
+    FW_NEED(bending->peak =
+                fw_arena_array(arena, fw_verdict_strain_peak, 2 * (size_t)m->nhinge + 1));
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
     FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
@@ -189,15 +193,8 @@ double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     return b ? b->bodies_J / b->hinges_J : 0;
 }
 
-/* A device that is pressed along its flexures goes nowhere, and what little its bodies give of that changes
-   no strain and no clearance: only where the hinges turn, or give across their strips */
-double fw_verdict_bending_moving(const fw_dynamics_motion *motion) {
-    const fw_verdict_bending *b = seen(motion);
-    return b && b->moving_J > 0.5 * b->hinges_J ? fw_verdict_bending_share(motion) : 0;
-}
-
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
-    const double share = fw_verdict_bending_moving(motion);
+    const double share = fw_verdict_bending_share(motion);
     return share > fw_verdict_bending_told ? share : 0;
 }
 
@@ -205,22 +202,31 @@ double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
 
 static const double fw_verdict_rim = 3; /* Kirsch: of a hole in a wide plate that is pulled */
 
+/* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
+typedef struct brought {
+    double moment_Nm, force_N, cut_N_per_m;
+} brought;
+
 /* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
    every strip, and of the narrowest one most; walls farther out leave more */
-static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
+static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_arm *arm, int i,
+                               const brought *by) {
     const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
-    const fw_verdict_arm *arm = &b->arm[i];
     if (!arm->known || !limit) return (fw_verdict_band){0, 0};
-    const double *most = b->hardest_N + 2 * m->nhinge;
     const double allowed_N_per_m =
         limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
     const double walls = m->layout ? 2 * m->layout->edge_m : 0;
     const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
     const double high = fw_verdict_rim *
-                        (most[i / 2 * 2 + 1] * arm->edge_m2 + sqrt(most[i / 2 * 2]) * arm->edge_m) /
+                        (by->moment_Nm * arm->edge_m2 + by->force_N * arm->edge_m) /
                         (fmin(made, 1) * fmin(made, 1));
-    const double low = b->cut_N_per_m[i] / (fmax(made, 1) * fmax(made, 1));
+    const double low = by->cut_N_per_m / (fmax(made, 1) * fmax(made, 1));
     return (fw_verdict_band){low / allowed_N_per_m, high / allowed_N_per_m};
+}
+
+static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
+    const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
+    return (brought){most[1], sqrt(most[0]), b->cut_N_per_m[i]};
 }
 
 fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
@@ -230,7 +236,8 @@ fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics
     if (!saw || !saw->bending.arm || !saw->bending.cut_N_per_m)
         return (fw_verdict_band){(double)NAN, (double)NAN};
     for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_verdict_band here = rims_of(m, &saw->bending, i);
+        const brought by = in_motion(m, &saw->bending, i);
+        const fw_verdict_band here = rims_of(m, &saw->bending.arm[i], i, &by);
         if (here.low > worst.low) worst.low = here.low, at[0] = i;
         if (here.high > worst.high) worst.high = here.high, at[1] = i;
     }
@@ -238,38 +245,81 @@ fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics
     return (fw_verdict_band){worst.low * fmax(1 - off, 0), worst.high * (1 + off)};
 }
 
-fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_mechanism *m,
-                                   const fw_device_scene *scene, const fw_dynamics_motion *motion,
-                                   fw_verdict_variant_verdict *v) {
-    int at[2] = {0, 0};
-    const fw_verdict_band band = fw_verdict_bending_rims(m, motion, at);
-    char low[32], high[32], x[32], y[32];
-    if (!(band.high > 1)) return FW_OK;
-    const bool breaks = band.low > 1;
-    const int i = at[breaks ? 0 : 1];
-    const fw_verdict_strain_monitor *saw = motion->observed;
-    const fw_verdict_arm *arm = &saw->bending.arm[i];
+/* No required pose turns a hinge further, or has a larger joint force, than is proved of all of them; what drift and
+   give of the hinges add to strains they are taken to add to forces. Where nothing bounds that (FW-D535) it is left
+   out: the poses are undecided. */
+double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_workspace_result *w = &v->workspace;
+    double worst = 0;
+    if (!v->arm || !w->required || !w->reachable || !(m->device->release_pitch_m > 0))
+        return (double)NAN;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const int pin = m->hinge[i / 2].pin;
+        if (pin >= FW_SIX) continue;
+        const fw_workspace_load *load = &w->load[pin];
+        const double more =
+            (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
+        const brought by = {.moment_Nm = m->pin[pin].stiffness_Nm_per_rad *
+                                         (fabs(w->peak[pin].angle_rad) + w->peak[pin].error_rad),
+                            .force_N = load->known ? more * load->most_N : 0};
+        const double high = rims_of(m, &v->arm[i], i, &by).high;
+        if (high > worst) worst = high, *at = i;
+    }
+    return worst * (1 + fw_verdict_motion_lasting_error(m));
+}
+
+/* band: over what is allowed, of the rims beside end i; of required poses its low end is not known */
+static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, fw_verdict_band band,
+                           const char *scene, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
     const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+    const bool breaks = band.low > 1, posed = scene == NULL;
+    char low[32], high[32], x[32], y[32];
+    const char *use = posed ? "at most"
+                            : fw_arena_printf(arena, "%s to",
+                                              fw_number_text(low, sizeof low, 100 * band.low, 2)),
+               *where = posed ? "required poses" : fw_arena_printf(arena, "scene %s", scene);
+    FW_NEED(use && where ? use : NULL);
     const char *text = fw_arena_printf(
         arena,
-        "in scene %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
-        "to %s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
-        "smaller holes (release-hole), a wider body there or less load lowers it",
-        scene->name, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
-        breaks ? "do not bear" : "are not known to bear", pin->id,
-        fw_number_text(low, sizeof low, 100 * band.low, 2),
-        fw_number_text(high, sizeof high, 100 * band.high, 3),
+        "in %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
+        "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
+        "smaller holes (release-hole), a wider body there or %s lowers it",
+        where, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
+        breaks ? "do not bear" : "are not known to bear", pin->id, use,
+        fw_number_text(high, sizeof high, 100 * band.high, 4),
         fw_number_text(x, sizeof x, 1e6 * arm->edge.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4));
+        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4),
+        posed ? "a smaller required box" : "less load");
     FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene->name,
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
                                                   .flow = m->variant->flow,
                                                   .number = FW_VERDICT_RIMS,
                                                   .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
                                                   .keep = fmin(fmax(0.98 / band.high, 1e-3), 0.99),
+                                                  .not_by_loads = posed,
                                                   .not_by_width = true,
                                                   .text = text};
     return FW_OK;
+}
+
+fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_device_scene *scene,
+                                   const fw_dynamics_motion *motion,
+                                   fw_verdict_variant_verdict *v) {
+    int at[2] = {0, 0};
+    const fw_verdict_band band = fw_verdict_bending_rims(v->mechanism, motion, at);
+    if (!(band.high > 1)) return FW_OK;
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const int i = at[band.low > 1 ? 0 : 1];
+    return give_rims(arena, &saw->bending.arm[i], i, band, scene->name, v);
+}
+
+fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    int at = 0;
+    const double high = fw_verdict_bending_rims_required(v, &at);
+    if (!(high > 1)) return FW_OK;
+    return give_rims(arena, &v->arm[at], at, (fw_verdict_band){0, high}, NULL, v);
 }
 
 static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,
@@ -284,6 +334,19 @@ static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_b
     return narrow;
 }
 
+/* of a device that is pressed along its stiff flexures it is not a share */
+static bool is_share(double share) {
+    return share < 2;
+}
+
+static const char *unit_of(double share) {
+    return is_share(share) ? "% of" : "times";
+}
+
+static const char *number_of(char text[32], double share) {
+    return fw_number_text(text, 32, is_share(share) ? 100 * share : share, 3);
+}
+
 void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags) {
     const fw_verdict_bending *b = seen(motion);
@@ -295,16 +358,16 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
         if (b->body_J[i] > b->body_J[most]) most = i;
     const fw_verdict_arm *arm = narrowest(m, b, most);
     if (!arm) return;
-    fw_diag_warning(diags, 510, m->device->body[most].place,
-                    "bodies are taken as rigid, and in scene %s they may give by up to %s %% of "
-                    "what the hinges "
-                    "give, body %s by %s %%: what is probed may move that much further, and the "
-                    "bands allow for "
-                    "it. It is narrowest, %s um, at (%s, %s) um: make it wider there, or shorter",
-                    scene->name, fw_number_text(all, sizeof all, 100 * share, 3),
-                    m->device->body[most].id,
-                    fw_number_text(one, sizeof one, 100 * b->body_J[most] / b->hinges_J, 3),
-                    fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
-                    fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
-                    fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
+    const double most_share = b->body_J[most] / b->hinges_J;
+    fw_diag_warning(
+        diags, 510, m->device->body[most].place,
+        "bodies are taken as rigid, and in scene %s they may give by up to %s %s what "
+        "the hinges give, body %s by %s %s it: what is probed may move that much further, and the "
+        "bands allow for it. It is narrowest, %s um, at (%s, %s) um: make it wider "
+        "there, or shorter",
+        scene->name, number_of(all, share), unit_of(share), m->device->body[most].id,
+        number_of(one, most_share), unit_of(most_share),
+        fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
+        fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
 }

@@ -247,10 +247,13 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
     const double *hardest = saw->bending.hardest_N;
     int hinge;
-    double *other;
+    double *other, *forces = fw_arena_array(arena, double, 2 * (size_t)n);
+    FW_NEED(forces);
+    for (int i = 0; i < 2 * n; i++)
+        forces[i] = saw->bending.beside * hardest[i];
     FW_NEED(other = fw_arena_array(arena, double, (size_t)m->nbody));
     acting(m, s, other);
-    const fw_mechanism_plates_pressed pressed = {hardest, hardest + 2 * n, other};
+    const fw_mechanism_plates_pressed pressed = {forces, hardest + 2 * n, other};
     FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &to->tips, &hinge));
     to->tips *= 1 - is->rigid.error;
     if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;

@@ -44,10 +44,10 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
 /* v->arm, where it is not known of a device much like it */
 fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
                                    const fw_mechanism *mechanism, fw_verdict_variant_verdict *v);
-/* a reason of v where rims of release holes may not bear the scene (FW-D575) */
-fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_mechanism *mechanism,
-                                   const fw_device_scene *scene, const fw_dynamics_motion *motion,
-                                   fw_verdict_variant_verdict *v);
+/* a reason of v where rims of release holes may not bear the scene, or required poses (FW-D575) */
+fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_device_scene *scene,
+                                   const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v);
+fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v);
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);
 

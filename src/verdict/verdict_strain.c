@@ -78,6 +78,39 @@ double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double
            (2 * stiff_N);
 }
 
+/* ---- a largest value ---- */
+
+static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double between) {
+    if (strain <= p->strain) return;
+    p->strain = strain;
+    p->t_s = t_s;
+    p->between = between;
+}
+
+/* peak of the parabola through three instants, spacings a and b about the middle one:
+     slope = ((s1-s0) b/a + (s2-s1) a/b)/(a+b), bend = 2 ((s2-s1)/b - (s1-s0)/a)/(a+b)
+     at t1 - slope/bend, s1 - slope^2/(2 bend)
+   in: times s, strains; error O(spacing^3) of the peak's height, and `between` bounds it; cost none
+   source: Newton's divided differences; test_watch.c finds_the_peak_between_instants */
+void fw_verdict_strain_peak_add(fw_verdict_strain_peak *p, double t_s, double strain) {
+    if (p->samples >= 2) {
+        double a = p->t[1] - p->t[0], b = t_s - p->t[1];
+        double up = p->s[1] - p->s[0], down = strain - p->s[1];
+        if (a > 0.0 && b > 0.0 && up >= 0.0 && down <= 0.0 && up - down > 0.0) {
+            double slope = (up * b / a + down * a / b) / (a + b);
+            double bend = 2.0 * (down / b - up / a) / (a + b);
+            double add = -slope * slope / (2.0 * bend);
+            keep(p, p->t[1] - slope / bend, p->s[1] + add, add);
+        }
+    }
+    keep(p, t_s, strain, 0.0); /* the first and the last instant have no neighbours */
+    p->t[0] = p->t[1];
+    p->s[0] = p->s[1];
+    p->t[1] = t_s;
+    p->s[1] = strain;
+    p->samples++;
+}
+
 /* ---- strain ---- */
 
 static const double tolerance = 1e-8;

@@ -531,7 +531,7 @@ fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
                                const fw_mechanism *m, const fw_workspace_strain_proof *proof,
                                int hinge, const fw_workspace_give *give, fw_workspace_load *out) {
     worst w = {.hold = hold, .at = &proof->most[hinge], .hinge = hinge};
-    *out = (fw_workspace_load){.strain = proof->strain[hinge]};
+    *out = (fw_workspace_load){.strain = proof->strain[hinge], .most_N = proof->force_N[hinge]};
     if (hold->section[hinge].n == 0) return FW_OK;
     FW_NEED(w.response = fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
     fw_workspace_pose_load load;
@@ -557,6 +557,7 @@ void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load 
                             fw_workspace_load *out) {
     double of_a = a->strain * (1.0 + a->added), of_b = b->strain * (1.0 + b->added);
     fw_workspace_load most = b->strain > a->strain ? *b : *a;
+    most.most_N = fmax(a->most_N, b->most_N);
     double all = fmax(of_a, of_b);
     if (all > 0.0) {
         double least = fmax(of_a * (1.0 - a->relief), of_b * (1.0 - b->relief));

@@ -10,9 +10,11 @@ typedef struct bounding {
     const fw_arena *arena;
     const fw_workspace_hold *hold;
     double relative, size[3];
+    bool sampled; /* nothing is proved */
     fw_workspace_strain_proof *proof;
     fw_workspace_response *over, *at; /* (nactuator) of a box and of a pose */
     double found[FW_SIX], bound[FW_SIX];
+    double force_N[FW_SIX]; /* at most in the leaves so far; of samples the largest */
 } bounding;
 
 /* statics over the box for the grips from..to; false: a pose may be out of reach */
@@ -35,6 +37,12 @@ static bool seen(const bounding *b, int grip, int from, bool own) {
     return own && from == 0 && grip > 0 && b->hold->grip[0].wrench;
 }
 
+/* no less than the size of a joint force at every pose of the box */
+static double size_of(const fw_workspace_jet2 *force, const double half[3]) {
+    const fw_maths_interval x = fw_jet_range(&force->x, half), y = fw_jet_range(&force->y, half);
+    return fw_up(hypot(fmax(-x.lo, x.hi), fmax(-y.lo, y.hi)));
+}
+
 /* strains at one pose, by the grips from..to that certainly hold it */
 static void try_pose(bounding *b, const double pose[3], int from, int to) {
     const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
@@ -50,6 +58,7 @@ static void try_pose(bounding *b, const double pose[3], int from, int to) {
         for (int i = 0; i < FW_SIX; i++) {
             if (seen(b, g, from, own[i > 2])) continue;
             fw_maths_interval now = fw_workspace_pose_strain(b->hold, &load, i, &force[i], NULL);
+            if (b->sampled) b->force_N[i] = fmax(b->force_N[i], size_of(&force[i], load.half));
             if (!(now.lo > b->found[i])) continue;
             b->found[i] = now.lo;
             b->proof->most[i] = (fw_workspace_strain_extreme){
@@ -75,7 +84,7 @@ static bool worth(const bounding *b, const fw_workspace_box3 *box, int hinge, do
 static bool enough(bounding *b, const fw_workspace_box3 *box) {
     fw_workspace_pose_load load;
     if (!look(b, box, 0, b->hold->ngrip - 1, &load, b->over)) return false;
-    double far[FW_SIX] = {0};
+    double far[FW_SIX] = {0}, most_N[FW_SIX] = {0};
     for (int g = 0; g < b->hold->ngrip; g++) {
         fw_workspace_jet2 force[FW_SIX];
         bool certain, own[2];
@@ -93,10 +102,13 @@ static bool enough(bounding *b, const fw_workspace_box3 *box) {
                 if (!close_enough(b, i, now)) return false;
             }
             far[i] = fmax(far[i], now);
+            most_N[i] = fmax(most_N[i], size_of(&force[i], load.half));
         }
     }
-    for (int i = 0; i < FW_SIX; i++)
+    for (int i = 0; i < FW_SIX; i++) {
         b->bound[i] = fmax(b->bound[i], far[i]);
+        b->force_N[i] = fmax(b->force_N[i], most_N[i]);
+    }
     return true;
 }
 
@@ -183,6 +195,7 @@ fw_status fw_workspace_certify_strain(fw_arena *arena, const fw_workspace_hold *
     /* a hair more, so that another enclosure of the same numbers can confirm it */
     for (int i = 0; i < FW_SIX; i++)
         proof->strain[i] = b.bound[i] > 0.0 ? b.bound[i] * (1.0 + 1e-4) : 0.0;
+    memcpy(proof->force_N, b.force_N, sizeof b.force_N);
     proof->tree = tree.data;
     proof->proved = true;
     return FW_OK;
@@ -194,11 +207,13 @@ fw_status fw_workspace_sample_strain(fw_arena *arena, const fw_workspace_hold *h
     bounding b;
     double coarse[FW_SIX];
     FW_TRY(start(arena, hold, box, proof, &b));
+    b.sampled = true;
     grid(&b, box, GRID / 2 + 1);
     memcpy(coarse, b.found, sizeof coarse);
     grid(&b, box, GRID);
     for (int i = 0; i < FW_SIX; i++) /* the grid twice as fine found this much more */
         proof->strain[i] = b.found[i] + 2.0 * (b.found[i] - coarse[i]);
+    memcpy(proof->force_N, b.force_N, sizeof b.force_N);
     return fw_arena_cancelled(arena) ? FW_CANCELLED : FW_OK;
 }
 

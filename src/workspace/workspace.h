@@ -56,6 +56,7 @@ typedef struct fw_workspace_strain_proof {
     const fw_workspace_hold *hold; /* NULL: nothing is known of the joint forces */
     bool proved;                   /* else from samples */
     double strain[FW_SIX];         /* 0 where there is no flexure */
+    double force_N[FW_SIX];        /* no pose has a larger joint force; of samples the largest */
     fw_workspace_strain_extreme most[FW_SIX];
     const char *tree;
     long boxes;
@@ -71,6 +72,7 @@ typedef struct fw_workspace_load { /* of one hinge, the worst over all required 
     double error;                  /* certified: the truth is at most this much less */
     double x_m, y_m, phi_rad;      /* where it is nearly reached, and there: */
     double angle_rad, force_N;
+    double most_N;        /* certified: no required pose has a larger joint force */
     double over_rotation; /* strain over that of the rotation alone */
     /* relative: what poses with hinges that drift and give were found to have beyond `strain`, or
        less; of both together what these may add besides (HUGE_VAL: nothing bounds it), and take away */

@@ -49,6 +49,30 @@ class Pictures(unittest.TestCase):
         self.addCleanup(self.temporary.cleanup)
         self.here = pathlib.Path(self.temporary.name)
 
+    def test_names_of_hinges_stand_within_the_picture(self):
+        """with shares of many letters, too, and with names that are long"""
+        gallery = ROOT / "docs/gallery"
+        faint = re.sub(r'fx="0.25 mN"', 'fx="3 nN"', (gallery / "reference-six-bar/device.xml").read_text(encoding="utf-8"))
+        faint = re.sub(r'<scene name="gentle.*?</scene>|<workspace [^>]*/>|<flow ref="copper[^>]*/>', "", faint, flags=re.S)
+        named = re.sub(r'<revolute id="(\w)"', r'<revolute id="\1-of-the-stage"', (gallery / "leaf-four-bar/device.xml").read_text(encoding="utf-8"))
+        letter, longest = 0.54 * 13, 0
+        for number, text in enumerate((faint, named)):
+            path, out = self.here / f"{number}.xml", self.here / f"out{number}"
+            path.write_text(text, encoding="utf-8")
+            result = run("plan", path, "-o", out, "--corners", "none", "--advice", "none", "-q")
+            self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+            root, labels = tree.parse(out / "device.svg").getroot(), 0
+            width = float(root.get("viewBox").split()[2])
+            for e in root.iter(SVG + "text"):
+                if e.get("font-size") != "13" or e.find(SVG + "tspan") is None:
+                    continue
+                wide = letter * len("".join(e.itertext()).strip())
+                left = float(e.get("x")) - {"start": 0, "middle": wide / 2, "end": wide}[e.get("text-anchor")]
+                self.assertTrue(-0.5 <= left and left + wide <= width + 0.5, (left, wide, "".join(e.itertext())))
+                labels, longest = labels + 1, max(longest, wide)
+            self.assertGreaterEqual(labels, 4)
+        self.assertGreater(longest, 80)  # more than any picture of the gallery has
+
     def inside(self, path, least):
         text = path.read_text()
         self.assertNotRegex(text, r"\b(nan|inf)\b")

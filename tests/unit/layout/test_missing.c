@@ -136,6 +136,28 @@ static void short_fingers_are_longer(void **unused) {
     fw_arena_free(d.arena);
 }
 
+/* their place is not what they lack: the narrowest that are drawn are named, and narrower ones are not */
+static void narrow_fingers_are_wider(void **unused) {
+    (void)unused;
+    fixture f;
+    double um = 0;
+    paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.48e-3, 0.0);
+    comb.width_m = 2e-6;
+    drawn d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    if (strncmp(m->room, "width=\"", 7) || sscanf(m->room, "width=\"%lf um\"", &um) != 1)
+        fail_msg("%s", m->room);
+    assert_non_null(strstr(fw_layout_missing_way(m), "instead"));
+    assert_true(um > 2 && um < 10);
+    comb.width_m = 1e-6 * um;
+    nothing_missing(&f.device);
+    fw_arena_free(d.arena);
+    comb.width_m = 1e-6 * (um - 0.2);
+    d = draw(&f.device);
+    only_missing(&d, &f.device, 131);
+    fw_arena_free(d.arena);
+}
+
 static void a_plate_names_a_place_that_has_room(void **unused) {
     (void)unused;
     fixture f;
@@ -383,6 +405,7 @@ int main(void) {
         cmocka_unit_test(a_comb_names_a_place_that_has_room),
         cmocka_unit_test(too_many_fingers_are_fewer),
         cmocka_unit_test(short_fingers_are_longer),
+        cmocka_unit_test(narrow_fingers_are_wider),
         cmocka_unit_test(a_plate_names_a_place_that_has_room),
         cmocka_unit_test(no_insulation_has_no_room),
         cmocka_unit_test(an_eyelet_names_a_place_that_has_room),

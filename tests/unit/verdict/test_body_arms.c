@@ -222,11 +222,38 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
             assert_true(band.high > 3 * band.low);
             const fw_device_scene pull = {.name = "pull"};
             fw_verdict_reason reason[1];
-            fw_verdict_variant_verdict v = {.reason = reason};
-            assert_int_equal(fw_verdict_bending_judge(s.arena, &s.m, &pull, &motion, &v), FW_OK);
+            fw_verdict_variant_verdict v = {.reason = reason, .mechanism = &s.m};
+            assert_int_equal(fw_verdict_bending_judge(s.arena, &pull, &motion, &v), FW_OK);
             assert_int_equal(v.nreason, 1);
             assert_int_equal(reason[0].decision, load == 0 ? FW_REJECT : FW_INCONCLUSIVE);
+            /* a box of poses that brings as much uses as much, and decides nothing downward */
+            fw_verdict_variant_verdict posed = {.reason = reason, .mechanism = &s.m, .arm = s.arm};
+            assert_true(isnan(fw_verdict_bending_rims_required(&posed, at)));
+            posed.workspace.required = posed.workspace.reachable = true;
+            for (int k = 0; k < 2; k++) {
+                posed.workspace.peak[k].angle_rad = -angle[k];
+                posed.workspace.load[k] = (fw_workspace_load){.known = true, .most_N = force};
+            }
+            assert_relative(fw_verdict_bending_rims_required(&posed, at), band.high, 1e-9);
+            assert_int_equal(fw_verdict_bending_judge_required(s.arena, &posed), FW_OK);
+            assert_int_equal(posed.nreason, 1);
+            assert_int_equal(reason[0].decision, FW_INCONCLUSIVE);
+            device.release_pitch_m = 0;
+            assert_true(isnan(fw_verdict_bending_rims_required(&posed, at)));
+            device.release_pitch_m = 100e-6;
         }
+        /* the largest between three instants is that of the parabola through them: 1 - (t - 0.2)^2/10 */
+        fw_verdict_bending_record(&seen.bending, &s.m, NULL);
+        for (int i = -1; i <= 1; i++) {
+            const double q[3] = {0, 0, 0}, size = 1 - (i - 0.2) * (i - 0.2) / 10;
+            const double angle[2] = {size, 0}, reaction[4] = {sqrt(size), 0, 0, 0};
+            const fw_dynamics_instant now = {
+                .t_s = i, .q = q, .angle_rad = angle, .reaction_N = reaction};
+            fw_verdict_bending_record(&seen.bending, &s.m, &now);
+        }
+        assert_relative(seen.bending.hardest_N[4], 1, 1e-12);
+        assert_relative(seen.bending.hardest_N[5], 1e-6, 1e-12);
+        assert_relative(seen.bending.beside * seen.bending.hardest_N[0], 1, 1e-12);
         fw_arena_free(s.arena);
     }
 }

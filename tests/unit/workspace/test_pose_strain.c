@@ -243,7 +243,7 @@ static double strain(const loaded_six_bar *d, const still_pose *s, int i, const 
 
 static void sample(const loaded_six_bar *d, const fw_workspace_hold *hold,
                    const fw_workspace_box3 *box, const fw_workspace_strain_proof *proof,
-                   double most[6]) {
+                   double most[6], double most_N[6]) {
     int n = test_cases(300, 100);
     for (int k = 0; k < n; k++) {
         double pose[3];
@@ -258,7 +258,8 @@ static void sample(const loaded_six_bar *d, const fw_workspace_hold *hold,
             double force[12];
             if (!hold_still(d, hold, &hold->grip[g], &s, force)) continue;
             for (int i = 0; i < 6; i++)
-                most[i] = fmax(most[i], strain(d, &s, i, force + 2 * i));
+                most[i] = fmax(most[i], strain(d, &s, i, force + 2 * i)),
+                most_N[i] = fmax(most_N[i], hypot(force[2 * i], force[2 * i + 1]));
         }
     }
 }
@@ -268,6 +269,7 @@ static void bounds_hold_and_are_sharp(void **state) {
     (void)state;
     seed = 11;
     static const double scale[] = {1, 0.45, 0.35};
+    double loose = 1;
     int count = test_cases(40, 12), proved = 0;
     for (int n = 0; n < count; n++) {
         loaded_six_bar d = {0};
@@ -287,17 +289,24 @@ static void bounds_hold_and_are_sharp(void **state) {
         assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 2e-3, 20000, &proof, &end),
                          FW_OK);
         if (end == FW_PROVED) {
-            double most[6] = {0};
+            double most[6] = {0}, most_N[6] = {0};
             proved++;
-            sample(&d, &hold, &box, &proof, most);
+            sample(&d, &hold, &box, &proof, most, most_N);
             for (int i = 0; i < 6; i++)
                 if (!(most[i] <= proof.strain[i]) || !(most[i] >= 0.99 * proof.strain[i]))
                     fail_msg("case %d hinge %d: %.9g sampled, %.9g proved", n, i, most[i],
                              proof.strain[i]);
+            for (int i = 0; i < 6; i++) {
+                if (!(most_N[i] <= proof.force_N[i] * (1 + 1e-9)))
+                    fail_msg("case %d hinge %d: %.9g N sampled, %.9g proved", n, i, most_N[i],
+                             proof.force_N[i]);
+                if (most_N[i] > 0) loose = fmax(loose, proof.force_N[i] / most_N[i]);
+            }
         }
         fw_arena_free(arena);
     }
     assert_true(proved >= count * 9 / 10);
+    assert_true(loose < 4); /* leaves are as small as strains need, not forces */
 }
 
 /* what the scenes have is used, and what they lack comes from the platform */
