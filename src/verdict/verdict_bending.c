@@ -242,14 +242,22 @@ static bool is_of(const fw_layout_piece *p, int body) {
     return p->body == body && p->role == FW_ROLE_STRUCTURE;
 }
 
+typedef struct edges {
+    fw_geometry_lines all, near; /* near: those no farther than `reach` from `centre` */
+    fw_geometry_vec2 centre;
+    double reach;
+    double *off; /* squares of distances from a place */
+} edges;
+
 /* chords of the edges of a body */
-static fw_status edges_of(fw_arena *arena, const fw_layout *layout, int body,
-                          fw_geometry_lines *to) {
+static fw_status edges_of(fw_arena *arena, const fw_layout *layout, int body, edges *to) {
     int n = 0;
     for (int i = 0; i < layout->npiece; i++)
         for (int k = 0; is_of(&layout->piece[i], body) && k < layout->piece[i].contour.count; k++)
             n += fw_verdict_chords(&layout->piece[i].contour.segment[k]);
-    FW_TRY(fw_geometry_lines_new(arena, n, to));
+    FW_TRY(fw_geometry_lines_new(arena, n, &to->all));
+    FW_TRY(fw_geometry_lines_new(arena, n, &to->near));
+    FW_NEED(to->off = fw_arena_array(arena, double, (size_t)n + FW_GEOMETRY_LINES_TOGETHER));
     for (int i = 0; i < layout->npiece; i++) {
         const fw_geometry_contour *c = &layout->piece[i].contour;
         for (int k = 0; is_of(&layout->piece[i], body) && k < c->count; k++) {
@@ -258,7 +266,7 @@ static fw_status edges_of(fw_arena *arena, const fw_layout *layout, int body,
             fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
             for (int j = 1; j <= parts && !(s->flags & FW_SEGMENT_JOINT); j++) {
                 fw_geometry_vec2 next = fw_geometry_segment_point(s, (double)j / parts);
-                fw_geometry_lines_add(to, from.x, from.y, next.x, next.y);
+                fw_geometry_lines_add(&to->all, from.x, from.y, next.x, next.y);
                 from = next;
             }
         }
@@ -274,27 +282,37 @@ static bool is_inside(const fw_layout *layout, int body, fw_geometry_vec2 at) {
     return false;
 }
 
+static void look_around(edges *e, fw_geometry_vec2 at) {
+    const double free = sqrt(fw_geometry_lines_least_square(&e->all, at, e->off));
+    e->centre = at, e->reach = 4 * free, e->near.n = 0;
+    for (int i = 0; i < e->all.n; i++)
+        if (e->off[i] <= e->reach * e->reach)
+            fw_geometry_lines_add(&e->near, e->all.ax[i], e->all.ay[i], e->all.bx[i], e->all.by[i]);
+}
+
 /* distance to the nearest edge, and the direction away from it */
-static double free_at(const fw_geometry_lines *edge, double *off, fw_geometry_vec2 at,
-                      fw_geometry_vec2 *away) {
-    const double least = fw_geometry_lines_least_square(edge, at, off);
+static double free_at(edges *e, fw_geometry_vec2 at, fw_geometry_vec2 *away) {
+    double least = fw_geometry_lines_least_square(&e->near, at, e->off), t;
+    if (!(sqrt(least) + vec_distance(at, e->centre) < e->reach)) {
+        look_around(e, at);
+        least = fw_geometry_lines_least_square(&e->near, at, e->off);
+    }
     int i = 0;
-    while (i + 1 < edge->n && off[i] != least)
+    while (i + 1 < e->near.n && e->off[i] != least)
         i++;
-    const fw_geometry_vec2 a = {edge->ax[i], edge->ay[i]}, b = {edge->bx[i], edge->by[i]};
-    double t;
+    const fw_geometry_vec2 a = {e->near.ax[i], e->near.ay[i]}, b = {e->near.bx[i], e->near.by[i]};
     *away = vec_unit(vec_sub(at, vec_line_foot(a, b, at, &t)));
     return sqrt(least);
 }
 
 /* From circle to circle towards the middle and away from the nearest edge, each begun inside the one before, so that
    no edge lies between them */
-static bool walk(const fw_layout *layout, int body, const fw_geometry_lines *edge, double *off,
-                 fw_geometry_vec2 pin, fw_geometry_vec2 root, fw_verdict_arm *arm) {
+static bool walk(const fw_layout *layout, int body, edges *edge, fw_geometry_vec2 pin,
+                 fw_geometry_vec2 root, fw_verdict_arm *arm) {
     const double step = 0.7, sideways = 0.7;
     const fw_geometry_vec2 middle = layout->body[body].centroid;
     fw_geometry_vec2 at = root, away;
-    double free = free_at(edge, off, root, &away), left = vec_distance(root, middle);
+    double free = free_at(edge, root, &away), left = vec_distance(root, middle);
     const double length = left,
                  begins = 0.02 * length; /* the flexure's own root is in its closed form */
     double gone = 0;
@@ -305,10 +323,10 @@ static bool walk(const fw_layout *layout, int body, const fw_geometry_lines *edg
                                way = vec_unit(vec_add(to_middle, vec_scale(sideways, away)));
         const bool last = left < step * free;
         fw_geometry_vec2 to = last ? middle : vec_along(at, step * free, way), beside;
-        double there = free_at(edge, off, to, &away);
+        double there = free_at(edge, to, &away);
         if (there < free && !last) { /* off the crest */
             const fw_geometry_vec2 on = vec_along(to, 0.6 * (free - there), away);
-            const double more = free_at(edge, off, on, &beside);
+            const double more = free_at(edge, on, &beside);
             if (more > there) to = on, there = more, away = beside;
         }
         arm->known =
@@ -328,18 +346,16 @@ static fw_status straight_arms(fw_arena *arena, const fw_mechanism *m, const fw_
                                fw_verdict_arm *arm, bool *known) {
     *known = true;
     for (int body = 0; *known && body < m->nbody; body++) {
-        fw_geometry_lines edge;
-        double *off;
+        edges edge = {.reach = 0};
         FW_TRY(edges_of(arena, layout, body, &edge));
-        FW_NEED(off = fw_arena_array(arena, double, (size_t)edge.n + FW_GEOMETRY_LINES_TOGETHER));
         for (int i = 0; *known && i < 2 * m->nhinge; i++) {
             const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
             if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
             const fw_geometry_vec2 root = i % 2 ? pin->root_b_m : pin->root_a_m,
                                    at = fw_mechanism_pin_place(m, pin, i % 2);
             *known =
-                edge.n > 0 &&
-                walk(layout, body, &edge, off, at,
+                edge.all.n > 0 &&
+                walk(layout, body, &edge, at,
                      vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad)), &arm[i]);
         }
     }
