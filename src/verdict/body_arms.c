@@ -226,7 +226,7 @@ static fw_status measure(grid *g) {
     FW_NEED(rows);
     for (int i = 0; i < across * g->ny; i++)
         rows[i] = (eight){0} + FAR;
-    mark_edges(g, (short *)(void *)rows, wide);
+    mark_edges(g, (short *)rows, wide);
     for (int j = 1; j < g->ny; j++)
         step_from(rows + (j - 1) * across, rows + j * across, across);
     for (int j = g->ny - 2; j >= 0; j--)
@@ -234,7 +234,7 @@ static fw_status measure(grid *g) {
     for (int i = 0; i < g->nx * g->ny; i++)
         g->cost[i] = -1;
     for (int j = 0; j < g->ny; j++)
-        measure_row(g, j, (const short *)(const void *)(rows + j * across));
+        measure_row(g, j, (const short *)(rows + j * across));
     return FW_OK;
 }
 
