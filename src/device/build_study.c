@@ -135,15 +135,69 @@ static bool is_same_input(const char *what, const char *flow, const fw_device_un
     return strcmp(what, u->what) == 0 && !flow == !u->flow && (!flow || strcmp(flow, u->flow) == 0);
 }
 
+/* "8 um 0.3": a value, its dimension that of the first, and a share */
+static bool read_entry(const char *text, const char **unit_text, fw_quantity_dimension *dimension,
+                       bool first, double *x, double *p) {
+    size_t n = strlen(text), at = n, length = strcspn(text, " \t\n");
+    fw_quantity_unit unit = {.factor = 1};
+    double number;
+    while (at > 0 && !strchr(" \t\n", text[at - 1]))
+        at--;
+    if (at == 0 || !fw_number_parse(text + at, n - at, p) ||
+        !fw_number_parse(text, length, &number))
+        return false;
+    const char *rest = text + length + strspn(text + length, " \t\n");
+    size_t kept = rest < text + at ? (size_t)(text + at - rest) : 0;
+    while (kept > 0 && strchr(" \t\n", rest[kept - 1]))
+        kept--;
+    if (kept > 0 && !fw_quantity_unit_parse(rest, kept, &unit, NULL, NULL)) return false;
+    if (first)
+        *dimension = unit.dimension, *unit_text = rest;
+    else if (!fw_quantity_dimension_equal(*dimension, unit.dimension))
+        return false;
+    *x = fw_quantity_unit_to_si(&unit, number);
+    return true;
+}
+
+static fw_status build_table(fw_xml_reader *r, const fw_xml_record *record,
+                             fw_device_uncertain *u) {
+    const char *text = fw_xml_text_of(record, "table"), **part, *what = NULL, *unit = "";
+    char label[FW_LABEL];
+    int n;
+    if (!text) return FW_OK;
+    FW_TRY(split(r->arena, text, &part, &n));
+    FW_NEED(u->x = fw_arena_array(r->arena, double, (size_t)n + 1));
+    FW_NEED(u->p = fw_arena_array(r->arena, double, (size_t)n + 1));
+    u->ntable = n;
+    if (n < 2) what = "a table has two values at least, the first with 0 and the last with 1";
+    for (int i = 0; i < n && !what; i++) {
+        if (!read_entry(part[i], &unit, &u->dimension, i == 0, &u->x[i], &u->p[i]))
+            what = fw_arena_printf(
+                r->arena, "'%s' is no value with a share: \"8 um 0.3\", all of one dimension",
+                part[i]);
+        else if (i > 0 && !(u->x[i] > u->x[i - 1] && u->p[i] >= u->p[i - 1]))
+            what = "values rise, and so do shares";
+    }
+    if (!what && (u->p[0] != 0 || u->p[n - 1] != 1)) what = "shares go from 0 to 1";
+    if (what)
+        return fw_diag_error(r->diags, 491, fw_xml_place_of(record, "table"), "%s: %s",
+                             fw_xml_label(record, label), what) == FW_NOMEM
+                   ? FW_NOMEM
+                   : FW_OK;
+    u->from = u->x[0], u->to = u->x[n - 1];
+    FW_NEED(u->unit = fw_arena_strndup(r->arena, unit, strcspn(unit, " \t\n")));
+    static const fw_quantity_dimension pure = {0};
+    if (fw_quantity_dimension_equal(u->dimension, pure)) u->unit = "";
+    return FW_OK;
+}
+
 /* which of mean, sd, from and to a spread is stated by; further: it is a deviation from an earlier row's mean */
 static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
                          const fw_device_uncertain *u, bool further) {
     static const char *const name[] = {"mean", "sd", "from", "to"};
-    static const unsigned needs[] = {[FW_SPREAD_NORMAL] = 3,
-                                     [FW_SPREAD_LOGNORMAL] = 3,
-                                     [FW_SPREAD_UNIFORM] = 12,
-                                     [FW_SPREAD_TRUNCATED] = 15,
-                                     [FW_SPREAD_INTERVAL] = 12};
+    static const unsigned needs[] = {
+        [FW_SPREAD_NORMAL] = 3,     [FW_SPREAD_LOGNORMAL] = 3, [FW_SPREAD_UNIFORM] = 12,
+        [FW_SPREAD_TRUNCATED] = 15, [FW_SPREAD_TABLE] = 0,     [FW_SPREAD_INTERVAL] = 12};
     char label[FW_LABEL];
     bool free_mean = u->spread == FW_SPREAD_NORMAL && u->flow && !further;
     for (int i = 0; i < 4; i++) {
@@ -160,7 +214,14 @@ static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
             fw_xml_label(record, label), fw_device_study_words_of.spread[u->spread], name[i]);
         return;
     }
-    if (u->sd <= 0)
+    const bool table = fw_xml_given(record, "table");
+    if (table != (u->spread == FW_SPREAD_TABLE))
+        fw_diag_error(
+            r->diags, 491, table ? fw_xml_place_of(record, "table") : record->element->place,
+            table ? "%s: a table belongs to spread=\"table\"; remove it, or name that spread"
+                  : "%s: spread=\"table\" needs table=\"7.8 um 0; 8 um 0.3; 8.4 um 1\"",
+            fw_xml_label(record, label));
+    else if (u->sd <= 0)
         fw_diag_error(r->diags, 491, fw_xml_place_of(record, "sd"),
                       "%s: a spread must be above 0; what has none is no uncertainty",
                       fw_xml_label(record, label));
@@ -232,7 +293,10 @@ static fw_status build_uncertain(fw_xml_reader *r, const fw_xml_record *record,
     FW_TRY(value_of(r, record, "to", &known, &u.dimension, &u.to));
     FW_TRY(value_of(r, record, "sd", &known, &u.dimension, &u.sd));
     if (r->diags->errors == before) check_spread(r, record, &u, further);
-    if (r->diags->errors == before) FW_TRY(unit_of(r, record, parts, u.dimension, &u.unit));
+    if (u.spread == FW_SPREAD_TABLE) {
+        if (r->diags->errors == before) FW_TRY(build_table(r, record, &u));
+    } else if (r->diags->errors == before)
+        FW_TRY(unit_of(r, record, parts, u.dimension, &u.unit));
     if (r->diags->errors == before && u.what) check_level(r, record, s, &u, further);
     if (u.what) s->uncertain[s->nuncertain++] = u;
     return FW_OK;
@@ -261,6 +325,15 @@ static fw_status build_trend(fw_xml_reader *r, const fw_xml_record *record, fw_d
         if (isnan(*part[k])) *part[k] = 0;
     if (t.what) s->trend[s->ntrend++] = t;
     return FW_OK;
+}
+
+static void build_correlation(const fw_xml_record *record, fw_device_study *s) {
+    const fw_device_correlation c = {.of = fw_xml_text_of(record, "of"),
+                                     .with = fw_xml_text_of(record, "with"),
+                                     .flow = fw_xml_text_of(record, "flow"),
+                                     .value = fw_xml_number_or(record, "value", 0),
+                                     .place = record->element->place};
+    if (c.of && c.with) s->correlation[s->ncorrelation++] = c;
 }
 
 static fw_status build_respond(fw_xml_reader *r, const fw_xml_record *record, fw_device_study *s) {
@@ -333,6 +406,8 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
         what = "nothing is asked; add <respond name=\"...\" value=\"governing.utilisation\"/>";
     bool yield = s->kind == FW_STUDY_IS_yield;
     if (!what && !yield && s->ntrend > 0) what = "<trend> belongs to kind=\"yield\"; remove it";
+    if (!what && !yield && s->ncorrelation > 0)
+        what = "<correlation> belongs to kind=\"yield\"; remove it";
     if (!what && yield && s->nvary > 0)
         what = "a yield chooses nothing; remove <vary>, or make it <uncertain>";
     if (!what && yield && s->nrespond > 0)
@@ -366,15 +441,18 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
     size_t varied = (size_t)fw_xml_children(record, "vary"),
            uncertain = (size_t)fw_xml_children(record, "uncertain"),
            trends = (size_t)fw_xml_children(record, "trend"),
+           correlations = (size_t)fw_xml_children(record, "correlation"),
            responses = (size_t)fw_xml_children(record, "respond");
     FW_NEED(s->vary = fw_arena_array(r->arena, fw_device_vary, varied));
     FW_NEED(s->uncertain = fw_arena_array(r->arena, fw_device_uncertain, uncertain));
     FW_NEED(s->trend = fw_arena_array(r->arena, fw_device_trend, trends));
+    FW_NEED(s->correlation = fw_arena_array(r->arena, fw_device_correlation, correlations));
     FW_NEED(s->respond = fw_arena_array(r->arena, fw_device_respond, responses));
     for (const fw_xml_record *c = record->first_child; c; c = c->next) {
         if (fw_xml_is(c, "vary")) FW_TRY(build_vary(r, c, s));
         if (fw_xml_is(c, "uncertain")) FW_TRY(build_uncertain(r, c, s));
         if (fw_xml_is(c, "trend")) FW_TRY(build_trend(r, c, s));
+        if (fw_xml_is(c, "correlation")) build_correlation(c, s);
         if (fw_xml_is(c, "respond")) FW_TRY(build_respond(r, c, s));
     }
     check_inputs(r, s);

@@ -134,6 +134,7 @@ typedef enum fw_device_spread {
     FW_SPREAD_LOGNORMAL,
     FW_SPREAD_UNIFORM,
     FW_SPREAD_TRUNCATED, /* normal between from and to */
+    FW_SPREAD_TABLE,     /* of the shares of devices up to some values */
     FW_SPREAD_INTERVAL   /* nothing is known but from and to */
 } fw_device_spread;
 
@@ -156,10 +157,19 @@ typedef struct fw_device_uncertain {
     double mean, sd, from,
         to; /* SI; NaN: not stated; a mean that is not stated: 0 of a further row, of a flow what the
                                   pack states */
+    double *x,
+        *p; /* (ntable) of a table: values, SI, and the shares of devices up to them, 0 to 1; from, to: its ends */
+    int ntable;
     fw_quantity_dimension dimension;
     const char *unit; /* values are written in it; "" for pure numbers */
     fw_place place;
 } fw_device_uncertain;
+
+typedef struct fw_device_correlation { /* <correlation>: of two uncertain inputs */
+    const char *of, *with, *flow;      /* as their <uncertain>; with a flow, quantities of it */
+    double value;                      /* Pearson's coefficient */
+    fw_place place;
+} fw_device_correlation;
 
 typedef struct
     fw_device_trend { /* <trend>: how an uncertain input goes over the wafer, the same on all wafers */
@@ -207,6 +217,8 @@ typedef struct fw_device_study {
     int nuncertain;
     fw_device_trend *trend; /* (ntrend) */
     int ntrend;
+    fw_device_correlation *correlation; /* (ncorrelation) */
+    int ncorrelation;
     fw_device_respond *respond; /* (nrespond) */
     int nrespond;
     fw_place place;

@@ -22,9 +22,10 @@ static const char *const judged[] = {[FW_JUDGE_DRAWN] = "drawn",
                                      [FW_JUDGE_HINGES] = "hinges",
                                      [FW_JUDGE_HINGES + 1] = NULL};
 static const char *const spreads[] = {
-    [FW_SPREAD_NORMAL] = "normal",     [FW_SPREAD_LOGNORMAL] = "lognormal",
-    [FW_SPREAD_UNIFORM] = "uniform",   [FW_SPREAD_TRUNCATED] = "truncated",
-    [FW_SPREAD_INTERVAL] = "interval", [FW_SPREAD_INTERVAL + 1] = NULL};
+    [FW_SPREAD_NORMAL] = "normal",   [FW_SPREAD_LOGNORMAL] = "lognormal",
+    [FW_SPREAD_UNIFORM] = "uniform", [FW_SPREAD_TRUNCATED] = "truncated",
+    [FW_SPREAD_TABLE] = "table",     [FW_SPREAD_INTERVAL] = "interval",
+    [FW_SPREAD_INTERVAL + 1] = NULL};
 static const char *const takes[] = {[FW_TAKE_ONE] = "one",
                                     [FW_TAKE_LARGEST] = "largest",
                                     [FW_TAKE_LEAST] = "least",
@@ -116,11 +117,27 @@ static const fw_xml_attribute_row uncertain_rows[] = {
          "is a deviation from it, stated by sd alone or by from and to about 0."},
     {"spread", .kind = FW_KIND_WORD, .words = spreads, .fallback = "normal",
      .sentence = "normal and lognormal: mean and sd; uniform: from and to; truncated: all four; "
-                 "interval: nothing is known but from and to, and the yield is then a range."},
+                 "table: table; interval: nothing is known but from and to, and the yield is then "
+                 "a range."},
     {"mean", .kind = FW_KIND_ANY, .sentence = "Mean of the values."},
     {"sd", .kind = FW_KIND_ANY, .sentence = "Standard deviation of the values."},
     {"from", .kind = FW_KIND_ANY, .sentence = "Least value."},
     {"to", .kind = FW_KIND_ANY, .sentence = "Largest value."},
+    {"table", TEXT,
+     .sentence = "Of spread=\"table\": values, each with the share of devices that are up to it, "
+                 "with ; between, the "
+                 "first with 0 and the last with 1: \"7.8 um 0; 8 um 0.3; 8.4 um 1\". Straight in "
+                 "between."},
+};
+static const fw_xml_attribute_row correlation_rows[] = {
+    {"of", TEXT, REQUIRED, .sentence = "As in its <uncertain>, or a quantity of the flow."},
+    {"with", TEXT, REQUIRED, .sentence = "The other one, likewise."},
+    {"flow", TEXT, .fallback = "of the device",
+     .sentence =
+         "Both are quantities of this flow, by the names that the study's list of inputs has."},
+    {"value", D_PURE, REQUIRED,
+     RANGE(-0.999999, 0.999999, "beyond, one of them says all of the other"),
+     .sentence = "Pearson's coefficient of correlation of their values."},
 };
 static const fw_xml_attribute_row trend_rows[] = {
     {"what", TEXT, REQUIRED, .sentence = "As in its <uncertain>, or a quantity of the flow."},
@@ -163,6 +180,9 @@ static const fw_xml_attribute_row respond_rows[] = {
              "How an uncertain input goes over the wafer, the same on every wafer; the mean "      \
              "over the whole wafer stays what it is. The device needs a <wafer>: its dies "        \
              "are the places."},                                                                   \
+        {"correlation", "study", .most = 2000, ROWS(correlation_rows),                             \
+         .sentence =                                                                               \
+             "Two inputs that differ together; of one level. All others are independent."},        \
         {"respond", "study", .most = 1000, ROWS(respond_rows),                                     \
          .sentence = "A number that is looked at."},
 

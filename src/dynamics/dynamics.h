@@ -173,9 +173,15 @@ typedef struct fw_dynamics_motion {
                                   a sequence of equilibria has no such run) */
     struct fw_dynamics_late *late; /* rows that wait (fw_dynamics_motion_rows); NULL: none does */
     const fw_effects_loads *loads; /* what acted, for those who look at it again */
+    fw_dynamics_tapes *tapes;      /* that it was shown from; NULL: it was computed */
+    long again;                    /* which of them */
     /* statics/level.h; NULL: not looked for, or no hinges */
     const struct fw_statics_level_step *level;
 } fw_dynamics_motion;
+
+/* Of a motion that was shown again: whether it is known that nothing it rests on is unstable, kept for others like it,
+   whose loads and springs are the same to the last bit. NULL: it was computed, or is kept no longer */
+bool *fw_dynamics_motion_steady(const fw_dynamics_motion *motion);
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too
    small. */

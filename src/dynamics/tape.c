@@ -35,12 +35,15 @@ typedef struct kept { /* its arena holds all of it; NULL: nothing is kept here *
     double *key;
     size_t nkey;
     ending ending;
+    long number; /* among all that its thread kept */
+    bool steady; /* what it rests on is known to be stable */
 } kept;
 
 struct fw_dynamics_tapes {
     fw_arena *arena;
     kept pass[KEPT];
     int next;            /* of them: to be replaced */
+    long number;         /* of the last one */
     uint64_t seen[SEEN]; /* sums of keys that were asked for once */
     int next_seen;
     double *key; /* of the pass at hand */
@@ -314,7 +317,17 @@ static fw_status replay(kept *pass, fw_dynamics_run *r, fw_maths_stepper *s,
     put_back(pass, r, s, peaks);
     FW_TRY(fw_dynamics_run_limits(r, s));
     fw_dynamics_record_end(&r->record, false, s->t);
+    if (!r->record.full) return FW_OK;
+    r->record.motion->tapes = r->problem.options->tapes;
+    r->record.motion->again = pass->number;
     return FW_OK;
+}
+
+bool *fw_dynamics_motion_steady(const fw_dynamics_motion *x) {
+    for (int i = 0; x->tapes && i < KEPT; i++)
+        if (x->tapes->pass[i].tape.arena && x->tapes->pass[i].number == x->again)
+            return &x->tapes->pass[i].steady;
+    return NULL;
 }
 
 /* room for one more; NULL: there is none, and it is not kept */
@@ -325,6 +338,7 @@ static kept *begin(fw_dynamics_tapes *t) {
     pass->tape.arena = fw_arena_part(t->arena, most_bytes);
     pass->key = pass->tape.arena ? copied(pass->tape.arena, t->key, t->nkey) : NULL;
     pass->nkey = t->nkey;
+    pass->number = ++t->number;
     if (pass->key) return pass;
     forget(pass);
     return NULL;

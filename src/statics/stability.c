@@ -323,6 +323,8 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
                      fw_text_name(scene->name), FW_STABILITY_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }
+    bool *steady = fw_dynamics_motion_steady(motion);
+    if (steady && *steady) return FW_OK;
     fw_diags silent = fw_diags_new(arena);
     looker k = {.w = {.arena = arena, .mechanism = mechanism, .scene = scene, .diags = &silent},
                 .motion = motion};
@@ -336,5 +338,6 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     FW_NEED(k.shape = fw_arena_array(arena, double, n));
     FW_TRY(find_pieces(&k, &loads));
     FW_TRY(look_along(&k));
+    if (steady && k.growth == 0) *steady = true;
     return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;
 }

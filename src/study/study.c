@@ -360,6 +360,8 @@ static fw_status find_hash(fw_study *study) {
         add_text(&t, u->what);
         fw_text_printf(&t, " %d %s", (int)u->spread, u->unit);
         add_real(&t, u->mean), add_real(&t, u->sd), add_real(&t, u->from), add_real(&t, u->to);
+        for (int i = 0; i < u->ntable; i++)
+            add_real(&t, u->x[i]), add_real(&t, u->p[i]);
         if (u->flow || u->levelled) add_text(&t, u->flow), fw_text_printf(&t, " %d", (int)u->level);
     }
     for (int k = 0; k < a->ntrend; k++) {
@@ -367,6 +369,9 @@ static fw_status find_hash(fw_study *study) {
         add_text(&t, q->what), add_text(&t, q->flow);
         add_real(&t, q->radial), add_real(&t, q->along_x), add_real(&t, q->along_y);
     }
+    for (int k = 0; k < a->ncorrelation; k++)
+        add_text(&t, a->correlation[k].of), add_text(&t, a->correlation[k].with),
+            add_text(&t, a->correlation[k].flow), add_real(&t, a->correlation[k].value);
     for (int k = 0; k < a->nrespond; k++) {
         const fw_device_respond *q = &a->respond[k];
         add_text(&t, q->name), add_text(&t, q->value);

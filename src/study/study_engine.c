@@ -13,6 +13,8 @@
 
 /* files may change while a study runs: looked at this often, which costs a hundredth */
 static const double look_again_s = 1;
+/* samples after one whose bodies were too soft to be bounded, which is then judged twice */
+enum { soft_for = 16 };
 
 typedef struct engine { /* of one thread at a time */
     fw_arena *arena;    /* holds this */
@@ -22,6 +24,7 @@ typedef struct engine { /* of one thread at a time */
     fw_dynamics_tapes *tapes; /* motions that devices have in common */
     fw_device_set *set;       /* those of the study's options, then those of the sample */
     double looked_s;
+    int soft; /* samples to come whose bodies are taken to be soft; results do not hang on it */
     struct engine *next;
 } engine;
 
@@ -180,9 +183,12 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     if (!*done) return FW_OK;
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     options->verdict.bounded = may_be_bounded(e);
+    options->verdict.grid_ways = e->soft > 0;
     /* what sizing proposes has a mask */
     options->without_masks = options->verdict.bounded && study->asked->kind != FW_STUDY_IS_size;
     fw_status status = (fw_status)fw_study_answers_take(study, e->design, sample);
+    e->soft =
+        fw_plan_design_plan(e->design)->verdict.soft_bodies ? soft_for : e->soft - (e->soft > 0);
     return fw_plan_is_final(status) ? status : FW_OK;
 }
 

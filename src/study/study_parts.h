@@ -177,7 +177,7 @@ typedef struct
     fw_chance_joint joint;
     int variables;
     fw_study_group *group; /* (groups) in the order of the point */
-    int groups, trends;
+    int groups, trends, correlations;
     int ninput, npoint;
     size_t dimensions;     /* of the joint, and one for the place where there are trends */
     double *middle;        /* (joint.unknowns) */

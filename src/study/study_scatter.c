@@ -28,16 +28,18 @@ static fw_chance_distribution of_input(const fw_verdict_fabrication_input *in) {
 
 /* mean: of a row that states none */
 static fw_chance_distribution of_uncertain(const fw_device_uncertain *u, double mean) {
-    static const fw_chance_kind kind[] = {[FW_SPREAD_NORMAL] = FW_CHANCE_NORMAL,
-                                          [FW_SPREAD_LOGNORMAL] = FW_CHANCE_LOGNORMAL,
-                                          [FW_SPREAD_UNIFORM] = FW_CHANCE_UNIFORM,
-                                          [FW_SPREAD_TRUNCATED] = FW_CHANCE_TRUNCATED,
-                                          [FW_SPREAD_INTERVAL] = FW_CHANCE_INTERVAL};
+    static const fw_chance_kind kind[] = {
+        [FW_SPREAD_NORMAL] = FW_CHANCE_NORMAL,   [FW_SPREAD_LOGNORMAL] = FW_CHANCE_LOGNORMAL,
+        [FW_SPREAD_UNIFORM] = FW_CHANCE_UNIFORM, [FW_SPREAD_TRUNCATED] = FW_CHANCE_TRUNCATED,
+        [FW_SPREAD_TABLE] = FW_CHANCE_TABLE,     [FW_SPREAD_INTERVAL] = FW_CHANCE_INTERVAL};
     return (fw_chance_distribution){.kind = kind[u->spread],
                                     .mean = isnan(u->mean) ? mean : u->mean,
                                     .sd = u->sd,
                                     .low = u->from,
-                                    .high = u->to};
+                                    .high = u->to,
+                                    .count = (size_t)u->ntable,
+                                    .x = u->x,
+                                    .p = u->p};
 }
 
 /* ---- groups: the rows of one input ---- */
@@ -49,6 +51,8 @@ typedef struct builder {
     fw_chance_variable *variable;
     const fw_device_uncertain **row; /* (variables) NULL: of the pack */
     double radius_m;                 /* of the wafer; 0: none is asked for */
+    fw_chance_correlation *correlation;
+    const fw_device_correlation **asked; /* (correlations) */
 } builder;
 
 /* the rows of an input become variables; how many */
@@ -236,6 +240,42 @@ static fw_status check_trend(fw_study *study, const fw_device_trend *t) {
                          a->name, t->what);
 }
 
+/* one end: an input that differs, and has no trend, by which other places are told of from its values alone */
+static fw_status check_correlated(fw_study *study, const fw_device_correlation *c,
+                                  const char *what) {
+    const fw_device_study *a = study->asked;
+    const fw_device_uncertain *row = NULL;
+    for (int k = 0; k < a->nuncertain && !row; k++)
+        if (same(a->uncertain[k].what, what) && same(a->uncertain[k].flow, c->flow))
+            row = &a->uncertain[k];
+    for (int k = 0; k < a->ntrend; k++)
+        if (same(a->trend[k].what, what) && same(a->trend[k].flow, c->flow))
+            return fw_diag_error(&study->diags, 589, c->place,
+                                 "study '%s': '%s' has a trend over the wafer, and what has one is "
+                                 "not correlated with others; remove one of both",
+                                 a->name, what);
+    if (!row && !c->flow)
+        return fw_diag_error(
+            &study->diags, 589, c->place,
+            "study '%s': '%s' is correlated and has no <uncertain>; add one, or with "
+            "flow=\"...\" name the flow that it is a quantity of",
+            a->name, what);
+    if (row) return FW_OK;
+    for (int i = 0; i < study->plan->verdict.nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[i];
+        for (int k = 0; same(v->variant->flow, c->flow) && k < v->ninput; k++)
+            if (same(v->input[k].name, what)) return FW_OK;
+    }
+    for (int i = 0; i < study->plan->device->nflow; i++)
+        if (same(study->plan->device->flow[i].ref, c->flow))
+            for (int k = 0; k < study->plan->verdict.nvariant; k++)
+                if (same(study->plan->verdict.variant[k].variant->flow, c->flow))
+                    return fw_diag_error(&study->diags, 589, c->place,
+                                         "study '%s': %s makes nothing differ that is called '%s'",
+                                         a->name, c->flow, what);
+    return FW_OK; /* of a flow that is not judged, or that check_row refuses */
+}
+
 fw_status fw_study_scatter_check(fw_study *study) {
     const fw_device_study *a = study->asked;
     size_t before = study->diags.errors;
@@ -246,6 +286,17 @@ fw_status fw_study_scatter_check(fw_study *study) {
                                a->uncertain[k].dimension, a->uncertain[k].place);
     for (int k = 0; k < a->ntrend && status != FW_NOMEM; k++)
         status = check_trend(study, &a->trend[k]);
+    for (int k = 0; k < a->ncorrelation && status != FW_NOMEM; k++) {
+        status = check_correlated(study, &a->correlation[k], a->correlation[k].of);
+        if (status == FW_OK)
+            status = check_correlated(study, &a->correlation[k], a->correlation[k].with);
+    }
+    /* whether all of them together can be, before anything is run */
+    for (int i = 0; a->ncorrelation > 0 && status == FW_OK && i < study->plan->verdict.nvariant;
+         i++) {
+        fw_study_scatter all;
+        status = fw_study_scatter_of(study, &study->plan->verdict.variant[i], &all);
+    }
     return status == FW_NOMEM ? FW_NOMEM : study->diags.errors > before ? FW_INPUT : FW_OK;
 }
 
@@ -255,8 +306,43 @@ static fw_status fault(const builder *b, const fw_chance_fault *f) {
     const fw_study *study = b->study;
     const fw_device_uncertain *row =
         f->variable < (size_t)b->s->variables ? b->row[f->variable] : NULL;
-    return fw_diag_error(&b->study->diags, 491, row ? row->place : study->asked->place,
+    const bool pair = f->correlation < (size_t)b->s->correlations;
+    return fw_diag_error(&b->study->diags, pair ? 589 : 491,
+                         pair                     ? b->asked[f->correlation]->place
+                         : row                    ? row->place
+                         : b->s->correlations > 0 ? b->asked[0]->place
+                                                  : study->asked->place,
                          "study '%s': %s", study->asked->name, f->why ? f->why : "?");
+}
+
+/* the first variable of an input, which has its mean; -1: it does not differ in this flow */
+static int variable_of(const builder *b, const char *what, const char *flow) {
+    for (int i = 0; i < b->s->groups; i++) {
+        const fw_study_group *g = &b->s->group[i];
+        const bool of_flow = !g->asked;
+        if (of_flow == (flow != NULL) && same(g->what, what) &&
+            (!flow || same(flow, b->v->variant->flow)))
+            return g->first;
+    }
+    return -1;
+}
+
+/* those of this flow and of the device */
+static fw_status add_correlations(builder *b) {
+    const fw_device_study *a = b->study->asked;
+    FW_NEED(b->correlation =
+                fw_arena_array(b->study->arena, fw_chance_correlation, (size_t)a->ncorrelation));
+    FW_NEED(b->asked = fw_arena_array(b->study->arena, const fw_device_correlation *,
+                                      (size_t)a->ncorrelation));
+    for (int k = 0; k < a->ncorrelation; k++) {
+        const fw_device_correlation *c = &a->correlation[k];
+        const int of = variable_of(b, c->of, c->flow), with = variable_of(b, c->with, c->flow);
+        if (of < 0 || with < 0) continue;
+        b->asked[b->s->correlations] = c;
+        b->correlation[b->s->correlations++] =
+            (fw_chance_correlation){(size_t)of, (size_t)with, c->value};
+    }
+    return FW_OK;
 }
 
 fw_status fw_study_scatter_of(fw_study *study, const fw_verdict_variant_verdict *v,
@@ -273,9 +359,10 @@ fw_status fw_study_scatter_of(fw_study *study, const fw_verdict_variant_verdict 
         add_input(&b, k);
     for (int k = 0; k < study->nsetting; k++)
         add_setting(&b, &study->input[study->nvary + k]);
-    fw_status status =
-        fw_chance_joint_new(study->arena, (size_t)study->plan->device->nflexure,
-                            (size_t)s->variables, b.variable, 0, NULL, &s->joint, &wrong);
+    FW_TRY(add_correlations(&b));
+    fw_status status = fw_chance_joint_new(
+        study->arena, (size_t)study->plan->device->nflexure, (size_t)s->variables, b.variable,
+        (size_t)s->correlations, b.correlation, &s->joint, &wrong);
     if (status == FW_INPUT) return fault(&b, &wrong);
     FW_TRY(status);
     /* where a trend goes over the wafer it matters where a die is: one number more */

@@ -36,10 +36,11 @@ typedef struct grid {
     double cell;
     int nx, ny;
     bool *inside;
-    double *away;           /* m, about, to the nearest edge */
-    double *stiff;          /* cell^3/away^3: what a cell adds to a way's cost */
-    double least;           /* of those */
-    double *cost;           /* of the way there; HUGE_VAL: not reached */
+    double *away;  /* m, about, to the nearest edge */
+    double *stiff; /* cell^3/away^3: what a cell adds to a way's cost */
+    double least;  /* of those */
+    int ninside;
+    double *cost;           /* of the way there; HUGE_VAL: not reached; -1: no material */
     int *from;              /* the cell before; -1 */
     int *touched, ntouched; /* cells with a cost */
     int *way, nway;         /* cells from a hinge to the middle */
@@ -47,7 +48,7 @@ typedef struct grid {
 
 /* ---- lines ---- */
 
-static int parts_of(const fw_geometry_segment *s) {
+int fw_verdict_chords(const fw_geometry_segment *s) {
     double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
     return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
 }
@@ -60,14 +61,14 @@ static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
     size_t n = 0;
     for (int i = 0; i < layout->npiece; i++)
         for (int k = 0; is_of(&layout->piece[i], body) && k < layout->piece[i].contour.count; k++)
-            n += (size_t)parts_of(&layout->piece[i].contour.segment[k]);
+            n += (size_t)fw_verdict_chords(&layout->piece[i].contour.segment[k]);
     FW_NEED(g->line = fw_arena_array(g->arena, line, n));
     g->nline = 0;
     for (int i = 0; i < layout->npiece; i++) {
         const fw_geometry_contour *c = &layout->piece[i].contour;
         for (int k = 0; is_of(&layout->piece[i], body) && k < c->count; k++) {
             const fw_geometry_segment *s = &c->segment[k];
-            int parts = parts_of(s);
+            int parts = fw_verdict_chords(s);
             fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
             for (int j = 0; j < parts; j++) {
                 fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);
@@ -157,52 +158,47 @@ static fw_status fill(grid *g) {
     return FW_OK;
 }
 
-/* One line of the squared distance transform (Felzenszwalb and Huttenlocher 2012): the lower envelope of
-   parabolas that stand on f, in cells; n values `step` apart */
-static void envelope(double *f, int n, int step, double *copy, int *on, double *until) {
-    int k = 0;
-    for (int q = 0; q < n; q++)
-        copy[q] = f[q * step];
-    on[0] = 0, until[0] = -HUGE_VAL, until[1] = HUGE_VAL;
-    for (int q = 1; q < n; q++) {
-        double s = -HUGE_VAL;
-        for (;; k--) {
-            double p = on[k];
-            s = ((copy[q] + (double)q * q) - (copy[on[k]] + p * p)) / (2 * q - 2 * p);
-            if (s > until[k]) break; /* at the latest of the first, which reaches from -infinity */
-        }
-        on[++k] = q;
-        until[k] = s;
-        until[k + 1] = HUGE_VAL;
-    }
-    for (int q = 0, i = 0; q < n; q++) {
-        while (until[i + 1] < q)
-            i++;
-        double off = q - on[i];
-        f[q * step] = off * off + copy[on[i]];
+/* ---- the distance to the nearest edge: rows of cells from row to row, then along each row. Squares of distances in
+   cells are whole numbers, so that the order in which they are compared changes no bit (Felzenszwalb and
+   Huttenlocher 2012 for the two passes). ---- */
+
+typedef short eight __attribute__((vector_size(16), may_alias));
+enum { TOGETHER = 8, FAR = 1 << 14 }; /* cells in lanes; of a cell whose column no edge crosses */
+static const double fw_far = 1e12;    /* the square, where no edge is */
+
+/* one row of cells no farther than the next one and a cell */
+static void step_from(const eight *next, eight *row, int n) {
+    for (int i = 0; i < n; i++) {
+        const eight other = next[i] + 1, less = other < row[i];
+        row[i] = (other & less) | (row[i] & ~less);
     }
 }
 
-static const double fw_far = 1e12; /* of a cell that no edge crosses */
-
-/* the same along a column of cells that are 0 or far: squares of the way to the nearest 0 */
-static void from_edges(double *f, int n, int step) {
-    int before = -1;
-    for (int q = 0; q < n; q++) {
-        if (f[q * step] != 0) continue;
-        for (int i = before + 1; i < q; i++) {
-            int off = before < 0 || q - i < i - before ? q - i : i - before;
-            f[i * step] = (double)off * off;
+static void mark_edges(const grid *g, short *off, int wide) {
+    for (int i = 0; i < g->nline; i++) {
+        const line *l = &g->line[i];
+        int steps = 1 + (int)(2 * vec_distance(l->a, l->b) / g->cell);
+        for (int k = 0; l->edge && k <= steps; k++) {
+            fw_geometry_vec2 p = vec_along(l->a, (double)k / steps, vec_sub(l->b, l->a));
+            off[row(g, p.y) * wide + column(g, p.x)] = 0;
         }
-        before = q;
     }
-    for (int i = before + 1; before >= 0 && i < n; i++)
-        f[i * step] = (double)(i - before) * (i - before);
 }
 
-/* Of one row. From a cell of the material the nearest edge is not beyond where the material of its row ends, since
-   an edge is there. */
-static void measure_row(grid *g, int j, double *copy, int *on, double *until) {
+/* Square of the distance to the nearest edge, of the cell i of a row, from what columns have between first and
+   last. From a cell of the material the nearest edge is not far beyond where the material of its row ends, since an
+   edge is there. */
+static double square_at(const short *off, int i, int first, int last) {
+    int best = off[i] * off[i];
+    for (int k = 1; k * k < best && (i - k >= first || i + k <= last); k++) {
+        const int a = i - k >= first ? off[i - k] : FAR, b = i + k <= last ? off[i + k] : FAR;
+        const int nearer = a < b ? a : b, square = k * k + nearer * nearer;
+        best = square < best ? square : best;
+    }
+    return best < FAR * FAR ? best : fw_far;
+}
+
+static void measure_row(grid *g, int j, const short *off) {
     enum { BEYOND = 3 };
     const bool *inside = g->inside + j * g->nx;
     int first = 0, last = g->nx - 1;
@@ -210,45 +206,41 @@ static void measure_row(grid *g, int j, double *copy, int *on, double *until) {
         first++;
     while (last > first && !inside[last])
         last--;
-    if (first > last) return;
-    first = first > BEYOND ? first - BEYOND : 0;
-    last = last + BEYOND < g->nx ? last + BEYOND : g->nx - 1;
-    envelope(g->away + j * g->nx + first, last + 1 - first, 1, copy, on, until);
+    const int from = first > BEYOND ? first - BEYOND : 0,
+              to = last + BEYOND < g->nx ? last + BEYOND : g->nx - 1;
+    for (int i = first; i <= last; i++) {
+        if (!inside[i]) continue;
+        const int at = j * g->nx + i;
+        const double cells = sqrt(square_at(off, i, from, to)), w = fw_greater(cells, 0.5);
+        g->away[at] = g->cell * cells;
+        g->stiff[at] = 1 / (w * w * w);
+        g->least = fw_lesser(g->least, g->stiff[at]);
+        g->cost[at] = HUGE_VAL;
+        g->ninside++;
+    }
 }
 
 static fw_status measure(grid *g) {
-    int n = g->nx > g->ny ? g->nx : g->ny;
-    double *copy = fw_arena_array(g->arena, double, (size_t)n),
-           *until = fw_arena_array(g->arena, double, (size_t)n + 1);
-    int *on = fw_arena_array(g->arena, int, (size_t)n);
-    FW_NEED(copy && until && on ? copy : NULL);
+    const int across = (g->nx + TOGETHER - 1) / TOGETHER, wide = across * TOGETHER;
+    eight *rows = fw_arena_raw(g->arena, (size_t)across * (size_t)g->ny * sizeof *rows);
+    FW_NEED(rows);
+    for (int i = 0; i < across * g->ny; i++)
+        rows[i] = (eight){0} + FAR;
+    mark_edges(g, (short *)rows, wide);
+    for (int j = 1; j < g->ny; j++)
+        step_from(rows + (j - 1) * across, rows + j * across, across);
+    for (int j = g->ny - 2; j >= 0; j--)
+        step_from(rows + (j + 1) * across, rows + j * across, across);
     for (int i = 0; i < g->nx * g->ny; i++)
-        g->away[i] = fw_far;
-    for (int i = 0; i < g->nline; i++) {
-        const line *l = &g->line[i];
-        int steps = 1 + (int)(2 * vec_distance(l->a, l->b) / g->cell);
-        for (int k = 0; l->edge && k <= steps; k++) {
-            fw_geometry_vec2 p = vec_along(l->a, (double)k / steps, vec_sub(l->b, l->a));
-            g->away[row(g, p.y) * g->nx + column(g, p.x)] = 0;
-        }
-    }
-    for (int i = 0; i < g->nx; i++)
-        from_edges(g->away + i, g->ny, g->nx);
+        g->cost[i] = -1;
     for (int j = 0; j < g->ny; j++)
-        measure_row(g, j, copy, on, until);
-    for (int i = 0; i < g->nx * g->ny; i++) {
-        if (!g->inside[i]) continue;
-        double cells = sqrt(g->away[i]), w = fw_greater(cells, 0.5);
-        g->away[i] = g->cell * cells;
-        g->stiff[i] = 1 / (w * w * w);
-        g->least = fw_lesser(g->least, g->stiff[i]);
-    }
+        measure_row(g, j, (const short *)(rows + j * across));
     return FW_OK;
 }
 
 static fw_status lay(grid *g, double cell) {
     g->cell = cell;
-    g->least = HUGE_VAL;
+    g->least = HUGE_VAL, g->ninside = 0;
     g->nx = 1 + (int)((g->box.x1 - g->box.x0) / cell);
     g->ny = 1 + (int)((g->box.y1 - g->box.y0) / cell);
     size_t n = (size_t)g->nx * (size_t)g->ny;
@@ -298,11 +290,7 @@ static const int step_x[8] = {1, -1, 0, 0, 1, 1, -1, -1}, step_y[8] = {0, 0, 1, 
 
 static fw_status begin_search(grid *g, queue *q) {
     const size_t n = (size_t)g->nx * (size_t)g->ny;
-    size_t most = 1; /* a cell of the material has 8 neighbours */
-    for (size_t i = 0; i < n; i++) {
-        g->cost[i] = g->inside[i] ? HUGE_VAL : -1;
-        most += g->inside[i] ? 8 : 0;
-    }
+    const size_t most = 1 + 8 * (size_t)g->ninside; /* a cell of the material has 8 neighbours */
     g->ntouched = 0;
     FW_NEED(q->item = fw_arena_raw(g->arena, most * sizeof(queued)));
     FW_NEED(g->touched = fw_arena_raw(g->arena, n * sizeof(int)));
@@ -357,8 +345,8 @@ static void find_way(grid *g, queue *q, int begin, int middle) {
     }
 }
 
-/* the cell of the material that is nearest to a place, nearer by so many times its distance from the edge, the first
-   of those that are as near; -1: there is none. Rows from that of the place outwards, until none can be nearer. */
+/* The cell of the material that is nearest to a place, nearer by so many times its distance from the edge, the first
+   of those that are as near; -1: there is none. Rows from that of the place outwards, of each what may be nearer. */
 static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
     const double most = 1.000001 * deep * g->cell / cbrt(g->least);
     const int middle = row(g, at.y);
@@ -368,12 +356,16 @@ static int cell_at(const grid *g, fw_geometry_vec2 at, double deep) {
         const int j = middle + (k % 2 ? (k + 1) / 2 : -k / 2);
         if (j < 0 || j >= g->ny) continue;
         if ((k / 2 - 1) * g->cell - most > best) break;
-        for (int i = j * g->nx; i < (j + 1) * g->nx; i++) {
-            if (!g->inside[i]) continue;
-            fw_geometry_vec2 off = vec_sub(place(g, i), at);
+        const double reach = best + most + g->cell, y = g->box.y0 + (j + 0.5) * g->cell - at.y;
+        const int first = isfinite(best) ? column(g, at.x - reach) : 0,
+                  last = isfinite(best) ? column(g, at.x + reach) : g->nx - 1;
+        for (int i = first; i <= last; i++) {
+            const int cell = j * g->nx + i;
+            if (!g->inside[cell]) continue;
+            fw_geometry_vec2 off = {g->box.x0 + (i + 0.5) * g->cell - at.x, y};
             if (deep == 0 && vec_dot(off, off) > 1.000001 * best * best) continue; /* no root */
-            double d = vec_length(off) - (deep > 0 ? deep * g->away[i] : 0);
-            if (d < best || (d == best && i < found)) best = d, found = i;
+            double d = vec_length(off) - (deep > 0 ? deep * g->away[cell] : 0);
+            if (d < best || (d == best && cell < found)) best = d, found = cell;
         }
     }
     return found;

@@ -41,6 +41,8 @@ typedef struct fw_verdict_arm {
    Test: test_body_arms.c */
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_layout *layout, fw_verdict_arm **arm);
+/* into how many chords edges of bodies are cut for that */
+int fw_verdict_chords(const fw_geometry_segment *segment);
 /* a piece of the way around `at`, `from` to `until`, as a strip of width w: added to the arm of a pin (world, m) */
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);
@@ -115,6 +117,8 @@ typedef struct fw_verdict_bending {
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
     double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
     fw_verdict_turn *turn;     /* (nbody) of the instant */
+    double *
+        worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
     double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
     double beside;     /* by how much they are larger beside it: at least 1 */
     fw_verdict_strain_peak *peak; /* (1 + 2 nhinge) of that sum, of each force squared and moment */
@@ -127,9 +131,10 @@ typedef struct fw_verdict_bending {
     double *
         put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
 } fw_verdict_bending;
-/* arm NULL: nobody asks */
+/* arm NULL: nobody asks; straight: of straight ways, and only whether bodies are to be counted */
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,
-                                   const fw_verdict_arm *arm, fw_verdict_bending *bending);
+                                   const fw_verdict_arm *arm, bool straight,
+                                   fw_verdict_bending *bending);
 void fw_verdict_bending_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
                                const fw_dynamics_instant *now);
 

@@ -261,8 +261,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         monitor[i].clearance = &watch[0];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
-        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, &monitor[i].bending));
-        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, &other[i].bending));
+        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, v->straight, &monitor[i].bending));
+        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, v->straight, &other[i].bending));
         other[i].clearance = &watch[1];
         FW_TRY(fw_verdict_clearance_scene(m, scene, watch));
         fw_probe_monitor *seen[2];
@@ -432,6 +432,15 @@ static fw_status in_series(fw_arena *arena, fw_verdict_variant_verdict *v) {
     return FW_OK;
 }
 
+/* nothing asks what bodies give but the bands of hinges */
+static bool only_hinges_ask(const fw_device *device, const fw_mechanism *m,
+                            const fw_verdict_options *options,
+                            const fw_verdict_variant_verdict *v) {
+    return options->bounded && !options->grid_ways && options->hinges_only &&
+           v->nrequirement == 0 && !(device->release_pitch_m > 0) &&
+           !fw_verdict_out_of_plane_asked(m);
+}
+
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism *m, const fw_verdict_options *options,
                              fw_diags *diags, fw_verdict_variant_verdict *v) {
@@ -448,7 +457,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
     FW_NEED(monitor && other ? monitor : NULL);
     FW_TRY(fw_verdict_requirements_list(arena, m, v));
-    FW_TRY(fw_verdict_bending_begin(arena, layout, m, v));
+    FW_TRY(fw_verdict_bending_begin(arena, layout, m, only_hinges_ask(device, m, options, v), v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     const bool brief = is_brief(options, v) || v->corner || options->hinges_only;
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));

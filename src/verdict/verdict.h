@@ -254,6 +254,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     int nreason;
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */
     const struct fw_verdict_arm *arm;
+    bool straight;                               /* those of straight ways alone */
     const fw_verdict_out_of_plane *out_of_plane; /* NULL: nobody asked, as of a trial */
     const fw_verdict_stiction *stiction;         /* NULL: no flow dries it, or nobody asked */
     const fw_clearance_things *things;           /* NULL: nothing is drawn */
@@ -336,6 +337,8 @@ typedef struct fw_verdict {
     double failure_probability; /* of the worst variant; NaN: not known */
     double accuracy_wanted, accuracy_estimated;
     /* largest sum of bounds that a scene leaves out by itself (auto); it is part of the estimate */
+    bool
+        soft_bodies; /* bounded: what plain ways gave was too much not to be counted, and all was done again */
     double accuracy_left_out;
     fw_verdict_proposal *proposal; /* (nproposal) of what is not accepted, the least change first */
     int nproposal;
@@ -381,6 +384,8 @@ typedef struct fw_verdict_options {
     /* as drawn, only hinges and requirements are read: clearances are bounded where that is enough to accept them, and
        tethers are not watched: for studies */
     bool bounded;
+    bool
+        grid_ways; /* bounded: bodies give too much for plain ways to be enough (fw_verdict.soft_bodies) */
     bool
         hinges_only; /* nothing is judged but hinges, requirements and whether motions are to be relied on */
     bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */

@@ -20,7 +20,7 @@ typedef struct both { /* rigid bodies; bodies that give as much as they may */
 
 /* ---- who asks ---- */
 
-static bool somebody_asks(const fw_mechanism *m) {
+bool fw_verdict_out_of_plane_asked(const fw_mechanism *m) {
     const fw_device *d = m->device;
     for (int i = 0; i < d->nscene; i++)
         if (fw_device_in_flow(d->scene[i].flow, m->variant->flow) &&
@@ -305,7 +305,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     both is = {0};
     fw_verdict_out_of_plane *out;
     v->out_of_plane = NULL;
-    if (!d || !m->layout || (brief && !somebody_asks(m))) return FW_OK;
+    if (!d || !m->layout || (brief && !fw_verdict_out_of_plane_asked(m))) return FW_OK;
     FW_NEED(out = fw_arena_one(arena, fw_verdict_out_of_plane));
     v->out_of_plane = out;
     FW_TRY(prepare(arena, m, v->arm, &is));

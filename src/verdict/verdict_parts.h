@@ -41,9 +41,13 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
 
 /* ---- verdict_bending.c: bodies are rigid in the motion, and are none ---- */
 
-/* v->arm, where it is not known of a device much like it */
+/* v->arm, where it is not known of a device much like it. straight: of straight ways, where all stay in their
+   bodies (v->straight), which decides no more than that bodies are not counted */
 fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
-                                   const fw_mechanism *mechanism, fw_verdict_variant_verdict *v);
+                                   const fw_mechanism *mechanism, bool straight,
+                                   fw_verdict_variant_verdict *v);
+/* false: they may have to be */
+bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v);
 /* a reason of v where rims of release holes may not bear the scene, or required poses (FW-D575) */
 fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_device_scene *scene,
                                    const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v);
@@ -53,6 +57,8 @@ void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scen
 
 /* ---- verdict_out_of_plane.c: plates on flexures ---- */
 
+/* a scene acts across the plane, or a mode there is asked for */
+bool fw_verdict_out_of_plane_asked(const fw_mechanism *mechanism);
 /* after the scenes were run: v->out_of_plane, and reasons of v. brief: only where something asks for it */
 fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                         fw_diags *diags, fw_verdict_variant_verdict *v);

@@ -92,7 +92,10 @@ static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layo
                                  "no joint of the mechanism is a flexure, so there is no elastic "
                                  "limit to judge: name a flexure on the joints");
         FW_TRY(fw_verdict_check_closure(device, m, diags));
-        if (i > 0) v->arm = verdict->variant[0].arm; /* the same drawing */
+        if (i > 0) { /* the same drawing */
+            v->arm = verdict->variant[0].arm;
+            v->straight = verdict->variant[0].straight;
+        }
         FW_TRY(fw_verdict_variant(arena, device, layout, m, options, diags, v));
         if (!judged(v, device))
             status = fw_diag_error(diags, 202, flow_place(device, v->variant->flow),
@@ -122,6 +125,12 @@ static fw_status first_attempt(fw_arena *arena, const fw_device *device, const f
     return attempt(arena, device, layout, options, &again, verdict);
 }
 
+static bool has_soft_bodies(const fw_verdict *verdict) {
+    for (int i = 0; i < verdict->nvariant; i++)
+        if (!fw_verdict_bending_settled(&verdict->variant[i])) return true;
+    return false;
+}
+
 /* what is not accepted says how near things come */
 static bool is_bounded_well(const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
@@ -140,13 +149,16 @@ static fw_status bounded_attempt(fw_arena *arena, const fw_device *device, const
     if (!options->bounded) return first_attempt(arena, device, layout, options, diags, verdict);
     fw_diags first = fw_diags_new(arena);
     fw_status status = first_attempt(arena, device, layout, options, &first, verdict);
-    if (status != FW_OK || is_bounded_well(verdict)) {
+    const bool soft = status == FW_OK && has_soft_bodies(verdict);
+    if (status != FW_OK || (!soft && is_bounded_well(verdict))) {
         fw_diags_take(diags, &first);
         return diags->failed ? FW_NOMEM : status;
     }
     options->bounded = false;
     *verdict = empty;
-    return first_attempt(arena, device, layout, options, diags, verdict);
+    status = first_attempt(arena, device, layout, options, diags, verdict);
+    verdict->soft_bodies = soft;
+    return status;
 }
 
 /* the drawing, whose messages are warnings where the mechanics can be judged without it; *judged:

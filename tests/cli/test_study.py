@@ -239,6 +239,20 @@ class Study(unittest.TestCase):
             ("yield", '<trend what="arc"/>', "FW-D557", "radial="),
             ("yield", '<uncertain what="arc" level="lot" spread="interval" from="230 deg" to="240 deg"/>', "FW-D556", "interval"),
             ("sweep", vary + respond + '<trend what="arc" radial="1 deg"/>', "FW-D490", "belongs to kind"),
+            ("sweep", vary + respond + '<correlation of="arc" with="link" value="0.5"/>', "FW-D490", "belongs to kind"),
+            ("yield", '<uncertain what="arc" mean="240 deg" sd="1 deg"/><correlation of="arc" with="link" value="0.5"/>',
+             "FW-D589", "has no &lt;uncertain&gt;"),
+            ("yield", '<correlation of="thickness" with="thicknes" flow="al-masked-rie" value="0.5"/>', "FW-D589",
+             "called 'thicknes'"),
+            ("yield", '<uncertain what="arc" mean="240 deg" sd="1 deg"/><uncertain what="link" mean="130 um" sd="1 um"/>'
+             '<correlation of="arc" with="link" value="1.5"/>', "FW-D047", ""),
+            ("yield", '<uncertain what="arc" mean="240 deg" sd="1 deg"/><uncertain what="link" level="wafer" mean="130 um" '
+             'sd="1 um"/><correlation of="arc" with="link" value="0.5"/>', "FW-D589", "level"),
+            ("yield", '<uncertain what="arc" spread="table" table="230 deg 0; 240 um 1"/>', "FW-D491", "240 um 1"),
+            ("yield", '<uncertain what="arc" spread="table" table="230 deg 0; 220 deg 1"/>', "FW-D491", "rise"),
+            ("yield", '<uncertain what="arc" spread="table" table="230 deg 0.1; 240 deg 1"/>', "FW-D491", "0 to 1"),
+            ("yield", '<uncertain what="arc" spread="table"/>', "FW-D491", "needs table"),
+            ("yield", '<uncertain what="arc" table="230 deg 0; 240 deg 1" mean="240 deg" sd="1 deg"/>', "FW-D491", "belongs to"),
             ("sweeep", vary + respond, "FW-D048", "sweep"),
         )
         for kind, rows, code, says in cases:
@@ -285,10 +299,9 @@ class Study(unittest.TestCase):
         said = run("check", path, "--json", "--advice", "none", "--accuracy", "1e-6", *sets)
         return json.loads(said.stdout)["governing"]["utilisation"]
 
-    def test_a_yield_of_one_uncertain_load_is_that_of_its_limit(self):
-        """U rises with the load, so a device fails where the load is beyond the one that uses the limit up"""
-        path = self.write(bare(), "bare.xml")
-        low, high = 0.25, 1.0  # mN
+    def load_at_the_limit(self, path):
+        """mN of push that use the limit up"""
+        low, high = 0.25, 1.0
         below, above = (self.used(path, push=f"{p} mN") - 1 for p in (low, high))
         self.assertTrue(below < 0 < above)
         while high - low > 5e-5 and max(-below, above) > 1e-7:  # false position, halved where one end stays (Illinois)
@@ -300,6 +313,12 @@ class Study(unittest.TestCase):
                 high, above, below = at, off, 0.5 * below
             if abs(off) < 1e-6:
                 low = high = at
+        return low
+
+    def test_a_yield_of_one_uncertain_load_is_that_of_its_limit(self):
+        """U rises with the load, so a device fails where the load is beyond the one that uses the limit up"""
+        path = self.write(bare(), "bare.xml")
+        low = self.load_at_the_limit(path)
         for sigmas, samples in ((1.3, 200), (3.2, 600)):
             sd = 0.25 * low / sigmas
             truth = 0.5 * math.erfc(-sigmas / math.sqrt(2))
@@ -313,6 +332,27 @@ class Study(unittest.TestCase):
             self.assertTrue(found["yield_range"][0] <= least and most <= found["yield_range"][1])
             if sigmas == 1.3:  # as likely in the other: nothing but the number of samples differs
                 self.assertEqual(self.run_study(file, f"z{sigmas}", "--jobs", 1), result)
+
+    def test_loads_that_scatter_together_and_by_a_table(self):
+        """a device fails where the sum of two loads is beyond the limit: its deviation goes by how alike they are"""
+        text = bare().replace('fx="push"', 'fx="push + pull"').replace(
+            '<parameter name="push"', '<parameter name="pull" value="0 mN"/>\n  <parameter name="push"', 1)
+        path = self.write(text, "two.xml")
+        limit, sd = self.load_at_the_limit(path), 0.05
+        rows = "".join(f'<uncertain what="{w}" mean="{0.5 * (limit - sd):.9g} mN" sd="{sd} mN"/>' for w in ("push", "pull"))
+        yields = []
+        for together in (0.9, -0.9):
+            truth = 0.5 * math.erfc(-1 / math.sqrt(2 + 2 * together) / math.sqrt(2))
+            asked = rows + f'<correlation of="push" with="pull" value="{together}"/>'
+            found = self.run_study(self.write(study("y", "yield", asked, path, samples=300)), f"y{together}")["yields"][0]
+            least, most = found["sampling_interval"]
+            self.assertTrue(least - 5e-3 <= truth <= most + 5e-3, (together, truth, found["sampling_interval"]))
+            yields.append(found["yield"])
+        self.assertGreater(yields[1], yields[0] + 0.2)
+        table = f'<uncertain what="push" spread="table" table="0.1 mN 0; {limit:.9g} mN 0.4; 1.2 mN 1"/>'
+        file = self.write(study("y", "yield", table, path, samples=300))
+        least, most = self.run_study(file, "table")["yields"][0]["sampling_interval"]
+        self.assertTrue(least - 5e-3 <= 0.4 <= most + 5e-3, (least, most))
 
     def test_what_is_only_assumed_makes_a_range(self):
         """its ends are the yields of the two values themselves: the same devices, and never counted together"""

@@ -161,6 +161,10 @@ static void another_number(void **state) {
         for (int k = 0; k < 3; k++) {
             const seen now = move(arena, &six, o, 0, tapes);
             same_motions(&alone, &now);
+            /* what is known of one says nothing of the other */
+            bool *steady = fw_dynamics_motion_steady(now.motion);
+            assert_true(k < 2 ? steady == NULL : steady && !*steady);
+            if (steady) *steady = true;
         }
         *number[i] = was;
     }
@@ -168,6 +172,13 @@ static void another_number(void **state) {
     other.rtol = nextafter(o.rtol, 1);
     const seen alone = move(arena, &six, other, 0, NULL), now = move(arena, &six, other, 0, tapes);
     same_motions(&alone, &now);
+    assert_null(fw_dynamics_motion_steady(alone.motion));
+    assert_null(fw_dynamics_motion_steady(now.motion));
+    move(arena, &six, other, 0, tapes);
+    const seen third = move(arena, &six, other, 0, tapes), fourth = move(arena, &six, other, 0, tapes);
+    assert_ptr_equal(fw_dynamics_motion_steady(third.motion), fw_dynamics_motion_steady(fourth.motion));
+    *fw_dynamics_motion_steady(third.motion) = true;
+    assert_true(*fw_dynamics_motion_steady(fourth.motion));
     fw_dynamics_tapes_free(tapes);
     fw_arena_free(arena);
 }

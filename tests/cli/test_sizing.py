@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""flexwright study, kind size: on 30 problems what is found is within a percent of what trying everything finds, and
+check accepts it as it stands. Everything: grids over all ranges, each finer one around the best devices of the one before.
+Without FW_TEST_ALL=1 a few of them."""
+import csv
+import json
+import math
+import os
+import pathlib
+import re
+import tempfile
+import unittest
+
+from common import ALL, ROOT, run
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+SHOWN = bool(os.environ.get("FW_TEST_SHOW"))  # what every problem comes to
+PERCENT = 0.01
+
+
+def described(name, **changes):
+    """a device of the gallery as drawn, of no flow, without what other devices would need besides"""
+    text = (ROOT / f"docs/gallery/{name}/device.xml").read_text()
+    text = re.sub(r'\s*<flow [^>]*?/>', "", text)
+    text = re.sub(r'\s*<workspace [^>]*/>', "", text)
+    text = re.sub(r' flow="[a-z-]*"', "", text)
+    for was, now in changes.values():
+        if was not in text:
+            raise AssertionError(f"{name}: no {was}")
+        text = text.replace(was, now, 1)
+    return text
+
+
+def six_bar():
+    text = described("reference-six-bar", push=('fx="0.25 mN"', 'fx="push"'))
+    text = re.sub(r'\s*<scene name="gentle-step".*?</scene>', "", text, flags=re.S)
+    return text.replace("<material ", '<parameter name="push" value="0.25 mN"/>\n  <material ', 1)
+
+
+DEVICES = {"six": six_bar, "leaf": lambda: described("leaf-four-bar"),
+           "free": lambda: described("free-form-four-bar"), "stage": lambda: described("straight-stage")}
+
+USED, F0 = "governing.utilisation", "modes:modes[0].f_Hz"
+
+
+def width(h, low, high):
+    return (f"flexure[{h}]/@width", f"{low} um", f"{high} um")
+
+
+def arc(low=190, high=250):
+    return ("arc", f"{low} deg", f"{high} deg")
+
+
+def push(low, high):
+    return ("push", f"{low} mN", f"{high} mN")
+
+
+def hinge(h, key):
+    return f"hinges[{h}].{key}"
+
+
+LEAF, LEG = (("width", "6 um", "12 um"),), (("leg", "1.8 mm", "2.5 mm"),)
+LIMIT = hinge("C", "limit_angle_rad")
+# device, inputs, goal, response, limits (response, least, most)
+PROBLEMS = [
+    ("six", (width("C", 6, 12), arc()), "minimise", LIMIT, ((USED, None, 0.9),)),
+    ("six", (width("C", 6, 12), arc()), "minimise", USED, ()),
+    ("six", (width("A", 6, 13), width("F", 6, 13)), "minimise", USED, ()),
+    ("six", (width("D", 6, 11), push(0.1, 0.6)), "maximise", hinge("D", "peak_angle_rad"), ()),
+    ("six", (push(0.05, 0.9),), "maximise", hinge("C", "peak_angle_rad"), ()),
+    ("six", (push(0.05, 0.9), arc()), "maximise", hinge("A", "utilisation"), ((hinge("C", "utilisation"), None, 0.7),)),
+    ("six", (width("B", 6, 12), width("E", 6, 12)), "maximise", hinge("B", "peak_strain"),
+     ((hinge("E", "peak_strain"), None, 0.004),)),
+    ("six", (arc(), ("link", "110 um", "190 um")), "maximise", hinge("F", "limit_angle_rad"), ()),
+    ("six", (width("C", 6, 12), width("D", 6, 12), arc()), "minimise", USED, ()),
+    ("six", (width("C", 6, 12), push(0.1, 0.6), arc()), "maximise", hinge("C", "peak_angle_rad"),
+     ((hinge("D", "utilisation"), None, 0.6),)),
+    ("six", (width("C", 6, 14),), "maximise", LIMIT, ()),
+    ("six", (width("C", 6, 14), arc()), "maximise", LIMIT, ((hinge("C", "utilisation"), None, 0.5),)),
+    ("six", (width("C", 6, 14), arc()), "minimise", LIMIT, ((hinge("C", "utilisation"), 0.3, None),)),
+    ("six", (width("E", 6, 12), arc(170, 255)), "minimise", hinge("E", "utilisation"), ()),
+    ("six", (width("E", 6, 12), arc(170, 255)), "maximise", hinge("E", "utilisation"), ()),
+    ("six", (push(0.05, 0.9), width("C", 5, 12)), "maximise", hinge("F", "peak_angle_rad"), ()),
+    ("six", (push(0.05, 0.9), ("link", "110 um", "190 um")), "maximise", USED, ()),
+    ("six", (width("A", 6, 12), width("B", 6, 12), width("C", 6, 12)), "maximise", hinge("A", "peak_strain"),
+     ((hinge("B", "peak_strain"), None, 0.0035), (hinge("C", "peak_strain"), None, 0.005))),
+    ("six", (width("A", 6, 12), push(0.1, 0.9), arc()), "maximise", hinge("A", "peak_angle_rad"), ()),
+    ("six", (width("F", 7, 14), push(0.1, 0.9)), "maximise", hinge("F", "peak_strain"), ((USED, None, 0.8),)),
+    ("six", (width("B", 5, 12), arc()), "maximise", hinge("B", "utilisation_band[1]"), ()),
+    ("six", (width("B", 5, 12), arc()), "minimise", "accuracy.estimated", ()),
+    ("six", (push(0.05, 0.9), width("D", 5, 11), arc()), "maximise", hinge("D", "utilisation"),
+     ((hinge("C", "utilisation"), None, 0.75), (hinge("C", "utilisation"), 0.4, None))),
+    ("six", (width("C", 6, 12), arc()), "minimise", F0, ()),
+    ("six", (width("D", 5, 11), width("C", 5, 11)), "minimise", hinge("D", "force_share"), ((USED, None, 0.95),)),
+    ("leaf", LEAF, "minimise", USED, ()),
+    ("leaf", LEAF, "maximise", F0, ((USED, None, 0.6),)),
+    ("stage", LEG, "maximise", F0, ()),
+    ("stage", (("pull", "40 uN", "180 uN"),), "maximise", "governing.peak_angle_rad", ()),
+    ("stage", LEG + (("pull", "40 uN", "180 uN"),), "maximise", "governing.peak_strain", ()),
+]
+
+
+def number(text):
+    """of a range, in the unit that it has"""
+    value, unit = text.split()
+    return float(value), unit
+
+
+class Sizing(unittest.TestCase):
+    def setUp(self):
+        held = tempfile.TemporaryDirectory(prefix="fw-sizing-")
+        self.addCleanup(held.cleanup)
+        self.place = pathlib.Path(held.name)
+        self.runs = 0
+
+    def study(self, problem, kind, inputs, steps=None):
+        """inputs: (what, from, to)"""
+        device, _, goal, response, limits = problem
+        self.runs += 1
+        out = self.place / str(self.runs)
+        (self.place / "device.xml").write_text(DEVICES[device]())
+        rows = "".join('<vary what="%s" from="%s" to="%s"%s/>' % (w, a, b, f' steps="{steps}"' if steps else "")
+                       for w, a, b in inputs)
+        rows += f'<respond name="judged" value="{USED}"/>'
+        rows += f'<respond name="goal" value="{response}"' + (f' goal="{goal}"' if kind == "size" else "") + "/>"
+        for k, (value, least, most) in enumerate(limits):
+            rows += f'<respond name="limit{k}" value="{value}"' + "".join(
+                f' {w}="{v}"' for w, v in (("min", least), ("max", most)) if v is not None) + "/>"
+        path = self.place / f"{self.runs}.xml"
+        path.write_text('<study xmlns="urn:flexwright:study:1" name="s" kind="%s" as="drawn" device="device.xml">%s</study>'
+                        % (kind, rows))
+        done = run("study", path, "-o", out, "--no-progress")
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        return out
+
+    def everything(self, problem):
+        """the best of grids, and where: everywhere first, then three times around the best three of those apart"""
+        _, inputs, goal, _, limits = problem
+        sign = 1 if goal == "minimise" else -1
+        steps = {1: 9 if problem[0] == "leaf" else 21, 2: 11, 3: 7}[len(inputs)]
+        full = [(w, *number(a), number(b)[0]) for w, a, b in inputs]
+        boxes, best = [[(low, high) for _, low, _, high in full]], (math.inf, None)
+        for level in range(5):
+            found = []
+            for box in boxes:
+                out = self.study(problem, "sweep", [(w, f"{low!r} {unit}", f"{high!r} {unit}")
+                                                    for (w, _, unit, _), (low, high) in zip(full, box)], steps)
+                for at, row in enumerate(csv.DictReader((out / "study.csv").read_text().splitlines())):
+                    held = row["state"] == "accept" and all(
+                        (least is None or float(row[f"limit{k}"]) >= least) and
+                        (most is None or float(row[f"limit{k}"]) <= most) for k, (_, least, most) in enumerate(limits))
+                    if not held:
+                        continue
+                    place, rest = [], at  # the last input goes fastest
+                    for low, high in reversed(box):
+                        place.insert(0, low + (high - low) * (rest % steps) / (steps - 1))
+                        rest //= steps
+                    found.append((sign * float(row["goal"]), place, box))
+            found.sort(key=lambda f: f[0])
+            if found and found[0][0] < best[0]:
+                best = found[0][:2]
+            boxes, chosen = [], []
+            for _, place, box in found:
+                apart = all(any(abs(p - q) > 2.5 * (high - low) / (steps - 1)
+                                for p, q, (low, high) in zip(place, other, box)) for other in chosen)
+                if not apart or len(chosen) >= (3 if level == 0 else 1):
+                    continue
+                chosen.append(place)
+                boxes.append([(max(p - 1.5 * (high - low) / (steps - 1), a), min(p + 1.5 * (high - low) / (steps - 1), b))
+                              for p, (low, high), (_, a, _, b) in zip(place, box, full)])
+            if not boxes:
+                break
+        return sign * best[0], best[1]
+
+    def test_what_is_found_is_within_a_percent_of_everything(self):
+        chosen = range(len(PROBLEMS)) if ALL else (10,)
+        only = os.environ.get("FW_TEST_ONLY")
+        for k in [int(x) for x in only.split(",")] if only else chosen:
+            problem = PROBLEMS[k]
+            device, inputs, goal, response, limits = problem
+            with self.subTest(problem=k, what=problem):
+                found = json.loads((self.study(problem, "size", inputs) / "study.json").read_text())["found"]
+                value = next((r["value"] for f in found for r in f["responses"] if r["name"] == "goal"), None)
+                best, place = self.everything(problem)
+                if SHOWN:
+                    print(k, device, goal, response, "found", value, "everything", best, place, flush=True)
+                if not math.isfinite(best):
+                    self.assertEqual(found, [])
+                    continue
+                self.assertEqual(len(found), 1)
+                self.assertLessEqual((value - best) * (1 if goal == "minimise" else -1), PERCENT * abs(best))
+                sets = [word for s in found[0]["set"] for word in ("--set", f"{s['path']}={s['value']}")]
+                done = run("check", self.place / "device.xml", "--corners", "none", "--quiet", *sets)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
