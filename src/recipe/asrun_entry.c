@@ -20,7 +20,7 @@ static bool read_time(const char *s, double *time_s) {
     int hour, minute, second = 0;
     long day;
     size_t n = strlen(s);
-    if ((n != 16 && n != 19) || !fw_schedule_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
+    if ((n != 16 && n != 19) || !fw_quantity_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
         return false;
     if (!digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute)) return false;
     if (n == 19 && (s[16] != ':' || !digits(s + 17, 2, &second))) return false;

@@ -355,7 +355,7 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
     pairs(out, "breaks_s", shop->calendar.break_s, shop->calendar.breaks);
     if (shop->calendar.dated) {
         long civil[3];
-        fw_schedule_civil(shop->calendar.first_day, civil);
+        fw_quantity_civil(shop->calendar.first_day, civil);
         char date[40];
         snprintf(date, sizeof date, "%04ld-%02ld-%02ld", civil[0], civil[1], civil[2]);
         words(out, "first_day", date);
