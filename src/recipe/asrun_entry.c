@@ -169,8 +169,11 @@ static fw_status check_wafer(const fw_recipe_asrun_reader *r, const char *id) {
         if (strcmp(run->wafer[i], id) == 0) return FW_OK;
     if (run->nwafer == 0)
         return fw_diag_error(r->diags, 282, r->place,
-                             "wafer=%s: the log was begun without wafers; begin one with --wafers, "
-                             "how many there are or their ids",
+                             run->nentry > 0
+                                 ? "wafer=%s: the log was begun without wafers; begin one with "
+                                   "--wafers, how many there are or their ids"
+                                 : "wafer=%s: this log has no wafers yet; say with its first entry "
+                                   "how many there are or their ids, with --wafers",
                              id);
     return fw_recipe_asrun_unknown(r, "the lot has no wafer", id, run->wafer, run->nwafer);
 }
