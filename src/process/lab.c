@@ -274,6 +274,11 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
             "'%s' is %s in the process pack, and not %s; write it in a unit of that kind",
             id->value, want, is);
     }
+    if (old->replaced && old->place.file &&
+        new->place.file &&strcmp(old->place.file, new->place.file) == 0)
+        return fw_diag_error(diags, 211, id->place,
+                             "'%s' is given twice, first in line %d; keep the one that holds",
+                             id->value, old->place.line);
     fw_process_warn_exact(new, old, diags);
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));

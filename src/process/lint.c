@@ -430,20 +430,22 @@ static fw_status lint_lasts(fw_arena *arena, fw_process_flow *flow, const fw_pro
                             "change: the inputs that are 0",
                             s->id, s->law));
     }
-    const char *why = fw_process_step_unkept(s, s->time.nominal_s);
     const fw_process_law *law = fw_process_law_find(s->law);
-    if (!why || !law || law->stated) return FW_OK; /* stated ones were asked before */
+    const bool stated = !law || law->stated; /* was asked before, but with its pauses */
+    const double t = s->pulse ? fmax(s->time.nominal_s, s->booked_s) : s->time.nominal_s;
+    const char *why = fw_process_step_unkept(s, t);
+    if (!why || (stated && !s->pulse)) return FW_OK;
     char is[32];
-    fw_number_text(is, sizeof is, s->time.nominal_s / 60.0, 4);
+    fw_number_text(is, sizeof is, t / 60.0, 4);
     fw_diag_warning(
         diags, 577, s->place,
-        "step %s (%s) takes %s min by its law (%s), but %s; correct what it is computed "
+        "step %s (%s) takes %s min by its law (%s)%s, but %s; correct what it is computed "
         "from",
-        s->id, s->op, is, s->law, why);
+        s->id, s->op, is, s->law, s->pulse ? " and its pauses" : "", why);
     return fw_process_flow_add_reason(
         arena, flow, -1,
-        fw_arena_printf(arena, "step %s takes %s min by its law (%s), but %s", s->id, is, s->law,
-                        why));
+        fw_arena_printf(arena, "step %s takes %s min by its law (%s)%s, but %s", s->id, is, s->law,
+                        s->pulse ? " and its pauses" : "", why));
 }
 
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {

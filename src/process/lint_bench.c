@@ -418,11 +418,24 @@ static void lint_empty(fw_process_pack *pack, const fw_process_bath *b) {
                       b->id);
 }
 
+/* of what is counted there is no half, but where it is a mean */
+static void lint_whole(fw_process_pack *pack, const fw_quantity *q) {
+    const bool counted = q->range && strcmp(q->range, "count") == 0;
+    char is[32];
+    if (!counted || q->unknown || q->uncertainty > 0.0 || q->value == floor(q->value)) return;
+    fw_diag_error(pack->diags, 278, q->place,
+                  "'%s' is %s, and counts things: write a whole number, or say by u how uncertain "
+                  "a mean is",
+                  q->id ? q->id : "q", fw_number_text(is, sizeof is, q->value, 6));
+}
+
 fw_status fw_process_lint_stock(fw_process_pack *pack) {
     const fw_quantity *wafer = fw_process_flow_quantity(pack->flow, "wafer.D");
     char is[32];
     for (int i = 0; i < pack->flow->nbath; i++)
         lint_empty(pack, &pack->flow->bath[i]);
+    for (int i = 0; i < pack->flow->nquantity; i++)
+        lint_whole(pack, pack->flow->quantity[i]);
     if (wafer && !wafer->unknown && !(wafer->value >= 5e-3 && wafer->value <= 0.45))
         fw_diag_error(pack->diags, 278, wafer->place,
                       "'wafer.D' is %s mm, outside its plausible range of 5 to 450 mm (a piece is "

@@ -472,6 +472,22 @@ static void forms(void **state) {
     assert_int_equal(out.length, 0);
 }
 
+/* one number, one place: of two the last one held without a word */
+static void given_twice(void **state) {
+    (void)state;
+    static const char lab[] =
+        "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\"><source id=\"m\" kind=\"measured\">x</source>\n"
+        "<q id=\"carrier.d\" value=\"500\" u=\"1\" unit=\"um\" status=\"measured\" src=\"m\"/>\n"
+        "<q id=\"carrier.d\" value=\"510\" u=\"1\" unit=\"um\" status=\"measured\" src=\"m\"/></process>";
+    diags = fw_diags_new(arena);
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", lab, strlen(lab), f, &diags), FW_INPUT);
+    const fw_diag *d = &diags.item[diags.count - 1];
+    assert_non_null(strstr(d->message, "'carrier.d' is given twice, first in line 2"));
+    assert_int_equal(d->place.line, 3);
+}
+
 /* a name whose beginning is right */
 static void meant_by_its_stem(void **state) {
     (void)state;
@@ -491,6 +507,6 @@ int main(void) {
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
-        cmocka_unit_test(meant_by_its_stem)};
+        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

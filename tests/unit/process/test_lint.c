@@ -78,6 +78,7 @@ static void mistakes_of_a_flow(void **state) {
         {GLASS, "id=\"hf.parts\" value=\"10\" u=\"0.2\" unit=\"1\" status=\"typical\" src=\"iliescu\" range=\"parts\"/>\n  <q id=\"hcl.parts\" value=\"1\"",
          "id=\"hf.parts\" value=\"0\" u=\"0\" unit=\"1\" status=\"typical\" src=\"iliescu\" range=\"parts\"/>\n  <q id=\"hcl.parts\" value=\"0\"",
          370, "bath 'hf' is mixed from nothing"},
+        {SILICON, "id=\"pan.serves\" value=\"1\"", "id=\"pan.serves\" value=\"2.5\"", 278, "'pan.serves' is 2.5, and counts things"},
         {SILICON, "id=\"wafer.D\" value=\"100\"", "id=\"wafer.D\" value=\"1\"", 278, "'wafer.D' is 1 mm"},
         {SILICON, "date=\"2025-01-01\">typical", "date=\"2025-02-30\">typical", 171, "date=\"2025-02-30\" is no day"},
         {SILICON, "<q id=\"hard.T\" value=\"115\" u=\"3\" unit=\"Cel\" status=\"typical\"", "<q id=\"hard.T\" value=\"115\" u=\"3\" unit=\"Cel\" status=\"measured\"",
