@@ -96,6 +96,21 @@ static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, 
     return fw_process_calibrate_wafers(w->arena, flow, &readings, &w->diags, found);
 }
 
+/* what --lab would not take is not written: the same questions, asked of the flow with these values */
+static fw_status is_taken(work *w, fw_process_flow *flow, const fw_text *pack) {
+    fw_diags said = fw_diags_new(w->arena);
+    fw_status status =
+        fw_process_lab_apply(w->arena, "calibrated", pack->data, pack->length, flow, &said);
+    if (said.failed) return FW_NOMEM;
+    for (size_t i = 0; i < said.count; i++)
+        if (said.item[i].severity == FW_ERROR) {
+            fw_diag d = said.item[i];
+            d.place = (fw_place){.file = w->options->device};
+            fw_diags_add(&w->diags, &d, FW_ERROR);
+        }
+    return w->diags.failed ? FW_NOMEM : status;
+}
+
 static fw_status run(work *w) {
     const char *file = w->options->device, *slash = strrchr(file, '/');
     fw_process_flow *flow;
@@ -112,6 +127,7 @@ static fw_status run(work *w) {
     fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
     FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
     FW_TRY(fw_process_calibration_text(flow, &found, &table));
+    FW_TRY(is_taken(w, flow, &pack));
     const char *to = w->options->output ? w->options->output : "-";
     FW_TRY(fw_output_single(w->arena, to, pack.data, pack.length, &w->diags));
     if (!w->options->quiet) fputs(table.data, strcmp(to, "-") == 0 ? stderr : stdout);

@@ -237,8 +237,11 @@ static void unknown_path(fw_device_reader *r, const edit *set, const char *what,
     fw_diag_error(r->diags, 55, set->place, "%s%s%s%s", what, better ? "; did you mean '" : "",
                   better ? better : "",
                   better ? "'?"
-                         : "; a path is a parameter's name or ELEMENT[ID]/@ATTRIBUTE, for example "
-                           "flexure[A]/@length");
+                  : strchr(set->path, '.')
+                      ? "; a value of a process, such as cavity.d, is set in a laboratory pack "
+                        "(--lab FILE)"
+                      : "; a path is a parameter's name or ELEMENT[ID]/@ATTRIBUTE, for example "
+                        "flexure[A]/@length");
 }
 
 /* names of what the file holds: values of `key` of all elements with this name, to depth 3 */

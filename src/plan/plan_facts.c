@@ -174,8 +174,12 @@ static fw_status carrier_of(fw_plan *plan, const fw_plan_flow *pf, fw_wiring_car
                      "insulated; how well is not known";
         return FW_OK;
     }
+    const fw_quantity *bears = fw_process_flow_quantity(flow, "insulator.breakdown");
     char um[32];
     out->thickness_m = c->thickness->value;
+    if (bears && !bears->unknown)
+        out->breakdown_share = hypot(bears->uncertainty / bears->value,
+                                     c->thickness->uncertainty / c->thickness->value);
     FW_NEED(out->words = fw_arena_printf(plan->arena, "%s, %s um thick%s",
                                          fw_process_flow_material_name(flow, c->material),
                                          fw_number_text(um, sizeof um, 1e6 * out->thickness_m, 4),

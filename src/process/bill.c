@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a lot uses up: consumables, the baths mixed from them and their prices as a pack says them, and the bill that
-   follows; see bill.h. */
+   follows; see process.h. */
 #include "base/text.h"
-#include "process/bill.h"
+#include "process/process.h"
 #include "process/pack.h"
 #include <math.h>
 #include <string.h>

@@ -44,6 +44,8 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
 fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
                                const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration);
+/* how each coupon that `words` name is written into a log: "cd-lines, line|space, drawn=__ um, value=__ ... um, u=__ um" */
+fw_status fw_process_coupon_forms(const char *words, fw_text *out);
 /* FW_INPUT and FW-D211 where a row lacks what its coupon needs */
 fw_status fw_process_measurement_check(const fw_process_measurement *row, fw_diags *diags);
 

@@ -245,6 +245,11 @@ static fw_status no_such(fw_process_flow *flow, fw_diags *diags, const fw_xml_at
         least = d;
         best = flow->quantity[i]->id;
     }
+    const size_t stem = strcspn(id->value, ".") + 1; /* "cavity.depth": others of the cavity */
+    for (int i = 0; !best && id->value[stem - 1] == '.' && i < flow->nquantity; i++)
+        if (strncmp(flow->quantity[i]->id, id->value, stem) == 0 &&
+            strncmp(flow->quantity[i]->id + stem, id->value + stem, 1) == 0)
+            best = flow->quantity[i]->id;
     return fw_diag_error(diags, 211, id->place, "flow '%s' has no quantity '%s'%s%s%s", flow->id,
                          id->value, best ? "; did you mean '" : "", best ? best : "",
                          best ? "'?" : "");
@@ -269,6 +274,11 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
             "'%s' is %s in the process pack, and not %s; write it in a unit of that kind",
             id->value, want, is);
     }
+    if (old->replaced && old->place.file &&
+        new->place.file &&strcmp(old->place.file, new->place.file) == 0)
+        return fw_diag_error(diags, 211, id->place,
+                             "'%s' is given twice, first in line %d; keep the one that holds",
+                             id->value, old->place.line);
     fw_process_warn_exact(new, old, diags);
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));

@@ -4,26 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* "stated" is a claim about a publication: it needs one as its source */
-static fw_status lint_stated(fw_process_pack *pack) {
-    for (int part = 0; part < 2; part++) {
-        const fw_xml_record *root = part == 0 ? pack->base : pack->root;
-        for (const fw_xml_record *c = root->first_child; c; c = c->next) {
-            const fw_xml_attribute *src = fw_process_pack_get(c, "src");
-            if (!fw_xml_is(c, "q") || !src ||
-                strcmp(fw_process_pack_text(c, "status"), "stated") != 0)
-                continue;
-            const fw_process_source *s = fw_process_pack_find(pack, src, FW_ID_SOURCE);
-            if (s && strcmp(s->kind, "publication") != 0 && strcmp(s->kind, "datasheet") != 0)
-                fw_diag_error(pack->diags, 173, src->place,
-                              "'%s' has status stated, but its source is of kind %s; use typical "
-                              "or assumed, or name the publication",
-                              fw_process_pack_text(c, "id"), s->kind);
-        }
-    }
-    return FW_OK;
-}
-
 /* what a tool takes is what some material brings along */
 static void lint_takes(fw_process_pack *pack, const fw_process_equipment *e) {
     const char *words = e->takes;
@@ -120,60 +100,6 @@ static fw_status lint_order(fw_process_pack *pack) {
     return FW_OK;
 }
 
-/* a hazard that speaks of hydrofluoric acid and does not say whether it may be handled alone */
-static void lint_acid(fw_process_pack *pack) {
-    for (int part = 0; part < 2; part++) {
-        const fw_xml_record *root = part == 0 ? pack->base : pack->root;
-        for (const fw_xml_record *h = root->first_child; h; h = h->next) {
-            bool named = false, antidote = false;
-            if (!fw_xml_is(h, "hazard")) continue;
-            for (const fw_xml_record *c = h->first_child; c; c = c->next) {
-                named = named || strstr(c->element->text, "hydrofluoric") ||
-                        strstr(c->element->text, "HF ");
-                antidote = antidote || strstr(c->element->text, "gluconate");
-            }
-            if (!named || strcmp(fw_process_pack_text(h, "buddy"), "no") == 0) continue;
-            if (!fw_process_pack_get(h, "buddy"))
-                fw_diag_error(pack->diags, 174, h->element->place,
-                              "hazard '%s' mentions hydrofluoric acid: state buddy=\"yes\", or "
-                              "buddy=\"no\" where nobody handles the acid itself",
-                              fw_process_pack_text(h, "id"));
-            else if (!antidote)
-                fw_diag_error(pack->diags, 174, h->element->place,
-                              "hazard '%s' is hydrofluoric acid and its first aid does not name "
-                              "calcium gluconate",
-                              fw_process_pack_text(h, "id"));
-        }
-    }
-}
-
-static void lint_step(fw_process_pack *pack, const fw_process_step *s) {
-    for (int i = 0; i < s->nhazard; i++) {
-        if (!s->hazard[i]->buddy) continue;
-        if (!s->second_signature)
-            fw_diag_error(pack->diags, 174, s->place,
-                          "step %s has the hazard '%s', which nobody handles alone: add "
-                          "second-signature=\"yes\"",
-                          s->id, s->hazard[i]->id);
-        if (!(s->attended_s > 0.0))
-            fw_diag_error(pack->diags, 174, s->place,
-                          "step %s has the hazard '%s', which nobody leaves alone, and is "
-                          "attended=\"0\": say for how long somebody stands there",
-                          s->id, s->hazard[i]->id);
-        if (!s->hazard[i]->first_aid[0])
-            fw_diag_error(pack->diags, 174, s->hazard[i]->place,
-                          "hazard '%s' has no first aid; add a <firstaid>", s->hazard[i]->id);
-    }
-}
-
-/* people and chemicals (FW-D174, FW-D175) */
-static fw_status lint_people(fw_process_pack *pack) {
-    for (int i = 0; i < pack->flow->nstep; i++)
-        lint_step(pack, &pack->flow->step[i]);
-    lint_acid(pack);
-    return FW_OK;
-}
-
 /* two steps on one bench whose chemicals must not meet; once per pair of hazards */
 static void lint_bench(fw_process_pack *pack, const fw_process_flow *f) {
     for (int i = 0; i < f->nstep; i++)
@@ -216,7 +142,6 @@ static const struct {
     fw_status (*check)(fw_process_pack *pack);
     bool values; /* looks at values, which a laboratory may replace; and at nothing of the file */
 } rules[] = {
-    {"does every value that claims to be stated name a publication?", lint_stated, false},
     {"do hazards and tools name hazards and materials that exist?", lint_names, false},
     {"do waiting times count from earlier steps?", lint_order, false},
     {"does every value make sense, and keep dimension and range where it is replaced?",
@@ -226,7 +151,13 @@ static const struct {
     {"can prices be added, and does a filling serve a wafer?", fw_process_lint_prices, true},
     {"has every layer a thickness, and is none made of more than there is?",
      fw_process_lint_thicknesses, true},
-    {"is nobody alone with what is dangerous, and is there first aid?", lint_people, false},
+    {"is nobody alone with what is dangerous, and is there first aid?", fw_process_lint_people,
+     false},
+    {"are times ones that hands and benches keep?", fw_process_lint_hands, true},
+    {"is nothing left wet, unbaked or hot for longer than it bears?", fw_process_lint_longest,
+     true},
+    {"does a step that is done in a liquid use some?", fw_process_lint_baths, false},
+    {"is there something in every bath, and is the wafer one?", fw_process_lint_stock, true},
     {"does every liquid say what it reacts as?", fw_process_lint_reactivity, false},
     {"is every bath a liquid at its temperature?", fw_process_lint_warmth, true},
     {"do chemicals stay apart that must not meet?", lint_chemicals, false},
@@ -241,6 +172,8 @@ static const struct {
      fw_process_lint_states, false},
     {"does what a step works on lie open, and does metal grow where it shall?",
      fw_process_lint_reach, false},
+    {"does no rinse take off what lies open?", fw_process_lint_rinses, false},
+    {"is what lifts off thinner than its resist?", fw_process_lint_lifted, true},
     {"is what a step requires of the wafer true of the wafer that comes?", fw_process_lint_required,
      false},
     {"is resist baked before it is used, and the wafer before it is coated?", fw_process_lint_bakes,
@@ -497,7 +430,22 @@ static fw_status lint_lasts(fw_arena *arena, fw_process_flow *flow, const fw_pro
                             "change: the inputs that are 0",
                             s->id, s->law));
     }
-    return FW_OK;
+    const fw_process_law *law = fw_process_law_find(s->law);
+    const bool stated = !law || law->stated; /* was asked before, but with its pauses */
+    const double t = s->pulse ? fmax(s->time.nominal_s, s->booked_s) : s->time.nominal_s;
+    const char *why = fw_process_step_unkept(s, t);
+    if (!why || (stated && !s->pulse)) return FW_OK;
+    char is[32];
+    fw_number_text(is, sizeof is, t / 60.0, 4);
+    fw_diag_warning(
+        diags, 577, s->place,
+        "step %s (%s) takes %s min by its law (%s)%s, but %s; correct what it is computed "
+        "from",
+        s->id, s->op, is, s->law, s->pulse ? " and its pauses" : "", why);
+    return fw_process_flow_add_reason(
+        arena, flow, -1,
+        fw_arena_printf(arena, "step %s takes %s min by its law (%s)%s, but %s", s->id, is, s->law,
+                        s->pulse ? " and its pauses" : "", why));
 }
 
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {

@@ -417,18 +417,6 @@ static void lint_op(fw_process_pack *pack, const fw_process_step *s) {
                           s->id);
 }
 
-/* a bath decides on volume, bill and waste */
-static void lint_bath(fw_process_pack *pack, const fw_process_step *s) {
-    bool any = false;
-    for (int i = 0; i < s->nuse; i++)
-        any = any || s->use[i].bath;
-    if (!any && fw_words_hold("anodise develop displace plate wet-etch", " ", s->op))
-        fw_diag_warning(pack->diags, 562, s->place,
-                        "step %s (%s) is done in a bath, and names none: what it uses up is in no "
-                        "bill of the lot; add <uses bath=\"...\"/>",
-                        s->id, s->op);
-}
-
 /* Below the least speed resist does not level within its spin time, above the largest no chuck holds the wafer; spinners
    of laboratories turn at 100 to 12 000 rpm. */
 static void lint_spin(fw_process_pack *pack, const fw_process_step *s) {
@@ -572,7 +560,6 @@ fw_status fw_process_lint_kind(fw_process_pack *pack) {
         lint_opened(pack, i);
         lint_timed(pack, s);
         lint_op(pack, s);
-        lint_bath(pack, s);
         lint_spin(pack, s);
         lint_rate(pack, i);
         lint_profile(pack, s);

@@ -95,6 +95,17 @@ void fw_process_pack_corners(fw_process_pack *pack);
 
 fw_status fw_process_pack_lint(fw_process_pack *pack);
 
+/* what people and benches do: lint_bench.c (FW-D174, FW-D539, FW-D577 to FW-D579) */
+fw_status fw_process_lint_people(fw_process_pack *pack);
+fw_status fw_process_lint_hands(fw_process_pack *pack);
+fw_status fw_process_lint_longest(fw_process_pack *pack);
+fw_status fw_process_lint_rinses(fw_process_pack *pack);
+fw_status fw_process_lint_lifted(fw_process_pack *pack);
+fw_status fw_process_lint_baths(fw_process_pack *pack);
+fw_status fw_process_lint_stock(fw_process_pack *pack);
+/* why no step of its kind takes so long, or is over so soon; NULL: some do */
+const char *fw_process_step_unkept(const fw_process_step *step, double time_s);
+
 /* layers of the wafer, step by step (FW-D172, FW-D269, FW-D271 to FW-D275) */
 fw_status fw_process_lint_absent(fw_process_pack *pack);
 fw_status fw_process_lint_attacked(fw_process_pack *pack);
@@ -153,7 +164,7 @@ fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_di
    docs/theory/process.md, "What a wafer is like between steps". */
 
 typedef enum fw_process_state {
-#define X(name, key, longest, is, why) FW_STATE_##name,
+#define X(name, key, longest, most, is, why) FW_STATE_##name,
 #include "process/wafer_states.def"
 #undef X
     FW_STATES
@@ -189,5 +200,8 @@ const char *fw_process_wafer_words(fw_arena *arena, const fw_process_flow *flow,
                                    const fw_process_wafer *wafer, fw_process_state state);
 const char *fw_process_state_why(fw_process_state state);
 const char *fw_process_state_key(fw_process_state state);
+const char *fw_process_state_is(fw_process_state state); /* "wet with" */
+double
+fw_process_state_most_s(fw_process_state state); /* longer makes no sense whatever a pack says */
 
 #endif

@@ -25,6 +25,40 @@ static const fw_process_coupon *kind_named(const char *name) {
     return NULL;
 }
 
+static const char *unit_of(fw_quantity_dimension d) {
+    const fw_quantity_dimension length = FW_DIM_LENGTH, time = FW_DIM_TIME;
+    if (fw_quantity_dimension_equal(d, length)) return " um";
+    if (fw_quantity_dimension_equal(d, time)) return " min";
+    const char *unit = fw_quantity_dimension_unit(d);
+    return unit && strcmp(unit, "1") != 0 ? unit : "";
+}
+
+static void put_form(const fw_process_coupon *kind, fw_text *out) {
+    enum { FEATURES = sizeof kind->features / sizeof kind->features[0] };
+    const char *unit = unit_of(kind->measured);
+    fw_text_add(out, kind->name);
+    for (int i = 0; i < FEATURES && kind->features[i]; i++)
+        fw_text_printf(out, "%s%s", i ? "|" : ", ", kind->features[i]);
+    if (!kind->features[0]) fw_text_add(out, ", FEATURE");
+    if (kind->drawn) fw_text_add(out, ", drawn=__ um");
+    fw_text_printf(out, ", value=__ __ __ __ __%s, u=__%s", kind->any_measured ? " UNIT" : unit,
+                   kind->any_measured ? " UNIT" : unit);
+    if (kind->at)
+        fw_text_printf(out, ", at=__%s",
+                       fw_quantity_dimension_equal(kind->under[0], (fw_quantity_dimension){0})
+                           ? " UNIT"
+                           : unit_of(kind->under[0]));
+}
+
+fw_status fw_process_coupon_forms(const char *words, fw_text *out) {
+    for (int i = 0; i < KINDS; i++) {
+        if (!strstr(words, table[i]->name)) continue;
+        fw_text_add(out, out->length ? "; " : "");
+        put_form(table[i], out);
+    }
+    return fw_text_end(out);
+}
+
 static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *of) {
     const char *names[KINDS];
     for (int i = 0; i < KINDS; i++)

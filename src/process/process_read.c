@@ -156,22 +156,9 @@ static void enter(fw_process_pack *pack, const char *id, fw_process_id_kind kind
     pack->nid++;
 }
 
-/* "2026-11-20", of a year that people may have measured in */
-static bool is_date(const char *s) {
-    for (int i = 0; i < 10; i++)
-        if (i == 4 || i == 7 ? s[i] != '-' : s[i] < '0' || s[i] > '9') return false;
-    const int year = (s[0] - '0') * 1000 + (s[1] - '0') * 100 + (s[2] - '0') * 10 + s[3] - '0',
-              month = (s[5] - '0') * 10 + s[6] - '0', day = (s[8] - '0') * 10 + s[9] - '0';
-    return s[10] == '\0' && year >= 1800 && year < 2200 && month >= 1 && month <= 12 && day >= 1 &&
-           day <= 31;
-}
-
-static void read_source(fw_process_pack *pack, const fw_xml_record *e, fw_process_source *s) {
+static void read_source(const fw_xml_record *e, fw_process_source *s) {
     *s = (fw_process_source){fw_process_pack_text(e, "id"), fw_process_pack_text(e, "kind"),
                              fw_process_pack_text(e, "date"), e->element->text};
-    if (s->date[0] && !is_date(s->date))
-        fw_diag_error(pack->diags, 171, fw_process_pack_get(e, "date")->place,
-                      "source '%s': date=\"%s\" is no day; write 2026-11-20", s->id, s->date);
 }
 
 static fw_status read_hazard(fw_process_pack *pack, const fw_xml_record *e, fw_process_hazard *h) {
@@ -245,7 +232,7 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
     if (!id) return FW_OK;
     if (fw_xml_is(e, "source")) {
         fw_process_source *s = &f->source[f->nsource++];
-        read_source(pack, e, s);
+        read_source(e, s);
         enter(pack, id->value, FW_ID_SOURCE, base, s, id->place);
     } else if (fw_xml_is(e, "material")) {
         fw_process_material *m = &f->process_material[f->nprocess_material++];

@@ -40,7 +40,7 @@ static const char *const dryings[] = {"spin",   "nitrogen",       "oven",       
 static const char *const leavings[] = {"wafers", "dies", NULL};
 static const char *const there[] = {"present", "absent", NULL};
 static const char *const states[] = {
-#define X(name, key, longest, is, why) key,
+#define X(name, key, longest, most, is, why) key,
 #include "process/wafer_states.def"
 #undef X
     NULL};

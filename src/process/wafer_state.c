@@ -14,16 +14,24 @@ static const char WATER[] = "water"; /* in the place of a chemical's id */
 
 static const struct {
     const char *key;
-    double longest_s;
+    double longest_s, most_s;
     const char *is, *why;
 } rows[] = {
-#define X(name, key, longest, is, why) [FW_STATE_##name] = {key, longest, is, why},
+#define X(name, key, longest, most, is, why) [FW_STATE_##name] = {key, longest, most, is, why},
 #include "process/wafer_states.def"
 #undef X
 };
 
 const char *fw_process_state_why(fw_process_state state) {
     return rows[state].why;
+}
+
+const char *fw_process_state_is(fw_process_state state) {
+    return rows[state].is;
+}
+
+double fw_process_state_most_s(fw_process_state state) {
+    return rows[state].most_s;
 }
 
 const char *fw_process_state_key(fw_process_state state) {

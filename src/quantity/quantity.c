@@ -218,3 +218,44 @@ double fw_quantity_correlation(const fw_quantity *a, const fw_quantity *b) {
         if (strcmp(a->correlated[i].id, b->id) == 0) return a->correlated[i].correlation;
     return 0.0;
 }
+
+/* ---- days ---- */
+
+/* quotient towards minus infinity, as days before 1970 need it */
+static long whole(long a, long b) {
+    return a / b - (a % b < 0 ? 1 : 0);
+}
+
+/* Days since 1970-01-01, negative before it, to a date of the Gregorian calendar and back; exact for the years -5000 to
+   20000. Source: Hinnant, chrono-compatible date algorithms. Test: test_calendar.c, centuries (against counting days). */
+void fw_quantity_civil(long day, long civil[3]) {
+    long z = day + 719468, era = whole(z, 146097), doe = z - era * 146097;
+    long yoe = (doe - doe / 1460 + doe / 36524 - doe / 146096) / 365;
+    long doy = doe - (365 * yoe + yoe / 4 - yoe / 100), mp = (5 * doy + 2) / 153;
+    civil[1] = mp < 10 ? mp + 3 : mp - 9;
+    civil[2] = doy - (153 * mp + 2) / 5 + 1;
+    civil[0] = yoe + era * 400 + (civil[1] <= 2 ? 1 : 0);
+}
+
+static long day_of(long y, long m, long d) {
+    y -= m <= 2;
+    long era = whole(y, 400), yoe = y - era * 400,
+         doy = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
+    return era * 146097 + yoe * 365 + yoe / 4 - yoe / 100 + doy - 719468;
+}
+
+bool fw_quantity_date_parse(const char *text, long *day) {
+    static const char shape[] = "0000-00-00";
+    long part[3] = {0, 0, 0}, civil[3];
+    for (int i = 0, k = 0; shape[i]; i++) {
+        if (shape[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
+        if (shape[i] == '-')
+            k++;
+        else
+            part[k] = 10 * part[k] + text[i] - '0';
+    }
+    if (part[0] < 1 || part[1] < 1 || part[1] > 12 || part[2] < 1) return false;
+    *day = day_of(part[0], part[1], part[2]);
+    fw_quantity_civil(*day, civil); /* the 30th of February is another day */
+    return civil[0] == part[0] && civil[1] == part[1] && civil[2] == part[2];
+}

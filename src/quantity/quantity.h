@@ -87,6 +87,14 @@ double fw_quantity_correlation(const fw_quantity *a, const fw_quantity *b);
 /* value in its own unit, e.g. 9 for 9e-6 m in "um" */
 double fw_quantity_in_unit(const fw_quantity *q);
 
+/* ---- days, of sources and of calendars ---- */
+
+/* "2026-11-23", whatever follows: days since 1970-01-01, negative before. false: no date of the
+   years 1 to 9999 */
+bool fw_quantity_date_parse(const char *text, long *day);
+/* year, month and day of the month of a day since 1970-01-01 */
+void fw_quantity_civil(long day, long civil[3]);
+
 /* ---- expressions ----
 
    Arithmetic with units, dimension-checked: "2*t + 5 um", "1.711e-6 N m/rad", "sqrt(a^2+b^2)".

@@ -22,11 +22,14 @@ bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_e
 }
 
 /* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
-   end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. */
-static const char *in_time(const fw_process_step *step, double actual_s) {
-    if (!step->time.computable) return "no plan";
-    if (actual_s < step->time.first_look_s) return "short";
-    return actual_s > step->booked_stop_s ? "long" : "in window";
+   end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. A clock
+   that was read to the minute leaves up to a minute either way. */
+static const char *in_time(const fw_recipe_asrun_entry *e) {
+    const bool to_the_second = strlen(e->start) > 16 && strlen(e->end) > 16;
+    const double actual_s = e->end_s - e->start_s, read_s = to_the_second ? 0.0 : 60.0;
+    if (!e->step->time.computable) return "no plan";
+    if (actual_s + read_s < e->step->time.first_look_s) return "short";
+    return actual_s - read_s > e->step->booked_stop_s ? "long" : "in window";
 }
 
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
@@ -114,14 +117,15 @@ static void put_unit(fw_text *out, const char *unit) {
 
 static fw_status durations_of(builder *b, const fw_recipe_asrun_entry *e) {
     double actual = e->end_s - e->start_s;
-    const char *judged = in_time(e->step, actual);
+    const char *judged = in_time(e);
     if (strcmp(judged, "short") != 0 && strcmp(judged, "long") != 0) return FW_OK;
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
     fw_schedule_put_duration(&planned, e->step->booked_s);
-    fw_text_add(&planned, "; ");
+    fw_text_add(&planned, " at the machine; from the first look at ");
     fw_schedule_put_duration(&planned, e->step->time.first_look_s);
     fw_text_add(&planned, " to ");
     fw_schedule_put_duration(&planned, e->step->booked_stop_s);
+    fw_text_add(&planned, ", with the stop time");
     fw_schedule_put_duration(&is, actual);
     return add(b, e, "duration", &planned, &is);
 }
@@ -309,15 +313,14 @@ static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
                      const fw_recipe_asrun_entry *e, fw_text *out) {
     bool known = s->time.computable;
     const double cell[] = {
-        known ? s->booked_s : (double)NAN,
-        known ? s->time.first_look_s : (double)NAN,
-        known ? s->booked_stop_s : (double)NAN,
+        known ? s->time.nominal_s : (double)NAN, known ? s->time.first_look_s : (double)NAN,
+        known ? s->time.stop_s : (double)NAN,    known ? s->booked_s : (double)NAN,
         e ? e->end_s - e->start_s : (double)NAN,
     };
     fw_text_printf(out, "%-5s", s->id);
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 5; k++)
         put_cell(out, cell[k], 15);
-    fw_text_printf(out, "  %-9s %s", e ? in_time(s, cell[3]) : "open", s->title);
+    fw_text_printf(out, "  %-9s %s", e ? in_time(e) : "open", s->title);
     if (e && e->wafer) fw_text_printf(out, ", wafer %s", e->wafer);
     if (e && times_of(run, e) > 1) fw_text_printf(out, " (run %d times)", times_of(run, e));
     fw_text_add(out, "\n");
@@ -328,8 +331,8 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
                                      fw_text *out) {
     fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n\n", flow->id, run->lot ? ", lot " : "",
                    run->lot ? run->lot : "", run->plan);
-    fw_text_printf(out, "%-5s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
-                   "stop", "actual", "judged", "title");
+    fw_text_printf(out, "%-5s %14s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
+                   "stop", "at the machine", "actual", "judged", "title");
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         bool any = false;
@@ -343,7 +346,9 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
     }
     total t;
     FW_TRY(sum_up(flow, run, out->arena, &t));
-    fw_text_printf(out, "\n%d of %d steps run, %d repeated, %d outside of their limits; planned ",
+    fw_text_printf(out,
+                   "\n%d of %d steps run, %d repeated, %d outside of their limits; planned "
+                   "at the machine ",
                    t.logged, flow->nstep, t.repeated, t.out);
     fw_schedule_put_duration(out, t.planned_s);
     fw_text_add(out, " for them, actual ");
@@ -435,7 +440,7 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_text(out, "start", e->start);
     put_text(out, "end", e->end);
     put_number(out, "actual_s", e->end_s - e->start_s);
-    put_text(out, "judged", in_time(e->step, e->end_s - e->start_s));
+    put_text(out, "judged", in_time(e));
     put_text(out, "by", e->by);
     put_text(out, "second", e->second);
     put_text(out, "tool", e->tool);
@@ -546,7 +551,9 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
         fw_json_text(out, "title", s->title);
         put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);
         put_number(out, "first_look_s", p->computable ? p->first_look_s : (double)NAN);
-        put_number(out, "stop_s", p->computable ? s->booked_stop_s : (double)NAN);
+        put_number(out, "stop_s", p->computable ? p->stop_s : (double)NAN);
+        put_number(out, "at_machine_s", p->computable ? s->booked_s : (double)NAN);
+        put_number(out, "at_machine_most_s", p->computable ? s->booked_stop_s : (double)NAN);
         runs_json(run, s, out);
         asked_json(s, out);
         fw_json_end(out);
@@ -557,7 +564,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     fw_json_whole(out, "logged", t.logged);
     fw_json_whole(out, "repeated", t.repeated);
     fw_json_whole(out, "outside", t.out);
-    put_number(out, "planned_s", t.planned_s);
+    put_number(out, "at_machine_s", t.planned_s);
     put_number(out, "actual_s", t.actual_s);
     FW_TRY(deviations_json(flow, run, out, text->arena));
     fw_json_end(out);

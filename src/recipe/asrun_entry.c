@@ -20,7 +20,7 @@ static bool read_time(const char *s, double *time_s) {
     int hour, minute, second = 0;
     long day;
     size_t n = strlen(s);
-    if ((n != 16 && n != 19) || !fw_schedule_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
+    if ((n != 16 && n != 19) || !fw_quantity_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
         return false;
     if (!digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute)) return false;
     if (n == 19 && (s[16] != ':' || !digits(s + 17, 2, &second))) return false;
@@ -169,8 +169,11 @@ static fw_status check_wafer(const fw_recipe_asrun_reader *r, const char *id) {
         if (strcmp(run->wafer[i], id) == 0) return FW_OK;
     if (run->nwafer == 0)
         return fw_diag_error(r->diags, 282, r->place,
-                             "wafer=%s: the log was begun without wafers; begin one with --wafers, "
-                             "how many there are or their ids",
+                             run->nentry > 0
+                                 ? "wafer=%s: the log was begun without wafers; begin one with "
+                                   "--wafers, how many there are or their ids"
+                                 : "wafer=%s: this log has no wafers yet; say with its first entry "
+                                   "how many there are or their ids, with --wafers",
                              id);
     return fw_recipe_asrun_unknown(r, "the lot has no wafer", id, run->wafer, run->nwafer);
 }

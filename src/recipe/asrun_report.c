@@ -225,7 +225,8 @@ static void put_values(const fw_recipe_asrun_entry *e, fw_text *out) {
 
 static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
     fw_text_add(out, "<h2>Entries</h2>\n<table><thead><tr><th>Step</th><th>Wafer</th><th>Start</th>"
-                     "<th>Planned</th><th>Actual</th><th>By; tool; instrument</th><th>Values and "
+                     "<th>At the machine, planned</th><th>Actual</th><th>By; tool; "
+                     "instrument</th><th>Values and "
                      "settings</th></tr></thead><tbody>\n");
     for (int s = 0; s < flow->nstep; s++)
         for (int i = 0; i < run->nentry; i++) {

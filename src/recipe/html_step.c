@@ -264,9 +264,10 @@ static void value_cell(const fw_quantity *q, bool derived, fw_text *out) {
     double u = fw_recipe_row_uncertainty(q);
     if (u > 0.0) {
         fw_text_add(out, " ± ");
-        if (u >= 99.5 && u < 1e6)
-            fw_text_fixed(out, u, 0);
-        else
+        if (u >= 99.5 && u < 1e6) {
+            const double place = derived ? pow(10.0, floor(log10(u)) - 1.0) : 1.0;
+            fw_text_fixed(out, floor(u / place + 0.5) * place, 0);
+        } else
             fw_text_number(out, u, 2);
     }
     fw_text_add(out, " ");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the lot uses up, as a page of the run sheet and as JSON: baths and how they are mixed, consumables, costs. */
 #include "base/json.h"
-#include "process/bill.h"
+#include "process/process.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
 

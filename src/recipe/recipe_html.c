@@ -40,6 +40,24 @@ static void measured_row(fw_text *out, const fw_measuring *m, int i) {
     fw_text_add(out, "</tr>\n");
 }
 
+/* what to type of the coupons of those rows, and of the file that keeps it */
+static void put_forms(const fw_measuring *m, fw_text *out) {
+    fw_text by = fw_text_new(out->arena), forms = fw_text_new(out->arena);
+    for (int i = 0; i < m->nitem && i < SHOWN; i++)
+        if (m->item[i].by) fw_text_printf(&by, "%s ", m->item[i].by);
+    if (by.length == 0) return;
+    if (fw_text_end(&by) != FW_OK || fw_process_coupon_forms(by.data, &forms) != FW_OK) {
+        out->failed = 1;
+        return;
+    }
+    if (forms.length == 0) return;
+    fw_text_add(out,
+                "<p class=\"small\">What was read goes into the log of the lot (flexwright log, "
+                "--coupon \"...\"), five sites in one line, and from there to calibrate: ");
+    fw_text_escaped(out, forms.data);
+    fw_text_add(out, ".</p>\n");
+}
+
 /* the first five of what to measure first; nothing where it was not asked for */
 static void put_measurements(const fw_recipe_header *header, fw_text *out) {
     const fw_measuring *m = header->measuring;
@@ -59,6 +77,7 @@ static void put_measurements(const fw_recipe_header *header, fw_text *out) {
     for (int i = 0; i < m->nitem && i < SHOWN; i++)
         measured_row(out, m, i);
     fw_text_add(out, "</tbody></table>\n");
+    put_forms(m, out);
     if (m->nitem > SHOWN)
         fw_text_printf(out,
                        "<p class=\"small\">%d more inputs, worth less, stand in the report.</p>\n",

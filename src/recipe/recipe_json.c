@@ -91,7 +91,7 @@ static void waits(fw_json *out, const fw_process_flow *flow, int index) {
     fw_json_end(out);
 }
 
-/* which plate it prints and how that is put on; in which parts it is done */
+/* which plate it prints and how that is put on; what its equipment bears; in which parts it is done */
 static void plate_and_parts(fw_json *out, const fw_process_step *s) {
     const fw_process_align *a = &s->align;
     if (s->mask[0]) {
@@ -103,6 +103,8 @@ static void plate_and_parts(fw_json *out, const fw_process_step *s) {
         number(out, "overlay_m", a->to && !a->overlay->unknown ? a->overlay->value : (double)NAN);
         fw_json_end(out);
     }
+    if (s->bears) /* a step that drives the device */
+        number(out, "bears_V", s->bears->unknown ? (double)NAN : s->bears->value);
     if (!s->pulse) return;
     fw_json_object(out, "parts");
     number(out, "part_s", s->pulse->unknown ? (double)NAN : s->pulse->value);
@@ -355,7 +357,7 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
     pairs(out, "breaks_s", shop->calendar.break_s, shop->calendar.breaks);
     if (shop->calendar.dated) {
         long civil[3];
-        fw_schedule_civil(shop->calendar.first_day, civil);
+        fw_quantity_civil(shop->calendar.first_day, civil);
         char date[40];
         snprintf(date, sizeof date, "%04ld-%02ld-%02ld", civil[0], civil[1], civil[2]);
         words(out, "first_day", date);

@@ -447,11 +447,9 @@ static void swatch(fw_text *out, const legend_entry *e, double x, double y) {
     fw_svg_path_end(out);
 }
 
-static void legend(const fw_process_flow *flow, const legend_list *list, const legend_entry *e,
-                   double x, double y, fw_text *out) {
+static void legend_words(const fw_process_flow *flow, const legend_list *list,
+                         const legend_entry *e, fw_text *out) {
     char shown[32];
-    swatch(out, e, x, y);
-    fw_svg_open(out, "text x='{1}' y='{1}'", x + 13.0, y + 8.0);
     fw_text_escaped(out, e->exposed ? e->material : paint_name(flow, e->material, shown));
     legend_more(list, e, out);
     if (e->reach_m > 0.0) {
@@ -465,6 +463,13 @@ static void legend(const fw_process_flow *flow, const legend_list *list, const l
         fw_text_number(out, e->thickness_m * 1e6, 3);
         fw_text_add(out, " µm");
     }
+}
+
+static void legend(const fw_process_flow *flow, const legend_list *list, const legend_entry *e,
+                   double x, double y, fw_text *out) {
+    swatch(out, e, x, y);
+    fw_svg_open(out, "text x='{1}' y='{1}'", x + 13.0, y + 8.0);
+    legend_words(flow, list, e, out);
     fw_svg_close(out, "text\n");
 }
 
@@ -495,10 +500,25 @@ void fw_recipe_section_scale_bar(const fw_recipe_section_scale *scale, double wi
     fw_svg_close(out, "text\n");
 }
 
+/* of the longest entry with its box, in units of the picture, by what a letter of the font takes on average */
+static double widest_legend(const fw_process_flow *flow, const legend_list *list, fw_text *out) {
+    const double letter = 4.8, box = 16.0;
+    double most = 0.0;
+    for (int i = 0; i < list->n; i++) {
+        fw_text words = fw_text_new(out->arena);
+        legend_words(flow, list, &list->entry[i], &words);
+        out->failed |= words.failed;
+        most = fmax(most, box + letter * (double)words.length);
+    }
+    return most;
+}
+
 int fw_recipe_section_legend(const fw_process_flow *flow, const fw_process_films *films,
                              double width, int columns, double y, fw_text *out) {
     legend_list list = {.most = LEGEND_MOST};
     exact_collect(films, &list);
+    while (columns > 1 && widest_legend(flow, &list, out) > width / columns)
+        columns--;
     int rows = (list.n + columns - 1) / columns;
     for (int i = 0; i < list.n; i++)
         legend(flow, &list, &list.entry[i], width / columns * (i / rows) + 1.0,

@@ -196,7 +196,7 @@ static void escaped(fw_text *out, const char *text) {
 static void put_date(fw_text *out, long seconds) {
     long day = seconds / 86400, rest = seconds % 86400, civil[3];
     if (rest < 0) rest += 86400, day--; /* before 1970 */
-    fw_schedule_civil(day, civil);
+    fw_quantity_civil(day, civil);
     fw_text_printf(out, "%04ld%02ld%02ldT%02ld%02ld%02ld", civil[0], civil[1], civil[2],
                    rest / 3600, rest / 60 % 60, rest % 60);
 }

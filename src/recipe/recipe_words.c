@@ -171,7 +171,7 @@ int fw_recipe_wafers(const fw_recipe_header *header) {
 void fw_recipe_put_moment(fw_text *out, const fw_schedule_calendar *c, double seconds) {
     long minutes = lround(seconds / 60.0), civil[3];
     if (c->dated) {
-        fw_schedule_civil(c->first_day + minutes / 1440, civil);
+        fw_quantity_civil(c->first_day + minutes / 1440, civil);
         fw_text_printf(out, "%s %04ld-%02ld-%02ld, %02ld:%02ld",
                        fw_schedule_weekday[fw_schedule_calendar_weekday(c, minutes / 1440)],
                        civil[0], civil[1], civil[2], minutes / 60 % 24, minutes % 60);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When anything may run: the days and hours of people, and those of machines. */
 #include "schedule/place.h"
+#include "quantity/quantity.h"
 #include "schedule/schedule.h"
 #include <math.h>
 #include <string.h>
@@ -18,32 +19,9 @@ bool fw_schedule_calendar_round(const fw_schedule_calendar *c) {
     return c->open_s <= 0.0 && c->close_s >= day_s && c->breaks == 0 && c->closed_days == 0;
 }
 
-/* quotient towards minus infinity, as days before 1970 need it */
-static long whole(long a, long b) {
-    return a / b - (a % b < 0 ? 1 : 0);
-}
-
-/* Days since 1970-01-01, negative before it, to a date of the Gregorian calendar and back; exact for the years -5000 to
-   20000. Source: Hinnant, chrono-compatible date algorithms. Test: test_calendar.c, centuries (against counting days). */
-void fw_schedule_civil(long day, long civil[3]) {
-    long z = day + 719468, era = whole(z, 146097), doe = z - era * 146097;
-    long yoe = (doe - doe / 1460 + doe / 36524 - doe / 146096) / 365;
-    long doy = doe - (365 * yoe + yoe / 4 - yoe / 100), mp = (5 * doy + 2) / 153;
-    civil[1] = mp < 10 ? mp + 3 : mp - 9;
-    civil[2] = doy - (153 * mp + 2) / 5 + 1;
-    civil[0] = yoe + era * 400 + (civil[1] <= 2 ? 1 : 0);
-}
-
-static long day_of(long y, long m, long d) {
-    y -= m <= 2;
-    long era = whole(y, 400), yoe = y - era * 400,
-         doy = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
-    return era * 146097 + yoe * 365 + yoe / 4 - yoe / 100 + doy - 719468;
-}
-
 int fw_schedule_calendar_weekday(const fw_schedule_calendar *c, long day) {
     long monday = c->dated ? c->first_day + 3 + day : day; /* 1970 began on a Thursday */
-    return (int)(monday - 7 * whole(monday, 7));
+    return (int)((monday % 7 + 7) % 7);
 }
 
 static bool working(const fw_schedule_calendar *c, double day) {
@@ -117,22 +95,6 @@ static const char *clock_of(const char *text, double *seconds) {
     return minute > 59 || *seconds > day_s ? NULL : text + 5;
 }
 
-bool fw_schedule_date_parse(const char *text, long *day) {
-    static const char shape[] = "0000-00-00";
-    long part[3] = {0, 0, 0}, civil[3];
-    for (int i = 0, k = 0; shape[i]; i++) {
-        if (shape[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
-        if (shape[i] == '-')
-            k++;
-        else
-            part[k] = 10 * part[k] + text[i] - '0';
-    }
-    if (part[0] < 1 || part[1] < 1 || part[1] > 12 || part[2] < 1) return false;
-    *day = day_of(part[0], part[1], part[2]);
-    fw_schedule_civil(*day, civil); /* the 30th of February is another day */
-    return civil[0] == part[0] && civil[1] == part[1] && civil[2] == part[2];
-}
-
 /* " UTC", " UTC+01:00" or nothing, to the end of the text; zones reach from UTC-12:00 to UTC+14:00 */
 static bool zone_of(const char *text, fw_schedule_calendar *c) {
     static const char utc[] = " UTC";
@@ -152,7 +114,7 @@ static bool zone_of(const char *text, fw_schedule_calendar *c) {
 static bool date_of(const char *text, fw_schedule_calendar *c) {
     static const char before[] = " from ", last[] = "9999";
     const size_t n = sizeof before - 1;
-    c->dated = strncmp(text, before, n) == 0 && fw_schedule_date_parse(text + n, &c->first_day) &&
+    c->dated = strncmp(text, before, n) == 0 && fw_quantity_date_parse(text + n, &c->first_day) &&
                strncmp(text + n, last, sizeof last - 1) != 0;
     if (!c->dated) return false;
     text += n + sizeof "2026-11-23" - 1;
@@ -294,7 +256,7 @@ static fw_status hours_of(making *w, const fw_process_tool_time *t, fw_schedule_
 
 static fw_status closed_of(making *w, const fw_process_tool_time *t, fw_schedule_machine *m) {
     long from, to;
-    if (!fw_schedule_date_parse(t->from, &from) || !fw_schedule_date_parse(t->to, &to) || to < from)
+    if (!fw_quantity_date_parse(t->from, &from) || !fw_quantity_date_parse(t->to, &to) || to < from)
         return fw_diag_error(w->diags, 376, t->place,
                              "closed=\"%s\" to=\"%s\" are not two dates, the first one first",
                              t->from, t->to);

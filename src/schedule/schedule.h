@@ -155,11 +155,6 @@ double fw_schedule_calendar_start(const fw_schedule_calendar *calendar);
 extern const char *const fw_schedule_weekday[7]; /* "Mon" ... */
 /* 0: Monday; `day` counts from 0 */
 int fw_schedule_calendar_weekday(const fw_schedule_calendar *calendar, long day);
-/* "2026-11-23", whatever follows: days since 1970-01-01, negative before. false: no date of the
-   years 1 to 9999 */
-bool fw_schedule_date_parse(const char *text, long *day);
-/* year, month and day of the month of a day since 1970-01-01 */
-void fw_schedule_civil(long day, long civil[3]);
 
 /* earliest t >= from such that a run of this length lies inside the hours of the machine and on no day
    on which it is closed; INFINITY: never. Test: test_tools.c */

@@ -23,7 +23,9 @@ typedef struct fw_wiring_carrier {
     double thickness_m; /* of the insulator; NaN: thick, or not known */
     bool handle;        /* a conductor lies below the insulator: a net of its own */
     double breakdown_V_per_m, resistivity_Ohm_m; /* of the insulator; NaN: not known */
-    const char *source;                          /* of these; NULL */
+    double
+        breakdown_share; /* relative standard uncertainty of what it bears, strength and thickness together */
+    const char *source; /* of these; NULL */
 } fw_wiring_carrier;
 
 /* the least distance of a stator from all that moves, over the motions of a flow (verdict/) */

@@ -155,7 +155,9 @@ static fw_status handle_gaps(fw_arena *arena, fw_wiring *w) {
                              .made_m = c->thickness_m};
         g->volts = difference(potential(w, i), potential(w, w->nnet));
         g->field_V_per_m = g->volts / c->thickness_m;
-        g->breakdown_V[0] = g->breakdown_V[1] = c->breakdown_V_per_m * c->thickness_m;
+        const double bears = c->breakdown_V_per_m * c->thickness_m;
+        g->breakdown_V[0] = bears * fmax(0.0, 1.0 - 2.0 * c->breakdown_share);
+        g->breakdown_V[1] = bears * (1.0 + 2.0 * c->breakdown_share);
         if (w->net[i].kind == FW_WIRING_ROTOR) fw_wiring_breakdown(c->thickness_m, g->breakdown_V);
         if (!(g->volts > 0.0) || isnan(g->breakdown_V[0]) || g->volts < g->breakdown_V[0]) continue;
         FW_TRY(fw_wiring_say(

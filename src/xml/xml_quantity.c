@@ -37,6 +37,19 @@ static fw_place value_place(const fw_xml_element *e, const char *name) {
     return a ? a->place : e->place;
 }
 
+/* "2026-11-20", of a year that people may have measured in */
+static void check_date(const fw_xml_element *e, fw_diags *diags) {
+    const fw_xml_attribute *date = fw_xml_attribute_of(e, "date");
+    long day, civil[3] = {0};
+    if (!date || !date->value[0]) return;
+    if (strlen(date->value) == 10 && fw_quantity_date_parse(date->value, &day))
+        fw_quantity_civil(day, civil);
+    if (civil[0] < 1800 || civil[0] >= 2200)
+        fw_diag_error(diags, 171, date->place,
+                      "source '%s': date=\"%s\" is no day; write 2026-11-20",
+                      fw_xml_attribute_of(e, "id")->value, date->value);
+}
+
 fw_status fw_xml_sources_read(fw_arena *arena, const fw_xml_element *parent, fw_diags *diags,
                               fw_xml_source_text **source, int *nsource) {
     int count = 0;
@@ -58,8 +71,11 @@ fw_status fw_xml_sources_read(fw_arena *arena, const fw_xml_element *parent, fw_
         if (twice)
             fw_diag_error(diags, 45, id->place, "source '%s' is given twice; rename one",
                           id->value);
-        else
-            (*source)[(*nsource)++] = (fw_xml_source_text){id->value, e->text};
+        const fw_xml_attribute *kind = fw_xml_attribute_of(e, "kind");
+        if (!twice)
+            (*source)[(*nsource)++] =
+                (fw_xml_source_text){id->value, e->text, kind ? kind->value : ""};
+        check_date(e, diags);
     }
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }
@@ -144,6 +160,25 @@ static void read_u_status(const fw_xml_element *e, fw_diags *diags, fw_quantity 
                       a->value);
 }
 
+/* "stated" is a claim about a publication, "measured" about somebody's measurement: each needs such a source */
+static void check_claim(const fw_xml_element *e, const fw_xml_attribute *src,
+                        const fw_xml_source_text *s, fw_diags *diags) {
+    const fw_xml_attribute *id = fw_xml_attribute_of(e, "id"),
+                           *status = fw_xml_attribute_of(e, "status");
+    if (!status || !s->kind || !s->kind[0]) return;
+    if (strcmp(status->value, "stated") == 0 && strcmp(s->kind, "publication") != 0 &&
+        strcmp(s->kind, "datasheet") != 0)
+        fw_diag_error(diags, 173, src->place,
+                      "'%s' has status stated, but its source is of kind %s; use typical "
+                      "or assumed, or name the publication",
+                      id ? id->value : "q", s->kind);
+    if (strcmp(status->value, "measured") == 0 && strcmp(s->kind, "measured") != 0)
+        fw_diag_error(diags, 173, src->place,
+                      "'%s' has status measured, but its source is of kind %s; say who measured it "
+                      "and when in a <source kind=\"measured\">, or use stated, typical or assumed",
+                      id ? id->value : "q", s->kind);
+}
+
 static void read_source(const fw_xml_element *e, const fw_xml_source_text *source, int nsource,
                         fw_diags *diags, fw_quantity *q) {
     const fw_xml_attribute *a = fw_xml_attribute_of(e, "src");
@@ -157,6 +192,7 @@ static void read_source(const fw_xml_element *e, const fw_xml_source_text *sourc
     for (int i = 0; i < nsource; i++)
         if (strcmp(source[i].id, a->value) == 0) {
             q->source = source[i].text;
+            check_claim(e, a, &source[i], diags);
             return;
         }
     fw_diag_error(diags, 46, a->place,

@@ -241,7 +241,7 @@ enum { FW_QUANTITY_ROWS = 15 };
 extern const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS];
 
 typedef struct fw_xml_source_text { /* <source id ...>text</source> */
-    const char *id, *text;
+    const char *id, *text, *kind;   /* kind "" or NULL: not said */
 } fw_xml_source_text;
 
 /* all <source> children of `parent`, in file order; duplicate or missing ids are errors */

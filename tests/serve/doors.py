@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """doors.py PROGRAM: a value that is wrong is refused wherever it comes in, for the same reason. Of the device: in the file, by
---set, and of the page by preview, edit and jobs. Of a process: in the pack, by --lab, and of the page by preview and jobs.
+--set, and of the page by preview, edit and jobs. Of a process: in the pack, by --lab, by calibrate, and of the page by preview
+and jobs.
 Wrong values are made for every attribute that has a range, and for every quantity of every flow."""
 import json
 import os
@@ -162,6 +163,43 @@ class Doors(unittest.TestCase):
             (data / f"processes/{flow}.xml").write_text(pack)
         self.assertGreater(refused, tried / 3)
         self.assertGreater(jobs, 0)
+
+    def test_of_calibrate(self):
+        """every rate of every flow, read off a coupon as it is, a hundred thousand times too small and too large, and below 0: what
+        calibrate writes is taken by --lab, and what makes no sense is not written"""
+        table, lab = self.here / "rates.csv", self.here / "calibrated.xml"
+        um_per_min, number, written, refused = {"um/min": 1.0, "nm/min": 1e-3, "Ao/s": 6e-3}, 0, 0, 0
+        for flow in sorted(p.stem for p in (ROOT / "masks").glob("*.xml")):
+            device = DEVICES[1].read_text().replace("silicon-on-glass", flow)
+            for row in re.findall(r"<q [^>]*/>", (ROOT / f"processes/{flow}.xml").read_text()):
+                identity, unit = re.search(r' id="([^"]*)"', row)[1], re.search(r' unit="([^"]*)"', row)[1]
+                if unit not in um_per_min or "example" in identity:
+                    continue
+                was = re.search(r' value="([^"]*)"', row)
+                rate = um_per_min[unit] * (float(was[1]) if was else 100.0 if unit == "nm/min" else 0.1)
+                for factor in (1, 1e-5, 1e5, -1):
+                    number += 1
+                    if not ALL and number % 7:
+                        continue
+                    with self.subTest(flow=flow, id=identity, factor=factor):
+                        depth = 10 * rate * factor
+                        table.write_text("coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit\n"
+                                         f"etch-rate,{identity},,{depth:.9g},{abs(depth) * 0.02:.9g},um,10,0.01,min\n")
+                        lab.unlink(missing_ok=True)
+                        done = subprocess.run([PROGRAM, "calibrate", table, "--flow", flow, "-o", lab, "-q"], capture_output=True, text=True)
+                        self.assertEqual(done.returncode == 0, lab.exists())
+                        if factor == -1:
+                            self.assertEqual((done.returncode, codes(done.stderr)), (3, {"FW-D278"}))
+                        if factor == 1:
+                            self.assertEqual(done.returncode, 0, done.stderr)
+                        if done.returncode == 0:
+                            self.assertNotEqual(check("-", "--flow", flow, "--lab", lab, input=device)[0], 3)
+                            written += 1
+                        else:
+                            self.assertEqual(done.returncode, 3)
+                            refused += 1
+        self.assertGreater(written, 0)
+        self.assertGreater(refused, 0)
 
 
 if __name__ == "__main__":

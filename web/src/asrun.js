@@ -151,7 +151,7 @@ export class AsRun {
         this.said.textContent = this.name ? `${this.name}${lot}: ${r.entries} ${r.entries === 1 ? "entry" : "entries"}, ${r.logged} of ${r.steps.length} steps run, ${r.outside} outside of their limits.${this.without ? " The numbers of the laboratory came after it began: its plan is the one without them." : ""}`
             : "No log is chosen: the first entry begins one.";
         const row = (x, e, first) => h("tr", { class: e.judged === "in window" || e.judged === "no plan" ? "" : "outside" },
-            h("th", { scope: "row" }, first ? `${x.id} ${x.title}` : ""), h("td", {}, e.wafer ?? "lot"), h("td", { class: "n" }, x.planned_s === null ? "–" : duration(x.planned_s)), h("td", { class: "n" }, e.actual_s === undefined ? "–" : duration(e.actual_s)), h("td", {}, e.judged ?? "–"),
+            h("th", { scope: "row" }, first ? `${x.id} ${x.title}` : ""), h("td", {}, e.wafer ?? "lot"), h("td", { class: "n" }, x.at_machine_s === null ? "–" : duration(x.at_machine_s)), h("td", { class: "n" }, e.actual_s === undefined ? "–" : duration(e.actual_s)), h("td", {}, e.judged ?? "–"),
             h("td", {}, [...(e.measured ?? []).map((m) => [m.accepted, `${m.measure} ${typeof m.value === "number" ? number(m.value, 4) : m.value ?? ""}${units(m.unit ?? "")}`]), ...(e.settings ?? []).map((m) => [m.accepted, `${m.name} ${typeof m.value === "number" ? number(m.value, 4) : m.value ?? ""}${units(m.unit ?? "")}`])]
                 .map(([good, words], i) => h("span", { class: good ? "" : "bad-text" }, `${i ? "; " : ""}${words}${good ? "" : " (outside)"}`)), e.note ? h("span", { class: "doc" }, ` ${e.note}`) : ""));
         const rows = steps.flatMap((x) => [x, ...(x.others ?? [])].map((e, i) => row(x, e, i === 0)));
@@ -160,7 +160,7 @@ export class AsRun {
         const coupons = steps.some((x) => [x, ...(x.others ?? [])].some((e) => e.coupons?.length));
         const fit = coupons ? button("Fit the process to its coupons", { icon: "target", class: "small", id: "log-fit" }, () => this.fit({ flow: this.flow, run: this.name }, this.name)) : null;
         this.result.replaceChildren(...[
-            rows.length ? h("div", { class: "wide", tabIndex: 0, role: "region", "aria-label": "Steps as run" }, h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["step", "wafer", "planned", "as run", "time", "measured and set"].map((x) => h("th", { scope: "col" }, x)))), h("tbody", {}, rows))) : null,
+            rows.length ? h("div", { class: "wide", tabIndex: 0, role: "region", "aria-label": "Steps as run" }, h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["step", "wafer", "planned, at the machine", "as run", "time", "measured and set"].map((x) => h("th", { scope: "col" }, x)))), h("tbody", {}, rows))) : null,
             r.deviations?.length ? h("ul", { class: "log-deviations" }, r.deviations.map((d) => h("li", {}, `${d.step}${d.wafer ? `, wafer ${d.wafer}` : ""}: ${d.what} is ${d.actual}, planned ${d.planned}`))) : null,
             this.name ? h("div", { class: "row" }, link, keep, fit) : null].filter(Boolean));
         this.#steps();

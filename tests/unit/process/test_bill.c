@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a lot uses up: amounts by hand, loads and fillings, prices of a laboratory, mistakes in a pack. */
 #include "pack_fixture.h"
-#include "process/bill.h"
+#include "process/process.h"
 #include "process/calibrate.h"
 #include <math.h>
 

@@ -459,11 +459,54 @@ static void wrong_packs(void **state) {
     }
 }
 
+/* what the sheet says is to be typed of a coupon: its columns, with the unit of each */
+static void forms(void **state) {
+    (void)state;
+    fw_text out = fw_text_new(arena);
+    assert_int_equal(fw_process_coupon_forms("coupon undercut-ladder, with cd-lines", &out), FW_OK);
+    assert_string_equal(out.data,
+                        "cd-lines, line|space, drawn=__ um, value=__ __ __ __ __ um, u=__ um; "
+                        "undercut-ladder, width|gone|stands, drawn=__ um, value=__ __ __ __ __ um, u=__ um, at=__ min");
+    out = fw_text_new(arena);
+    assert_int_equal(fw_process_coupon_forms("thickness gauge, mean of five sites", &out), FW_OK);
+    assert_int_equal(out.length, 0);
+}
+
+/* one number, one place: of two the last one held without a word */
+static void given_twice(void **state) {
+    (void)state;
+    static const char lab[] =
+        "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\"><source id=\"m\" kind=\"measured\">x</source>\n"
+        "<q id=\"carrier.d\" value=\"500\" u=\"1\" unit=\"um\" status=\"measured\" src=\"m\"/>\n"
+        "<q id=\"carrier.d\" value=\"510\" u=\"1\" unit=\"um\" status=\"measured\" src=\"m\"/></process>";
+    diags = fw_diags_new(arena);
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", lab, strlen(lab), f, &diags), FW_INPUT);
+    const fw_diag *d = &diags.item[diags.count - 1];
+    assert_non_null(strstr(d->message, "'carrier.d' is given twice, first in line 2"));
+    assert_int_equal(d->place.line, 3);
+}
+
+/* a name whose beginning is right */
+static void meant_by_its_stem(void **state) {
+    (void)state;
+    static const char lab[] =
+        "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\"><source id=\"m\" kind=\"measured\">x</source>"
+        "<q id=\"carrier.depth\" value=\"500\" u=\"1\" unit=\"um\" status=\"measured\" src=\"m\"/></process>";
+    diags = fw_diags_new(arena);
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", lab, strlen(lab), f, &diags), FW_INPUT);
+    assert_non_null(strstr(diags.item[0].message, "did you mean 'carrier.d'"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coverage),        cmocka_unit_test(two_slots),
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
-        cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs)};
+        cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
+        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

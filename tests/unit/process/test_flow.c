@@ -75,9 +75,9 @@ static void copper(void **state) {
 }
 
 static const char lag_assumed[] =
-    "<q id=\"rie.S\" value=\"0.1\" u=\"0.05\" unit=\"1\" status=\"assumed\"";
+    "<q id=\"rie.S\" value=\"0.1\" u=\"0.05\" unit=\"1\" status=\"assumed\" src=\"guess\"";
 static const char lag_measured[] =
-    "<q id=\"rie.S\" value=\"0.1\" u=\"0.05\" unit=\"1\" status=\"measured\"";
+    "<q id=\"rie.S\" value=\"0.1\" u=\"0.05\" unit=\"1\" status=\"stated\" src=\"paper\"";
 
 /* as the source has it: 90 min, and what a lag that is only assumed would ask for beside it */
 static void silicon_as_published(void **state) {

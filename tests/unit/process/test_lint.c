@@ -7,6 +7,7 @@
 #include <math.h>
 
 #define DOUBLE "soi-double-sided"
+#define GLASS  "silicon-on-glass"
 
 static void expect(int number, const char *says) {
     const fw_diag *d = said_of(number, says);
@@ -46,6 +47,42 @@ static void mistakes_of_a_flow(void **state) {
          "<exposed material=\"aluminium\" rate=\"develop.t\"/>", 169, "length per time"},
         {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>",
          "<exposed material=\"aluminium\" selectivity=\"rie.R\"/>", 169, "has no unit"},
+        /* what hands and benches do: attendance, times, waits, rinses, metal that lifts, what is read first */
+        {SILICON, "mask=\"M1\" batch=\"1\" attended=\"8\"", "mask=\"M1\" batch=\"1\" attended=\"800\"", 577,
+         "step S09 is attended for 800 min"},
+        {SILICON, "op=\"wet-etch\" title=\"Etch the aluminium mask\" equipment=\"al-bench\" in-source=\"yes\" batch=\"1\" attended=\"22\"",
+         "op=\"wet-etch\" title=\"Etch the aluminium mask\" equipment=\"al-bench\" in-source=\"yes\" batch=\"1\" attended=\"0\"",
+         174, "step S14 (wet-etch) is done in a liquid and is attended"},
+        {COPPER, "equipment=\"plater\" in-source=\"yes\" batch=\"1\" attended=\"6\"",
+         "equipment=\"plater\" in-source=\"yes\" batch=\"1\" attended=\"0\"", 174, "step C22 (plate) is done in a liquid"},
+        {GLASS, "ghs=\"GHS05 GHS06\" buddy=\"yes\"", "ghs=\"GHS05 GHS06\" buddy=\"no\"", 174, "'h.hf' is hydrofluoric acid that wets"},
+        {DOUBLE, "ghs=\"GHS05 GHS06\"", "ghs=\"GHS05 GHS16\"", 171, "'GHS16' is no pictogram"},
+        {GLASS, "<ppe>goggles, nitrile gloves, apron; fume hood; it stains</ppe>", "<ppe> </ppe>", 171, "'h.gold': its <ppe>"},
+        {SILICON, "id=\"al-rinse.t\" value=\"5\"", "id=\"al-rinse.t\" value=\"1440\"", 577, "step S14 rinses for 1440 min"},
+        {SILICON, "id=\"al-rinse.t\" value=\"5\" u=\"0.5\"", "id=\"al-rinse.t\" value=\"0.03\" u=\"0.01\"", 577, "step S14 rinses for 0.03 min"},
+        {SILICON, "id=\"rie.break\" value=\"10\"", "id=\"rie.break\" value=\"2000\"", 577, "step S18 pauses between parts for 2000 min"},
+        {SILICON, "id=\"hard.t\" value=\"5\"", "id=\"hard.t\" value=\"4000\"", 577, "step S13 (bake) takes 4000 min"},
+        {SILICON, "id=\"clean.t\" value=\"35\"", "id=\"clean.t\" value=\"28000\"", 577, "step S02 (clean)"},
+        {SILICON, "id=\"develop.t\" value=\"60\" u=\"10\"", "id=\"develop.t\" value=\"1\" u=\"0.2\"", 577, "step S11 (develop)"},
+        {DOUBLE, "<lag from=\"B03\" max=\"4\" unit=\"h\"/>", "<lag from=\"B03\" max=\"1\" unit=\"s\"/>", 577, "nobody carries a wafer so fast"},
+        {SILICON, "<q id=\"si.d\"", "<q id=\"h.pan.wet-longest\" value=\"10\" u=\"0\" unit=\"h\" status=\"assumed\" src=\"guess\"/><q id=\"si.d\"",
+         578, "'h.pan.wet-longest' lets a wafer wait for 600 min"},
+        {SILICON, "<q id=\"si.d\"", "<q id=\"water.wet-longest\" value=\"72\" u=\"0\" unit=\"h\" status=\"assumed\" src=\"guess\"/><q id=\"si.d\"",
+         578, "bears 1440 min at most"},
+        {SILICON, "<q id=\"si.d\"", "<q id=\"resist.unbaked-longest\" value=\"200\" u=\"0\" unit=\"h\" status=\"assumed\" src=\"guess\"/><q id=\"si.d\"",
+         578, "as under unbaked"},
+        {SILICON, "<finish kind=\"rinse\" q=\"al-rinse.t\"/>",
+         "<finish kind=\"rinse\" q=\"al-rinse.t\"/><finish kind=\"rinse\" with=\"h.solvent\">acetone</finish>", 539,
+         "step S14 rinses in 'h.solvent', which attacks 'resist'"},
+        {GLASS, "id=\"pad.d\" value=\"0.33\"", "id=\"pad.d\" value=\"2.1\"", 579, "step G27 lifts off 2.13 um with 'resist', which is 2 um thick"},
+        {GLASS, "id=\"hf.parts\" value=\"10\" u=\"0.2\" unit=\"1\" status=\"typical\" src=\"iliescu\" range=\"parts\"/>\n  <q id=\"hcl.parts\" value=\"1\"",
+         "id=\"hf.parts\" value=\"0\" u=\"0\" unit=\"1\" status=\"typical\" src=\"iliescu\" range=\"parts\"/>\n  <q id=\"hcl.parts\" value=\"0\"",
+         370, "bath 'hf' is mixed from nothing"},
+        {SILICON, "id=\"pan.serves\" value=\"1\"", "id=\"pan.serves\" value=\"2.5\"", 278, "'pan.serves' is 2.5, and counts things"},
+        {SILICON, "id=\"wafer.D\" value=\"100\"", "id=\"wafer.D\" value=\"1\"", 278, "'wafer.D' is 1 mm"},
+        {SILICON, "date=\"2025-01-01\">typical", "date=\"2025-02-30\">typical", 171, "date=\"2025-02-30\" is no day"},
+        {SILICON, "<q id=\"hard.T\" value=\"115\" u=\"3\" unit=\"Cel\" status=\"typical\"", "<q id=\"hard.T\" value=\"115\" u=\"3\" unit=\"Cel\" status=\"measured\"",
+         173, "'hard.T' has status measured, but its source is of kind handbook"},
         /* the plate or the resist of the other tone */
         {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>",
          "<change kind=\"pattern\" material=\"resist\" where=\"structure\"/>", 559,
@@ -305,6 +342,9 @@ static void baths_are_named_and_spinners_turn(void **state) {
         assert_non_null(read_pack(arena, uses[i][0], from, "", &diags));
         expect(562, "is done in a bath, and names none");
     }
+    diags = fw_diags_new(arena);
+    assert_non_null(read_pack(arena, SILICON, "<uses bath=\"sc1\"/>", "", &diags));
+    expect(562, "step S02 (clean) is done in 'h.sc1', and uses nothing of that");
     for (int um = 1; um <= 40; um++) { /* 8000 rpm for 1 um, 100 for 9 */
         char to[64];
         snprintf(to, sizeof to, "id=\"litho.resist\" value=\"%d\"", um);

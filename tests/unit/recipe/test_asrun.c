@@ -61,7 +61,7 @@ static const char *begun(void) {
 
 static const char *three(void) {
     const char *log = with(begun(), "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB", 0);
-    log = with(log, "C21;start=2026-11-20T10:09;end=2026-11-20T10:14;by=AB;contact resistance=0.4",
+    log = with(log, "C21;start=2026-11-20T10:09:00;end=2026-11-20T10:14:00;by=AB;contact resistance=0.4",
                0);
     return with(log,
                 "C22; start=2026-11-20T10:30:00; end=2026-11-20T10:52:30; by=AB; second=CD; "
@@ -241,6 +241,29 @@ static void another_plan(void **state) {
 
 static bool holds(const fw_text *text, const char *words) {
     return strstr(text->data, words) != NULL;
+}
+
+/* stamps to the minute leave a minute either way: C21 is planned for 10 min, from the first look at 6 min to 14 min */
+static void clocks_are_read_to_the_minute(void **state) {
+    (void)state;
+    static const struct {
+        const char *start, *end, *judged;
+    } at[] = {{"10:00", "10:05", "in window"}, {"10:00", "10:04", "short"},
+              {"10:00:00", "10:05:00", "short"}, {"10:00:00", "10:06:00", "in window"},
+              {"10:00", "10:15", "in window"}, {"10:00", "10:16", "long"},
+              {"10:00:00", "10:14:30", "long"}, {"10:00:00", "10:15", "in window"}};
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        fw_recipe_asrun run;
+        fw_text json = fw_text_new(arena);
+        const char *log = with(begun(), fw_arena_printf(arena, "C21; start=2026-11-20T%s; end=2026-11-20T%s; by=AB",
+                                                     at[i].start, at[i].end), 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+        if (!holds(&json, fw_arena_printf(arena, "\"judged\":\"%s\"", at[i].judged)))
+            fail_msg("%s to %s is not %s", at[i].start, at[i].end, at[i].judged);
+        /* the sheet's own times beside what the machine is booked for */
+        assert_true(holds(&json, "\"planned_s\":600,\"first_look_s\":360,\"stop_s\":840,\"at_machine_s\":600,\"at_machine_most_s\":840"));
+    }
 }
 
 static void planned_against_actual(void **state) {
@@ -627,6 +650,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(answers_are_one_or_of_all_sites, setup, teardown),
         cmocka_unit_test_setup_teardown(orders_are_not_logged, setup, teardown),
         cmocka_unit_test_setup_teardown(another_plan, setup, teardown),
+        cmocka_unit_test_setup_teardown(clocks_are_read_to_the_minute, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),

@@ -82,7 +82,7 @@ static void parsing(void **state) {
     assert_true(fw_schedule_calendar_parse("08:00-18:00 from 2126-01-01", &c));
     assert_int_equal(fw_schedule_calendar_weekday(&c, 0), 1);
     long civil[3];
-    fw_schedule_civil(c.first_day + 31, civil);
+    fw_quantity_civil(c.first_day + 31, civil);
     assert_true(civil[0] == 2126 && civil[1] == 2 && civil[2] == 1);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         assert_false(fw_schedule_calendar_parse(bad[i], &c));
@@ -104,23 +104,23 @@ static void centuries(void **state) {
     (void)state;
     static const int length[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     long day, first;
-    assert_true(fw_schedule_date_parse("0001-01-01", &first));
+    assert_true(fw_quantity_date_parse("0001-01-01", &first));
     day = first;
     for (int y = 1; y <= 9999; y++)
         for (int m = 1; m <= 12; m++) {
             bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
             for (int d = 1; d <= length[m - 1] + (m == 2 && leap); d++, day++) {
                 long civil[3];
-                fw_schedule_civil(day, civil);
+                fw_quantity_civil(day, civil);
                 if (civil[0] != y || civil[1] != m || civil[2] != d)
                     fail_msg("day %ld: %ld-%ld-%ld", day, civil[0], civil[1], civil[2]);
             }
         }
     long at;
-    assert_true(fw_schedule_date_parse("1970-01-01", &at) && at == 0);
-    assert_true(fw_schedule_date_parse("9999-12-31", &at) && at == day - 1);
-    assert_false(fw_schedule_date_parse("0000-12-31", &at));
-    assert_false(fw_schedule_date_parse("1900-02-29", &at));
+    assert_true(fw_quantity_date_parse("1970-01-01", &at) && at == 0);
+    assert_true(fw_quantity_date_parse("9999-12-31", &at) && at == day - 1);
+    assert_false(fw_quantity_date_parse("0000-12-31", &at));
+    assert_false(fw_quantity_date_parse("1900-02-29", &at));
     static const struct {
         const char *text;
         int weekday; /* 0: Monday */

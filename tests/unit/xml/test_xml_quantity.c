@@ -2,7 +2,7 @@
 #include "xml/xml_reader.h"
 #include "test.h"
 
-static const fw_xml_source_text sources[] = {{"s", "a source"}, {"t", "another"}};
+static const fw_xml_source_text sources[] = {{"s", "a source", ""}, {"t", "another", ""}};
 
 static fw_status read_q(fw_arena *arena, const char *attributes, fw_quantity *q, fw_diags *diags) {
     char xml[512];
