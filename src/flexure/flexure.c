@@ -264,26 +264,51 @@ static fw_flexure_error widened(const fw_flexure_error *e, double wide) {
                               .centre_m = wide * e->centre_m};
 }
 
-/* One arc or line whose width varies: what ends and root law are off by counts as much as the roots
-   have part in the compliance, K/(E I of the root); besides the wedge, and of the root law 0.75 of
-   what the width opens over the fillet. K of solids: tests/data/hinge/varying.csv,
-   test_varying.c */
-static void varying_stiffness(const fw_flexure_shape *f, const fw_flexure_input *in,
-                              const fw_flexure_result *r, double wide, fw_flexure_error *e) {
+/* An even strip of the kind that a path has at an end, as long as the whole */
+static double end_lengths(const fw_flexure_course *p, int end, double length_m,
+                          const fw_flexure_input *in, const fw_flexure_result *r, lengths *out) {
+    const fw_geometry_strip_piece *q = &p->shape[end ? p->n - 1 : 0].piece;
+    const double curved = fabs(q->curvature_per_m);
     fw_flexure_input even = *in;
+    fw_flexure_result own = *r;
     fw_flexure_shape one;
-    even.width_middle_m = 0;
-    if (in->kind == FW_FLEXURE_CSFH)
+    even.kind = curved > 0 ? FW_FLEXURE_CSFH : FW_FLEXURE_LEAF;
+    even.length_m = length_m, even.width_m = q->width_m[2 * end], even.width_middle_m = 0;
+    if (p->n > 1) own.depth_factor = 1;
+    if (curved > 0) {
+        even.radius_m = 1 / curved, even.angle_rad = length_m * curved;
         fw_flexure_csfh_shape(&even, &one);
-    else
+        if (p->n > 1)
+            own.depth_factor =
+                fw_flexure_depth_factors(1 / curved, even.width_m, in->depth_m, r->poisson)
+                    .stiffness;
+    } else
         fw_flexure_leaf_shape(&even, &one);
     fw_flexure_shape_marks(&one);
-    double t = in->width_m, EI = r->youngs_Pa * in->depth_m * t * t * t / 12 * r->depth_factor;
-    double part = r->stiffness_Nm_per_rad / EI, rho = fmax(fmin(in->fillet_m, t), 0);
-    const lengths ends = lengths_of(&one, in, r);
-    double rest = 0.001 + f->error.softer + 0.75 * rho * f->error.strain * part;
-    e->stiffness = fmax(wide, one.widening) * (rest + ends.stiffer * part);
-    e->softer = fmax(wide, one.widening) * (rest + ends.softer * part);
+    *out = lengths_of(&one, in, &own);
+    return one.widening;
+}
+
+/* Strips of any pieces and widths: what ends and root law are off by counts at either end as much as
+   that has part in the compliance, K/(E I of the root); besides the wedge, 0.2 % of where pieces
+   meet, and of the root law 0.75 of what the width opens over the fillet. K of solids:
+   tests/data/hinge/varying.csv, test_varying.c; paths.csv, test_paths.c */
+static void varying_stiffness(const fw_flexure_shape *f, const fw_flexure_input *in,
+                              const fw_flexure_result *r, double wide, fw_flexure_error *e) {
+    fw_flexure_course p;
+    fw_flexure_path_of(in, &p);
+    double rest = 0.001 + f->error.softer + (p.n > 1 ? 0.002 : 0), stiffer = 0, softer = 0;
+    for (int end = 0; end < 2; end++) {
+        lengths one;
+        wide = fmax(wide, end_lengths(&p, end, f->length_m, in, r, &one));
+        double t = p.shape[end ? p.n - 1 : 0].piece.width_m[2 * end];
+        double rho = fmax(fmin(in->fillet_m, t), 0), opens = 0.75 * rho * f->error.strain;
+        double EI = r->youngs_Pa * in->depth_m * t * t * t / 12 * r->depth_factor;
+        double part = 0.5 * r->stiffness_Nm_per_rad / EI; /* of two ends */
+        stiffer += (opens + one.stiffer) * part, softer += (opens + one.softer) * part;
+    }
+    e->stiffness = wide * (rest + stiffer);
+    e->softer = wide * (rest + softer);
 }
 
 fw_flexure_error fw_flexure_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
@@ -291,9 +316,10 @@ fw_flexure_error fw_flexure_errors(const fw_flexure_shape *f, const fw_flexure_i
     bool path = f->kind == FW_FLEXURE_PATH, deep = in->depth_m > 10 * f->width_m * (1.0 + 1e-9);
     double wide = deep ? 2 * f->widening : f->widening;
     fw_flexure_error e = path ? widened(&f->error, wide) : isotropic_errors(f, in, r, wide);
-    if (path && in->kind != FW_FLEXURE_PATH) varying_stiffness(f, in, r, wide, &e);
+    if (path && (in->kind != FW_FLEXURE_PATH || !in->crystal.known))
+        varying_stiffness(f, in, r, wide, &e);
     /* (13a) reaches into the strip, to where it is no longer as wide as at the face */
-    if (path) e.strain += 0.25 * (r->ends_stiffer - 1), e.above += 0.25 * (r->ends_stiffer - 1);
+    if (path) e.strain += 0.5 * (r->ends_stiffer - 1), e.above += 0.25 * (r->ends_stiffer - 1);
     if (in->crystal.known) add_crystal_errors(f, &in->crystal, wide, &e);
     strain_errors(f, in, wide, &e);
     e.outside = wide > 1 || (path && f->error.outside);

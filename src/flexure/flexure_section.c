@@ -51,6 +51,21 @@ double fw_flexure_fillet_concentration(double width_m, double fillet_m) {
     return 0.944 + 0.2113 * pow(fitted_ratio(width_m, fillet_m), -2 / 3.0);
 }
 
+/* Where the moment falls along a strip, its peak at a root is that of an even moment as large as here:
+
+     s = 1.07 rho - 0.10 t + 0.6 t^2/R,  0 <= s <= rho
+
+   from the block's face. Of a sharp fillet the peak stands at the face, and shear adds to it what the
+   moment loses; of a wide one it stands near the fillet's end.
+     in: m, 1/m; out: m. An upper bound of plane-stress solids whose moment falls to nothing over 12
+   to 25 t: 13 strips and arcs, rho/t from 0.1 to 1.25, t/R up to 0.14, even or varying by 0.6 to 1.3,
+   have 0.01 to 0.08 t less. Source: tests/judge/gradient.py; docs/theory/root-strain.md eq. 7a.
+   Test: test_strip_strain.c place_of_the_moment */
+double fw_flexure_root_reach_m(double width_m, double fillet_m, double curvature_per_m) {
+    double rho = fmax(fillet_m, 0), curved = fabs(curvature_per_m) * width_m;
+    return fmin(fmax(1.07 * rho - (0.10 - 0.6 * curved) * width_m, 0), rho);
+}
+
 /* ---- curvature ---- */
 
 /* e = r - rn = r (1 - u/atanh u) (Winkler), where the difference would cancel by the series

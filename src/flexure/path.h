@@ -106,9 +106,10 @@ typedef struct fw_flexure_path_strain {
     int n;                        /* at most FW_STRIP_PLACES */
     double length_m;              /* of the centre line */
     double fillet_m;              /* below 0: none */
-    double narrows[2];            /* (w(0)/w(rho))^2 of either end, at least 1 */
-    double stretched; /* of what pulls along, the share that the blocks' give may take */
-    double W_m[2];    /* true centre of compliance */
+    double reach_m[2]; /* from either end into the strip at most, the moment that counts */
+    double narrows[2]; /* (w(0)/w(rho))^2 of either end, at least 1 */
+    double stretched;  /* of what pulls along, the share that the blocks' give may take */
+    double W_m[2];     /* true centre of compliance */
     double
         *row; /* (FW_STRIP_ROWS x wide) the points once more, a number after the other; NULL: not */
     int wide; /* n, rounded up to whole vectors of 4 */
@@ -146,8 +147,8 @@ void fw_flexure_strip_load_of(const fw_flexure_path_strain *strip, const fw_flex
 
 typedef struct fw_flexure_strip_strains {
     double peak;  /* largest |strain|, fillets included */
-    double least; /* no more than peak: with moments where the fillets end, and blocks that give
-                          along the strip */
+    double least; /* no more than peak: with moments where the peaks of roots stand, and blocks that
+                          give along the strip */
     double root[2][2]; /* signed, at both faces of both roots: that of the side to which the axis
                           points away from first */
 } fw_flexure_strip_strains;

@@ -13,6 +13,8 @@ double fw_flexure_root_length_m(double width_m, double fillet_m);
 double fw_flexure_root_block_m(double width_m,
                                double fillet_m); /* what of it a fillet of no radius would leave */
 double fw_flexure_fillet_concentration(double width_m, double fillet_m);
+/* how far from the block's face, at most, the moment and the width stand that a filleted root is strained by */
+double fw_flexure_root_reach_m(double width_m, double fillet_m, double curvature_per_m);
 
 /* e = R - rn of a strip of width t bent to radius R, u = t/2R; exact stiffness of it over the thin
    one (Golovin) */
@@ -126,8 +128,8 @@ double fw_flexure_path_fibre(const fw_flexure_path_section *at, double youngs_Pa
  */
 double fw_flexure_path_root_factor(const fw_flexure_input *in, const fw_flexure_path_stuff *stuff,
                                    int end, const fw_flexure_path_section *at);
-/* (w(rho)/w(0))^2 of an end: the peak strain of a root stands where its fillet ends, and by that it
+/* (w(s)/w(0))^2 of an end, s from it: the peak strain of a root stands within its fillet, and by that it
    is less or more than with the width at the face. Test: test_varying.c */
-double fw_flexure_path_root_opens(const fw_flexure_course *path, int end, double fillet_m);
+double fw_flexure_path_root_opens(const fw_flexure_course *path, int end, double s_m);
 
 #endif

@@ -64,8 +64,12 @@ static fw_status varying_places(fw_arena *arena, const fw_flexure_input *in, dou
     fw_flexure_path_of(in, &p);
     const fw_flexure_path_stuff m = fw_flexure_path_stuff_of(&p, in);
     int each = p.n <= 2 ? 64 : 32;
-    for (int end = 0; end < 2; end++)
+    for (int end = 0; end < 2; end++) {
+        const fw_geometry_strip_piece *q = &p.shape[end ? p.n - 1 : 0].piece;
+        out->reach_m[end] =
+            fw_flexure_root_reach_m(q->width_m[2 * end], in->fillet_m, q->curvature_per_m);
         out->narrows[end] = fmax(1, 1 / fw_flexure_path_root_opens(&p, end, in->fillet_m));
+    }
     double length = 0, before = 0;
     for (int i = 0; i < p.n; i++)
         length += p.shape[i].piece.length_m;
@@ -93,6 +97,9 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
     enum { LAST = 16 };
     double per_Nm = c->strain_per_rad / c->stiffness_Nm_per_rad, a = 0.5 * in->angle_rad;
     double whole = in->length_m + 2 * c->root_length_m;
+    double curvature = in->kind == FW_FLEXURE_CSFH ? 1 / in->radius_m : 0;
+    for (int end = 0; end < 2; end++)
+        out->reach_m[end] = fw_flexure_root_reach_m(in->width_m, in->fillet_m, curvature);
     double soft = in->length_m / (c->stiffness_Nm_per_rad * whole);
     FW_NEED(out->point = fw_arena_array(arena, fw_flexure_path_point, LAST + 1));
     for (int k = 0; k <= LAST; k++) {
@@ -332,10 +339,10 @@ static inline double strain_between(const fw_flexure_path_point *p, double M, do
     return fabs(p->strain_per_Nm * M) + fabs(p->strain_per_N * N);
 }
 
-/* section moment where a fillet ends */
-static double behind_fillet(const fw_flexure_path_strain *s, int end, const double *M) {
+/* section moment so far into the strip */
+static double moment_at(const fw_flexure_path_strain *s, int end, double from_m, const double *M) {
     const int last = s->n - 1, root = end ? last : 0, step = end ? -1 : 1;
-    double reach = fmax(s->fillet_m, 0) / s->length_m;
+    double reach = from_m / s->length_m;
     for (int i = root; i != last - root; i += step) {
         double from = fabs(s->point[i].part - s->point[root].part),
                to = fabs(s->point[i + step].part - s->point[root].part);
@@ -352,18 +359,18 @@ static void narrowed(const fw_flexure_path_strain *s, int end, const double *M, 
     if (!(s->narrows[end] > 1)) return;
     const int root = end ? s->n - 1 : 0;
     const fw_flexure_path_point *p = &s->point[root];
-    double inside = s->narrows[end] * behind_fillet(s, end, M);
+    double inside = s->narrows[end] * moment_at(s, end, fmax(s->fillet_m, 0), M);
     if (!(inside * M[root] > M[root] * M[root])) return;
     root_faces(p, inside, sqrt(s->narrows[end]) * N[root], out->root[end]);
     out->peak = fmax(out->peak, fmax(fabs(out->root[end][0]), fabs(out->root[end][1])));
 }
 
-/* What the peak is at least. At a fillet it stands where that ends, up to rho into the strip, and the
+/* What the peak is at least. At a fillet it stands s into the strip (fw_flexure_root_reach_m), and the
    moment there is another one than at the block's face (solids of tests/judge/README.md: up to 6 %
    less); and of given places of its ends a strip is pulled less by as much as the blocks give, which
    is 1.6 t of strip each at most. A strip that the pull straightens has moments like the pull's root:
 
-     strain = k min(|M(0)|, |M(rho)|) (1 - g y/(2 (y + 10))) + n (1 - g) |N|,
+     strain = k min(|M(0)|, |M(s)|) (1 - g y/(2 (y + 10))) + n (1 - g) |N|,
      g = 3.2 t/(L + 3.2 t),  y = N L^2/EI
 
    on the face where both have one sign; on the other the least of their difference. in: section forces at the places, N m, N. Cost 50 ns. Test: test_strip_strain.c least_strain,
@@ -372,7 +379,7 @@ static double least_at_root(const fw_flexure_path_strain *s, int end, const doub
                             const double *N) {
     const int root = end ? s->n - 1 : 0;
     const fw_flexure_path_point *p = &s->point[root];
-    double inside = behind_fillet(s, end, M), least = 0;
+    double inside = moment_at(s, end, s->reach_m[end], M), least = 0;
     double pull = fmax(N[root] * s->length_m * p->soft_per_Nm, 0), g = s->stretched;
     double moment = inside * M[root] > 0 ? fmin(fabs(inside), fabs(M[root])) : 0;
     double bent = p->strain_per_Nm * moment * (1 - 0.5 * g * pull / (pull + 10));
@@ -388,6 +395,19 @@ static double least_at_root(const fw_flexure_path_strain *s, int end, const doub
     return least;
 }
 
+/* The same between the roots, where nothing is concentrated: both faces have as much */
+static double least_between(const fw_flexure_path_strain *s, const double *M, const double *N) {
+    const double g = s->stretched;
+    double least = 0;
+    for (int i = 1; i < s->n - 1; i++) {
+        const fw_flexure_path_point *p = &s->point[i];
+        double pull = fmax(N[i] * s->length_m * p->soft_per_Nm, 0);
+        double bent = fabs(p->strain_per_Nm * M[i]) * (1 - 0.5 * g * pull / (pull + 10));
+        least = larger(least, bent + (1 - g) * fabs(p->strain_per_N * N[i]));
+    }
+    return least;
+}
+
 /* between: the largest strain between the roots */
 static void ends_of(const fw_flexure_path_strain *s, const double *M, const double *N,
                     double between, double known, fw_flexure_strip_strains *out) {
@@ -396,7 +416,8 @@ static void ends_of(const fw_flexure_path_strain *s, const double *M, const doub
     out->least = 0;
     if (out->peak <= known) return;
     double least = fmax(least_at_root(s, 0, M, N), least_at_root(s, 1, M, N));
-    out->least = fmin(larger(least, (1 - s->stretched) * between), out->peak);
+    if (between > least) least = larger(least, least_between(s, M, N));
+    out->least = fmin(least, out->peak);
 }
 
 /* largest between the roots: strain, and what a crest of the moment there may come to */

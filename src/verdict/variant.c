@@ -125,12 +125,14 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     return FW_OK;
 }
 
-/* Share of the strain by which the moment at a fillet's end may be below that at the block's face:
+/* Share of the strain by which the moment that a fillet is strained by may be below that at the block's face:
    |dM/ds| is at most the force */
 static double faded(const fw_mechanism_hinge *h, double force_N, double strain) {
     const fw_flexure_result *c = &h->closed_form;
     double per_Nm = c->strain_per_rad / (h->scale * c->stiffness_Nm_per_rad);
-    return strain > 0 ? per_Nm * force_N * fmax(h->input.fillet_m, 0) / strain : 0;
+    return strain > 0
+               ? per_Nm * force_N * fmax(h->section.reach_m[0], h->section.reach_m[1]) / strain
+               : 0;
 }
 
 /* every repetition is taken to go to the worst pose and as far to the other side */
