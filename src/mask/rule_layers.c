@@ -88,6 +88,7 @@ static fw_status add_distances(fw_mask_rules *rules, const fw_mask_rule *rule,
     fw_mask_rule_finding *place;
     int count;
     if (between->no_memory) return FW_NOMEM;
+    rules->search[rule->layer].crowded |= between->crowded;
     FW_TRY(fw_mask_rule_places(rules->arena, between->found, between->nfound, rule->least, &place,
                                &count));
     for (int i = 0, next; i < count; i = next) {
