@@ -151,8 +151,11 @@ fw_status fw_mask_rules_start(fw_mask_rules *r, fw_mask_measure *measure) {
     FW_TRY(fw_mask_rules_list(r));
     FW_NEED(r->search = fw_arena_array(r->arena, fw_mask_rule_search, (size_t)n));
     for (int k = 0; k < n; k++)
-        r->search[k] = (fw_mask_rule_search){
-            .arena = r->arena, .index = k, .shape = r->shape, .measure = &measure[k]};
+        r->search[k] = (fw_mask_rule_search){.arena = r->arena,
+                                             .index = k,
+                                             .shape = r->shape,
+                                             .measure = &measure[k],
+                                             .most = FW_MASK_FOUND_MOST};
     set_limits(r);
     for (int k = 0; k < n; k++)
         FW_TRY(look_at_layer(r, k, &measure[k]));

@@ -65,10 +65,11 @@ typedef struct fw_mask_rule_search { /* one layer */
     fw_mask_measure *measure;
     fw_mask_rule_finding *found; /* (nfound) grows */
     int nfound, room;
+    int most;        /* findings that are kept; 0: all */
     double cap_m;    /* pairs farther apart than this and the rules are not looked at */
     bool everything; /* for the tests: no pair is passed over */
     bool no_memory;
-    bool crowded; /* more than FW_MASK_FOUND_MOST: the search ended there */
+    bool crowded; /* there were more: the search ended there */
 } fw_mask_rule_search;
 
 /* By how much, as a sine, a corner between two edges may be sharper than it was drawn, where both came from a
