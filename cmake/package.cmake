@@ -19,11 +19,16 @@ set(CPACK_DEBIAN_PACKAGE_SUGGESTS "klayout, calculix-ccx")
 # cannot in a root of another system
 set(control ${PROJECT_BINARY_DIR}/debian)
 file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
-foreach(script postinst postrm)
-    file(WRITE ${control}/${script} "#!/bin/sh\nset -e\n# ldconfig is run by its trigger\n")
+file(WRITE ${control}/postinst "#!/bin/sh\nset -e\n# ldconfig is run by its trigger\n")
+file(COPY_FILE ${control}/postinst ${control}/postrm)
+# what Python compiled where root used the package goes with it
+file(WRITE ${control}/prerm "#!/bin/sh\nset -e
+rm -rf \"$DPKG_ROOT/usr/lib/python3/dist-packages/flexwright/__pycache__\" \\
+    \"$DPKG_ROOT/usr/share/flexwright/klayout/python/flexwright_klayout/__pycache__\"\n")
+foreach(script postinst postrm prerm)
     file(CHMOD ${control}/${script} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
          WORLD_READ WORLD_EXECUTE)
 endforeach()
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${control}/triggers ${control}/postinst ${control}/postrm)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${control}/triggers ${control}/postinst ${control}/postrm ${control}/prerm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 include(CPack)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts libflexwright and its packs into the wheel, so that it works wherever it is installed.
 
-FLEXWRIGHT_BUILD names a directory of CMake with a library that is built; without it one is built.
+FLEXWRIGHT_BUILD names a directory of CMake with a library that is built, from the top of the source tree; without it one
+is built.
 """
 import os
 import pathlib
@@ -25,7 +26,11 @@ def library(scratch: pathlib.Path) -> pathlib.Path:
     """The shared library, built where it is not."""
     built = os.environ.get("FLEXWRIGHT_BUILD")
     if built:
-        return pathlib.Path(built) / "libflexwright.so.0"
+        here = SOURCE / built / "libflexwright.so.0"
+        if not here.exists():
+            raise SystemExit(f"FLEXWRIGHT_BUILD={built}: {here} does not exist; name a directory that cmake has built in, "
+                             "from the top of the source tree or as an absolute path")
+        return here
     configure = ["cmake", "-S", str(SOURCE), "-B", str(scratch), "-DFW_TESTS=OFF"]
     if shutil.which("ninja"):
         configure += ["-G", "Ninja"]

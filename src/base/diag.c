@@ -32,13 +32,27 @@ fw_diags fw_diags_new(fw_arena *arena) {
     return (fw_diags){.arena = arena};
 }
 
+/* in a full list the last note, or else warning, goes before an error is lost; false: there is none */
+static bool make_room(fw_diags *diags, fw_severity severity) {
+    for (fw_severity least = FW_NOTE; severity == FW_ERROR && least != FW_ERROR;
+         least = least == FW_NOTE ? FW_WARNING : FW_ERROR)
+        for (size_t i = diags->count; i-- > 0;)
+            if (diags->item[i].severity == least) {
+                diags->count--;
+                memmove(&diags->item[i], &diags->item[i + 1],
+                        (diags->count - i) * sizeof diags->item[0]);
+                return true;
+            }
+    return false;
+}
+
 /* kind: number, severity, place and unreliable */
 static void add(fw_diags *diags, fw_diag kind, const char *format, va_list arguments) {
     if (kind.severity == FW_ERROR) diags->errors++;
     if (kind.unreliable) diags->unreliable++;
     if (diags->count == FW_DIAG_MOST) {
         diags->dropped++;
-        return;
+        if (!make_room(diags, kind.severity)) return;
     }
     if (diags->count == diags->capacity) {
         size_t more = diags->capacity ? 2 * diags->capacity : 8;

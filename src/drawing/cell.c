@@ -172,6 +172,12 @@ static fw_status merge_layer(fw_drawing_flat *flat, int first, fw_drawing_cell_l
             flat->diags, 567, flat->asked->place,
             "%s: merged, the cell has more than %d polygons or %d vertices; place a smaller one",
             flat->asked->file, (int)FW_DRAWING_PARTS_MOST, (int)FW_DRAWING_CORNERS_MOST);
+    if (merged.n == 0)
+        return fw_diag_error(flat->diags, 568, flat->asked->place,
+                             "%s: what it draws%s%s has no area, so that nothing of it would be "
+                             "on the mask; draw it with a width, or leave it out",
+                             flat->asked->file, flat->asked->nmap ? " on layer " : "",
+                             flat->asked->nmap ? flat->map[first].from : "");
     return outlines_of(flat->arena, &merged, layer);
 }
 
@@ -204,6 +210,19 @@ static fw_status merge_all(fw_drawing_flat *flat, fw_drawing_cell *out) {
     return FW_OK;
 }
 
+static bool is_named_gds(const char *file) {
+    const char *dot = strrchr(file, '.');
+    return dot && (dot[1] | 32) == 'g' && (dot[2] | 32) == 'd' && (dot[3] | 32) == 's';
+}
+
+/* the first line of a DXF file is a number */
+static bool begins_as_dxf(const char *data, size_t n) {
+    size_t i = 0;
+    while (i < n && (data[i] == ' ' || data[i] == '\t'))
+        i++;
+    return i < n && data[i] >= '0' && data[i] <= '9';
+}
+
 fw_status fw_drawing_cell_read(fw_arena *arena, const char *data, size_t n,
                                const fw_drawing_cell_asked *asked, fw_diags *diags,
                                fw_drawing_cell *out) {
@@ -220,6 +239,11 @@ fw_status fw_drawing_cell_read(fw_arena *arena, const char *data, size_t n,
     if (n >= sizeof binary - 1 && memcmp(data, binary, sizeof binary - 1) == 0)
         return fw_diag_error(diags, 565, asked->place,
                              "%s is a binary DXF file; save it as ASCII DXF", asked->file);
+    if (!gds && is_named_gds(asked->file) && !begins_as_dxf(data, n))
+        return fw_diag_error(
+            diags, 565, asked->place,
+            "%s, byte 0: this is no GDSII file as it should be: %s; write it again", asked->file,
+            n ? "it does not begin with HEADER" : "it is empty");
     flat.nmap = asked->nmap ? asked->nmap : 1;
     FW_NEED(flat.map = fw_arena_array(arena, fw_drawing_map, (size_t)flat.nmap));
     for (int i = 0; i < asked->nmap; i++)

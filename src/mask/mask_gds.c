@@ -129,11 +129,15 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
     const char **line;
     int n;
     FW_TRY(fw_mask_notes(out->arena, mask, &line, &n));
-    /* a column above the die, read downwards: nothing of the device is written over */
+    /* a column above the die, read downwards: nothing of the device is written over but by its ports */
     int32_t x = (int32_t)lround(mask->box.x0 * 1e9);
     int32_t y = (int32_t)lround(mask->box.y1 * 1e9) + LINE_PITCH_DBU / 2;
     for (int i = 0; i < n; i++)
         text(out, &mask->table->layer[k], x, y + (n - 1 - i) * LINE_PITCH_DBU, line[i]);
+    fw_mask_port *port;
+    FW_TRY(fw_mask_ports(out->arena, mask, &port, &n));
+    for (int i = 0; i < n; i++)
+        text(out, &mask->table->layer[k], port[i].x, port[i].y, port[i].note);
     return FW_OK;
 }
 

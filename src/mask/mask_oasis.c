@@ -20,6 +20,8 @@ typedef struct oasis_cell {
     const char **note; /* (nnote) lines of text on the documentation layer, from (x, y) by step */
     int nnote;
     int64_t note_x, note_y, note_step; /* dbu */
+    fw_mask_port *port;                /* (nport), likewise */
+    int nport;
 } oasis_cell;
 
 enum {
@@ -227,6 +229,13 @@ static void texts(writer *w, const oasis_cell *c) {
         }
         fw_mask_octets_signed(&w->cell, c->note_y + i * c->note_step);
     }
+    for (int i = 0; i < c->nport; i++) { /* behind notes, which every cell with ports has */
+        fw_mask_octets_number(&w->cell, TEXT);
+        fw_mask_octets_number(&w->cell, BY_NUMBER | TX | TY);
+        fw_mask_octets_number(&w->cell, w->ntext++);
+        fw_mask_octets_signed(&w->cell, c->port[i].x);
+        fw_mask_octets_signed(&w->cell, c->port[i].y);
+    }
 }
 
 /* ---- deflated block; memory from the arena, so that a limit on it holds here too ---- */
@@ -279,9 +288,10 @@ static uint64_t text_table(writer *w, const oasis_cell *cell, int ncell) {
     if (w->ntext == 0) return 0;
     uint64_t at = w->file.length;
     for (int k = 0; k < ncell; k++)
-        for (int i = 0; i < cell[k].nnote; i++) {
+        for (int i = 0; i < cell[k].nnote + cell[k].nport; i++) {
+            const int port = i - cell[k].nnote;
             fw_mask_octets_number(&w->file, TEXTSTRING);
-            fw_mask_octets_string(&w->file, cell[k].note[i]);
+            fw_mask_octets_string(&w->file, port < 0 ? cell[k].note[i] : cell[k].port[port].note);
         }
     return at;
 }
@@ -381,8 +391,10 @@ fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out) {
                        .mask = mask,
                        .note_x = lround(mask->box.x0 * 1e9),
                        .note_step = -LINE_PITCH_DBU};
-    if (fw_mask_notes_layer(mask->table) >= 0)
+    if (fw_mask_notes_layer(mask->table) >= 0) {
         FW_TRY(fw_mask_notes(out->arena, mask, &cell.note, &cell.nnote));
+        FW_TRY(fw_mask_ports(out->arena, mask, &cell.port, &cell.nport));
+    }
     cell.note_y = lround(mask->box.y1 * 1e9) + LINE_PITCH_DBU / 2 +
                   (int64_t)(cell.nnote - 1) * LINE_PITCH_DBU;
     return write_cells(mask->table, mask->rejected, &cell, 1, out);

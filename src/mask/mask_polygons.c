@@ -185,31 +185,34 @@ static double cosine(fw_geometry_point a, fw_geometry_point v, fw_geometry_point
     return (double)dot / (hypot((double)ax, (double)ay) * hypot((double)bx, (double)by));
 }
 
+/* one message for what follows each other with one label, as the parts of a cell do */
 void fw_mask_check_corners(const fw_mask_shape *shape, int nshape, fw_diags *diags) {
+    int count = 0;
+    double most = 0;
+    fw_geometry_point worst = {0};
     for (int k = 0; k < nshape; k++) {
         const fw_geometry_polygon *p = &shape[k].polygon;
-        int count = 0, worst = 0;
-        double most = 0;
-        if (!shape[k].report.acute) continue; /* as measured of all corners */
-        fw_geometry_point a = p->vertex[p->count - 1], v = p->vertex[0], b;
-        for (int i = 0; i < p->count; i++, a = v, v = b) {
-            b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+        const char *label = shape[k].piece->label;
+        if (k == 0 || strcmp(shape[k - 1].piece->label, label) != 0) count = 0, most = 0;
+        const bool ends = k + 1 == nshape || strcmp(shape[k + 1].piece->label, label) != 0;
+        fw_geometry_point a = {0}, v = {0}, b;
+        const int n = shape[k].report.acute ? p->count : 0; /* as measured of all corners */
+        if (n) a = p->vertex[n - 1], v = p->vertex[0];
+        for (int i = 0; i < n; i++, a = v, v = b) {
+            b = p->vertex[i + 1 < n ? i + 1 : 0];
             double c = cosine(a, v, b);
             if (c <= 0 || ends_joint(&shape[k].contour, v)) continue;
             count++;
-            if (c > most) {
-                most = c;
-                worst = i;
-            }
+            if (c > most) most = c, worst = v;
         }
-        if (count == 0) continue;
+        if (count == 0 || !ends) continue;
         char at[80], degrees[32];
         fw_diag_warning(diags, 153, nowhere,
                         "%s has %d corner(s) below 90 degrees on the grid, the sharpest %s at %s; "
                         "width checks report them; round the corner",
-                        shape[k].piece->label, count,
+                        label, count,
                         fw_number_text(degrees, sizeof degrees, acos(most) * 180 / FW_PI, 8),
-                        fw_mask_place_text(at, sizeof at, place_of(p->vertex[worst])));
+                        fw_mask_place_text(at, sizeof at, place_of(worst)));
     }
 }
 

@@ -151,8 +151,11 @@ fw_status fw_mask_rules_start(fw_mask_rules *r, fw_mask_measure *measure) {
     FW_TRY(fw_mask_rules_list(r));
     FW_NEED(r->search = fw_arena_array(r->arena, fw_mask_rule_search, (size_t)n));
     for (int k = 0; k < n; k++)
-        r->search[k] = (fw_mask_rule_search){
-            .arena = r->arena, .index = k, .shape = r->shape, .measure = &measure[k]};
+        r->search[k] = (fw_mask_rule_search){.arena = r->arena,
+                                             .index = k,
+                                             .shape = r->shape,
+                                             .measure = &measure[k],
+                                             .most = FW_MASK_FOUND_MOST};
     set_limits(r);
     for (int k = 0; k < n; k++)
         FW_TRY(look_at_layer(r, k, &measure[k]));
@@ -310,8 +313,25 @@ static void tell_rest(const fw_mask_rules *r, const fw_mask_rule *rule, int more
                  more, layer, rule->kind->name, flow);
 }
 
+/* where places are too many to be looked for, whatever the table says of their rules */
+static void tell_crowded(const fw_mask_rules *r, fw_diags *diags, int *nbroken) {
+    for (int k = 0; k < r->table->nlayer; k++) {
+        if (!r->search[k].crowded) continue;
+        fw_place place = {0};
+        for (int i = 0; i < r->nfinding && !place.line; i++)
+            if (r->finding[i].rule->layer == k) place = place_of(r, &r->finding[i]);
+        fw_diag_error(diags, 592, place,
+                      "on layer %s edges are nearer to each other than its rules ask for at more "
+                      "than %d pairs, and what is beyond these was not looked at; draw it with "
+                      "fewer and longer edges, or leave it out",
+                      r->table->layer[k].name, FW_MASK_FOUND_MOST);
+        ++*nbroken;
+    }
+}
+
 fw_status fw_mask_rules_tell(fw_mask_rules *r, fw_diags *diags, int *nbroken) {
     *nbroken = 0;
+    tell_crowded(r, diags, nbroken);
     const fw_mask_finding **list =
         fw_arena_alloc(r->arena, (size_t)r->nfinding, sizeof(const fw_mask_finding *));
     FW_NEED(list);

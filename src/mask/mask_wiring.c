@@ -60,6 +60,30 @@ static bool is_driven(const fw_mask *mask) {
     return mask->wiring && mask->wiring->ndrive > 0 && mask->wiring->carrier.insulates;
 }
 
+static bool has_pad(const fw_wiring_net *n) {
+    return n->needed && n->padded;
+}
+
+static fw_geometry_vec2 middle(const fw_wiring_net *n) {
+    return (fw_geometry_vec2){0.5 * (n->pad.x0 + n->pad.x1), 0.5 * (n->pad.y0 + n->pad.y1)};
+}
+
+fw_status fw_mask_ports(fw_arena *arena, const fw_mask *mask, fw_mask_port **port, int *count) {
+    *count = 0;
+    *port = NULL;
+    if (!is_driven(mask) || mask->wiring->nnet == 0) return FW_OK;
+    FW_NEED(*port = fw_arena_array(arena, fw_mask_port, (size_t)mask->wiring->nnet));
+    for (int i = 0; i < mask->wiring->nnet; i++) {
+        const fw_wiring_net *n = &mask->wiring->net[i];
+        if (!has_pad(n)) continue;
+        const fw_geometry_vec2 at = middle(n);
+        fw_mask_port *p = &(*port)[(*count)++];
+        *p = (fw_mask_port){NULL, (int32_t)lround(at.x * 1e9), (int32_t)lround(at.y * 1e9)};
+        FW_TRY(fw_mask_note(arena, "port", n->name, &p->note));
+    }
+    return FW_OK;
+}
+
 void fw_mask_wiring_order_json(fw_json *json, const fw_mask *mask) {
     if (!is_driven(mask)) return;
     fw_json_line(json, 2);
@@ -70,9 +94,10 @@ void fw_mask_wiring_order_json(fw_json *json, const fw_mask *mask) {
         fw_json_object(json, NULL);
         fw_json_text(json, "net", n->name);
         fw_json_text(json, "contact", fw_wiring_contact_word(n));
-        if (n->needed && n->padded)
-            place(json, "centre_um",
-                  (fw_geometry_vec2){0.5 * (n->pad.x0 + n->pad.x1), 0.5 * (n->pad.y0 + n->pad.y1)});
+        if (has_pad(n)) {
+            place(json, "centre_um", middle(n));
+            fw_json_fixed(json, "side_um", (n->pad.x1 - n->pad.x0) * 1e6, 4);
+        }
         fw_json_end(json);
     }
     fw_json_end_line(json, 2);

@@ -37,6 +37,12 @@ int fw_mask_notes_layer(const fw_mask_table *table);
 void fw_mask_wiring_json(fw_json *json, const fw_mask *mask);
 void fw_mask_wiring_order_json(fw_json *json, const fw_mask *mask);
 fw_status fw_mask_wiring_order_text(const fw_mask *mask, fw_text *out);
+typedef struct
+    fw_mask_port { /* a contact as a port of the cell: "port=NET" in the middle of its pad */
+    const char *note;
+    int32_t x, y; /* dbu */
+} fw_mask_port;
+fw_status fw_mask_ports(fw_arena *arena, const fw_mask *mask, fw_mask_port **port, int *count);
 
 /* drawings of others on the mask, where there are some (mask_cells.c) */
 void fw_mask_cells_json(fw_json *json, const fw_mask *mask);

@@ -47,6 +47,10 @@ typedef struct fw_mask_rule_finding { /* a chord that is shorter than a rule; ed
     fw_geometry_box box;              /* of the whole place, by fw_mask_rule_places */
 } fw_mask_rule_finding;
 
+enum {
+    FW_MASK_FOUND_MOST = 20000
+}; /* shipped devices have none; places take a time that goes with the square */
+
 typedef struct fw_mask_rule_search { /* one layer */
     fw_arena *arena;
     const fw_mask_shape *shape;
@@ -61,9 +65,11 @@ typedef struct fw_mask_rule_search { /* one layer */
     fw_mask_measure *measure;
     fw_mask_rule_finding *found; /* (nfound) grows */
     int nfound, room;
+    int most;        /* findings that are kept; 0: all */
     double cap_m;    /* pairs farther apart than this and the rules are not looked at */
     bool everything; /* for the tests: no pair is passed over */
     bool no_memory;
+    bool crowded; /* there were more: the search ended there */
 } fw_mask_rule_search;
 
 /* By how much, as a sine, a corner between two edges may be sharper than it was drawn, where both came from a

@@ -61,8 +61,10 @@ static fw_status between_layers(fw_mask_rules *rules, const fw_mask_rule *rule,
                                 fw_mask_rule_search *out) {
     const fw_mask_rule_search *a = &rules->search[rule->layer], *b = &rules->search[rule->other];
     int n = a->nrange + b->nrange;
-    *out = (fw_mask_rule_search){
-        .arena = rules->arena, .shape = rules->shape, .tolerance_m = rules->tolerance_m};
+    *out = (fw_mask_rule_search){.arena = rules->arena,
+                                 .shape = rules->shape,
+                                 .tolerance_m = rules->tolerance_m,
+                                 .most = FW_MASK_FOUND_MOST};
     entry *list = fw_arena_array(rules->arena, entry, (size_t)n);
     FW_NEED(list);
     for (int i = 0; i < n; i++)
@@ -88,6 +90,7 @@ static fw_status add_distances(fw_mask_rules *rules, const fw_mask_rule *rule,
     fw_mask_rule_finding *place;
     int count;
     if (between->no_memory) return FW_NOMEM;
+    rules->search[rule->layer].crowded |= between->crowded;
     FW_TRY(fw_mask_rule_places(rules->arena, between->found, between->nfound, rule->least, &place,
                                &count));
     for (int i = 0, next; i < count; i = next) {

@@ -270,7 +270,7 @@ static double reach(const fw_mask_rule_search *in) {
 
 static void look_inside(fw_mask_rule_search *in, const fw_mask_rule_range *r) {
     fw_mask_rule_edge *e = in->edge + r->first;
-    for (int i = 0; i < r->count; i++) {
+    for (int i = 0; i < r->count && !in->crowded; i++) {
         look_at_own(in, &e[i]);
         double far = reach(in); /* only a pair that was looked at changes it */
         fw_geometry_box own = e[i].box;
@@ -284,7 +284,7 @@ static void look_inside(fw_mask_rule_search *in, const fw_mask_rule_range *r) {
 
 static void look_between(fw_mask_rule_search *in, const fw_mask_rule_range *r,
                          const fw_mask_rule_range *s) {
-    for (int i = 0; i < r->count; i++) {
+    for (int i = 0; i < r->count && !in->crowded; i++) {
         fw_mask_rule_edge *p = &in->edge[r->first + i], *q = &in->edge[s->first];
         fw_geometry_box own = p->box;
         double far = reach(in);
@@ -300,7 +300,7 @@ static void look_between(fw_mask_rule_search *in, const fw_mask_rule_range *r,
 static void search_pairs(fw_mask_rule_search *in) {
     for (int i = 0; i < in->nrange; i++) /* first: what a shape measures bounds the rest */
         look_inside(in, &in->range[i]);
-    for (int i = 0; i < in->nrange; i++)
+    for (int i = 0; i < in->nrange && !in->crowded; i++)
         for (int j = i + 1; j < in->nrange; j++) {
             const fw_mask_rule_range *r = &in->range[i], *s = &in->range[j];
             double far = reach(in);
@@ -319,7 +319,8 @@ void fw_mask_rule_search_run(fw_mask_rule_search *in) {
         in->nfound = 0;
         search_pairs(in);
         double found_m = fw_greater(in->measure->width_m, in->measure->space_m);
-        if (in->everything || found_m <= in->cap_m || in->cap_m >= FW_MASK_LOOK_M) return;
+        if (in->crowded || in->everything || found_m <= in->cap_m || in->cap_m >= FW_MASK_LOOK_M)
+            return;
         cap_m = isinf(found_m) ? 3 * cap_m : found_m;
     }
 }

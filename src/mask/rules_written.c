@@ -24,6 +24,8 @@ static const double SIN_LEAN = 0.1305261922200516; /* sin 7.5 deg */
 /* ---- findings ---- */
 
 void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f) {
+    in->crowded = in->crowded || (in->most && in->nfound == in->most);
+    if (in->crowded) return;
     if (in->nfound == in->room) {
         size_t more = in->room ? 2 * (size_t)in->room : 16;
         fw_mask_rule_finding *grown =

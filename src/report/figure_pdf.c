@@ -2,8 +2,8 @@
 /* A figure of the program as PDF, for a paper: the drawing operators of a page for the elements that our
    pictures have. In: SVG as this program writes it (paths, rectangles, circles, ellipses, lines, polylines, polygons,
    lettering, groups, pictures within it, what `use` repeats; translate, rotate, scale and matrix; classes of one style
-   sheet). What moves is drawn as it stands at the beginning. Out: PDF 1.4, one page; the same bytes for the same
-   figure, with no date and no name of a machine. A pixel is three quarters of a point and a millimetre a millimetre,
+   sheet; clip paths of one outline). What moves is drawn as it stands at the beginning. Out: PDF 1.4, one page; the same
+   bytes for the same figure, with no date and no name of a machine. A pixel is three quarters of a point and a millimetre a millimetre,
    but what would be less than an inch is enlarged by a power of ten. What is repeated is written once for each style
    that it takes (a form of the file). Lettering is Helvetica and Symbol, which every reader has, with
    their own widths; arcs are curves of third order of at most 90 degrees, right to 3e-4 of the radius. FW_INPUT:
@@ -29,6 +29,8 @@ typedef struct style {
     int ndash, anchor; /* -1 start, 0 middle, 1 end */
     int cap, join;     /* as PDF counts them */
     bool bold, hidden, even_odd;
+    const char *clip,
+        *unknown; /* of the element alone, not of what is in it: NULL, or what follows the name */
 } style;
 
 typedef struct repeated { /* what `use` draws, in one style */
@@ -102,6 +104,9 @@ static paint paint_of(const char *v, size_t n, paint usual) {
 }
 
 static void set(style *s, const char *name, size_t length, const char *v, size_t n) {
+    if (says(name, length, "clip-path")) s->clip = says(v, n, "none") ? NULL : v;
+    if (says(name, length, "mask") && !says(v, n, "none")) s->unknown = "mask";
+    if (says(name, length, "filter") && !says(v, n, "none")) s->unknown = "filter";
     if (says(name, length, "fill")) s->fill = paint_of(v, n, s->fill);
     if (says(name, length, "stroke")) s->stroke = paint_of(v, n, s->stroke);
     if (says(name, length, "stroke-width")) s->width = strtod(v, NULL);
@@ -176,12 +181,14 @@ static void apply_rules(const converter *c, const fw_xml_node *node, style *s) {
 }
 
 static style style_of(const converter *c, const fw_xml_node *node, const style *around) {
-    static const char *const name[] = {"fill",           "stroke",           "stroke-width",
-                                       "fill-opacity",   "stroke-opacity",   "opacity",
-                                       "font-size",      "font-weight",      "text-anchor",
-                                       "visibility",     "stroke-dasharray", "fill-rule",
-                                       "stroke-linecap", "stroke-linejoin",  "display"};
+    static const char *const name[] = {
+        "fill",           "stroke",          "stroke-width",     "fill-opacity",
+        "stroke-opacity", "opacity",         "font-size",        "font-weight",
+        "text-anchor",    "visibility",      "stroke-dasharray", "fill-rule",
+        "stroke-linecap", "stroke-linejoin", "display",          "clip-path",
+        "mask",           "filter"};
     style s = *around;
+    s.clip = s.unknown = NULL;
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
         const char *v = fw_xml_node_value(node, name[i]);
         if (v) set(&s, name[i], strlen(name[i]), v, strlen(v));
@@ -309,7 +316,8 @@ static bool width_of(converter *c, run *r, const style *s, double *wide) {
 
 static bool is_left_out(const fw_xml_node *n) {
     static const char *const name[] = {"title", "desc", "style",    "script",           "animate",
-                                       "set",   "defs", "metadata", "animateTransform", NULL};
+                                       "set",   "defs", "metadata", "animateTransform", "clipPath",
+                                       NULL};
     return is_one_of(n, name);
 }
 
@@ -376,6 +384,9 @@ static fw_status lettering(converter *c, const fw_xml_node *node, const style *s
 
 /* ---- elements ---- */
 
+static const char *const shapes[] = {"path",    "rect",     "circle",  "line",
+                                     "ellipse", "polyline", "polygon", NULL};
+
 /* a picture within the picture: its place, cut off at its edges */
 static void inner(converter *c, const fw_xml_node *n) {
     const char *box = fw_xml_node_value(n, "viewBox");
@@ -416,6 +427,30 @@ static bool outline(converter *c, const fw_xml_node *n) {
                            : fw_report_pdf_points(c->out, d, is_named(n, "polygon")));
     }
     return true;
+}
+
+/* draws no more than what lies within the one outline of a clipPath; v: url(#ID) and what follows it */
+static fw_status clip(converter *c, const char *v) {
+    const char *id = strncmp(v, "url(#", 5) == 0 ? v + 5 : "";
+    const char *named = fw_arena_printf(c->arena, "%.*s", (int)strcspn(id, ")"), id);
+    FW_NEED(named);
+    const fw_xml_node *by = *named ? found_in(c->root, NULL, named) : NULL;
+    const char *units = by ? fw_xml_node_value(by, "clipPathUnits") : NULL;
+    const fw_xml_node *only = NULL;
+    *c->unknown = "clip-path";
+    if (!by || !is_named(by, "clipPath") || (units && strcmp(units, "userSpaceOnUse") != 0))
+        return FW_INPUT;
+    for (const fw_xml_node *n = by->first; n; n = n->next) {
+        if (!n->name || is_left_out(n)) continue;
+        if (only || !is_one_of(n, shapes)) return FW_INPUT; /* a union is none of ours */
+        only = n;
+    }
+    if (!only || fw_xml_node_value(only, "transform") || fw_xml_node_value(by, "transform"))
+        return FW_INPUT;
+    const char *rule = fw_xml_node_value(only, "clip-rule");
+    if (!outline(c, only)) return FW_INPUT;
+    fw_text_add(c->out, rule && strcmp(rule, "evenodd") == 0 ? "W* n\n" : "W n\n");
+    return FW_OK;
 }
 
 static fw_status element(converter *c, const fw_xml_node *n, const style *around);
@@ -484,23 +519,20 @@ static fw_status again(converter *c, const fw_xml_node *n, const style *s) {
 }
 
 static fw_status element(converter *c, const fw_xml_node *n, const style *around) {
-    static const char *const shape[] = {"path",    "rect",     "circle",  "line",
-                                        "ellipse", "polyline", "polygon", NULL},
-                             *const group[] = {"g", "svg", "a", NULL};
-    const bool drawn = is_one_of(n, shape), text = is_named(n, "text"), use = is_named(n, "use");
+    static const char *const group[] = {"g", "svg", "a", NULL};
+    const bool drawn = is_one_of(n, shapes), text = is_named(n, "text"), use = is_named(n, "use");
     if (is_left_out(n) || is_named(n, "symbol")) return FW_OK;
     *c->unknown = fw_text_shown(c->arena, n->name, strlen(n->name));
     if (!(drawn || text || use || is_one_of(n, group))) return FW_INPUT;
-    for (const char *const *no = (const char *const[]){"clip-path", "mask", "filter", NULL}; *no;
-         no++)
-        if (fw_xml_node_value(n, *no)) {
-            *c->unknown = *no;
-            return FW_INPUT;
-        }
     if (c->depth >= DEEP || ++c->elements > MOST_ELEMENTS) return FW_INPUT;
     const style s = style_of(c, n, around);
     const char *moved = fw_xml_node_value(n, "transform");
-    const bool within = is_named(n, "svg") && n != c->root, saved = moved || within || use;
+    const bool within = is_named(n, "svg") && n != c->root,
+               saved = moved || within || use || s.clip;
+    if (s.unknown) {
+        *c->unknown = s.unknown;
+        return FW_INPUT;
+    }
     double box[4];
     bool first = true;
     fw_status status = FW_OK;
@@ -508,6 +540,7 @@ static fw_status element(converter *c, const fw_xml_node *n, const style *around
     c->depth++;
     if (saved) fw_text_add(c->out, "q\n");
     fw_report_pdf_transform(c->out, moved);
+    if (s.clip) FW_TRY(clip(c, s.clip));
     if (within) inner(c, n);
     if (drawn && !s.hidden) {
         FW_TRY(states(c, &s));
@@ -524,20 +557,6 @@ static fw_status element(converter *c, const fw_xml_node *n, const style *around
     c->depth--;
     memcpy(c->box, box, sizeof box);
     return status;
-}
-
-/* points of a unit that a size is stated in */
-static double points_of(const char *size) {
-    static const struct {
-        const char *unit;
-        double points;
-    } known[] = {{"mm", 72 / 25.4}, {"cm", 72 / 2.54}, {"in", 72}, {"pt", 1}, {"", 0.75}};
-    char *unit;
-    const double v = strtod(size, &unit);
-    size_t i = 0;
-    while (*known[i].unit && strncmp(unit, known[i].unit, 2) != 0)
-        i++;
-    return v * known[i].points;
 }
 
 fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, size_t n, fw_text *pdf,
@@ -563,7 +582,7 @@ fw_status fw_report_figure_pdf(fw_arena *arena, const char *svg, size_t n, fw_te
     fw_report_pdf_list(fw_xml_node_value(tree, "viewBox"), 4, view);
     if (!(view[2] > 0 && view[3] > 0)) return FW_INPUT;
     memcpy(c.box, view, sizeof view);
-    const double points = wide && !strchr(wide, '%') ? points_of(wide) : 0.75 * view[2];
+    const double points = wide && !strchr(wide, '%') ? fw_report_pdf_size(wide) : 0.75 * view[2];
     double k = points / view[2];
     if (!(k * view[2] > 1e-9 && k * view[3] > 1e-9 && k * (view[2] + view[3]) < 1e9))
         return FW_INPUT;

@@ -41,6 +41,19 @@ int fw_report_pdf_list(const char *s, int most, double *v) {
     return n;
 }
 
+double fw_report_pdf_size(const char *size) {
+    static const struct {
+        const char *unit;
+        double points;
+    } known[] = {{"mm", 72 / 25.4}, {"cm", 72 / 2.54}, {"in", 72}, {"pt", 1}, {"", 0.75}};
+    char *unit;
+    const double v = strtod(size, &unit);
+    size_t i = 0;
+    while (*known[i].unit && strncmp(unit, known[i].unit, 2) != 0)
+        i++;
+    return v * known[i].points;
+}
+
 typedef struct ellipse { /* a turned and stretched circle of radius 1 */
     double x, y, rx, ry, co, si;
 } ellipse;

@@ -303,5 +303,7 @@ bool fw_report_pdf_path(fw_text *out, const char *d);
 void fw_report_pdf_transform(fw_text *out, const char *transform);
 /* how many numbers a list begins with, at most `most`; NULL: none */
 int fw_report_pdf_list(const char *list, int most, double *v);
+/* points of a size that may have a unit */
+double fw_report_pdf_size(const char *size);
 
 #endif

@@ -116,7 +116,7 @@ class Manners(unittest.TestCase):
         self.assertIn("did you mean 'name'?", first["message"])
         self.assertEqual(json.loads(run("check", SIX_BAR, "--json").stdout)["schema"], "flexwright.verdict/1")
 
-    KNOWN = set("m l c h re W n S f B f* B* rg RG w J j d gs cm q Q BT ET Tr Tm Tf Ts Tj Do".split())
+    KNOWN = set("m l c h re W W* n S f B f* B* rg RG w J j d gs cm q Q BT ET Tr Tm Tf Ts Tj Do".split())
 
     def streams_of(self, data, what):
         """[page, forms it repeats ...] of a PDF as text, its parts being where its table says"""
@@ -265,6 +265,35 @@ class Manners(unittest.TestCase):
         self.assertEqual(self.figure("<text> a \n  b<tspan> c </tspan></text>"), self.figure("<text>a b<tspan> c</tspan></text>"))
         page = self.figure("<text font-size='10'>10\u207b\u2079 m</text>")[0]
         self.assertRegex(page, r"<3130> Tj\n3\.3 Ts\n/F3 6 Tf\n<2d> Tj\n/F1 6 Tf\n<39> Tj\n0 Ts\n/F1 10 Tf\n<206d> Tj")
+
+    def test_clipped_figures(self):
+        """what a clip path leaves is drawn, of the element that names it alone; what is no single outline is named; every picture of
+        these pages can be a figure"""
+        path = '<defs><clipPath id="a"><rect x="1" y="2" width="3" height="4"/></clipPath></defs>'
+        for named in ('clip-path="url(#a)"', 'style="fill:none;clip-path:url(#a)"'):
+            page = self.figure(path + '<g transform="translate(5 6)" %s><path d="M0 0L1 1"/><path d="M2 2L3 3"/></g><path d="M4 4L5 5"/>' % named)[0]
+            self.assertEqual(page.count("W n"), 1)
+            words = page.split()
+            within = words[words.index("W"):words.index("Q", words.index("W"))]
+            self.assertIn("1 0 0 1 5 6 cm 1 2 3 4 re W n", " ".join(words))  # in the space of the group itself
+            self.assertEqual((within.count("m"), words.count("m")), (2, 3))
+            self.assertNotIn("q", within)
+        even = self.figure('<clipPath id="a"><path clip-rule="evenodd" d="M0 0L9 0L9 9Z"/></clipPath><circle r="3" clip-path="url(#a)"/>')[0]
+        self.assertIn("W* n", even)
+        self.assertEqual(self.figure(path + '<circle r="3" clip-path="none"/>'), self.figure('<circle r="3"/>'))
+        for inside, says in (('<clipPath id="a"><circle r="1"/><circle r="2"/></clipPath>', "clip-path"),
+                             ('<clipPath id="a" clipPathUnits="objectBoundingBox"><rect/></clipPath>', "clip-path"),
+                             ('<clipPath id="a"><circle r="1" transform="scale(2)"/></clipPath>', "clip-path"),
+                             ('<clipPath id="a"><text>b</text></clipPath>', "clip-path"), ('<g id="a"><circle r="1"/></g>', "clip-path"),
+                             ('<clipPath id="a"/>', "clip-path"), ('<clipPath id="a"><path d="M1 1Z5"/></clipPath>', "clip-path"),
+                             ('<clipPath id="a"><rect/></clipPath><path style="filter:url(#b)"/>', "filter"),
+                             ('<clipPath id="a"><rect/></clipPath><g mask="url(#b)"/>', "mask")):
+            done = run("figure", "-", "-o", "-", input='<svg width="9" height="9">%s<circle r="1" clip-path="url(#a)"/></svg>' % inside)
+            self.assertEqual(done.returncode, 3, inside)
+            self.assertIn(f"'{says}'", done.stderr)
+        for picture in sorted(ROOT.glob("docs/**/*.svg")):
+            done = run("figure", str(picture), "-o", "-")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), picture)
 
     def test_doctor_knows_every_flow(self):
         listed = run("doctor").stdout

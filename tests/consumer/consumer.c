@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a user of the installed library writes, in the common part of C and C++:
-   consumer DEVICE.xml DATA_DIRECTORY OUT: opens the device from memory, judges, prints the
-   decision, writes the results. Exit status: the decision, or 100 + status. */
+   consumer DEVICE.xml OUT [DATA_DIRECTORY]: opens the device from memory, judges, prints the
+   decision, writes the results into the directory OUT. The process packs are those that were installed
+   with the library, or of DATA_DIRECTORY. Exit status: the decision, 100 + status, or 99: the usage. */
 #include <flexwright.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,19 +37,26 @@ static int for_a_page(fw_design *design) {
 
 int main(int argc, char **argv) {
     static char xml[1 << 20];
-    FILE *file = argc == 4 ? fopen(argv[1], "rb") : NULL;
-    if (!file) return 99;
+    if (argc < 3 || argc > 4) {
+        fprintf(stderr, "usage: consumer DEVICE.xml OUT [DATA_DIRECTORY]\n");
+        return 99;
+    }
+    FILE *file = fopen(argv[1], "rb");
+    if (!file) {
+        perror(argv[1]);
+        return 99;
+    }
     size_t n = fread(xml, 1, sizeof xml, file);
     fclose(file);
 
     fw_design_options options = fw_design_options_default();
-    options.data_directory = argv[2];
+    if (argc > 3) options.data_directory = argv[3];
     fw_design *design = fw_design_new(&options);
     if (!design) return 100 + FW_STATUS_NOMEM;
     int status = fw_design_read_memory(design, "device.xml", xml, n);
     if (status == FW_STATUS_OK) status = fw_design_judge(design);
     if (status == FW_STATUS_OK) status = fw_design_fabricate(design);
-    if (status == FW_STATUS_OK) status = fw_design_write(design, argv[3], FW_DESIGN_EVERYTHING);
+    if (status == FW_STATUS_OK) status = fw_design_write(design, argv[2], FW_DESIGN_EVERYTHING);
     const char *text;
     if (status == FW_STATUS_OK) status = for_a_page(design);
     if (status == FW_STATUS_OK)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// motion DEVICE.xml DATA_DIRECTORY: the same in C++17: a design that frees itself, errors as exceptions,
+// motion DEVICE.xml [DATA_DIRECTORY]: the same in C++17: a design that frees itself, errors as exceptions,
 // a column as a view.
 #include <flexwright.h>
 #include <cmath>
@@ -40,9 +40,12 @@ double largest(const fw_array &angle, size_t hinge) {
 } // namespace
 
 int main(int argc, char **argv) try {
-    if (argc != 3) return 99;
+    if (argc < 2 || argc > 3) {
+        std::cerr << "usage: motion DEVICE.xml [DATA_DIRECTORY]\n";
+        return 99;
+    }
     fw_design_options options = fw_design_options_default();
-    options.data_directory = argv[2];
+    if (argc > 2) options.data_directory = argv[2];
     Design design(fw_design_new(&options));
     check(design, fw_design_set(design.get(), "arc", "230 deg"));
     check(design, fw_design_read(design.get(), argv[1]));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* numbers DEVICE.xml DATA_DIRECTORY: numbers without JSON, in the common part of C and C++: which share
+/* numbers DEVICE.xml [DATA_DIRECTORY]: numbers without JSON, in the common part of C and C++: which share
    of its limit each hinge uses, where the platform is at the end of the first scene, how far the work is.
    Exit status: 0, or 100 + status. */
 #include <flexwright.h>
@@ -46,8 +46,11 @@ static int platform(fw_design *design, const char *body) {
 int main(int argc, char **argv) {
     fw_design_options options = fw_design_options_default();
     long times = 0;
-    if (argc != 3) return 99;
-    options.data_directory = argv[2];
+    if (argc < 2 || argc > 3) {
+        fprintf(stderr, "usage: numbers DEVICE.xml [DATA_DIRECTORY]\n");
+        return 99;
+    }
+    if (argc > 2) options.data_directory = argv[2];
     fw_design *design = fw_design_new(&options);
     if (!design) return 100 + FW_STATUS_NOMEM;
     int status = fw_design_progress(design, told, &times);

@@ -25,7 +25,7 @@ cp "$device" device.xml
 strict="-Wall -Wextra -Wconversion -Wshadow -pedantic -Werror"
 try() { # try NAME PROGRAM
     status=0
-    "$2" device.xml "$data" "out-$1" >"$1.txt" 2>"$1.err" || status=$?
+    "$2" device.xml "out-$1" "$data" >"$1.txt" 2>"$1.err" || status=$?
     if [ $status -ne 0 ] || ! grep -q '^flexwright .*: decision 0$' "$1.txt"; then
         echo "$1: status $status"
         cat "$1.txt" "$1.err"
@@ -69,7 +69,7 @@ cp "$here/numbers.c" "$here/motion.cpp" .
     c++ -std=c++17 $strict -x c++ numbers.c -x none -o numbers-cxx $(pkg-config --cflags --libs flexwright)
     c++ -std=c++17 $strict motion.cpp -o motion $(pkg-config --cflags --libs flexwright)
 }
-./numbers device.xml "$data" >numbers.txt
+./numbers device.xml >numbers.txt # with the packs of the library's own tree
 ./numbers-cxx device.xml "$data" >numbers-cxx.txt
 cmp numbers.txt numbers-cxx.txt
 "$program" simulate device.xml --set 'arc=230 deg' --json >motion-230.json 2>/dev/null

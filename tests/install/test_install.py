@@ -195,9 +195,10 @@ class Package(unittest.TestCase):
             base = root / "usr/share/flexwright/processes/base.xml"
             self.assertTrue(base.exists())
             run("/usr/bin/python3", "-c", "import flexwright, sys; d = flexwright.Device(sys.argv[1]); "
-                "assert flexwright.__file__.startswith(sys.argv[2]); assert d.check().accepted", SIX_BAR, root,
-                environment={"PYTHONPATH": str(root / "usr/lib/python3/dist-packages"),
-                             "PYTHONDONTWRITEBYTECODE": "1"}, cwd=scratch)
+                "assert flexwright.__file__.startswith(sys.argv[2]); assert d.check().accepted; import flexwright_klayout.program", SIX_BAR, root,
+                environment={"PYTHONPATH": ":".join(str(root / at) for at in ("usr/lib/python3/dist-packages", "usr/share/flexwright/klayout/python"))},
+                cwd=scratch)
+            self.assertTrue(list((root / "usr/lib/python3").rglob("*.pyc")))  # compiled by whoever may write there: goes with the package
             run(*dpkg, "-r", "flexwright")
             self.assertFalse([p for p in (root / "usr").rglob("*") if "flexwright" in p.name])
 

@@ -10,6 +10,7 @@ import json
 import math
 import pathlib
 import random
+import resource
 import shutil
 import subprocess
 import sys
@@ -186,7 +187,18 @@ class Cells(unittest.TestCase):
         good = (self.where / "logo.gds").read_bytes()
         (self.where / "cut.gds").write_bytes(good[: len(good) // 2])
         (self.where / "block.dxf").write_text("0\nSECTION\n2\nENTITIES\n0\nINSERT\n8\nA\n2\nB\n10\n0\n20\n0\n0\nENDSEC\n0\nEOF\n")
+        (self.where / "empty.gds").write_bytes(b"")
+        (self.where / "words.gds").write_bytes(b"a note\n" * 9)
+        klayout("""
+import pya
+l = pya.Layout(); l.dbu = 0.001; c = l.create_cell("T"); c.shapes(l.layer(1, 0)).insert(pya.Polygon([pya.Point(x, 0) for x in (0, 50000, 90000)], True))
+l.write("flat.gds")
+pya.Application.instance().exit(0)
+""", self.where)
         for cell, number, says in (
+                ('file="empty.gds" layers="1/0>text"', 565, "no GDSII file as it should be: it is empty"),
+                ('file="words.gds" layers="1/0>text"', 565, "no GDSII file as it should be: it does not begin"),
+                ('file="flat.gds" layers="1/0>text"', 568, "has no area"),
                 ('file="block.dxf" unit="um" layers="A>77/0"', 565, "line 5, byte 21: block 'B' is not in the file"),
                 ('file="cut.gds" layers="1/0>77/0"', 565, "byte "),
                 ('file="logo.oas" layers="1/0>77/0"', 569, "KLayout"),
@@ -207,6 +219,21 @@ class Cells(unittest.TestCase):
             line = 1 + (self.where / "bad.xml").read_text().split("<cell")[0].count("\n")
             self.assertTrue(lines[0].startswith("bad.xml:%d:" % line), (cell, lines[0]))
             self.assertFalse((self.where / "bad").exists())
+
+    def test_a_dense_one_is_told_in_time(self):
+        """a saw of 4000 teeth of 20 nm: millions of pairs break the rules; that is said, before its corners, and not looked for to the end"""
+        klayout("""
+import pya
+l = pya.Layout(); l.dbu = 0.001; c = l.create_cell("T")
+c.shapes(l.layer(1, 0)).insert(pya.Polygon([pya.Point(20 * k, 5000 * (k % 2)) for k in range(4000)] + [pya.Point(80000, 90000)]))
+l.write("saw.gds")
+pya.Application.instance().exit(0)
+""", self.where)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        done = self.make("saw", '<cell file="saw.gds" x="-0.6 mm" y="3.2 mm" layers="1/0>text"/>')
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 20)  # 0.4 s here; minutes before
+        self.assertIn("FW-D592", done.stderr)
+        self.assertEqual(done.stderr.count("FW-D153"), 0)  # a warning, and -q
 
     def test_it_becomes_one_with_the_frame(self):
         """random pads, rings and stars over edges, corners and the seam of the frame: on the mask their union, each place once; a

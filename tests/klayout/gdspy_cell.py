@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """gdspy_cell.py PROGRAM: the mask of the gallery's comb stage as a cell in another layout, by gdspy, as docs/klayout.md says: its name, its
-layers, and the contacts of the order sheet as ports. After placing, turning and mirroring each port lies in metal of its own net."""
+layers, and the contacts of the order sheet as ports, the same as its labels. After placing, turning and mirroring each port lies in metal of its
+own net with the whole of its pad."""
 import json
 import math
 import pathlib
@@ -24,6 +25,11 @@ PLACES = (((0, 0), 0, False), ((5000, -3000), 90, False), ((-1234.5, 800), 180, 
 def ports(order):
     """{name: (x, y)} in um, in the cell's own coordinates"""
     return {c["net"]: tuple(c["centre_um"]) for c in order["contacts"]}
+
+
+def labelled(cell):
+    """what gdsfactory's add_ports_from_labels reads with the arguments of docs/klayout.md: {name: (x, y)}"""
+    return {y.text: tuple(y.position) for y in cell.labels if (y.layer, y.texttype) == (63, 0) and y.text.startswith("port=")}
 
 
 def moved(point, origin, degrees, mirrored):
@@ -55,6 +61,10 @@ def main():
             mine = ports(order)
             if len(mine) < 3:
                 wrong.append("%s has ports %s" % (file.stem, mine))
+            labels = labelled(cell)
+            if set(labels) != {"port=" + name for name in mine} or any(math.dist(labels["port=" + n], mine[n]) > 0.002 for n in mine):
+                wrong.append("%s has labels %s" % (file.stem, labels))
+            half = {c["net"]: c["side_um"] / 2 - 0.01 for c in order["contacts"]}
             for k, (origin, degrees, mirrored) in enumerate(PLACES):
                 top = gdspy.Cell("TOP_%d" % k, exclude_from_current=True)
                 top.add(gdspy.CellReference(cell, origin, rotation=degrees, x_reflection=mirrored))
@@ -63,7 +73,8 @@ def main():
                 on = {}
                 for name, point in mine.items():
                     at = moved(point, origin, degrees, mirrored)
-                    within = [i for i, p in enumerate(pieces) if gdspy.inside([at], [p])[0]]
+                    pad = [(at[0] + u * half[name], at[1] + v * half[name]) for u in (-1, 0, 1) for v in (-1, 0, 1)]
+                    within = [i for i, p in enumerate(pieces) if all(gdspy.inside(pad, [p]))]
                     on[name] = tuple(within)
                     checks += 1
                     if not within:

@@ -37,8 +37,9 @@ END
 mkdir "$work/tree"
 (cd "$source" && cp -r CMakeLists.txt cmake include src processes masks python pyproject.toml "$work/tree/")
 rm -rf "$work/tree/python/build"
+ln -s "$build" "$work/tree/built" # named from the top of the tree, as docs/python.md does
 for from in . python; do
-    FLEXWRIGHT_BUILD="$build" /usr/bin/python3 -m pip install --quiet --no-index --no-deps \
+    FLEXWRIGHT_BUILD=built /usr/bin/python3 -m pip install --quiet --no-index --no-deps \
         --no-build-isolation --root-user-action=ignore --target "$work/target-$from" "$work/tree/$from" \
         2>"$work/pip.txt" || { cat "$work/pip.txt"; exit 1; }
     mv "$work/target-$from" "$work/moved-$from"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""test_docs.py BUILD: the snippets of docs/python.md and the cells of docs/tutorial.ipynb run, from the top
-of the source tree, and print what the pages say they do."""
+"""test_docs.py BUILD: the snippets of docs/python.md run from the top of the source tree and the cells of
+docs/tutorial.ipynb from its own folder, as a notebook's kernel does, and print what the pages say they do."""
 import contextlib
 import io
 import json
@@ -91,6 +91,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(len(ids), len(set(ids)))
         code = [(0, "".join(cell["source"])) for cell in book["cells"] if cell["cell_type"] == "code"]
         self.assertGreater(len(code), 6)
+        os.chdir("docs")
         space, printed = self.run_all(code, "docs/tutorial.ipynb")
         for cell in book["cells"]:  # the last line of a cell is shown: it can be
             if cell["cell_type"] != "code":

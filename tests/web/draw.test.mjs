@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, axeSource, close, finish, open, serve, source, text, verdict, view } from "./helper.mjs";
+import { answered, axeSource, close, finish, open, serve, setText, source, text, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -91,6 +91,13 @@ describe("a gripper from an empty page", () => {
         assert.equal(image.length, 8);
         for (const [x, y] of of("link-1")) assert.ok(image.some((p) => Math.hypot(p[0] + x, p[1] - y) < 1e-6), `${x}, ${y}`);
         for (const part of ['<body id="link-1-mirrored" x="400 um" y="0 um">', '<revolute id="B" a="ground" a-x="400 um" a-y="0 um" b="link-1-mirrored"', '<force on="link-1-mirrored" x="0 um" y="600 um" fx="-10 uN"']) assert.ok((await text(page)).includes(part), `${part} in ${await text(page)}`);
+        for (let i = 0; i < 2; i++) await page.click("#undo");
+        assert.equal(await text(page), xml);
+        await answered(page, () => setText(page, ["</mechanism>", '</mechanism>\n  <probe id="tip" kind="displacement" on="link-1" direction="0 deg"/>']));
+        await page.selectOption('select[aria-label="Part"]', "device/mechanism/body[link-1]");
+        if (!(await page.locator(".draw-copy").isVisible())) await page.click(".draw-mirror > summary");
+        await changed(page, () => page.click(".draw-copy"));
+        await page.locator(".notice:has-text('what could not be mirrored was left out: probe tip.')").waitFor();
         for (let i = 0; i < 2; i++) await page.click("#undo");
         assert.equal(await text(page), xml);
     });

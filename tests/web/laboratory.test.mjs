@@ -86,6 +86,13 @@ describe("numbers of the laboratory", () => {
         await fill("begun", "2026-11-21T10:00");
         await fill("ended", "2026-11-21T12:05");
         await page.evaluate(() => document.querySelectorAll(".log-form details").forEach((e) => (e.open = true)));
+        await page.click("#help"); // each field has its sentence, and what has a unit says it
+        const helped = await page.evaluate(() => [[...document.querySelectorAll(".log-form :is(input, select, textarea)")].filter((e) => e.offsetParent).length,
+            Object.fromEntries([...document.querySelectorAll(".help-list dt")].map((e) => [e.innerText, e.nextElementSibling.innerText]))]);
+        for (const name of ["begun", "ended", "by", "machine", "bath", "measured with", "note", "power"]) assert.ok(helped[1][name], `${name} in ${JSON.stringify(helped)}`);
+        assert.match(helped[1].power, /planned .* W/);
+        assert.ok(Object.keys(helped[1]).length >= helped[0], JSON.stringify(helped));
+        await page.keyboard.press("Escape");
         await page.fill('.log-form [data-kind="set"][data-name="power"]', "251");
         await page.fill(".log-form textarea", [16, 20].map((w) => `undercut-ladder, feature=width, drawn=${w} um, value=${w - 2.9} um, u=0.08 um, at=50.5 um`).join("\n"));
         await page.click("#log-add");

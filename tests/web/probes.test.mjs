@@ -2,12 +2,15 @@
 // What a device is for, on the page: requirements with their values beside the verdict, one probe over time with its
 // bounds beside the angles. A device without probes has neither.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, serve, setText, SMALL, verdict } from "./helper.mjs";
+import { answered, close, finish, open, program, serve, setText, SMALL, verdict } from "./helper.mjs";
 
 after(finish);
+
+const figure = (svg) => assert.equal(execFileSync(program, ["figure", "-", "-o", "-"], { input: svg }).subarray(0, 5).toString(), "%PDF-"); // for a paper
 
 describe("probes", () => {
     let server, page;
@@ -83,6 +86,7 @@ describe("probes", () => {
             return [root.tagName, root.querySelectorAll("g path").length, root.querySelectorAll("parsererror").length];
         }, svg);
         assert.deepEqual(drawn, ["svg", data.series.length + data.marks.length, 0]);
+        figure(svg);
         await page.keyboard.press("Escape");
     });
 
@@ -122,6 +126,7 @@ describe("probes", () => {
         };
         const [name, first] = await film("Animated SVG");
         assert.equal(name, "straight-stage-draw.svg");
+        figure(first);
         assert.deepEqual((await film("Animated SVG"))[1], first);
         const { seen, wanted, parts } = await page.evaluate((text) => {
             const root = new DOMParser().parseFromString(text, "image/svg+xml");

@@ -17,14 +17,17 @@ const said = (job) => (job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)
 const plain = (x) => /^[-+0-9.eE\s:a-z]+$/.test(x) && !/[a-z]\s*$/.test(x.trim()); // numbers, maybe by the names of sites
 const units = (unit) => (["1", "yes/no", ""].includes(unit) ? "" : ` ${unit}`);
 const now = () => new Date(Date.now() - new Date().getTimezoneOffset() * 60000).toISOString().slice(0, 16);
-const planned = (x) => (x.planned === null ? "not known" : `${number(x.planned, 6)}${units(x.unit)}`);
+/** The unit that a value is in, where no value stands before it. */
+const within = (unit) => (units(unit).trim() ? `, in ${units(unit).trim()}` : "");
+
+const planned = (x) => (x.planned === null ? `not known${within(x.unit)}` : `${number(x.planned, 6)}${units(x.unit)}`);
 
 /** What is accepted of a measure, in words. */
 function accepted(m) {
     if (m.unit === "yes/no") return "yes or no";
     const [low, high] = [m.low, m.high].map((x) => (x === "" ? null : x));
     const unit = units(m.unit);
-    return low !== null && high !== null ? `${low} to ${high}${unit}` : high === "0" && low === null ? "none" : high !== null ? `at most ${high}${unit}` : low !== null ? `at least ${low}${unit}` : "any";
+    return low !== null && high !== null ? `${low} to ${high}${unit}` : high === "0" && low === null ? "none" : high !== null ? `at most ${high}${unit}` : low !== null ? `at least ${low}${unit}` : `any${within(m.unit)}`;
 }
 
 export class AsRun {
@@ -206,7 +209,8 @@ export class AsRun {
     /** What the chosen step measures and sets. */
     #asked() {
         const x = this.told.steps.find((y) => y.id === this.step.value);
-        const field = (kind, name, hint) => h("label", { class: "pose-field" }, h("span", {}, name, h("span", { class: "doc" }, ` ${hint}`)), h("input", { autocomplete: "off", "data-kind": kind, "data-name": name }));
+        const field = (kind, name, hint) => h("label", { class: "pose-field" }, h("span", {}, name, h("span", { class: "doc" }, ` ${hint}`)), h("input", { autocomplete: "off", "data-kind": kind, "data-name": name,
+            title: kind === "measure" ? `What was measured; accepted is ${hint}. Several values with blanks between, then their unit.` : `What was set on the machine, with its unit; ${hint}.` }));
         this.measured.replaceChildren(...x.measures.map((m) => field("measure", m.measure, `${accepted(m)}${m.sites > 1 ? `; up to ${m.sites} values: centre, top, left, bottom, right` : ""}`)));
         this.sets.replaceChildren(...(x.sets.length ? x.sets.map((y) => field("set", y.name, `planned ${planned(y)}`)) : [h("p", { class: "doc" }, "This step sets nothing.")]));
     }

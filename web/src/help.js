@@ -52,6 +52,11 @@ const SENTENCES = {
     Judged: "A first look takes hinges as pins, as the live verdict does; as drawn is the whole verdict of the drawing; as made looks at the corners of what the flow may make, too.",
     "Look at": "The device of the range that is told below; Use puts it into the text.", "Kind of study": "What many devices are judged for: a map, what matters, the best, the worst, or how many survive.",
     "Accuracy wanted": "Relative error of the largest deflection of a hinge that is good enough, for all of the page.",
+    begun: "Date and time, of this machine, at which the step was begun.", ended: "Date and time at which it was done; not before it was begun.", by: "Initials of who did it.",
+    "second signature": "Initials of who watched, where the step asks for two.", machine: "Which one, where the laboratory has several; its name or number.", bath: "Which bath or bottle: what is used up is counted on it.",
+    "measured with": "The instrument that the values below are read from.", note: "What else was seen; any words.", lot: "The name of the lot, as on its box.", file: "The log's file, beside the description.",
+    "wafers: how many, or their names with commas between": "4 for wafers 1 to 4, or names: W1, W2.", of: "The wafer that went through the step, or the whole lot.", log: "The as-run log of a lot, a file beside the description, or a new one.",
+    "Coupons, one a line": "Name, feature, drawn size, values, standard uncertainty and what it was measured at, each with its unit (um), as flexwright calibrate takes them.",
     step: "The step of the recipe that was run.", Step: "The step of the recipe that was run.", Wafer: "The wafer that went through it, or the whole lot.",
 };
 const PATTERNS = [
@@ -72,8 +77,7 @@ export function controlsOf(panel) {
     const seen = new Map();
     for (const e of panel.querySelectorAll("select, input, textarea")) {
         if (e.offsetParent === null || e.type === "file") continue;
-        const name = plain(e.getAttribute("aria-label") ?? e.labels?.[0]?.textContent ?? "");
-        if (e.closest(".log-form") && !sentenceOf(name)) continue; // what the step asks for stands beside it
+        const name = plain(e.dataset.name ?? e.getAttribute("aria-label") ?? e.labels?.[0]?.textContent ?? "");
         if (!seen.has(name)) seen.set(name, { name: /^\d+\/\d+/.test(name) ? "layers" : name.replace(/^.* \([^()]+\): (value|standard uncertainty|how it is known)$/, "$1"), sentence: sentenceOf(name, e.title) });
     }
     return [...new Map([...seen.values()].map((x) => [x.name, x])).values()];

@@ -205,7 +205,7 @@ export function makeMirrored(places, body, { axis, at }) {
     const mechanism_ = `${places.root.path}/mechanism`;
     const changes = [{ add: mechanism_, element: "body", attributes: again(e, { id: is(id), [axis]: beyond, ...phi, ...plate, [`com-${axis}`]: minus }) }];
     const path = `${mechanism_}/body[${id}]`;
-    const left = [];
+    const left = [], done = new Set([e, ...e.children]);
     for (const c of e.children) {
         const pitch = own(`pitch-${axis}`);
         if (c.name === "bar") changes.push({ add: path, element: "bar", attributes: again(c, { id: null, ...own(axis, `to-${axis}`), ...pitch }) });
@@ -242,6 +242,7 @@ export function makeMirrored(places, body, { axis, at }) {
     };
     const isOf = (element) => ["a", "b"].some((k) => places.text(element, k) === body);
     for (const joint of places.joints.filter(isOf)) {
+        done.add(joint);
         if (!JOINTED.includes(joint.name)) {
             left.push(joint.name);
             continue;
@@ -252,7 +253,7 @@ export function makeMirrored(places, body, { axis, at }) {
     }
     for (const scene_ of places.root.children.filter((x) => x.name === "scene")) {
         for (const load of scene_.children) {
-            const on = places.text(load, "on");
+            const on = places.text(load, "on"), before = changes.length;
             if (load.name === "force" && on === body) changes.push({ add: scene_.path, element: "force", attributes: again(load, { on: is(id), ...own(axis, `f${axis}`) }) });
             else if (load.name === "torque" && on === body) changes.push({ add: scene_.path, element: "torque", attributes: again(load, { on: is(id), value: minus }) });
             else if (load.name === "comb-drive" && on === body && !load.attributes.has("against")) changes.push({ add: scene_.path, element: "comb-drive", attributes: again(load, { id: is(free_.like(load.id ?? "comb")), on: is(id), direction: turned, ...own(axis) }) });
@@ -265,8 +266,14 @@ export function makeMirrored(places, body, { axis, at }) {
                     changes.push({ add: `${scene_.path}/tendon[${name}]`, element: c.name, attributes: { ...again(c, {}), on: of === body ? id : of, x, y } });
                 }
             } else if (load.name === "contact" && isOf(load) && !load.attributes.has("on")) changes.push({ add: scene_.path, element: "contact", attributes: between(load, load.id ? { id: is(free_.like(load.id)) } : {}) });
-            else if (on === body) left.push(load.name);
+            if (changes.length > before) [load, ...load.children].forEach((c) => done.add(c));
         }
+    }
+    // probes, requirements, drivers and whatever else is about the body or what holds it, told by name
+    const about = { body: [body], joint: places.joints.filter(isOf).map((j) => j.id).filter(Boolean) };
+    for (const o of walk(places.root)) {
+        const says = (keys, names_) => keys.some((k) => names_.includes(o.attributes.get(k)?.value));
+        if (!done.has(o) && (says(BODY, about.body) || says(JOINT, about.joint))) left.push(o.id ? `${o.name} ${o.id}` : o.name);
     }
     return { id, changes, left: [...new Set(left)] };
 }

@@ -36,6 +36,28 @@ static void only_the_first_hundred(void **state) {
     fw_arena_free(arena);
 }
 
+/* what is only told never hides an error: the last note goes first, then the last warning */
+static void errors_are_kept(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    for (int i = 0; i < 98; i++)
+        fw_diag_warning(&diags, 41, (fw_place){"f.xml", i + 1, 1}, "warned");
+    fw_diag_note(&diags, 42, (fw_place){"f.xml", 99, 1}, "noted");
+    for (int i = 0; i < 4; i++)
+        fw_diag_warning(&diags, 41, (fw_place){"f.xml", 100 + i, 1}, "warned");
+    assert_int_equal(diags.dropped, 3);
+    for (int i = 0; i < 3; i++)
+        fw_diag_error(&diags, 43, (fw_place){"f.xml", 200 + i, 1}, "wrong");
+    assert_int_equal(diags.count, 100);
+    assert_int_equal(diags.dropped, 6);
+    for (int i = 0; i < 97; i++) /* the note and the two last warnings are gone */
+        assert_int_equal(diags.item[i].place.line, i + 1);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(diags.item[97 + i].place.line, 200 + i);
+    fw_arena_free(arena);
+}
+
 /* a message, a file's name and a line of the file are shown as they are, but for orders to the terminal */
 static void orders_are_not_shown(void **state) {
     (void)state;
@@ -73,6 +95,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(printed_in_file_order_with_caret),
         cmocka_unit_test(only_the_first_hundred),
+        cmocka_unit_test(errors_are_kept),
         cmocka_unit_test(orders_are_not_shown),
         cmocka_unit_test(table_is_sorted_and_complete),
     };
