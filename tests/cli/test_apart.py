@@ -23,9 +23,11 @@ class Apart(unittest.TestCase):
             corner = '<corner of="thickness"'
             text = pack.read_text()
             self.assertEqual(text.count(corner), 1)
-            own = (f'<q id="made.apart" value="0" lo="-{apart_um}" hi="{apart_um}" unit="um" status="measured" src="guess" range="edge"/>\n'
+            own = (f'<q id="made.apart" value="0" lo="-{apart_um}" hi="{apart_um}" unit="um" status="measured" src="neighbours" range="edge"/>\n'
                    '  <corner of="local" name="edge from hinge to hinge" q="made.apart"/>\n  ')
-            pack.write_text(text.replace(corner, own + corner))
+            source = '<source id="neighbours" kind="measured" date="2026-11-01">widths of neighbouring hinges of one die</source>\n  '
+            text = text.replace(corner, own + corner).replace("<source ", source + "<source ", 1)
+            pack.write_text(text)
         done = run("check", GALLERY, "--flow", FLOWS[0], "--json", env={**os.environ, "FLEXWRIGHT_DATA": str(here)})
         self.assertIn(done.returncode, (0, 4), done.stderr)
         return json.loads(done.stdout)
