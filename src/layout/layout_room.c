@@ -184,7 +184,7 @@ static fw_status find_fingers(search *s, int *fingers) {
    four times as wide as any mask needs is looked at. */
 static fw_status find_width(search *s, double *width_m) {
     const double step_m = 0.05e-6, enough_m = 30e-6, grow = 1.25,
-                 stated = s->missing->comb->width_m;
+                 stated = fw_device_comb_width_m(s->missing->comb);
     double low = stated, high = 0.0;
     *width_m = 0.0;
     for (double w = grow * stated; w <= enough_m && high == 0.0; w *= grow) {
@@ -212,10 +212,11 @@ static fw_status find_length(search *s, double *length_m) {
     const bool comb = c->kind == FW_ELECTRODES_COMB;
     const double stated = isnan(c->length_m) ? 2.0 * c->overlap_m : c->length_m;
     const double least = comb ? c->overlap_m + fw_layout_rule.corner_m : 0.1 * stated;
+    const double step = fmax(0.1 * stated, STEP_M); /* an overlap of nothing states none */
     bool fits = false;
     *length_m = 0.0;
     if (comb && stated >= least) return FW_OK;
-    for (double l = comb ? least : 0.9 * stated; l >= least && !fits; l -= 0.1 * stated) {
+    for (double l = comb ? least : 0.9 * stated; l >= least && !fits; l -= step) {
         *length_m = STEP_M * (comb ? ceil(l / STEP_M - 1e-6) : round(l / STEP_M));
         if (*length_m > 0.0) FW_TRY(try_change(s, &(change){.length_m = *length_m}, &fits));
     }
@@ -284,9 +285,9 @@ static fw_status width_of_fingers(search *s, const char **out) {
     *out = NULL;
     if (c && c->kind == FW_ELECTRODES_COMB) FW_TRY(find_width(s, &width));
     if (width > 0.0)
-        FW_NEED(*out =
-                    fw_arena_printf(s->arena, "width=\"%s um\" instead of %s um",
-                                    fw_layout_um(um[0], width), fw_layout_um(um[1], c->width_m)));
+        FW_NEED(*out = fw_arena_printf(s->arena, "width=\"%s um\" instead of %s um",
+                                       fw_layout_um(um[0], width),
+                                       fw_layout_um(um[1], fw_device_comb_width_m(c))));
     return FW_OK;
 }
 

@@ -137,9 +137,24 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *h,
     return fw_flexure_elastica_new(arena, beam, pin, false, out);
 }
 
+static bool is_solved(const fw_flexure_elastica_result *r) {
+    return r->code == FW_ELASTICA_OK || r->code == FW_ELASTICA_ROUGH;
+}
+
+/* Of the equilibria that have one force, that of the place: what its place along the axis is off by
+   changes no root's moment by more than this share of the larger one. */
+static const double same_moment = 0.01;
+
+static bool is_there(const fw_flexure_elastica_result *r, double c, double s, double apart_m) {
+    double off = fabs(c * r->twist[1] + s * r->twist[2] - apart_m);
+    return hypot(r->wrench[1], r->wrench[2]) * off <=
+           same_moment * fmax(fabs(r->wrench[0]), fabs(r->start_Nm));
+}
+
 /* The beam turned by theta under a dead force at W on its second body, in the first one's frame.
    Where the strip is pressed, more than one equilibrium has this force: it is that near the closed
-   form's. Error 1e-8, and 1e-5 where one solution
+   form's. A path that turns far leaves the closed form, and is not found from there by its place: then it
+   is sought by its force, and has to be at that place. Error 1e-8, and 1e-5 where one solution
    follows another. Cost 6 us (2 us then), and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
    docs/theory/hinge-models.md. Test: test_strain_exact.c. */
 static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
@@ -150,7 +165,7 @@ static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *re
         {FW_END_THETA, FW_END_FX, FW_END_FY},
         {th, c * along[0] - s * along[1], s * along[0] + c * along[1]}};
     fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
-    double u[2], moment, pull;
+    double u[2] = {0, 0}, moment = 0, pull = 0;
     bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
     bool held = (!under || pull < pressed) && apart_m &&
                 fw_flexure_hinge_law_held(&h->law, rest, th, along[1], *apart_m, u, &moment, &pull);
@@ -158,17 +173,17 @@ static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *re
         fw_flexure_strip_strain_exact(&h->section, beam, out);
         return true;
     }
-    if (under || held) {
-        const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
-        const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task.value[1],
-                                  task.value[2]};
-        if (held)
-            fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
-        else
+    const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
+    const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task.value[1],
+                              task.value[2]};
+    if (held) fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
+    if (!is_solved(&r)) {
+        if (under)
             fw_flexure_elastica_near(beam, &task, twist, wrench, tolerance, &r);
-    } else
-        fw_flexure_elastica_solve(beam, &task, tolerance, false, &r);
-    if (r.code != FW_ELASTICA_OK && r.code != FW_ELASTICA_ROUGH) return false;
+        else
+            fw_flexure_elastica_solve(beam, &task, tolerance, false, &r);
+        if (!is_solved(&r) || (held && !is_there(&r, c, s, *apart_m))) return false;
+    }
     fw_flexure_strip_strain_exact(&h->section, beam, out);
     return true;
 }

@@ -148,8 +148,8 @@ static bool parallel(const double p[2], const double q[2]) {
     return fabs(p[0] * q[1] - p[1] * q[0]) < 1e-12;
 }
 
-/* what acts alike is one actuator, whatever scenes name it */
-static void keep(gathering *g, fw_workspace_actuator a) {
+/* what acts alike is one actuator, whatever scenes name it: which */
+static int keep(gathering *g, fw_workspace_actuator a) {
     for (int i = 0; i < g->n; i++) {
         fw_workspace_actuator *b = &g->to[i];
         if (a.kind != b->kind || a.body != b->body || a.against != b->against ||
@@ -157,9 +157,11 @@ static void keep(gathering *g, fw_workspace_actuator a) {
             continue;
         double along = a.direction[0] * b->direction[0] + a.direction[1] * b->direction[1];
         b->pulls = b->pulls && a.pulls && (a.kind == FW_ACTUATOR_TENDON || along > 0.0);
-        return;
+        b->platform = b->platform || a.platform;
+        return i;
     }
-    if (g->n < g->most) g->to[g->n++] = a;
+    g->to[g->n] = a; /* most_of leaves room */
+    return g->n++;
 }
 
 static fw_workspace_body_point point_of(const gathering *g, int body, double x, double y) {
@@ -402,35 +404,27 @@ static fw_status gather(gathering *g) {
     return FW_OK;
 }
 
-static fw_status platform_wrench(gathering *g, const fw_geometry_vec2 *centre) {
+/* which: its forces along x and y. A scene may have one of them that is not so to the last digit */
+static fw_status platform_wrench(gathering *g, const fw_geometry_vec2 *centre, int which[2]) {
     fw_workspace_body_point *p;
     FW_NEED(p = fw_arena_one(g->arena, fw_workspace_body_point));
     *p = (fw_workspace_body_point){2, centre->x, centre->y};
     for (int i = 0; i < 2; i++)
-        keep(g, (fw_workspace_actuator){.kind = FW_ACTUATOR_FORCE,
-                                        .body = 2,
-                                        .against = FW_GROUND,
-                                        .direction = {i == 0, i == 1},
-                                        .point = p,
-                                        .npoint = 1,
-                                        .platform = true,
-                                        .id = i ? "force on the platform along y"
-                                                : "force on the platform along x"});
+        which[i] = keep(g, (fw_workspace_actuator){.kind = FW_ACTUATOR_FORCE,
+                                                   .body = 2,
+                                                   .against = FW_GROUND,
+                                                   .direction = {i == 0, i == 1},
+                                                   .point = p,
+                                                   .npoint = 1,
+                                                   .platform = true,
+                                                   .id = i ? "force on the platform along y"
+                                                           : "force on the platform along x"});
     return one_torque(g, 2);
 }
 
 static int of_body(const fw_workspace_hold *hold, int body) {
     for (int i = 0; i < hold->nactuator; i++)
         if (hold->actuator[i].kind == FW_ACTUATOR_TORQUE && hold->actuator[i].body == body)
-            return i;
-    return FW_NONE;
-}
-
-/* of the platform's force along x or y */
-static int along(const fw_workspace_hold *hold, int axis) {
-    for (int i = 0; i < hold->nactuator; i++)
-        if (hold->actuator[i].kind == FW_ACTUATOR_FORCE && hold->actuator[i].platform &&
-            hold->actuator[i].direction[1 - axis] == 0.0)
             return i;
     return FW_NONE;
 }
@@ -454,14 +448,15 @@ static fw_status choose(fw_arena *arena, gathering *g, choosing *c, const fw_wor
         FW_TRY(own_grips(arena, c, g->n));
         if (c->ngrip > 0 && !one_way) return FW_OK;
     }
-    FW_TRY(platform_wrench(g, &hold->loop->centre));
+    int wrench[3];
+    FW_TRY(platform_wrench(g, &hold->loop->centre, wrench));
     for (int k = 0; k < 3 && none; k++)
         for (int j = 0; j < 3; j++)
             FW_TRY(one_torque(g, usual[k][j]));
     hold->nactuator = g->n;
     FW_TRY(respond_on_grid(arena, c, box));
     bool own = c->ngrip > 0;
-    const int wrench[3] = {along(hold, 0), along(hold, 1), of_body(hold, 2)};
+    wrench[2] = of_body(hold, 2);
     FW_TRY(add_grip(arena, c, wrench)); /* the first one: of equals it is named */
     double best;
     int by[3];

@@ -158,6 +158,19 @@ static void narrow_fingers_are_wider(void **unused) {
     fw_arena_free(d.arena);
 }
 
+/* of a width that the file does not state the default is what may be too little */
+static void unstated_width_is_the_default(void **unused) {
+    (void)unused;
+    fixture f;
+    paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.3e-3, 0.0); /* inside its own body */
+    comb.width_m = 0;
+    drawn d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    if (!take_place(m->room, &comb.bx_m, &comb.by_m)) fail_msg("%s", m->room);
+    nothing_missing(&f.device);
+    fw_arena_free(d.arena);
+}
+
 static void a_plate_names_a_place_that_has_room(void **unused) {
     (void)unused;
     fixture f;
@@ -406,6 +419,7 @@ int main(void) {
         cmocka_unit_test(too_many_fingers_are_fewer),
         cmocka_unit_test(short_fingers_are_longer),
         cmocka_unit_test(narrow_fingers_are_wider),
+        cmocka_unit_test(unstated_width_is_the_default),
         cmocka_unit_test(a_plate_names_a_place_that_has_room),
         cmocka_unit_test(no_insulation_has_no_room),
         cmocka_unit_test(an_eyelet_names_a_place_that_has_room),

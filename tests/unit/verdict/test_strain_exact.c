@@ -149,6 +149,63 @@ static void closed_form_to_second_order(void **state) {
         fail_msg("off by %g, at a third by %g", off[0] / size[0], off[1] / size[1]);
 }
 
+/* A hairpin that a force has turned by 58 degrees, up to where its law is far from the beam: strains are
+   those of the same beam that is followed from rest, and of another place than the beam's they are not. */
+static void hairpin_turned_far(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double w = 4.892e-6, r = 74.208e-6, leg = 130.793e-6, th = 1.0193;
+    const fw_geometry_strip_piece piece[3] = {
+        {leg, 0, {w, w, w}}, {M_PI * r, 1 / r, {w, w, w}}, {leg, 0, {w, w, w}}};
+    fw_mechanism_hinge h = {.first_is_a = true};
+    h.input = (fw_flexure_input){.kind = FW_FLEXURE_PATH,
+                                 .length_m = 2 * leg + M_PI * r,
+                                 .width_m = w,
+                                 .piece = piece,
+                                 .npiece = 3,
+                                 .fillet_m = 1.781e-6,
+                                 .depth_m = 31.95e-6,
+                                 .youngs_Pa = 74.6e9,
+                                 .poisson = 0.2436,
+                                 .strength_Pa = 1e9,
+                                 .safety_factor = 1};
+    fw_flexure_closed_form(&h.input, &h.closed_form);
+    assert_int_equal(fw_flexure_path_law(arena, &h.input, &h.closed_form, &h.law), FW_OK);
+    assert_int_equal(fw_flexure_path_strain_new(arena, &h.input, &h.closed_form, &h.section),
+                     FW_OK);
+    fw_flexure_elastica *beam;
+    assert_int_equal(fw_verdict_hinge_beam(arena, &h, &beam), FW_OK);
+    const double c = cos(0.5 * th), s = sin(0.5 * th);
+    int pressed = 0;
+    for (int i = 1; i <= 12; i++) {
+        const double along[2] = {i * 22.3e-6, i * 26.8e-6}; /* half turned, on the second body */
+        const fw_flexure_elastica_task task = {
+            {FW_END_THETA, FW_END_FX, FW_END_FY},
+            {th, c * along[0] - s * along[1], s * along[0] + c * along[1]}};
+        fw_flexure_elastica_result at;
+        fw_flexure_strip_strains truth;
+        fw_flexure_elastica_solve(beam, &task, 1e-10, false, &at);
+        assert_int_equal(at.code, FW_ELASTICA_OK);
+        fw_flexure_strip_strain_exact(&h.section, beam, &truth);
+        fw_verdict_hinge_load load = {
+            .angle_rad = th,
+            .fx_N = -along[0],
+            .fy_N = -along[1],
+            .apart_m = {c * at.twist[1] + s * at.twist[2], c * at.twist[2] - s * at.twist[1]}};
+        fw_verdict_hinge_strains now, closed, elsewhere;
+        fw_verdict_hinge_strain(&h, beam, &load, &now);
+        assert_relative(now.peak, truth.peak, 1e-6);
+        fw_verdict_hinge_strain(&h, NULL, &load, &closed);
+        if (fabs(closed.peak / truth.peak - 1) < 0.04) continue;
+        pressed++;
+        load.apart_m[0] += 5e-6;
+        fw_verdict_hinge_strain(&h, beam, &load, &elsewhere);
+        assert_true(fabs(elsewhere.peak / truth.peak - 1) > 0.02);
+    }
+    assert_true(pressed > 0);
+    fw_arena_free(arena);
+}
+
 /* strains of a step are those of its two equilibria, and the band takes the larger difference */
 static void band_of_a_step(void **state) {
     (void)state;
@@ -184,6 +241,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moments_of_the_six_bar),
         cmocka_unit_test(closed_form_to_second_order),
+        cmocka_unit_test(hairpin_turned_far),
         cmocka_unit_test(band_of_a_step),
     };
     return cmocka_run_group_tests_name("strain-exact", tests, NULL, NULL);

@@ -339,6 +339,31 @@ static void grips_of_the_scenes(void **state) {
     }
 }
 
+/* a force on the platform that is along x or y but for its last digits, or so near that both are one */
+static void force_nearly_along_an_axis(void **state) {
+    (void)state;
+    static const double force[][2] = {
+        {1e-4, 0}, {1e-4, 1e-18}, {-1e-4, 9e-17}, {-1e-18, 1e-4}, {1e-18, -1e-4}};
+    for (size_t k = 0; k < sizeof force / sizeof force[0]; k++) {
+        loaded_six_bar d = {0};
+        seed = 5;
+        make(&d, 1, true, TORQUE_AND_FORCE);
+        d.force[0].fx_N = force[k][0], d.force[0].fy_N = force[k][1];
+        fw_workspace_loop loop;
+        assert_true(fw_workspace_loop_set_up(&d.f.mechanism, &loop));
+        const fw_workspace_box3 box = {{-50e-6, -30e-6, -0.02}, {50e-6, 30e-6, 0.02}};
+        fw_arena *arena = fw_arena_new(0);
+        fw_workspace_hold hold;
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_int_equal(hold.nactuator, 4); /* a torque, the force, and what the wrench has besides */
+        assert_string_equal(hold.grip[0].name, "wrench on the platform");
+        for (int g = 0; g < hold.ngrip; g++)
+            for (int i = 0; i < 3; i++)
+                assert_in_range(hold.grip[g].actuator[i], 0, hold.nactuator - 1);
+        fw_arena_free(arena);
+    }
+}
+
 /* samples where nothing can be proved: not above the bound, and not far below it */
 static void samples_agree_with_the_proof(void **state) {
     (void)state;
@@ -371,6 +396,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_sharp),
         cmocka_unit_test(grips_of_the_scenes),
+        cmocka_unit_test(force_nearly_along_an_axis),
         cmocka_unit_test(samples_agree_with_the_proof),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
