@@ -134,6 +134,22 @@ fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *thing
                                const fw_clearance_path *path, const fw_clearance_wish *wish,
                                fw_clearance_least *least);
 
+/* What would come first to a distance if all went further the same way. The nearest pair need not:
+   fingers of a comb slide by each other at one gap and come to their roots. */
+typedef struct fw_clearance_way {
+    double share;        /* of the way there that the motion takes: the largest of all pairs */
+    const char *a, *b;   /* labels; NULL: no share is above that which was asked about */
+    fw_geometry_vec2 at; /* where they would come to it */
+    double t_s,
+        start_m; /* when the motion is farthest that way; distance of a and b at its start */
+} fw_clearance_way;
+
+/* Of what is in the path: of pairs that are looked at and move against each other, from where they are at the
+   start of the motion. way->share: in, what is known already; only larger ones are looked for */
+fw_status fw_clearance_way_of_path(fw_arena *arena, const fw_clearance_things *things,
+                                   const fw_clearance_path *path, const fw_clearance_wish *wish,
+                                   double within_m, fw_clearance_way *way);
+
 /* ---- clearance_gap.c: the distance of two outlines, for probes ---- */
 
 typedef struct fw_clearance_gap fw_clearance_gap;

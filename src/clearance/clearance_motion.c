@@ -145,6 +145,8 @@ typedef struct motion {
     fw_maths_interval *range; /* (nq) of every coordinate, over all of it */
     const fw_clearance_things *things;
     const fw_clearance_path *path;
+    double within_m; /* what is as near as this has met: 0, but for a way that is taken further */
+    double small_m;  /* a span in which no more than this is moved is where they meet */
 } motion;
 
 /* ---- poses of a pair over a span ---- */
@@ -339,6 +341,14 @@ static void meet_here(const motion *s, const fw_clearance_pair *pair, const fw_c
     least->share = fmin(1, fw_clearance_slack_m(pair, &off) / least->moved_m);
 }
 
+/* what the direction in which edges are apart proves, where they slide by each other nearer than they move */
+static bool slides_clear(const motion *s, const fw_clearance_pair *pair,
+                         const fw_clearance_region *region, double slack) {
+    fw_clearance_hull hull;
+    return s->within_m > 0 && hull_of(s, pair, region, &hull) &&
+           fw_clearance_pair_bound(pair, &hull, slack, s->within_m) >= s->within_m;
+}
+
 /* The earliest instant, and before that of `before_s`, at which a pair meets: spans in order of time, each cleared or
    halved; what is left within 1 nm of motion is where they meet. False: it does not, or was not found. */
 static bool first_meeting(const void *context, const fw_clearance_pair *pair,
@@ -357,11 +367,13 @@ static bool first_meeting(const void *context, const fw_clearance_pair *pair,
         double slack;
         bound(s, pair, &now, middle, &slack);
         least->looked++;
-        if (fw_clearance_pair_distance(pair, middle, slack + 1e-12, NULL) > slack) continue;
+        const double near = s->within_m + slack;
+        const double d = fw_clearance_pair_distance(pair, middle, near + 1e-12, NULL);
+        if (d > near || (d > s->within_m && slides_clear(s, pair, &now, slack))) continue;
         fw_clearance_region part[FW_CLEARANCE_PARTS];
         int parts = split(s, &now, part);
         bool one = now.span.first == now.span.last;
-        if (one && (slack < 1e-9 || parts == 0)) {
+        if (one && (slack < s->small_m || parts == 0)) {
             meet_here(s, pair, &now.span, least);
             return least->t_s < before_s;
         }
@@ -412,7 +424,7 @@ static fw_status ranges(fw_arena *arena, const fw_clearance_path *path, fw_maths
 fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *things,
                                const fw_clearance_path *path, const fw_clearance_wish *wish,
                                fw_clearance_least *least) {
-    motion context = {.things = things, .path = path};
+    motion context = {.things = things, .path = path, .small_m = 1e-9};
     const fw_clearance_domain domain = {.context = &context,
                                         .bound = bound,
                                         .hull = hull_of,
@@ -430,4 +442,127 @@ fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *thing
     fw_status status = fw_clearance_search(arena, things, &domain, &all, wish, least);
     fw_arena_rewind(arena, mark);
     return status;
+}
+
+/* ---- how much of the way to a distance is used ---- */
+
+/* Along the straight way from where the motion begins to where a pair is farthest against each other,
+   and on, until it would come within a distance: x times as far. The share is 1/x. What is nearest may
+   never lose anything; what loses most may be far from nearest.
+
+   Farthest: at the end of a piece of the path where one of the three coordinates of one against the
+   other is largest or least. Error: of x, a thousandth of the motion; that a longer motion goes the same way is an
+   assumption (docs/theory/clearance.md, section 5). Test: test_clearance.c */
+
+enum { FARTHEST = 6 };
+
+/* of one solid against the other where a piece ends, less what it was at the start */
+static void apart_at(const motion *s, const fw_clearance_pair *pair, int piece, double out[3]) {
+    for (int k = 0; k < 3; k++) {
+        out[k] = 0;
+        for (int side = 0; side < 2; side++) {
+            const int solid = side ? pair->b : pair->a, q = 3 * solid + k;
+            if (solid == s->things->nbody) continue;
+            const double to = path_coefficients(s->path, piece, q)[s->path->nodes[piece] - 1];
+            out[k] += (side ? 1 : -1) * (to - s->path->start[q]);
+        }
+    }
+}
+
+/* the pieces at whose ends they are farthest, each once; how many */
+static int farthest(const motion *s, const fw_clearance_pair *pair, int piece[FARTHEST]) {
+    double most[FARTHEST] = {0};
+    int at[FARTHEST], n = 0;
+    for (int k = 0; k < FARTHEST; k++)
+        at[k] = FW_NONE;
+    for (int i = 0; i < s->path->npiece; i++) {
+        double off[3];
+        apart_at(s, pair, i, off);
+        for (int k = 0; k < FARTHEST; k++) {
+            const double by = k % 2 ? -off[k / 2] : off[k / 2];
+            if (by > most[k]) most[k] = by, at[k] = i;
+        }
+    }
+    for (int k = 0; k < FARTHEST; k++) {
+        bool seen = at[k] == FW_NONE;
+        for (int i = 0; i < n; i++)
+            seen = seen || piece[i] == at[k];
+        if (!seen) piece[n++] = at[k];
+    }
+    return n;
+}
+
+/* from the start to the end of a piece, and so many times as far; t_s of the line: times */
+static void line_to(const fw_clearance_path *path, int piece, double times,
+                    fw_clearance_path *line) {
+    for (int q = 0; q < path->nq; q++) {
+        double *c = line->bern + (size_t)q * NODES;
+        const double to = path_coefficients(path, piece, q)[path->nodes[piece] - 1];
+        c[0] = path->start[q];
+        c[1] = c[0] + times * (to - c[0]);
+    }
+    line->nodes[0] = 2;
+    line->t_s[0] = 0;
+    line->t_s[1] = times;
+    line->npiece = 1;
+}
+
+/* kept: work, room for the first one's edges. Edges that no line brings near each other are left out first. */
+static void way_of_pair(const motion *s, fw_clearance_pair *pair, bool *kept, motion *on,
+                        fw_clearance_path *line, fw_clearance_way *way) {
+    const fw_clearance_region all = {.span = {.first = 0, .last = 0, .to = 1}};
+    const double still_m = 1e-10, most = 1e3, exactly = 1e-3;
+    fw_clearance_pose start[2];
+    int piece[FARTHEST];
+    const int n = farthest(s, pair, piece);
+    double by = 0;
+    for (int i = 0; i < n; i++) {
+        line_to(s->path, piece[i], 1 / way->share, line);
+        by = fmax(by, moved(on, pair, &all));
+    }
+    if (by * way->share < still_m) return;
+    start_of(s, pair, start);
+    const double near = on->within_m + by;
+    if (fw_clearance_pair_distance(pair, start, near, NULL) >= near) return;
+    fw_clearance_pair_narrow(pair, start, on->within_m, by, kept);
+    for (int i = 0; i < n && pair->count[0] > 0 && pair->count[1] > 0; i++) {
+        fw_clearance_least met = {.known = true, .moved_m = 1};
+        line_to(s->path, piece[i], 1 / way->share, line);
+        on->small_m = fmax(1e-9, exactly * way->share * moved(on, pair, &all));
+        if (!first_meeting(on, pair, &all, 1 / way->share, &met)) continue;
+        *way = (fw_clearance_way){.share = fmin(1 / met.t_s, most),
+                                  .a = met.at.a,
+                                  .b = met.at.b,
+                                  .at = met.at.at_a,
+                                  .t_s = s->path->t_s[2 * piece[i] + 1]};
+    }
+}
+
+fw_status fw_clearance_way_of_path(fw_arena *arena, const fw_clearance_things *things,
+                                   const fw_clearance_path *path, const fw_clearance_wish *wish,
+                                   double within_m, fw_clearance_way *way) {
+    const int n = things->nbody + 1;
+    fw_mark mark = fw_arena_mark(arena);
+    fw_clearance_path line;
+    FW_TRY(fw_clearance_path_of(arena, things->nbody, 1, &line));
+    const motion s = {.things = things, .path = path};
+    motion on = {.things = things, .path = &line, .within_m = within_m};
+    line.start = path->start;
+    for (int a = 0; a < n && path->npiece > 0; a++)
+        for (int b = a + 1; b < n; b++) {
+            const bool walls = wish->may_meet && wish->may_meet[a * n + b];
+            fw_clearance_pair pair;
+            if ((walls && b != things->nbody) || things->solid[a].count == 0 ||
+                things->solid[b].count == 0)
+                continue;
+            fw_mark here = fw_arena_mark(arena);
+            FW_TRY(fw_clearance_pair_new(arena, things, a, b, walls, &pair));
+            bool *kept = fw_arena_array(arena, bool, (size_t)pair.count[0] + 1);
+            FW_NEED(kept);
+            if (pair.count[0] > 0 && pair.count[1] > 0)
+                way_of_pair(&s, &pair, kept, &on, &line, way);
+            fw_arena_rewind(arena, here);
+        }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
 }

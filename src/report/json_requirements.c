@@ -111,6 +111,9 @@ static void one(fw_json *json, const fw_verdict_clearance *c) {
     place(json, "at_a_m", l->at.at_a);
     place(json, "at_b_m", l->at.at_b);
     fw_json_real(json, "t_s", c->box == FW_NONE ? l->t_s : (double)NAN);
+    fw_json_real(json, "way_share", c->way.a ? c->way.share : (double)NAN);
+    fw_json_text(json, "way_a", c->way.a);
+    fw_json_text(json, "way_b", c->way.b);
     fw_json_end(json);
 }
 

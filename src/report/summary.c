@@ -85,6 +85,30 @@ static fw_status required(fw_arena *arena, const fw_verdict *v, fw_report_summar
     return add(s, tightest.corner ? "required, as made" : "required, as drawn", text);
 }
 
+/* of the way until they meet: what takes less is in the tables alone */
+static const double fw_told_share = 0.5;
+
+/* "; link stage and stator of comb drive upper take 54 % of the way until they meet": of another pair than the nearest, or of another
+   scene; "": none takes a share that counts */
+static const char *way_text(fw_arena *arena, const fw_verdict *v,
+                            const fw_verdict_clearance *least) {
+    const fw_verdict_clearance *most = NULL;
+    char share[32];
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nclearance; k++) {
+            const fw_verdict_clearance *c = &v->variant[i].clearance[k];
+            if (c->way.a && (!most || c->way.share > most->way.share)) most = c;
+        }
+    if (!most || most->way.share <= fw_told_share) return "";
+    const fw_clearance_least *l = &most->least;
+    if (most == least && l->start_m - l->m > fw_told_share * l->start_m) return "";
+    return fw_arena_printf(arena, "; %s and %s take %s %% of the way until they %s%s%s",
+                           most->way.a, most->way.b,
+                           fw_number_text(share, sizeof share, 100 * most->way.share, 3),
+                           most->required_m > 0 ? "have just what is asked for" : "meet",
+                           most == least ? "" : " in ", most == least ? "" : most->scene);
+}
+
 /* the least of all scenes and required poses; what meets is among the reasons already */
 static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     const fw_verdict_clearance *least = NULL;
@@ -95,12 +119,14 @@ static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary
             if (!least || c->low_m < least->low_m) least = c;
         }
     if (!least || least->least.m <= 0) return FW_OK;
+    const char *way = way_text(arena, v, least);
+    FW_NEED(way);
     return add(s, "nearest",
                fw_arena_printf(
-                   arena, "%s and %s %s um (%s to %s) in %s", least->least.at.a, least->least.at.b,
-                   fw_number_text(drawn, sizeof drawn, 1e6 * least->least.m, 3),
+                   arena, "%s and %s %s um (%s to %s) in %s%s", least->least.at.a,
+                   least->least.at.b, fw_number_text(drawn, sizeof drawn, 1e6 * least->least.m, 3),
                    fw_number_text(low, sizeof low, 1e6 * least->low_m, 3),
-                   fw_number_text(high, sizeof high, 1e6 * least->high_m, 3), least->scene));
+                   fw_number_text(high, sizeof high, 1e6 * least->high_m, 3), least->scene, way));
 }
 
 /* ---- why it is not accepted, each reason once ---- */

@@ -52,6 +52,7 @@ typedef struct fw_verdict_clearance {
     int scene_index;          /* FW_NONE: a box */
     int box;                  /* of the device's required ones; FW_NONE: a scene */
     fw_clearance_least least; /* of the outlines as drawn */
+    fw_clearance_way way;     /* what has used most of its way to what is asked for; not of a box */
     double wall_m;            /* that walls come nearer by, as made: 0 as drawn */
     double m, low_m, high_m;  /* as made, with its band */
     double required_m;        /* 0: they do not meet */
@@ -381,6 +382,7 @@ typedef struct fw_verdict_options {
     bool at_a_glance; /* no refinement of what is undecided: for trials and previews */
     bool decision_only; /* clearances are bounded until they decide, not found: for trials */
     bool values;        /* of the drawn device they are found all the same: for trials */
+    bool ways;          /* of a corner: what would meet first if all went further is looked for */
     /* as drawn, only hinges and requirements are read: clearances are bounded where that is enough to accept them, and
        tethers are not watched: for studies */
     bool bounded;

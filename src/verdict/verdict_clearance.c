@@ -20,6 +20,7 @@ static const double fw_clearance_relative = 2e-3;
 /* What a long motion, which is looked at in parts before its error is known, is taken to be off by.
    One that is off by more is not decided. */
 static const double fw_off_at_most = 0.1;
+const double fw_verdict_clearance_counts = 0.3;
 enum { MOST = 1000, MOST_IN_BOX = 400, MOST_EVER = 100000 };
 
 static double required(const fw_device *device) {
@@ -109,6 +110,7 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
         watch[i].things = things;
         watch[i].arena = arena;
         watch[i].wish = wish_of(m->device, layout, may_meet);
+        watch[i].within_m = fw_layout_walls_m(layout) + required(m->device);
         FW_TRY(fw_clearance_path_new(arena, m->nbody, &watch[i].path));
         if (with_stators) FW_TRY(watch_stators(arena, layout, &watch[i]));
     }
@@ -170,6 +172,9 @@ static void empty(fw_verdict_clearance_watch *w) {
 static fw_status consume(fw_verdict_clearance_watch *w) {
     if (w->path.npiece > 0) {
         FW_TRY(fw_clearance_of_path(w->arena, w->things, &w->path, &w->wish, &w->least));
+        if (w->ways)
+            FW_TRY(fw_clearance_way_of_path(w->arena, w->things, &w->path, &w->wish, w->within_m,
+                                            &w->way));
         fw_clearance_wish wish = w->wish; /* bodies among each other were looked at */
         wish.may_meet = w->among;
         wish.enough_m = HUGE_VAL;
@@ -193,6 +198,7 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
         w->path.jump_m = 0;
         w->parts = false;
         w->least = fw_clearance_nothing();
+        w->way = (fw_clearance_way){.share = fw_verdict_clearance_counts};
         for (int i = 0; i < w->nstator; i++)
             w->stator[i].least = fw_clearance_nothing();
         w->status = FW_OK;
@@ -215,17 +221,6 @@ static double keep_of(const fw_verdict_clearance *c, double target_m) {
     if (l->m <= 0) return l->share;
     double lost = l->start_m - l->m;
     return lost > 0 ? fmin(1, fmax(0, (l->start_m - target_m) / lost)) : 0.5;
-}
-
-/* At 1 the pair has just as much as is asked for. A thousandth is as good as nothing, and has slopes. */
-double fw_verdict_clearance_used(const fw_verdict_clearance *c) {
-    const fw_clearance_least *l = &c->least;
-    const double target = c->required_m + c->wall_m, least = 1e-3, most = 1e3;
-    double used = target / l->m;
-    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
-    if (c->box == FW_NONE && l->start_m <= target) used = most;
-    if (l->m <= 0) used = 1 / l->share;
-    return fmin(fmax(used, least), most);
 }
 
 /* A pair that meets after a share of its motion is rejected where it would meet with a motion less by
@@ -366,6 +361,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
                                 .scene_index = i,
                                 .box = FW_NONE,
                                 .least = w->least,
+                                .way = w->way,
                                 .wall_m = fw_layout_walls_m(layout),
                                 .required_m = required(v->mechanism->device)};
     decide(c, off);

@@ -8,8 +8,6 @@
 
 /* a first-order estimate that was off by more than this proves nothing: every corner is run */
 static const double fw_trusted = 0.3;
-/* a clearance of which less is used does not come to its end at a corner */
-static const double fw_counts = 0.3;
 /* below this an input does not decide which corner is the worst one */
 static const double fw_of_no_account = 2e-3;
 
@@ -489,15 +487,6 @@ static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v)
     return FW_OK;
 }
 
-/* Only where a pair has lost much of its distance may a corner take the rest: loads move a device
-   further by half where its flexures are a sixth thinner. Below that a corner only proves that enough
-   is left. */
-static bool clearances_count(const fw_verdict_variant_verdict *v) {
-    for (int i = 0; i < v->nclearance; i++)
-        if (fw_verdict_clearance_used(&v->clearance[i]) > fw_counts) return true;
-    return false;
-}
-
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s) {
@@ -509,7 +498,8 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
                              .v = v,
                              .ncheck = v->nhinge * (device->nscene + 1) + device->nscene +
                                        v->nrequirement + device->nscene + device->nworkspace,
-                             .clearances = clearances_count(v)};
+                             .clearances = fw_verdict_search_clearances_count(v, false),
+                             .nearest = fw_verdict_search_clearances_count(v, true)};
     s->options.motion.samples = 65; /* stability is looked at between them */
     FW_NEED(s->fabricated = fw_arena_one(arena, fw_verdict_fabricated_verdict));
     FW_NEED(s->fabricated->corner =

@@ -18,6 +18,8 @@ typedef enum fw_verdict_refinement {
 fw_verdict_refinement fw_verdict_refinement_of(const fw_verdict_hinge_verdict *hinge, int nhinge);
 /* accuracy at which numbers decide all that are inconclusive now, were nothing else to change */
 extern const double fw_verdict_tightest; /* accuracy of the closest look */
+/* a clearance of which less is used does not come to its end at a corner (verdict_clearance.c) */
+extern const double fw_verdict_clearance_counts;
 double fw_verdict_enough(const fw_verdict_hinge_verdict *hinge, int nhinge, double accuracy);
 /* the same request, as close as that */
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
@@ -134,6 +136,8 @@ typedef struct fw_verdict_search {
     int ncheck;      /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene, then
                    requirements, then clearance of every scene and every required box */
     bool clearances; /* some pair uses so much of its distance that corners are asked how much */
+    bool
+        nearest; /* the nearest one of a scene or box does: its distance is found at corners, not bounded */
     double *ln; /* (points x ncheck) ln of the utilisation at each point that was run; NaN: none */
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
     const fw_verdict_known *known; /* (nknown) */
@@ -176,6 +180,8 @@ fw_status fw_verdict_ends_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 /* corner_search.c, shared */
+/* has any clearance (by_nearest: any by its nearest pair) used so much that a corner may take the rest? */
+bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest);
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
 void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x);
 unsigned fw_verdict_search_without_range(const fw_verdict_variant_verdict *v);
@@ -206,6 +212,9 @@ typedef struct fw_verdict_clearance_watch { /* of one run of a scene */
     fw_clearance_path path;
     fw_clearance_wish wish;
     fw_clearance_least least;        /* of what has left the path */
+    bool ways;                       /* is `way` asked for? */
+    double within_m;                 /* what is asked for, with what walls take */
+    fw_clearance_way way;            /* to that, of what has left the path */
     bool parts;                      /* something has, before the motion's end */
     fw_verdict_stator_watch *stator; /* (nstator) */
     int nstator;
@@ -228,9 +237,6 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
                                      const fw_layout *layout, bool brief, fw_diags *diags,
                                      fw_verdict_variant_verdict *v);
-/* Share of what there is to use up: of a motion, the distance that is lost over what may be lost; of a
-   required box, what is asked for over what is left. 0.001 to 1000; above 1 it is too little. */
-double fw_verdict_clearance_used(const fw_verdict_clearance *clearance);
 /* every required box of the flow that can be reached as a whole; after fw_workspace_required */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                      const fw_layout *layout, bool brief,

@@ -112,6 +112,18 @@ def corners(program):
             expect("jaws on hinges %s wide, as made: %s" % (width, d["verdict"]), d["verdict"] == verdict and met)
 
 
+def roots(program):
+    """what takes most of its way is not the nearest pair: a comb's fingers come to their roots at one side gap"""
+    path = os.path.join(DATA, "comb-root.xml")
+    for push, verdict in (("4 uN", "accept"), ("12 uN", "inconclusive")):
+        d = check(program, path, "push=" + push, corners="auto")
+        c = d["clearances"][0]
+        expect("the nearest pair keeps its side gap", c["drawn_m"] > 0.97 * c["start_m"] and c["start_m"] < 10.1e-6)
+        expect("pushed by %s, as made: %s" % (push, d["verdict"]), d["verdict"] == verdict)
+        expect("only the larger push uses much of the way to the root",
+               (c["way_share"] or 0) > 0.4 if push == "12 uN" else c["way_share"] is None)
+
+
 def reasons(d, code):
     return [r for r in d["reasons"] if r["code"] == code]
 
@@ -197,7 +209,7 @@ def folds(program):
 
 
 def main():
-    for case in (jaws, eyelets, as_made, corners, jumps, lane, beads, riders, folds):
+    for case in (jaws, eyelets, as_made, corners, roots, jumps, lane, beads, riders, folds):
         case(sys.argv[1])
     return 1 if FAULTS else 0
 

@@ -345,6 +345,56 @@ static void first_of_several_meetings(void **state) {
     assert_true(several > test_cases(60, 10));
 }
 
+/* A tooth that slides along a wall at a gap of 2 um and goes to its root: nearest is the wall, which loses nothing;
+   the root comes nearer by `by` of the 40 um that there are. */
+static void what_takes_most_of_its_way(void **state) {
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        const double by = 10e-6 + 5e-6 * i, within = i % 2 ? 1e-6 : 0;
+        scene s = start();
+        box(&s, 0, 0, 0, 100e-6, 10e-6);
+        box(&s, 1, 2e-3, 2e-3, 2.1e-3, 2.1e-3);
+        box(&s, 2, 140e-6, -20e-6, 150e-6, 50e-6);
+        fw_clearance_solid *ground = &s.things.solid[2];
+        fw_clearance_edge *more = fw_arena_array(s.arena, fw_clearance_edge, 5);
+        for (int k = 0; k < 4; k++)
+            more[k] = ground->edge[k];
+        more[4] = more[0];
+        more[4].label = "wall";
+        more[4].segment.a = (fw_geometry_vec2){-100e-6, 12e-6};
+        more[4].segment.b = (fw_geometry_vec2){139e-6, 12e-6};
+        ground->edge = more;
+        ground->count = 5;
+        ground->box.x0 = -100e-6;
+        double q[FW_PIECE_NODES * 3 * BODIES];
+        for (int n = 0; n < FW_PIECE_NODES; n++)
+            for (int b = 0; b < BODIES; b++) {
+                double *to = q + (n * BODIES + b) * 3;
+                to[0] = s.things.solid[b].centre.x;
+                to[1] = s.things.solid[b].centre.y;
+                to[2] = 0;
+                if (b == 0) to[0] += by * n / (FW_PIECE_NODES - 1);
+            }
+        const fw_dynamics_piece piece = {.from_s = 0, .to_s = 7, .nodes = FW_PIECE_NODES, .q = q};
+        fw_clearance_path_add(&s.path, &piece);
+        fw_clearance_least least = fw_clearance_nothing();
+        assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &closely, &least),
+                         FW_OK);
+        assert_near(least.m, 2e-6, 1e-9);
+        fw_clearance_way way = {.share = 0.2};
+        assert_int_equal(
+            fw_clearance_way_of_path(s.arena, &s.things, &s.path, &closely, within, &way), FW_OK);
+        assert_string_equal(way.b, "ground");
+        assert_near(way.share, by / (40e-6 - within), 3e-3);
+        assert_near(way.t_s, 7, 1e-12);
+        way = (fw_clearance_way){.share = by / (40e-6 - within) + 0.01};
+        assert_int_equal(
+            fw_clearance_way_of_path(s.arena, &s.things, &s.path, &closely, within, &way), FW_OK);
+        assert_null(way.a); /* no share is larger than that which was asked about */
+        fw_arena_free(s.arena);
+    }
+}
+
 /* more pieces than fit are looked at in parts, with the same end */
 static void enough_is_enough(void **state) {
     (void)state;
@@ -371,6 +421,7 @@ int main(void) {
         cmocka_unit_test(least_is_that_of_dense_samples),
         cmocka_unit_test(what_meets_between_samples_is_found),
         cmocka_unit_test(first_of_several_meetings),
+        cmocka_unit_test(what_takes_most_of_its_way),
         cmocka_unit_test(enough_is_enough),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
