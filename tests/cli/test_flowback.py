@@ -119,6 +119,40 @@ class Flowback(unittest.TestCase):
                                "-o", self.here / "out"), 3).stderr
         self.assertRegex(said, r"thick\.xml:\d+:\d+: error: step S07 would spin at 2\.28 rpm .*FW-D563")
 
+    def test_a_step_that_the_device_does_not_need_is_nowhere(self):
+        """the tethers of a device that has none are broken in no file; the sheet shows the step struck out, with its reason"""
+        without, glass, files, bill = GALLERY_STAGE.read_text(), "silicon-on-glass", {}, {}
+        for name, text in (("none", without), ("some", without.replace(' tethers="no"', ""))):
+            device = self.here / f"{name}.xml"
+            device.write_text(text)
+            self.expect(run("recipe", device, "--corners", "none", "--measurements", "none", "--advice", "none", "-q",
+                            "-o", self.here / name))
+            files[name] = {p.name: p.read_text() for p in (self.here / name / "recipes").iterdir()}
+            recipe = json.loads(files[name].pop(glass + ".json"))
+            self.assertEqual([s["id"] for s in recipe["steps"]].count("G50"), name == "some")
+            self.assertEqual(recipe.get("left_out"), None if name == "some" else [
+                {"id": "G50", "title": "Break the tethers", "before": "G51", "why": "the device has no tethers"}])
+            bill[name] = {m["id"]: m for m in recipe["bill"]["machines"]}
+        self.assertEqual(files["none"].keys(), files["some"].keys())
+        sheet = files["none"].pop(glass + ".html")
+        struck = "<s>G50&ensp;Break the tethers</s>: left out, the device has no tethers."
+        self.assertEqual(sheet.count(struck), 2)
+        self.assertNotIn("G50", sheet.replace(struck, ""))
+        self.assertNotIn("<s>G50", files["some"].pop(glass + ".html"))
+        for name, text in files["none"].items():
+            self.assertNotIn("G50", text, name)
+        for name in (".csv", ".ics", ".schedule.csv", ".schedule.json", ".schedule.svg", ".sections.json"):
+            self.assertIn("G50", files["some"][glass + name], name)
+        self.assertLess(bill["none"]["prober"]["booked_s"], bill["some"]["prober"]["booked_s"])
+        entry = "G50; start=2026-11-02T08:00; end=2026-11-02T08:15; by=AB; bridges that still stand=0"
+        for name, status in (("none", 3), ("some", 0)):
+            said = self.expect(run("log", self.here / f"{name}.xml", "--flow", glass, "--run", self.here / f"{name}.log", "--lot", "L1",
+                                   "--wafers", "1", "--entry", entry, "--wafer", "1", "-q"), status).stderr
+            self.assertEqual("step 'G50' (Break the tethers) is left out of this plan, because the device has no tethers" in said,
+                             name == "none", said)
+        late = run("recipe", self.here / "none.xml", "--planned", "G50=20 min", "-o", self.here / "late")
+        self.assertIn("no flow of this device has such a step", self.expect(late, 2).stderr)
+
     def test_a_load_is_an_entry_of_each_of_its_wafers(self):
         """as the schedule of the sheet writes it; the log is that of single entries, byte for byte"""
         clean = "S02; start=2026-11-02T08:48; end=2026-11-02T09:23; by=AB; particles in bright light=0"
