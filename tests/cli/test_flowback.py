@@ -320,6 +320,36 @@ undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
         lab.write_text(text.replace('values="1 -', 'values="1 -1'))
         self.assertRegex(self.expect(run("check", self.stage, "--lab", lab), 3).stderr, r"lab\.xml:\d+:\d+: error: ")
 
+    def test_lines_that_are_gone_are_found(self):
+        """the last ones, one between, all, half of one, and the head itself; by log and calibrate, also with -q"""
+        for wafer in (1, 2):
+            first = ("--lot", "L7", "--wafers", "2") if wafer == 1 else ()
+            for entry in (f"S01; start=2026-11-02T08:0{wafer}; end=2026-11-02T08:1{wafer}; by=AB; thickness=50.1 um; "
+                          "cracks or chipped edge=0", f"S02; start=2026-11-02T09:0{wafer}; end=2026-11-02T09:3{wafer}; by=AB; "
+                          "particles in bright light=0"):
+                self.expect(self.command("--entry", entry, "--wafer", wafer, *first, "-q"))
+                first = ()
+        whole, head = self.log.read_bytes(), pathlib.Path(f"{self.log}.head")
+        kept, lines = head.read_bytes(), whole.splitlines(keepends=True)
+        self.assertEqual(len(lines), 5)
+        readers = (lambda: self.command("-q"), lambda: run("calibrate", self.log, "--flow", SILICON, "-q"),
+                   lambda: self.command("--entry", "S02; start=2026-11-03T09:00; end=2026-11-03T09:30; by=AB; "
+                                        "particles in bright light=0", "--wafer", "1", "-q"))
+        cases = {"the last": (lines[:-1], kept, "3 entries, but its head says 4"), "two": (lines[:-2], kept, "2 entries, but its head says 4"),
+                 "all": (lines[:1], kept, "0 entries, but its head says 4"), "half": ([whole[:-40]], kept, "its last line is not complete"),
+                 "the middle": (lines[:2] + lines[3:], kept, "this line, or one before it, was changed, removed or moved"),
+                 "the head's text": (lines, b"", "the head of the log is damaged")}
+        for name, (text, beside, says) in cases.items():
+            for k, reader in enumerate(readers):
+                self.log.write_bytes(b"".join(text))
+                head.write_bytes(beside)
+                self.assertIn(says, self.expect(reader(), 3).stderr, (name, k))
+                self.assertEqual(self.log.read_bytes(), b"".join(text), (name, k))
+        for reader in readers:  # without its head a log is read, and whoever reads it is told
+            self.log.write_bytes(whole)
+            head.unlink(missing_ok=True)
+            self.assertIn("whether lines were removed at the end of the log cannot be told [FW-D283]", reader().stderr)
+
     def test_an_old_log(self):
         """one of before there were wafers is read, and goes on"""
         self.expect(self.command("--entry", "S01; start=2026-11-01T08:00; end=2026-11-01T08:08; by=AB; thickness=50.1"))
