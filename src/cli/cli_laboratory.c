@@ -20,7 +20,8 @@ static fw_status head_name(fw_arena *arena, const char *file, const char **name)
     return FW_OK;
 }
 
-/* the log against its head; without one only its beginning can be told to be whole */
+/* the log against its head; without one only its beginning can be told to be whole, which is said also to those who want no
+   warnings (-q): the next entry writes a new head, and then nothing shows any more that one was gone */
 static fw_status check_head(fw_arena *arena, fw_diags *diags, const char *file,
                             const fw_recipe_asrun *run) {
     const char *name;
@@ -29,7 +30,7 @@ static fw_status check_head(fw_arena *arena, fw_diags *diags, const char *file,
     FW_TRY(head_name(arena, file, &name));
     if (access(name, F_OK) != 0) {
         if (run->nentry > 0)
-            fw_diag_warning(
+            fw_diag_unreliable(
                 diags, 283, (fw_place){file, 1, 1},
                 "there is no %s: whether lines were removed at the end of the log cannot "
                 "be told",

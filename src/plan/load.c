@@ -416,7 +416,8 @@ static fw_status read_flow(fw_plan *plan, const fw_plan_flow *pf, fw_process_flo
     FW_TRY(choices_of_packs(plan, pf->use->ref, &choice, &n));
     FW_TRY(fw_process_flow_read_chosen(plan->arena, plan->base_file, plan->base_xml,
                                        plan->base_length, pf->file, pf->xml, pf->xml_length, choice,
-                                       n, &plan->diags, flow));
+                                       n, plan->device->die.tethers ? NULL : "tethers",
+                                       &plan->diags, flow));
     return apply_packs(plan, *flow);
 }
 

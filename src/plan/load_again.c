@@ -59,7 +59,8 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
 
 /* of the same packs and materials, in the same order? */
 static bool names_the_same(const fw_device *a, const fw_device *b) {
-    bool same = a->nflow == b->nflow && fw_text_same(a->material_ref, b->material_ref);
+    bool same = a->nflow == b->nflow && a->die.tethers == b->die.tethers &&
+                fw_text_same(a->material_ref, b->material_ref);
     for (int i = 0; same && i < a->nflow; i++)
         same = fw_text_same(a->flow[i].ref, b->flow[i].ref) &&
                fw_text_same(a->flow[i].material, b->flow[i].material);

@@ -353,3 +353,26 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     FW_TRY(fw_process_flow_waits(arena, flow)); /* their longest times are values, too */
     return diags->errors > before ? FW_INPUT : FW_OK;
 }
+
+/* ---- what a laboratory pack chooses ---- */
+
+fw_status fw_process_lab_choices(fw_arena *arena, const char *file, const char *xml, size_t n,
+                                 const char *flow, fw_process_choice **choice, int *nchoice) {
+    fw_diags quiet = fw_diags_new(arena); /* what is wrong is said when its values are applied */
+    fw_xml_element *root = NULL;
+    fw_status status = fw_xml_read(arena, file, xml, n, &quiet, &root);
+    if (status == FW_NOMEM) return status;
+    const fw_xml_attribute *of = root ? fw_xml_attribute_of(root, "flow") : NULL;
+    if (status != FW_OK || !of || strcmp(of->value, flow) != 0) return FW_OK;
+    for (const fw_xml_element *e = root->first_child; e; e = e->next) {
+        const fw_xml_attribute *a =
+            strcmp(e->name, "choose") == 0 ? fw_xml_attribute_of(e, "alternative") : NULL;
+        if (!a) continue;
+        fw_process_choice *grown =
+            fw_arena_grow(arena, *choice, (size_t)*nchoice, (size_t)*nchoice + 1, sizeof *grown);
+        FW_NEED(grown);
+        grown[(*nchoice)++] = (fw_process_choice){a->value, a->place};
+        *choice = grown;
+    }
+    return FW_OK;
+}

@@ -35,6 +35,7 @@ typedef struct fw_process_pack {
     int nsource;
     fw_process_id *id; /* (nid) sorted once everything is collected */
     int nid;
+    const char *lacks; /* what the device has none of; NULL: nothing */
 } fw_process_pack;
 
 /* process_table.c */

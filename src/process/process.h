@@ -327,6 +327,13 @@ typedef struct fw_process_choice { /* of a laboratory */
     fw_place place;
 } fw_process_choice;
 
+/* a step that this device does not need (only-with), so that the flow is run without it */
+typedef struct fw_process_left_out {
+    const char *id, *title;
+    const char *before; /* the step that stood behind it; "": none did */
+    const char *why;    /* "the device has no tethers" */
+} fw_process_left_out;
+
 /* a plate that the flow prints besides the device's: <plate>. Its parts of the wafer are named where changes say
    where; `within`: words of which all hold wherever the inside is */
 typedef struct fw_process_plate {
@@ -366,8 +373,9 @@ typedef struct fw_process_flow {
     fw_process_consumable *consumable;   /* (nconsumable) */
     fw_process_bath *bath;               /* (nbath) */
     fw_process_alternative *alternative; /* (nalternative) */
+    fw_process_left_out *left_out;       /* (nleft_out) in the order of the pack */
     fw_process_tool_time *tool_time;     /* (ntool_time) */
-    int nalternative, ntool_time;
+    int nalternative, nleft_out, ntool_time;
     int nprocess_material, nopen_point, ncorner, nfinished, nconsumable, nbath;
     int count[FW_ASSUMED + 1];     /* quantities that the steps use, by status */
     int unknown;                   /* ... and that are unknown */
@@ -455,11 +463,14 @@ typedef struct fw_process_drive_facts { /* a comb drive of a scene that holds in
 fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
                                size_t base_n, const char *file, const char *xml, size_t n,
                                fw_diags *diags, fw_process_flow **flow);
-/* the same with other ways of doing some steps (FW-D375) */
+/* the same with other ways of doing some steps (FW-D375), and without what only a device needs that has what this one
+   `lacks` ("tethers"; NULL: it lacks nothing). FW-D590: nothing is left */
 fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, const char *base_xml,
                                       size_t base_n, const char *file, const char *xml, size_t n,
-                                      const fw_process_choice *choice, int nchoice, fw_diags *diags,
-                                      fw_process_flow **flow);
+                                      const fw_process_choice *choice, int nchoice,
+                                      const char *lacks, fw_diags *diags, fw_process_flow **flow);
+/* the step with this id that the device does not need; NULL: there is none */
+const fw_process_left_out *fw_process_flow_left_out(const fw_process_flow *flow, const char *id);
 /* computes every step's time, the bias and the judgement from the mask's own numbers. May be called
    again with other facts. facts NULL or without any area: no mask yet, what needs it is NOT
    COMPUTABLE. */

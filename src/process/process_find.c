@@ -22,6 +22,12 @@ const fw_process_material *fw_process_flow_material(const fw_process_flow *flow,
     return NULL;
 }
 
+const fw_process_left_out *fw_process_flow_left_out(const fw_process_flow *flow, const char *id) {
+    for (int i = 0; i < flow->nleft_out; i++)
+        if (strcmp(flow->left_out[i].id, id) == 0) return &flow->left_out[i];
+    return NULL;
+}
+
 const char *fw_process_flow_material_name(const fw_process_flow *flow, const char *id) {
     const fw_process_material *m = fw_process_flow_material(flow, id);
     return m ? m->name : id;
@@ -219,6 +225,8 @@ static fw_status keep_step(fw_process_pack *pack, fw_process_step *s) {
 fw_status fw_process_pack_texts(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++)
         FW_TRY(keep_step(pack, &pack->flow->step[i]));
+    for (int i = 0; i < pack->flow->nleft_out; i++)
+        FW_TRY(keep(pack, &pack->flow->left_out[i].title, pack->flow->place));
     for (int i = 0; i < pack->flow->nequipment; i++)
         FW_TRY(keep(pack, &pack->flow->equipment[i].text, pack->flow->equipment[i].place));
     for (int i = 0; i < pack->flow->nopen_point; i++)

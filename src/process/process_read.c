@@ -118,26 +118,47 @@ static fw_status choose_alternatives(fw_process_pack *pack, const fw_process_cho
     return FW_OK;
 }
 
-/* ---- what a laboratory pack chooses ---- */
+/* ---- what this device does not need ----
+   A step with only-with="tethers" is there for devices that have some. For one that has none it is taken out before
+   anything is read from the steps, as an alternative is put in: sheet, tables, schedule, log and cost know nothing of it,
+   and the sheet says so where it stood. Test: test_alternative.c. */
 
-fw_status fw_process_lab_choices(fw_arena *arena, const char *file, const char *xml, size_t n,
-                                 const char *flow, fw_process_choice **choice, int *nchoice) {
-    fw_diags quiet = fw_diags_new(arena); /* what is wrong is said when its values are applied */
-    fw_xml_element *root = NULL;
-    fw_status status = fw_xml_read(arena, file, xml, n, &quiet, &root);
-    if (status == FW_NOMEM) return status;
-    const fw_xml_attribute *of = root ? fw_xml_attribute_of(root, "flow") : NULL;
-    if (status != FW_OK || !of || strcmp(of->value, flow) != 0) return FW_OK;
-    for (const fw_xml_element *e = root->first_child; e; e = e->next) {
-        const fw_xml_attribute *a =
-            strcmp(e->name, "choose") == 0 ? fw_xml_attribute_of(e, "alternative") : NULL;
-        if (!a) continue;
-        fw_process_choice *grown =
-            fw_arena_grow(arena, *choice, (size_t)*nchoice, (size_t)*nchoice + 1, sizeof *grown);
-        FW_NEED(grown);
-        grown[(*nchoice)++] = (fw_process_choice){a->value, a->place};
-        *choice = grown;
+static bool is_needed(const fw_process_pack *pack, const fw_xml_record *e) {
+    return !pack->lacks || strcmp(fw_process_pack_text(e, "only-with"), pack->lacks) != 0;
+}
+
+static const char *next_needed(const fw_process_pack *pack, const fw_xml_record *e) {
+    while ((e = e->next))
+        if (fw_xml_is(e, "step") && is_needed(pack, e)) return fw_process_pack_text(e, "id");
+    return "";
+}
+
+static fw_status leave_out(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    fw_xml_record *root = (fw_xml_record *)pack->root, *before = NULL, *e;
+    if (!pack->lacks) return FW_OK;
+    FW_NEED(f->left_out = fw_arena_array(pack->arena, fw_process_left_out,
+                                         (size_t)fw_xml_children(root, "step")));
+    for (e = (fw_xml_record *)root->first_child; e; e = (fw_xml_record *)e->next) {
+        if (!fw_xml_is(e, "step") || is_needed(pack, e)) {
+            before = e;
+            continue;
+        }
+        fw_process_left_out *l = &f->left_out[f->nleft_out++];
+        *l = (fw_process_left_out){.id = fw_process_pack_text(e, "id"),
+                                   .title = fw_process_pack_text(e, "title"),
+                                   .before = next_needed(pack, e)};
+        FW_NEED(l->why = fw_arena_printf(pack->arena, "the device has no %s", pack->lacks));
+        if (before)
+            before->next = e->next;
+        else
+            root->first_child = e->next;
     }
+    if (f->nleft_out > 0 && fw_xml_children(root, "step") == 0)
+        fw_diag_error(pack->diags, 590, root->element->place,
+                      "every step of flow '%s' is for devices with %s only, and this one has none; "
+                      "take only-with off those that every device needs",
+                      f->id, pack->lacks);
     return FW_OK;
 }
 
@@ -463,12 +484,17 @@ static fw_status tell(fw_process_pack *pack, const char *alternative, const fw_d
 static fw_status lint_alternative(fw_process_pack *pack, const fw_xml_record *e,
                                   fw_process_alternative *a) {
     fw_diags diags = fw_diags_new(pack->arena);
-    fw_process_pack other = {
-        .arena = pack->arena, .diags = &diags, .base = pack->base, .root = pack->root};
+    fw_process_pack other = {.arena = pack->arena,
+                             .diags = &diags,
+                             .base = pack->base,
+                             .root = pack->root,
+                             .lacks = pack->lacks};
     fw_xml_record *before, *old = step_of(pack->root, a->step, &before),
                            *inner = (fw_xml_record *)inner_step(e);
+    if (!old) return FW_OK; /* this device does not need the step, whichever way it is done */
     const fw_xml_record *next = inner->next;
     FW_NEED(other.flow = fw_arena_one(pack->arena, fw_process_flow));
+    other.flow->left_out = pack->flow->left_out, other.flow->nleft_out = pack->flow->nleft_out;
     put(pack->root, inner, old, before);
     fw_status status = read_flow(&other);
     if (before)
@@ -522,16 +548,16 @@ fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const cha
                                size_t base_n, const char *file, const char *xml, size_t n,
                                fw_diags *diags, fw_process_flow **flow) {
     return fw_process_flow_read_chosen(arena, base_file, base_xml, base_n, file, xml, n, NULL, 0,
-                                       diags, flow);
+                                       NULL, diags, flow);
 }
 
 fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, const char *base_xml,
                                       size_t base_n, const char *file, const char *xml, size_t n,
-                                      const fw_process_choice *choice, int nchoice, fw_diags *diags,
-                                      fw_process_flow **flow) {
+                                      const fw_process_choice *choice, int nchoice,
+                                      const char *lacks, fw_diags *diags, fw_process_flow **flow) {
     fw_xml_reader base = {.arena = arena, .diags = diags, .table = &fw_process_pack_table};
     fw_xml_reader own = base;
-    fw_process_pack pack = {.arena = arena, .diags = diags};
+    fw_process_pack pack = {.arena = arena, .diags = diags, .lacks = lacks};
     size_t errors = diags->errors;
     *flow = NULL;
     FW_TRY(read_files(&base, base_file, base_xml, base_n, &own, file, xml, n));
@@ -543,6 +569,7 @@ fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, co
     FW_NEED(pack.flow->sha256 = fw_arena_strdup(arena, hash));
     pack.flow->file = file;
     FW_TRY(choose_alternatives(&pack, choice, nchoice));
+    FW_TRY(leave_out(&pack));
     FW_TRY(read_flow(&pack));
     if (diags->errors == errors) FW_TRY(lint_alternatives(&pack));
     if (diags->failed) return FW_NOMEM;

@@ -37,6 +37,7 @@ static const char *const shapes[] = {"slot", "cylinder", "linear", NULL};
 static const char *const finishes[] = {"rinse", "dry", "cool", "vent", NULL};
 static const char *const dryings[] = {"spin",   "nitrogen",       "oven",        "air",
                                       "vapour", "critical-point", "sublimation", NULL};
+static const char *const held_by[] = {"tethers", NULL};
 static const char *const leavings[] = {"wafers", "dies", NULL};
 static const char *const there[] = {"present", "absent", NULL};
 static const char *const states[] = {
@@ -215,6 +216,10 @@ static const fw_xml_attribute_row step_rows[] = {
      .sentence =
          "Of a step that puts the device's own voltages on its drives: the highest one that "
          "what it is done with bears."},
+    {"only-with", WORD(held_by),
+     .sentence =
+         "Of a step that only such a device needs: for one whose <die> has tethers=\"no\" it "
+         "is left out of everything, and the sheet says so."},
 };
 static const fw_xml_attribute_row change_rows[] = {
     {"kind", WORD(changes), REQUIRED, .sentence = "What the step does to the wafer."},
@@ -280,6 +285,8 @@ static const fw_xml_attribute_row accept_rows[] = {
     {"every", COUNT, REQUIRED, .sentence = "On every so many wafers."},
     {"coupon", TEXT, .datatype = "NCName",
      .sentence = "Pattern of the test die that is looked at: an id of masks/FLOW.xml."},
+    {"only-with", WORD(held_by),
+     .sentence = "Measured on such a device only: not where its <die> has tethers=\"no\"."},
 };
 static const fw_xml_attribute_row hazard_ref_rows[] = {
     {"ref", TO(HAZARD), REQUIRED, .sentence = "A hazard of the step."},

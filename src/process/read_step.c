@@ -273,7 +273,8 @@ static void read_exposed(fw_process_pack *pack, const fw_xml_record *e, fw_proce
                       "the selectivity of <exposed> is a ratio of two rates and has no unit");
 }
 
-static void read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_lag *lag) {
+/* false: it counts from a step that this device does not need */
+static bool read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_lag *lag) {
     const fw_xml_attribute *unit = fw_process_pack_get(e, "unit"),
                            *from = fw_process_pack_get(e, "from");
     fw_quantity_unit parsed = {.factor = 1.0};
@@ -281,6 +282,7 @@ static void read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_l
         (!fw_quantity_unit_parse(unit->value, strlen(unit->value), &parsed, NULL, NULL) ||
          !fw_quantity_dimension_equal(parsed.dimension, (fw_quantity_dimension)FW_DIM_TIME)))
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit of time", unit->value);
+    if (from && fw_process_flow_left_out(pack->flow, from->value)) return false;
     lag->from = from ? from->value : "";
     lag->place = e->element->place;
     lag->min_s = fw_process_pack_number(e, "min", (double)NAN) * parsed.factor;
@@ -289,6 +291,7 @@ static void read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_l
     if (lag->min_s > lag->max_s)
         fw_diag_error(pack->diags, 171, e->element->place,
                       "<lag>: min is longer than max; exchange them, or make max longer");
+    return true;
 }
 
 /* the words of `finishes` in process_table.c */
@@ -366,6 +369,7 @@ static void read_required(fw_process_pack *pack, const fw_xml_record *e, fw_proc
     if ((step != NULL) + (material != NULL) + (state != NULL) != 1)
         fw_diag_error(pack->diags, 345, e->element->place,
                       "<requires> names one thing: a step, a material or a state");
+    if (step && fw_process_flow_left_out(pack->flow, step->value)) return;
     if (step) fw_process_pack_find(pack, step, FW_ID_STEP);
     if (material) fw_process_pack_find(pack, material, FW_ID_MATERIAL);
     s->required[s->nrequired++] =
@@ -396,7 +400,10 @@ static void read_set(fw_process_pack *pack, const fw_xml_record *e, fw_process_s
                                  .place = e->element->place};
 }
 
-static void read_accept(const fw_xml_record *e, fw_process_accept *a) {
+/* false: it is not measured on this device */
+static bool read_accept(const fw_process_pack *pack, const fw_xml_record *e, fw_process_accept *a) {
+    const fw_xml_attribute *with = fw_process_pack_get(e, "only-with");
+    if (with && pack->lacks && strcmp(with->value, pack->lacks) == 0) return false;
     *a = (fw_process_accept){.measure = fw_process_pack_text(e, "measure"),
                              .low = fw_process_pack_text(e, "lo"),
                              .high = fw_process_pack_text(e, "hi"),
@@ -405,13 +412,19 @@ static void read_accept(const fw_xml_record *e, fw_process_accept *a) {
                              .sites = (int)fw_process_pack_number(e, "sites", 1.0),
                              .every = (int)fw_process_pack_number(e, "every", 1.0),
                              .place = e->element->place};
+    return true;
 }
 
 static void read_on_fail(fw_process_pack *pack, const fw_xml_record *e, fw_process_on_fail *f) {
     const fw_xml_attribute *go_to = fw_process_pack_get(e, "goto");
+    const fw_process_left_out *gone =
+        go_to ? fw_process_flow_left_out(pack->flow, go_to->value) : NULL;
     *f = (fw_process_on_fail){fw_process_pack_text(e, "if"), fw_process_pack_text(e, "then"),
-                              go_to ? go_to->value : "", e->element->text};
-    if (go_to) fw_process_pack_find(pack, go_to, FW_ID_STEP);
+                              gone    ? gone->before
+                              : go_to ? go_to->value
+                                      : "",
+                              e->element->text};
+    if (go_to && !gone) fw_process_pack_find(pack, go_to, FW_ID_STEP);
 }
 
 static fw_status read_child(fw_process_pack *pack, const fw_xml_record *c, fw_process_step *s) {
@@ -430,7 +443,7 @@ static fw_status read_child(fw_process_pack *pack, const fw_xml_record *c, fw_pr
     else if (fw_xml_is(c, "endpoint"))
         s->endpoint[s->nendpoint++] = c->element->text;
     else if (fw_xml_is(c, "accept"))
-        read_accept(c, &s->accept[s->naccept++]);
+        s->naccept += read_accept(pack, c, &s->accept[s->naccept]);
     else if (fw_xml_is(c, "hazard-ref")) {
         const fw_xml_attribute *ref = fw_process_pack_get(c, "ref");
         const fw_process_hazard *h = ref ? fw_process_pack_find(pack, ref, FW_ID_HAZARD) : NULL;
@@ -438,7 +451,7 @@ static fw_status read_child(fw_process_pack *pack, const fw_xml_record *c, fw_pr
     } else if (fw_xml_is(c, "on-fail"))
         read_on_fail(pack, c, &s->on_fail[s->non_fail++]);
     else if (fw_xml_is(c, "lag"))
-        read_lag(pack, c, &s->lag[s->nlag++]);
+        s->nlag += read_lag(pack, c, &s->lag[s->nlag]);
     else if (fw_xml_is(c, "finish"))
         read_finish(pack, c, s);
     else if (fw_xml_is(c, "requires"))

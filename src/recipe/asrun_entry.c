@@ -32,6 +32,14 @@ static bool read_time(const char *s, double *time_s) {
 static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const char *id) {
     for (int i = 0; i < r->flow->nstep; i++)
         if (strcmp(r->flow->step[i].id, id) == 0) return &r->flow->step[i];
+    const fw_process_left_out *gone = fw_process_flow_left_out(r->flow, id);
+    if (gone) {
+        fw_diag_error(r->diags, 282, r->place,
+                      "step '%s' (%s) is left out of this plan, because %s; a log has no entry for "
+                      "it",
+                      id, gone->title, gone->why);
+        return NULL;
+    }
     const char *best = NULL;
     for (int i = 0, least = 3; i < r->flow->nstep; i++) {
         int d = fw_edit_distance(id, r->flow->step[i].id, 2);

@@ -388,14 +388,41 @@ static void summary_row(const fw_process_step *s, fw_text *out) {
     fw_text_add(out, "</td></tr>\n");
 }
 
+/* what stood before this step ("": at the end) and is not for this device, struck out with its reason */
+static void left_out(const fw_process_flow *flow, const char *before, const char *open,
+                     const char *close, fw_text *out) {
+    for (int i = 0; i < flow->nleft_out; i++) {
+        const fw_process_left_out *l = &flow->left_out[i];
+        if (strcmp(l->before, before) != 0) continue;
+        fw_text_printf(out, "%s<s>", open);
+        fw_text_escaped(out, l->id);
+        fw_text_add(out, "&ensp;");
+        fw_text_escaped(out, l->title);
+        fw_text_add(out, "</s>: left out, ");
+        fw_text_escaped(out, l->why);
+        fw_text_printf(out, ".%s\n", close);
+    }
+}
+
+static void left_out_row(const fw_process_flow *flow, const char *before, fw_text *out) {
+    left_out(flow, before, "<tr><td></td><td colspan=\"7\">", "</td></tr>", out);
+}
+
+static void left_out_note(const fw_process_flow *flow, const char *before, fw_text *out) {
+    left_out(flow, before, "<p class=\"small\">", "</p>", out);
+}
+
 static void summary(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out,
                 "<h3>Steps and times</h3>\n<table class=\"small summary\"><thead><tr><th>Step</th>"
                 "<th>Title; (2) needs two signatures</th><th>In</th><th class=\"n\">Planned</th>"
                 "<th class=\"n\">First look</th><th class=\"n\">Clear by</th><th class=\"n\">"
                 "Stop</th><th class=\"n\">At the machine</th></tr></thead><tbody>\n");
-    for (int i = 0; i < flow->nstep; i++)
+    for (int i = 0; i < flow->nstep; i++) {
+        left_out_row(flow, flow->step[i].id, out);
         summary_row(&flow->step[i], out);
+    }
+    left_out_row(flow, "", out);
     fw_text_printf(out,
                    "<tr><td></td><td><b>Sum of %d computable steps</b></td>"
                    "<td></td><td colspan=\"4\"></td><td class=\"n\"><b>",
@@ -496,8 +523,11 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     fw_recipe_html_hazards(flow, out);
     FW_TRY(fw_recipe_html_bill(flow, header, out));
     fw_text_add(out, "<h3>Step by step</h3>\n");
-    for (int i = 0; i < flow->nstep; i++)
+    for (int i = 0; i < flow->nstep; i++) {
+        left_out_note(flow, flow->step[i].id, out);
         fw_recipe_html_step(flow, i, header, cut ? &slicer : NULL, &scale, out);
+    }
+    left_out_note(flow, "", out);
     FW_TRY(tethers(header, out));
     fw_recipe_html_deviations(out);
     sources(flow, out);

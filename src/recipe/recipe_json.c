@@ -181,6 +181,21 @@ static void edges(const fw_process_flow *flow, fw_json *out) {
 
 /* ---- the recipe ---- */
 
+/* steps of the pack that this device does not need */
+static void left_out(const fw_process_flow *flow, fw_json *out) {
+    fw_json_list(out, "left_out");
+    for (int i = 0; i < flow->nleft_out; i++) {
+        const fw_process_left_out *l = &flow->left_out[i];
+        fw_json_object(out, NULL);
+        words(out, "id", l->id);
+        words(out, "title", l->title);
+        words(out, "before", l->before);
+        words(out, "why", l->why);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
 fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *text) {
     fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
@@ -197,6 +212,7 @@ fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_head
         FW_TRY(step(out, flow, i));
     }
     fw_json_end(out);
+    if (flow->nleft_out > 0) left_out(flow, out);
     number(out, "total_s", flow->total_s);
     fw_json_whole(out, "not_computable_steps", flow->not_computable);
     if (flow->manufacturable < 0)

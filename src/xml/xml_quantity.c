@@ -37,17 +37,18 @@ static fw_place value_place(const fw_xml_element *e, const char *name) {
     return a ? a->place : e->place;
 }
 
-/* "2026-11-20", of a year that people may have measured in */
+/* "2026-11-20", of a year that people may have measured in: what lies in another century to come is a slip of the pen */
 static void check_date(const fw_xml_element *e, fw_diags *diags) {
     const fw_xml_attribute *date = fw_xml_attribute_of(e, "date");
     long day, civil[3] = {0};
     if (!date || !date->value[0]) return;
     if (strlen(date->value) == 10 && fw_quantity_date_parse(date->value, &day))
         fw_quantity_civil(day, civil);
-    if (civil[0] < 1800 || civil[0] >= 2200)
-        fw_diag_error(diags, 171, date->place,
-                      "source '%s': date=\"%s\" is no day; write 2026-11-20",
-                      fw_xml_attribute_of(e, "id")->value, date->value);
+    if (civil[0] < 1800 || civil[0] >= 2100)
+        fw_diag_error(
+            diags, 171, date->place,
+            "source '%s': date=\"%s\" is no day of the years 1800 to 2099; write 2026-11-20",
+            fw_xml_attribute_of(e, "id")->value, date->value);
 }
 
 fw_status fw_xml_sources_read(fw_arena *arena, const fw_xml_element *parent, fw_diags *diags,

@@ -119,6 +119,40 @@ class Flowback(unittest.TestCase):
                                "-o", self.here / "out"), 3).stderr
         self.assertRegex(said, r"thick\.xml:\d+:\d+: error: step S07 would spin at 2\.28 rpm .*FW-D563")
 
+    def test_a_step_that_the_device_does_not_need_is_nowhere(self):
+        """the tethers of a device that has none are broken in no file; the sheet shows the step struck out, with its reason"""
+        without, glass, files, bill = GALLERY_STAGE.read_text(), "silicon-on-glass", {}, {}
+        for name, text in (("none", without), ("some", without.replace(' tethers="no"', ""))):
+            device = self.here / f"{name}.xml"
+            device.write_text(text)
+            self.expect(run("recipe", device, "--corners", "none", "--measurements", "none", "--advice", "none", "-q",
+                            "-o", self.here / name))
+            files[name] = {p.name: p.read_text() for p in (self.here / name / "recipes").iterdir()}
+            recipe = json.loads(files[name].pop(glass + ".json"))
+            self.assertEqual([s["id"] for s in recipe["steps"]].count("G50"), name == "some")
+            self.assertEqual(recipe.get("left_out"), None if name == "some" else [
+                {"id": "G50", "title": "Break the tethers", "before": "G51", "why": "the device has no tethers"}])
+            bill[name] = {m["id"]: m for m in recipe["bill"]["machines"]}
+        self.assertEqual(files["none"].keys(), files["some"].keys())
+        sheet = files["none"].pop(glass + ".html")
+        struck = "<s>G50&ensp;Break the tethers</s>: left out, the device has no tethers."
+        self.assertEqual(sheet.count(struck), 2)
+        self.assertNotIn("G50", sheet.replace(struck, ""))
+        self.assertNotIn("<s>G50", files["some"].pop(glass + ".html"))
+        for name, text in files["none"].items():
+            self.assertNotIn("G50", text, name)
+        for name in (".csv", ".ics", ".schedule.csv", ".schedule.json", ".schedule.svg", ".sections.json"):
+            self.assertIn("G50", files["some"][glass + name], name)
+        self.assertLess(bill["none"]["prober"]["booked_s"], bill["some"]["prober"]["booked_s"])
+        entry = "G50; start=2026-11-02T08:00; end=2026-11-02T08:15; by=AB; bridges that still stand=0"
+        for name, status in (("none", 3), ("some", 0)):
+            said = self.expect(run("log", self.here / f"{name}.xml", "--flow", glass, "--run", self.here / f"{name}.log", "--lot", "L1",
+                                   "--wafers", "1", "--entry", entry, "--wafer", "1", "-q"), status).stderr
+            self.assertEqual("step 'G50' (Break the tethers) is left out of this plan, because the device has no tethers" in said,
+                             name == "none", said)
+        late = run("recipe", self.here / "none.xml", "--planned", "G50=20 min", "-o", self.here / "late")
+        self.assertIn("no flow of this device has such a step", self.expect(late, 2).stderr)
+
     def test_a_load_is_an_entry_of_each_of_its_wafers(self):
         """as the schedule of the sheet writes it; the log is that of single entries, byte for byte"""
         clean = "S02; start=2026-11-02T08:48; end=2026-11-02T09:23; by=AB; particles in bright light=0"
@@ -285,6 +319,36 @@ undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
         # a matrix that cannot be is refused at its line
         lab.write_text(text.replace('values="1 -', 'values="1 -1'))
         self.assertRegex(self.expect(run("check", self.stage, "--lab", lab), 3).stderr, r"lab\.xml:\d+:\d+: error: ")
+
+    def test_lines_that_are_gone_are_found(self):
+        """the last ones, one between, all, half of one, and the head itself; by log and calibrate, also with -q"""
+        for wafer in (1, 2):
+            first = ("--lot", "L7", "--wafers", "2") if wafer == 1 else ()
+            for entry in (f"S01; start=2026-11-02T08:0{wafer}; end=2026-11-02T08:1{wafer}; by=AB; thickness=50.1 um; "
+                          "cracks or chipped edge=0", f"S02; start=2026-11-02T09:0{wafer}; end=2026-11-02T09:3{wafer}; by=AB; "
+                          "particles in bright light=0"):
+                self.expect(self.command("--entry", entry, "--wafer", wafer, *first, "-q"))
+                first = ()
+        whole, head = self.log.read_bytes(), pathlib.Path(f"{self.log}.head")
+        kept, lines = head.read_bytes(), whole.splitlines(keepends=True)
+        self.assertEqual(len(lines), 5)
+        readers = (lambda: self.command("-q"), lambda: run("calibrate", self.log, "--flow", SILICON, "-q"),
+                   lambda: self.command("--entry", "S02; start=2026-11-03T09:00; end=2026-11-03T09:30; by=AB; "
+                                        "particles in bright light=0", "--wafer", "1", "-q"))
+        cases = {"the last": (lines[:-1], kept, "3 entries, but its head says 4"), "two": (lines[:-2], kept, "2 entries, but its head says 4"),
+                 "all": (lines[:1], kept, "0 entries, but its head says 4"), "half": ([whole[:-40]], kept, "its last line is not complete"),
+                 "the middle": (lines[:2] + lines[3:], kept, "this line, or one before it, was changed, removed or moved"),
+                 "the head's text": (lines, b"", "the head of the log is damaged")}
+        for name, (text, beside, says) in cases.items():
+            for k, reader in enumerate(readers):
+                self.log.write_bytes(b"".join(text))
+                head.write_bytes(beside)
+                self.assertIn(says, self.expect(reader(), 3).stderr, (name, k))
+                self.assertEqual(self.log.read_bytes(), b"".join(text), (name, k))
+        for reader in readers:  # without its head a log is read, and whoever reads it is told
+            self.log.write_bytes(whole)
+            head.unlink(missing_ok=True)
+            self.assertIn("whether lines were removed at the end of the log cannot be told [FW-D283]", reader().stderr)
 
     def test_an_old_log(self):
         """one of before there were wafers is read, and goes on"""

@@ -100,7 +100,7 @@ static void a_laboratory(fw_arena *arena, fw_diags *diags, const char *text, siz
     int nchoice = 0;
     fw_process_lab_choices(arena, "lab.xml", text, n, "al-masked-rie", &choice, &nchoice);
     if (fw_process_flow_read_chosen(arena, "base.xml", base_text, base_n, "flow.xml", flow_text,
-                                    flow_n, choice, nchoice, diags, &flow) != FW_OK)
+                                    flow_n, choice, nchoice, NULL, diags, &flow) != FW_OK)
         return;
     if (diags->errors > 0) return;
     fw_diags own = fw_diags_new(arena);

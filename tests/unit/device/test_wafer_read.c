@@ -121,6 +121,7 @@ static void refused(void **state) {
                    "<sweep parameter=\"n\" from=\"1\" to=\"2\" steps=\"2\"/>"),
          "2 <sweep>", 66},
         {WAFER("diameter=\"1 m\"", ""), "diameter", 47},
+        {WAFER("edge-exclusion=\"5 um\"", ""), "edge-exclusion", 47},
         {WAFER("centre=\"edge\"", ""), "centre", 48},
         {WAFER("test-dies=\"10\"", ""), "test-dies", 47},
     };

@@ -3,13 +3,15 @@
 #include "pack_fixture.h"
 #include "process/calibrate.h"
 
+static const char *lacks;
+
 static fw_status chosen(const char *name, const char *from, const char *to,
                         const fw_process_choice *choice, int n, fw_process_flow **flow) {
     size_t nb = 0, nx = 0;
     const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, name, &nx);
     text = replaced(arena, text, from, to, &nx);
     diags = fw_diags_new(arena);
-    return fw_process_flow_read_chosen(arena, "base.xml", base, nb, "flow.xml", text, nx, choice, n,
+    return fw_process_flow_read_chosen(arena, "base.xml", base, nb, "flow.xml", text, nx, choice, n, lacks,
                                        &diags, flow);
 }
 
@@ -100,11 +102,53 @@ static void checked_as_it_is_run(void **state) {
     expect(375, "holds one <step>");
 }
 
+/* what only a device with tethers needs is nowhere in the flow of one that has none, and what named it goes on without */
+static void without_what_the_device_lacks(void **state) {
+    (void)state;
+    fw_process_flow *with, *without;
+    assert_int_equal(chosen("silicon-on-glass", NULL, NULL, NULL, 0, &with), FW_OK);
+    assert_non_null(step_of(with, "G50"));
+    assert_int_equal(with->nleft_out, 0);
+    const size_t said = diags.count;
+    lacks = "tethers";
+    assert_int_equal(chosen("silicon-on-glass", NULL, NULL, NULL, 0, &without), FW_OK);
+    assert_int_equal(diags.count, said); /* nothing that is not said of the whole flow */
+    assert_int_equal(without->nstep, with->nstep - 1);
+    for (int i = 0; i < without->nstep; i++)
+        assert_string_not_equal(without->step[i].id, "G50");
+    assert_int_equal(without->nleft_out, 1);
+    assert_string_equal(without->left_out[0].id, "G50");
+    assert_string_equal(without->left_out[0].before, "G51");
+    assert_string_equal(without->left_out[0].why, "the device has no tethers");
+    assert_ptr_equal(fw_process_flow_left_out(without, "G50"), &without->left_out[0]);
+    assert_int_equal(step_of(without, "G51")->nrequired, step_of(with, "G51")->nrequired - 1);
+    /* a wait and a rework that name it: the one falls away, the other goes to the step behind it */
+    static const char named[] = "<lag from=\"G50\" min=\"1\" unit=\"min\"/>"
+                                "<on-fail if=\"held\" then=\"rework\" goto=\"G50\">again</on-fail>"
+                                "<on-fail if=\"wire lifts\"";
+    assert_int_equal(chosen("silicon-on-glass", "<on-fail if=\"wire lifts\"", named, NULL, 0, &without), FW_OK);
+    const fw_process_step *s = step_of(without, "G53");
+    assert_int_equal(s->nlag, 0);
+    assert_string_equal(s->on_fail[s->non_fail - 2].go_to, "G51");
+    /* the last one of all, and a wrong word */
+    assert_int_equal(chosen("silicon-on-glass", "id=\"G53\"", "id=\"G53\" only-with=\"tethers\"", NULL, 0, &without), FW_OK);
+    assert_int_equal(without->nleft_out, 2);
+    assert_string_equal(without->left_out[1].before, "");
+    assert_int_equal(chosen("silicon-on-glass", "only-with=\"tethers\"", "only-with=\"fingers\"", NULL, 0, &without), FW_INPUT);
+    /* what is measured, too */
+    assert_int_equal(chosen(SILICON, NULL, NULL, NULL, 0, &without), FW_OK);
+    lacks = NULL;
+    assert_int_equal(chosen(SILICON, NULL, NULL, NULL, 0, &with), FW_OK);
+    assert_int_equal(without->nstep, with->nstep);
+    assert_int_equal(step_of(without, "S20")->naccept, step_of(with, "S20")->naccept - 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(every_alternative_of_the_packs, setup, teardown),
         cmocka_unit_test_setup_teardown(of_a_laboratory, setup, teardown),
         cmocka_unit_test_setup_teardown(checked_as_it_is_run, setup, teardown),
+        cmocka_unit_test_setup_teardown(without_what_the_device_lacks, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
