@@ -368,7 +368,7 @@ class Files(unittest.TestCase):
 class Working(unittest.TestCase):
     """Cancelling, progress, threads."""
 
-    slow = {"rtol": 1e-13, "samples": 1500000, "integrator": "rk4"}  # seconds, none of which passes
+    slow = {"rtol": 1e-13, "samples": 1000000, "integrator": "rk4"}  # seconds, none of which passes
 
     def test_progress(self):
         told = []
@@ -549,7 +549,7 @@ class Studies(unittest.TestCase):
         self.assertIn("FW-D025", next(rows)["error"])
 
     def test_sweep_is_given_up(self):
-        slow = {"rtol": 1e-13, "samples": 1500000, "integrator": "rk4"}  # seconds, none of which passes
+        slow = {"rtol": 1e-13, "samples": 1000000, "integrator": "rk4"}  # seconds, none of which passes
         started = threading.Event()
 
         def measure(device):
