@@ -115,8 +115,11 @@ typedef struct fw_verdict_bending {
     const fw_verdict_arm *arm; /* (2 nhinge); NULL: nobody asks */
     double stiff_N;            /* Young's modulus times thickness */
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
-    double *body_J;            /* (2 nbody) the largest of each, then those of the instant */
-    fw_verdict_turn *turn;     /* (nbody) of the instant */
+    double moving_J; /* and of the hinges' rotations and the bending of their strips alone */
+    double
+        gone; /* largest so far by which an end of a flexure goes over its width, or turns over its limit */
+    double *body_J;        /* (2 nbody) the largest of each, then those of the instant */
+    fw_verdict_turn *turn; /* (nbody) of the instant */
     double *
         worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
     double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */

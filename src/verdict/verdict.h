@@ -409,6 +409,8 @@ extern const double fw_verdict_first_accuracy;
    share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
    verdict, or NULL */
 double fw_verdict_bending_share(const fw_dynamics_motion *motion);
+/* the same, but 0 where the device is pressed along its flexures and no end of one goes or turns by what matters */
+double fw_verdict_bending_moving(const fw_dynamics_motion *motion);
 enum {
     FW_VERDICT_RIMS = 575
 }; /* FW-Dnnn: rims of release holes do not bear, or are not known to */
@@ -419,7 +421,7 @@ fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *mechanism,
                                         const fw_dynamics_motion *motion, int at[2]);
 /* at most, over all required poses; NaN: there are none, or no holes. at: as above, of one end */
 double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at);
-/* fw_verdict_bending_share above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */
+/* fw_verdict_bending_moving above 5 %, which is told (FW-D510), else 0: bands of utilisations have it */
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion);
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (verdict_strain.c), else fw_verdict_model_error.motion */

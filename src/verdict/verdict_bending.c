@@ -16,15 +16,37 @@ static double turned(const fw_verdict_bending *b, int body) {
     return body == FW_GROUND ? 0 : b->turn[body].rad;
 }
 
-/* by its rotation, and by the forces along and across its axis */
+/* a hinge that is softer one way than the other by more than this is a strip that bends there */
+static const double fw_verdict_strip_bends = 0.1;
+
+/* By its rotation, and by the forces along and across its axis. *moving: what of it lets bodies move: rotation, and
+   where the hinge is a strip the deflection across that */
 static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin, double angle_rad,
-                       const double force[2], double frame_rad) {
+                       const double force[2], double frame_rad, double *moving) {
     const double energy = 0.5 * pin->stiffness_Nm_per_rad * angle_rad * angle_rad;
     const fw_flexure_result *c = &h->closed_form;
+    *moving += energy;
     if (!isfinite(h->axis_rad) || !(c->kx_N_per_m > 0) || !(c->ky_N_per_m > 0)) return energy;
     double x = cos(h->axis_rad + frame_rad), y = sin(h->axis_rad + frame_rad);
     double along = x * force[0] + y * force[1], across = x * force[1] - y * force[0];
-    return energy + 0.5 * (along * along / c->kx_N_per_m + across * across / c->ky_N_per_m);
+    const double by_x = 0.5 * along * along / c->kx_N_per_m,
+                 by_y = 0.5 * across * across / c->ky_N_per_m;
+    if (c->kx_N_per_m < fw_verdict_strip_bends * c->ky_N_per_m) *moving += by_x;
+    if (c->ky_N_per_m < fw_verdict_strip_bends * c->kx_N_per_m) *moving += by_y;
+    return energy + by_x + by_y;
+}
+
+/* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as its body gives: the derivatives
+   of fw_verdict_arm_energy_J by what the hinge puts on it */
+static double gone(const fw_verdict_bending *b, const fw_mechanism_hinge *h,
+                   const fw_verdict_arm *arm, double moment_Nm, const double force[2],
+                   const fw_verdict_turn *turn) {
+    const double *g = arm->give, c = turn->cosine, s = turn->sine, m = moment_Nm;
+    const double x = c * force[0] + s * force[1], y = c * force[1] - s * force[0];
+    const double far = hypot(g[1] * m + g[3] * x + g[4] * y, g[2] * m + g[4] * x + g[5] * y);
+    return fmax(far / h->input.width_m,
+                fabs(g[0] * m + g[1] * x + g[2] * y) / h->closed_form.limit_angle_rad) /
+           b->stiff_N;
 }
 
 /* What may tip the device out of its plane (verdict_out_of_plane.c), and strain rims. Largest between instants, too: by
@@ -141,7 +163,7 @@ static void record_straight(fw_verdict_bending *b, const fw_mechanism *m,
                             const fw_dynamics_instant *now) {
     double hinges, bodies = 0;
     const double most = at_most(b, m, now, &hinges);
-    b->hinges_J = fmax(b->hinges_J, hinges);
+    b->hinges_J = b->moving_J = fmax(b->hinges_J, hinges);
     if (most <= fw_verdict_straight_share * fw_verdict_bending_told * b->hinges_J) return;
     for (int i = 0; i < m->nbody; i++)
         b->turn[i] = turn_of(m, now, i);
@@ -163,7 +185,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         return;
     }
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->hardest_N2 = 0;
+        b->hinges_J = b->bodies_J = b->moving_J = b->gone = b->hardest_N2 = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
         for (int k = 0; k <= 2 * m->nhinge; k++)
@@ -174,7 +196,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->cut_N_per_m[i] = 0;
         return;
     }
-    double hinges = 0, bodies = 0, *each = b->body_J + m->nbody;
+    double hinges = 0, bodies = 0, moving = 0, *each = b->body_J + m->nbody;
     for (int i = 0; i < m->nbody; i++) {
         each[i] = 0;
         b->turn[i] = turn_of(m, now, i);
@@ -184,7 +206,8 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         const fw_mechanism_pin *pin = &m->pin[h->pin];
         const double angle = now->angle_rad[h->pin], *force = now->reaction_N + 2 * h->pin;
         const int body[2] = {pin->body_a, pin->body_b};
-        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])));
+        hinges += of_hinge(h, pin, angle, force, 0.5 * (turned(b, body[0]) + turned(b, body[1])),
+                           &moving);
         for (int side = 0; side < 2; side++) {
             const fw_verdict_arm *arm = &b->arm[2 * k + side];
             if (!arm->known) continue;
@@ -193,12 +216,15 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                         force[0], force[1], &b->turn[body[side]]);
             bodies += one;
             each[body[side]] += one;
+            b->gone = fmax(b->gone, gone(b, h, arm, -pin->stiffness_Nm_per_rad * angle, force,
+                                         &b->turn[body[side]]));
         }
     }
     record_forces(b, m, now);
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
+    b->moving_J = fmax(b->moving_J, moving);
     b->hinges_J = fmax(b->hinges_J, hinges);
     b->bodies_J = fmax(b->bodies_J, bodies);
 }
@@ -400,8 +426,19 @@ double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     return b ? b->bodies_J / b->hinges_J : 0;
 }
 
+/* A device that is pressed along its flexures goes nowhere, and its bodies may then give many times what the hinges do.
+   That changes no strain and no clearance as long as no end of a flexure goes by a fiftieth of the flexure's width or
+   turns by a fiftieth of its limit. */
+double fw_verdict_bending_moving(const fw_dynamics_motion *motion) {
+    const double fiftieth = 0.02;
+    const fw_verdict_bending *b = seen(motion);
+    if (!b) return 0;
+    if (b->moving_J < 0.5 * b->hinges_J && b->gone < fiftieth) return 0;
+    return fw_verdict_bending_share(motion);
+}
+
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
-    const double share = fw_verdict_bending_share(motion);
+    const double share = fw_verdict_bending_moving(motion);
     return share > fw_verdict_bending_told ? share : 0;
 }
 
@@ -527,54 +564,4 @@ fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_
     const double high = fw_verdict_bending_rims_required(v, &at);
     if (!(high > 1)) return FW_OK;
     return give_rims(arena, &v->arm[at], at, (fw_verdict_band){0, high}, NULL, v);
-}
-
-static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,
-                                       int body) {
-    const fw_verdict_arm *narrow = NULL;
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        const fw_verdict_arm *arm = &b->arm[i];
-        if ((i % 2 ? pin->body_b : pin->body_a) != body || !arm->known) continue;
-        if (!narrow || arm->narrow_m < narrow->narrow_m) narrow = arm;
-    }
-    return narrow;
-}
-
-/* of a device that is pressed along its stiff flexures it is not a share */
-static bool is_share(double share) {
-    return share < 2;
-}
-
-static const char *unit_of(double share) {
-    return is_share(share) ? "% of" : "times";
-}
-
-static const char *number_of(char text[32], double share) {
-    return fw_number_text(text, 32, is_share(share) ? 100 * share : share, 3);
-}
-
-void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene,
-                             const fw_dynamics_motion *motion, fw_diags *diags) {
-    const fw_verdict_bending *b = seen(motion);
-    const double share = fw_verdict_bending_counted(motion);
-    char all[32], one[32], width[32], x[32], y[32];
-    int most = 0;
-    if (share == 0) return;
-    for (int i = 1; i < m->nbody; i++)
-        if (b->body_J[i] > b->body_J[most]) most = i;
-    const fw_verdict_arm *arm = narrowest(m, b, most);
-    if (!arm) return;
-    const double most_share = b->body_J[most] / b->hinges_J;
-    fw_diag_warning(
-        diags, 510, m->device->body[most].place,
-        "bodies are taken as rigid, and in scene %s they may give by up to %s %s what "
-        "the hinges give, body %s by %s %s it: what is probed may move that much further, and the "
-        "bands allow for it. It is narrowest, %s um, at (%s, %s) um: make it wider "
-        "there, or shorter",
-        scene->name, number_of(all, share), unit_of(share), m->device->body[most].id,
-        number_of(one, most_share), unit_of(most_share),
-        fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
-        fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
 }

@@ -40,6 +40,9 @@ size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v);
+/* a warning where bodies give enough to count (FW-D510) */
+void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                             const fw_dynamics_motion *motion, fw_diags *diags);
 
 /* ---- verdict_bending.c: bodies are rigid in the motion, and are none ---- */
 
@@ -54,8 +57,6 @@ bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v);
 fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_device_scene *scene,
                                    const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v);
 fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v);
-void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
-                             const fw_dynamics_motion *motion, fw_diags *diags);
 
 /* ---- verdict_out_of_plane.c: plates on flexures ---- */
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What speaks against a scene, or a flow, beside the bands of its hinges. */
+#include "base/text.h"
 #include "statics/level.h"
 #include "statics/quasi.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 
@@ -286,4 +288,56 @@ fw_status fw_verdict_missing(fw_arena *arena, const fw_device *device, const fw_
                                                       .text = text};
     }
     return FW_OK;
+}
+
+/* ---- bodies that bend ---- */
+
+static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_bending *b,
+                                       int body) {
+    const fw_verdict_arm *narrow = NULL;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        const fw_verdict_arm *arm = &b->arm[i];
+        if ((i % 2 ? pin->body_b : pin->body_a) != body || !arm->known) continue;
+        if (!narrow || arm->narrow_m < narrow->narrow_m) narrow = arm;
+    }
+    return narrow;
+}
+
+/* of a device that is pressed along its stiff flexures it is not a share */
+static bool is_share(double share) {
+    return share < 2;
+}
+
+static const char *unit_of(double share) {
+    return is_share(share) ? "% of" : "times";
+}
+
+static const char *number_of(char text[32], double share) {
+    return fw_number_text(text, 32, is_share(share) ? 100 * share : share, 3);
+}
+
+void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene,
+                             const fw_dynamics_motion *motion, fw_diags *diags) {
+    const double share = fw_verdict_bending_counted(motion);
+    char all[32], one[32], width[32], x[32], y[32];
+    int most = 0;
+    if (share == 0) return;
+    const fw_verdict_bending *b = &((const fw_verdict_strain_monitor *)motion->observed)->bending;
+    for (int i = 1; i < m->nbody; i++)
+        if (b->body_J[i] > b->body_J[most]) most = i;
+    const fw_verdict_arm *arm = narrowest(m, b, most);
+    if (!arm) return;
+    const double most_share = b->body_J[most] / b->hinges_J;
+    fw_diag_warning(
+        diags, 510, m->device->body[most].place,
+        "bodies are taken as rigid, and in scene %s they may give by up to %s %s what "
+        "the hinges give, body %s by %s %s it: what is probed may move that much further, and the "
+        "bands allow for it. It is narrowest, %s um, at (%s, %s) um: make it wider "
+        "there, or shorter",
+        scene->name, number_of(all, share), unit_of(share), m->device->body[most].id,
+        number_of(one, most_share), unit_of(most_share),
+        fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
+        fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
 }
