@@ -16,16 +16,15 @@ static fixture begin(void) {
     return f;
 }
 
-static fw_status simulate(fixture *f, const rig *r, int samples,
+static fw_status simulate(fixture *f, const rig *r, int samples, fw_effect_mode mode,
                           const fw_dynamics_motion **motion) {
-    const fw_dynamics_motion_options o = {
-        .rtol = 1e-12, .samples = samples, .effects = {.mode = FW_EFFECTS_AUTO}};
+    const fw_dynamics_motion_options o = {.rtol = 1e-12, .samples = samples, .effects = {.mode = mode}};
     return fw_dynamics_simulate(f->arena, &r->m, &r->scene, &o, &f->diags, motion);
 }
 
 static const fw_dynamics_motion *run(fixture *f, const rig *r, int samples) {
     const fw_dynamics_motion *motion = NULL;
-    if (simulate(f, r, samples, &motion) != FW_OK)
+    if (simulate(f, r, samples, FW_EFFECTS_AUTO, &motion) != FW_OK)
         fail_msg("%s", f->diags.count ? f->diags.item[0].message : "no diagnostic");
     return motion;
 }
@@ -202,7 +201,7 @@ static void test_sudden_voltage(void **state) {
         fw_device_comb c;
         rig r = plate(&f, &c, share[i] * sudden);
         const fw_dynamics_motion *o;
-        fw_status status = simulate(&f, &r, 20001, &o);
+        fw_status status = simulate(&f, &r, 20001, FW_EFFECTS_NONE, &o); /* no fringe */
         if (share[i] > 1) {
             assert_int_equal(status, FW_SOLVER);
             assert_true(said(&f, 242));
