@@ -76,16 +76,16 @@ class Effects(unittest.TestCase):
             return done.stderr, "".join(re.findall(r"""\bd=["']([^"']*)["']""", picture))  # what is drawn, without titles
 
     def reason_stands(self, masks, flow):
-        """on certificate and order sheet, with part, place and nearest room"""
+        """on certificate and order sheet, with part, place and nearest room, or the size that is drawn there"""
         sheets = sorted(masks.glob(f"{flow}*.order.json"))
         self.assertTrue(sheets)
         for file in (masks / f"{flow}.json", *sheets):
             sheet = json.loads(file.read_text())
             self.assertTrue(sheet["rejected"])
-            self.assertTrue(any(re.search(r"line \d+, column \d+.*not in the masks.*nearest room: .*FW-D131", r)
+            self.assertTrue(any(re.search(r"line \d+, column \d+.*not in the masks.*(nearest room|instead): .*FW-D131", r)
                                 for r in sheet["rejected_because"]), sheet["rejected_because"])
         self.assertRegex(sheets[-1].with_suffix(".txt").read_text(),
-                         r"^REJECTED: .*Do not order\.\n  because .* at \([-0-9.]+, [-0-9.]+\) um.*nearest room: ")
+                         r"^REJECTED: .*Do not order\.\n  because .* at \([-0-9.]+, [-0-9.]+\) um.*(nearest room|instead): ")
 
     def test_what_is_not_drawn_is_rejected(self):
         """check and plan, their JSON and the run sheet"""
@@ -123,7 +123,7 @@ class Effects(unittest.TestCase):
                 options = ["--corners", "none", "--advice", "none"]
                 if bears is not None:
                     lab.write_text('<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="lab" flow="silicon-on-glass">'
-                                   '<source id="own" kind="measured" date="2026-01-01">data sheet</source><q id="prober.bears" '
+                                   '<source id="own" kind="datasheet" date="2026-01-01">data sheet</source><q id="prober.bears" '
                                    f'value="{bears}" u="0" unit="V" status="stated" src="own"/></process>')
                     options += ["--lab", lab]
                 out = pathlib.Path(here) / f"out{bears}"

@@ -16,11 +16,15 @@ const escaped = (x) => String(x).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<":
 const nameOf = (flow) => `entered-${flow}.xml`;
 const isNumber = (x) => /^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*$/.test(x);
 
+/** Of what kind the source is that stands behind a number: each claim needs one that can bear it. */
+const SOURCES = { measured: ["laboratory", "measured"], stated: ["maker", "datasheet"], typical: ["taken", "assumed"], assumed: ["taken", "assumed"] };
+
 /** The pack of these rows: [{id, value, u, unit, status}], numbers as somebody has written them. */
 export function packOf(flow, rows, source) {
-    const values = rows.map((r) => `  <q id="${escaped(r.id)}" value="${escaped(r.value.trim())}"${r.u?.trim() ? ` u="${escaped(r.u.trim())}"` : ""} unit="${escaped(r.unit)}" status="${r.status}" src="laboratory"/>`);
-    const kind = rows.every((r) => r.status === "measured") ? "measured" : "assumed";
-    return `<?xml version="1.0" encoding="UTF-8"?>\n<process xmlns="${NAMESPACE}" id="laboratory" version="1" title="numbers of the laboratory" flow="${escaped(flow)}">\n  <source id="laboratory" kind="${kind}">${escaped(source || "entered on the page")}</source>\n${values.join("\n")}\n</process>\n`;
+    const values = rows.map((r) => `  <q id="${escaped(r.id)}" value="${escaped(r.value.trim())}"${r.u?.trim() ? ` u="${escaped(r.u.trim())}"` : ""} unit="${escaped(r.unit)}" status="${r.status}" src="${SOURCES[r.status][0]}"/>`);
+    const used = new Map(rows.map((r) => SOURCES[r.status]));
+    const sources = [...used].map(([id, kind]) => `  <source id="${id}" kind="${kind}">${escaped(source || "entered on the page")}</source>`);
+    return `<?xml version="1.0" encoding="UTF-8"?>\n<process xmlns="${NAMESPACE}" id="laboratory" version="1" title="numbers of the laboratory" flow="${escaped(flow)}">\n${sources.join("\n")}\n${values.join("\n")}\n</process>\n`;
 }
 
 /** Packs of an earlier visit of this tab. */
