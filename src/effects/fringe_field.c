@@ -80,7 +80,8 @@ static double of_ends(const fw_effects_comb_element *c, double gap_m, double slo
 double fw_effects_comb_fringe(const fw_effects_comb_element *c) {
     const double left = c->edge ? 0 : 1, g = c->gap_m;
     double by[2], end[2];
-    if (c->kind == FW_ELECTRODES_COMB) return (left + 0.5) * of_fingers(c, g, by) * g / c->depth_m;
+    if (c->kind == FW_ELECTRODES_COMB)
+        return (left + 0.5) * of_fingers(c, g, NULL) * g / c->depth_m;
     of_plates(c, g, by);
     of_ends(c, g, end);
     return -g * g * ((left + 0.5) * by[0] / c->depth_m + left * 2 * end[0] / c->length_m);

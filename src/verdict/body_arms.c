@@ -22,15 +22,9 @@ static const double fw_cells_across = 1;
 /* a cell is not below this: what is narrower is no part of a body */
 static const double fw_least_cell = 2e-6;
 
-typedef struct line {
-    fw_geometry_vec2 a, b;
-    bool edge; /* of the material; else a joint between two pieces */
-    int piece;
-} line;
-
 typedef struct grid {
     fw_arena *arena;
-    line *line;
+    fw_verdict_line *line;
     int nline;
     fw_geometry_box box;
     double cell;
@@ -48,35 +42,43 @@ typedef struct grid {
 
 /* ---- lines ---- */
 
-int fw_verdict_chords(const fw_geometry_segment *s) {
+static int parts_of(const fw_geometry_segment *s) {
     double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
     return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
 }
 
-static bool is_of(const fw_layout_piece *p, int body) {
+bool fw_verdict_is_of(const fw_layout_piece *p, int body) {
     return p->body == body && p->role == FW_ROLE_STRUCTURE;
 }
 
-static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
-    size_t n = 0;
-    for (int i = 0; i < layout->npiece; i++)
-        for (int k = 0; is_of(&layout->piece[i], body) && k < layout->piece[i].contour.count; k++)
-            n += (size_t)fw_verdict_chords(&layout->piece[i].contour.segment[k]);
-    FW_NEED(g->line = fw_arena_array(g->arena, line, n));
-    g->nline = 0;
+fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int body,
+                                fw_verdict_line **line, int *n) {
+    size_t most = 0;
     for (int i = 0; i < layout->npiece; i++) {
         const fw_geometry_contour *c = &layout->piece[i].contour;
-        for (int k = 0; is_of(&layout->piece[i], body) && k < c->count; k++) {
+        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++)
+            most += (size_t)parts_of(&c->segment[k]);
+    }
+    FW_NEED(*line = fw_arena_array(arena, fw_verdict_line, most));
+    *n = 0;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++) {
             const fw_geometry_segment *s = &c->segment[k];
-            int parts = fw_verdict_chords(s);
+            int parts = parts_of(s);
             fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
             for (int j = 0; j < parts; j++) {
                 fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);
-                g->line[g->nline++] = (line){from, to, !(s->flags & FW_SEGMENT_JOINT), i};
+                (*line)[(*n)++] = (fw_verdict_line){from, to, !(s->flags & FW_SEGMENT_JOINT), i};
                 from = to;
             }
         }
     }
+    return FW_OK;
+}
+
+static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
+    FW_TRY(fw_verdict_body_lines(g->arena, layout, body, &g->line, &g->nline));
     for (int i = 0; i < g->nline; i++) {
         fw_geometry_vec2 a = g->line[i].a, b = g->line[i].b;
         fw_geometry_box box = {fw_lesser(a.x, b.x), fw_lesser(a.y, b.y), fw_greater(a.x, b.x),
@@ -176,7 +178,7 @@ static void step_from(const eight *next, eight *row, int n) {
 
 static void mark_edges(const grid *g, short *off, int wide) {
     for (int i = 0; i < g->nline; i++) {
-        const line *l = &g->line[i];
+        const fw_verdict_line *l = &g->line[i];
         int steps = 1 + (int)(2 * vec_distance(l->a, l->b) / g->cell);
         for (int k = 0; l->edge && k <= steps; k++) {
             fw_geometry_vec2 p = vec_along(l->a, (double)k / steps, vec_sub(l->b, l->a));
@@ -390,7 +392,7 @@ static fw_status edges_new(const grid *g, edges *to) {
     FW_NEED(to->off =
                 fw_arena_array(g->arena, double, (size_t)g->nline + FW_GEOMETRY_LINES_TOGETHER));
     for (int i = 0; i < g->nline; i++) {
-        const line *l = &g->line[i];
+        const fw_verdict_line *l = &g->line[i];
         if (l->edge) fw_geometry_lines_add(&to->all, l->a.x, l->a.y, l->b.x, l->b.y);
     }
     return FW_OK;

@@ -41,8 +41,16 @@ typedef struct fw_verdict_arm {
    Test: test_body_arms.c */
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_layout *layout, fw_verdict_arm **arm);
-/* into how many chords edges of bodies are cut for that */
-int fw_verdict_chords(const fw_geometry_segment *segment);
+typedef struct fw_verdict_line { /* a chord of a body's outlines, world */
+    fw_geometry_vec2 a, b;
+    bool edge; /* of the material; else a joint between two pieces */
+    int piece;
+} fw_verdict_line;
+/* a piece of the layout that is the body's material */
+bool fw_verdict_is_of(const fw_layout_piece *piece, int body);
+/* the chords of all of them: (n) */
+fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int body,
+                                fw_verdict_line **line, int *n);
 /* a piece of the way around `at`, `from` to `until`, as a strip of width w: added to the arm of a pin (world, m) */
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);

@@ -268,10 +268,6 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
 
 enum { WALK_STEPS = 200 };
 
-static bool is_of(const fw_layout_piece *p, int body) {
-    return p->body == body && p->role == FW_ROLE_STRUCTURE;
-}
-
 typedef struct edges {
     fw_geometry_lines all, near; /* near: those no farther than `reach` from `centre` */
     fw_geometry_vec2 centre;
@@ -279,34 +275,22 @@ typedef struct edges {
     double *off; /* squares of distances from a place */
 } edges;
 
-/* chords of the edges of a body */
 static fw_status edges_of(fw_arena *arena, const fw_layout *layout, int body, edges *to) {
-    int n = 0;
-    for (int i = 0; i < layout->npiece; i++)
-        for (int k = 0; is_of(&layout->piece[i], body) && k < layout->piece[i].contour.count; k++)
-            n += fw_verdict_chords(&layout->piece[i].contour.segment[k]);
+    fw_verdict_line *line;
+    int n;
+    FW_TRY(fw_verdict_body_lines(arena, layout, body, &line, &n));
     FW_TRY(fw_geometry_lines_new(arena, n, &to->all));
     FW_TRY(fw_geometry_lines_new(arena, n, &to->near));
     FW_NEED(to->off = fw_arena_array(arena, double, (size_t)n + FW_GEOMETRY_LINES_TOGETHER));
-    for (int i = 0; i < layout->npiece; i++) {
-        const fw_geometry_contour *c = &layout->piece[i].contour;
-        for (int k = 0; is_of(&layout->piece[i], body) && k < c->count; k++) {
-            const fw_geometry_segment *s = &c->segment[k];
-            const int parts = fw_verdict_chords(s);
-            fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
-            for (int j = 1; j <= parts && !(s->flags & FW_SEGMENT_JOINT); j++) {
-                fw_geometry_vec2 next = fw_geometry_segment_point(s, (double)j / parts);
-                fw_geometry_lines_add(&to->all, from.x, from.y, next.x, next.y);
-                from = next;
-            }
-        }
-    }
+    for (int i = 0; i < n; i++)
+        if (line[i].edge)
+            fw_geometry_lines_add(&to->all, line[i].a.x, line[i].a.y, line[i].b.x, line[i].b.y);
     return FW_OK;
 }
 
 static bool is_inside(const fw_layout *layout, int body, fw_geometry_vec2 at) {
     for (int i = 0; i < layout->npiece; i++)
-        if (is_of(&layout->piece[i], body) &&
+        if (fw_verdict_is_of(&layout->piece[i], body) &&
             fw_geometry_contour_contains(&layout->piece[i].contour, at))
             return true;
     return false;
