@@ -391,10 +391,13 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, con
 }
 
 bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v) {
-    for (int i = 0; v->straight && i < v->mechanism->device->nscene; i++)
-        if (fw_verdict_bending_share(v->motion[i]) >
-            fw_verdict_straight_share * fw_verdict_bending_told)
+    for (int i = 0; v->straight && i < v->mechanism->device->nscene; i++) {
+        const fw_verdict_strain_monitor *saw = v->motion[i] ? v->motion[i]->observed : NULL;
+        const fw_verdict_bending *b = saw && saw->bending.arm ? &saw->bending : NULL;
+        /* of leaves that do not turn at all, hinges have nothing by which bodies could be measured */
+        if (b && b->bodies_J > fw_verdict_straight_share * fw_verdict_bending_told * b->hinges_J)
             return false;
+    }
     return true;
 }
 

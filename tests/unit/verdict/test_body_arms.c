@@ -134,6 +134,16 @@ static void plain_ways_are_bounds(void **state) {
             else
                 assert_relative(seen.bending.bodies_J, bodies, 1e-12);
         }
+        /* of leaves that do not turn at all, hinges store nothing by turning: bodies are looked at closely */
+        const double none[2] = {0, 0}, pulled[4] = {far, 0, -far, 0};
+        const fw_dynamics_instant now = {.q = q, .angle_rad = none, .reaction_N = pulled};
+        const fw_dynamics_motion motion = {.observed = &seen}, *motions[] = {&motion};
+        device.nscene = 1, v.motion = motions;
+        fw_verdict_bending_record(&seen.bending, &s.m, NULL);
+        assert_true(fw_verdict_bending_settled(&v));
+        fw_verdict_bending_record(&seen.bending, &s.m, &now);
+        assert_true(seen.bending.hinges_J == 0 && seen.bending.bodies_J > 0);
+        assert_false(fw_verdict_bending_settled(&v));
         fw_arena_free(s.arena);
     }
 }
