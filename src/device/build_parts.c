@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a device file says beside its mechanism and scenes. */
 #include "device/device_reader.h"
-#include "device/flexure_kind.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kinds of <flexure>, a row each, and what they share; questions about a description. */
-#include "device/flexure_kind.h"
+#include "device/device_reader.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The air around what moves: films between walls and over the ground, drag, and the effect that they make. */
-#include "effects/air.h"
+#include "effects/effect.h"
 #include "base/constants.h"
 #include "effects/envelope.h"
 #include <math.h>

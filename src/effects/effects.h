@@ -159,6 +159,8 @@ typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
     double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
+    double beside;   /* likewise of what no motion has, whatever was asked for; those that are finite */
+    const char *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
     fw_effects_hinge_use hinge;
 } fw_effect_ledger;
 
@@ -335,6 +337,9 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     bool alone_stays;     /* likewise where nothing else moves the mechanism */
     bool kept;    /* never left out, whatever was asked for: without it there is nothing to judge */
     bool passive; /* of what is kept: springs, which move nothing by themselves */
+    /* no motion has it: never active, whatever was asked for, and its bound is in every error. share: of what it
+       changes the forces, for where nothing bounds what that does; NULL: it is in the motion */
+    fw_status (*beside)(const fw_effect_case *c, double *share);
     /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene
        states */
     void (*describe)(const fw_device *device, const fw_device_scene *scene,
@@ -445,6 +450,30 @@ double fw_effects_plate_end(double gap_m, double width_m, double length_m, doubl
 /* what the fringe fields that are not in it may add to the pull, relative, as drawn: what stands below or near changes
    half of what the long edges do */
 double fw_effects_comb_fringe(const fw_effects_comb_element *c);
+
+/* V up to which the fingers of a comb surely do not snap by themselves; infinite: it is no comb, or its material is not
+   known. edges: the field there counts */
+double fw_effects_comb_fingers_V(const fw_effects_comb_element *c, const fw_mechanism_variant *made,
+                                 bool edges);
+
+/* ---- eyelet_friction.c ---- */
+
+/* of cables on eyelets, of this scene; 0: none is stated */
+double fw_effects_eyelet_friction_of(const fw_device_scene *scene);
+/* of a cable's path over eyelets at these places (3 ports as fw_effects_port_state.p): by how much the tension of each
+   segment (ports - 1) may be larger than that of the whole, relative, whichever way it slips. kept: the actuator keeps the
+   tension behind the last eyelet; else its mean stays */
+void fw_effects_eyelet_friction_shares(const double *p, int ports, double coefficient, bool kept,
+                                       double *share);
+
+/* ---- levitation.c ---- */
+
+/* something that conducts may be below what is drawn; N up by which one drive may be lifted at most */
+bool fw_effects_levitation_may_be(const fw_mechanism *mechanism);
+double fw_effects_levitation_N(const fw_device_comb *drive, const fw_device_scene *scene);
+/* generalised forces (3 nbody) across the plane of all drives; the first of them that lifts anything, or NULL */
+const fw_device_comb *fw_effects_levitation_lift(const fw_mechanism *mechanism,
+                                                 const fw_device_scene *scene, double *force);
 
 /* ---- adhesion.c: surfaces that have met ---- */
 

@@ -2,6 +2,7 @@
 /* Force elements where the bodies are now, at rest. */
 #include "base/constants.h"
 #include "effects/effect.h"
+#include "effects/envelope.h"
 #include "effects/modal.h"
 #include <float.h>
 #include <math.h>
@@ -258,4 +259,93 @@ fw_effects_comb_element fw_effects_comb_as_drawn(const fw_effect_case *c,
         FW_VACUUM_PERMITTIVITY_F_PER_m * (d.kind == FW_ELECTRODES_COMB ? (double)from->fingers : 1);
     d.face_Fm = d.edge_F_per_m * d.depth_m;
     return d;
+}
+
+bool fw_effects_comb_drives(const fw_device_comb *c) {
+    return c->voltage_V != 0;
+}
+
+int fw_effects_comb_count(const fw_effect_case *c) {
+    int combs = 0;
+    for (int i = 0; i < c->scene->ncomb; i++)
+        combs += fw_effects_comb_drives(&c->scene->comb[i]);
+    return combs;
+}
+
+/* ---- what a drive may do within the envelope ---- */
+
+/* its direction as drawn, in the world */
+static fw_geometry_vec2 ahead_of(const fw_effect_case *c, const fw_device_comb *from) {
+    const double turned = from->direction_rad + turn_of(c->mechanism, from->body_a);
+    return (fw_geometry_vec2){cos(turned), sin(turned)};
+}
+
+/* across its direction by a motion (3 nbody) of the bodies, and what turns with it */
+static double across_by(const fw_effect_case *c, const fw_device_comb *from, const double *motion) {
+    const fw_mechanism *m = c->mechanism;
+    const fw_geometry_vec2 at = fw_mechanism_local_place(m, from->body_b, from->bx_m, from->by_m),
+                           e = ahead_of(c, from);
+    double sum = 0;
+    for (int k = 0; k < 2; k++) {
+        const int body = k ? from->body_b : from->body_a;
+        if (body == FW_GROUND) continue;
+        const double *u = motion + 3 * body, rx = at.x - m->body[body].x_m,
+                     ry = at.y - m->body[body].y_m;
+        const double by = -e.y * (u[0] - u[2] * ry) + e.x * (u[1] + u[2] * rx);
+        sum += k ? by : -by;
+    }
+    return sum;
+}
+
+/* In modes where all that moves is in them: bodies that go together stay as they are to each other. What is not linear
+   moves aside as much of the largest way as it widens the envelope by */
+fw_effects_comb_reach fw_effects_comb_reaches(const fw_effect_case *c, const fw_device_comb *from,
+                                              const fw_effects_comb_element *d) {
+    const fw_effects_envelope *e = c->envelope;
+    const fw_quantity_law_size law = fw_quantity_law_measure(from->law, c->scene->duration_s);
+    const fw_geometry_vec2 at =
+        fw_mechanism_local_place(c->mechanism, from->body_b, from->bx_m, from->by_m);
+    const double volt = from->voltage_V * law.most, more = 0.25 * (e->margin - 1);
+    fw_effects_comb_reach r = {.square_V2 = volt * volt,
+                               .turns = law.most > 0 ? 2 * law.variation / law.most : 0};
+    double go = 0;
+    const int body[2] = {from->body_a, from->body_b};
+    for (int k = 0; k < 2; k++)
+        if (body[k] != FW_GROUND) {
+            const fw_mechanism_mass *b = &c->mechanism->body[body[k]];
+            const double *reach = e->reach + 3 * body[k];
+            go += hypot(reach[0], reach[1]) + reach[2] * hypot(at.x - b->x_m, at.y - b->y_m);
+            r.tilt_rad += reach[2];
+        }
+    r.aside_m = go;
+    if (!e->modal->shift[0] && !e->modal->shift[1]) {
+        r.aside_m = more * go;
+        for (int l = 0; l < e->modes; l++)
+            r.aside_m += e->margin * e->amplitude[l] *
+                         fabs(across_by(c, from, e->shape + (size_t)l * (size_t)e->n));
+    }
+    r.half_m =
+        0.5 * (d->kind == FW_ELECTRODES_COMB ? fmin(d->length_m, d->overlap_m + go) : d->length_m);
+    return r;
+}
+
+/* on a body at a point, along e and across it: += */
+static void push(const fw_effect_case *c, int body, fw_geometry_vec2 at, fw_geometry_vec2 e,
+                 double along_N, double across_N, double couple_Nm, double *force) {
+    if (body == FW_GROUND) return;
+    const fw_mechanism_mass *b = &c->mechanism->body[body];
+    const double rx = at.x - b->x_m, ry = at.y - b->y_m;
+    force[3 * body] += fabs(e.x) * along_N + fabs(e.y) * across_N;
+    force[3 * body + 1] += fabs(e.y) * along_N + fabs(e.x) * across_N;
+    force[3 * body + 2] +=
+        fabs(rx * e.y - ry * e.x) * along_N + fabs(rx * e.x + ry * e.y) * across_N + couple_Nm;
+}
+
+void fw_effects_comb_push(const fw_effect_case *c, const fw_device_comb *from, double along_N,
+                          double across_N, double couple_Nm, double *force) {
+    const fw_geometry_vec2 at = fw_mechanism_local_place(c->mechanism, from->body_b, from->bx_m,
+                                                         from->by_m),
+                           ahead = ahead_of(c, from);
+    push(c, from->body_a, at, ahead, along_N, across_N, couple_Nm, force);
+    push(c, from->body_b, at, ahead, along_N, across_N, couple_Nm, force);
 }

@@ -91,6 +91,12 @@ double fw_effects_envelope_varying(const fw_effect_case *c, double part);
 fw_status fw_effects_envelope_strain(const fw_effect_case *c, const double *strain,
                                      const fw_quantity_law *law, double *bound);
 
-/* Private to the room: drawn tendons and the envelope. */
+/* N: a tendon's tension within the envelope at most; infinite: it is not in it, or may go slack */
+double fw_effects_envelope_tension(const fw_effect_case *c, const fw_device_tendon *tendon);
+/* the eyelet's way in mode l, world */
+fw_geometry_vec2 fw_effects_envelope_moves(const fw_effect_case *c, const fw_device_eyelet *eyelet,
+                                           int mode);
+/* how far an eyelet goes at most */
+double fw_effects_envelope_goes(const fw_effect_case *c, const fw_device_eyelet *eyelet);
 
 #endif

@@ -115,6 +115,24 @@ static bool tendons_loosen(const fw_effect_case *c, const fw_effects_envelope *e
     return more;
 }
 
+double fw_effects_envelope_tension(const fw_effect_case *c, const fw_device_tendon *t) {
+    const fw_effects_envelope *e = c->envelope;
+    if (!e || !e->valid || e->loose_pull > 0) return (double)INFINITY;
+    if (!isnan(t->pull_N))
+        return fabs(t->pull_N) * fw_quantity_law_largest(t->law, c->scene->duration_s);
+    const stretch s = stretch_of(c, e, t);
+    return t->stiffness_N_per_m * fmax(0, s.most_m) + t->damping_Ns_per_m * s.speed_m_per_s;
+}
+
+fw_geometry_vec2 fw_effects_envelope_moves(const fw_effect_case *c, const fw_device_eyelet *eyelet,
+                                           int mode) {
+    return moves(c, c->envelope, eyelet, mode);
+}
+
+double fw_effects_envelope_goes(const fw_effect_case *c, const fw_device_eyelet *eyelet) {
+    return reach(eyelet, c->envelope->reach);
+}
+
 /* row i of the system, and its right side */
 static void pull_of(const fw_effect_case *c, const fw_effects_envelope *e, const bool *loose, int i,
                     const double *a, double *row, double *right) {
@@ -308,7 +326,8 @@ static fw_status settle_tendons(const search *s, int hinges, bool alone,
 /* an effect beside those that are kept looks at their envelope when it adds itself */
 static bool looks_first(const search *s) {
     for (size_t i = 0; i < s->rows; i++)
-        if (!s->row[i]->kept && !s->row[i]->adds_blindly && s->row[i]->called_for(s->c))
+        if (!s->row[i]->kept && !s->row[i]->adds_blindly && !s->row[i]->beside &&
+            s->row[i]->called_for(s->c))
             return true;
     return false;
 }
@@ -332,7 +351,7 @@ fw_status fw_effects_envelope_of_rows(fw_arena *arena, const fw_mechanism *mecha
     const bool looks = looks_first(&s);
     if (looks) FW_TRY(fw_effects_envelope_of(arena, mechanism, scene, &all, &first));
     for (size_t i = 0; i < count; i++)
-        if (!row[i]->kept && row[i]->called_for(&c)) {
+        if (!row[i]->kept && !row[i]->beside && row[i]->called_for(&c)) {
             FW_TRY(can_take(&c, row[i], &s.taken[i]));
             alone = alone && s.taken[i];
             if (s.taken[i] && strcmp(row[i]->id, "nonlinear-hinge") == 0)

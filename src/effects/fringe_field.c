@@ -87,19 +87,8 @@ double fw_effects_comb_fringe(const fw_effects_comb_element *c) {
     return -g * g * ((left + 0.5) * by[0] / c->depth_m + left * 2 * end[0] / c->length_m);
 }
 
-static bool drives(const fw_device_comb *c) {
-    return c->voltage_V != 0;
-}
-
-static int count(const fw_effect_case *c) {
-    int combs = 0;
-    for (int i = 0; i < c->scene->ncomb; i++)
-        combs += drives(&c->scene->comb[i]);
-    return combs;
-}
-
 static bool called_for(const fw_effect_case *c) {
-    return count(c) > 0;
+    return fw_effects_comb_count(c) > 0;
 }
 
 /* what the edges add to the pull, over V^2/2: at a gap that the motion may come down to */
@@ -135,18 +124,6 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     return FW_OK;
 }
 
-/* on a body at a point, along e and across it: += */
-static void push(const fw_effect_case *c, int body, fw_geometry_vec2 at, fw_geometry_vec2 e,
-                 double along_N, double across_N, double couple_Nm, double *force) {
-    if (body == FW_GROUND) return;
-    const fw_mechanism_mass *b = &c->mechanism->body[body];
-    const double rx = at.x - b->x_m, ry = at.y - b->y_m;
-    force[3 * body] += fabs(e.x) * along_N + fabs(e.y) * across_N;
-    force[3 * body + 1] += fabs(e.y) * along_N + fabs(e.x) * across_N;
-    force[3 * body + 2] +=
-        fabs(rx * e.y - ry * e.x) * along_N + fabs(rx * e.x + ry * e.y) * across_N + couple_Nm;
-}
-
 /* What one drive lacks without: along it the pull of its edges at the least gap, turned with the stator; across a comb
    the slope of F for as far as the rotor gets aside; a couple where the rotor tilts. false: no gap is left for certain */
 static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double square_V2,
@@ -172,14 +149,7 @@ static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double sq
     } else {
         couple = half * along;
     }
-    const double turned =
-        d.direction_rad +
-        (from->body_a == FW_GROUND ? 0 : c->mechanism->body[from->body_a].phi_rad);
-    const fw_geometry_vec2 at = fw_mechanism_local_place(c->mechanism, from->body_b, from->bx_m,
-                                                         from->by_m),
-                           ahead = {cos(turned), sin(turned)};
-    for (int k = 0; k < 2; k++)
-        push(c, body[k], at, ahead, along, across + along * fmin(1, tilt), couple, force);
+    fw_effects_comb_push(c, from, along, across + along * fmin(1, tilt), couple, force);
     return true;
 }
 
@@ -190,7 +160,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     fw_mark mark = fw_arena_mark(c->arena);
     for (int i = 0; i < c->scene->ncomb; i++) {
         const fw_device_comb *from = &c->scene->comb[i];
-        if (!drives(from)) continue;
+        if (!fw_effects_comb_drives(from)) continue;
         const fw_effects_comb_element d = fw_effects_comb_as_drawn(c, from);
         share = fmax(share, share_of(&d));
         if (!e || !e->valid) continue;
@@ -220,4 +190,4 @@ const fw_effect_row fw_effect_fringe_field = {
     .bound = bound,
     .add = add,
     .cost = 2450,
-    .count = count};
+    .count = fw_effects_comb_count};

@@ -83,7 +83,8 @@ static fw_status settle(const fw_effect_case *c, fw_effect_entry *entry) {
         else if (isfinite(entry[i].bound)) {
             entry[i].bound = (double)INFINITY;
             FW_NEED(entry[i].reason = fw_arena_printf(
-                        c->arena, "kept: no bound holds while %s may change the motion much",
+                        c->arena, "%s%sno bound holds while %s may change the motion much",
+                        rows[i]->beside ? entry[i].reason : "kept", rows[i]->beside ? "; " : ": ",
                         rows[largest]->id));
         }
     }
@@ -150,6 +151,33 @@ static fw_status explain(const fw_effect_case *c, fw_effect_entry *entry, double
     return FW_OK;
 }
 
+/* What no motion has: its bound stands beside what was left out. Where there is none it must be small: the share below
+   which the closed forms of hinges may be off as well (verdict/decision.c). */
+static const double fw_beside_small = 0.029;
+
+static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
+                           fw_effect_ledger *ledger) {
+    char text[32];
+    for (int i = 0; i < ROWS; i++) {
+        fw_effect_entry *e = &entry[i];
+        double share;
+        if (!e->called_for || !rows[i]->beside) continue;
+        e->active = false;
+        e->cost = 0;
+        if (isfinite(e->bound)) {
+            ledger->beside += e->bound;
+            fw_percent_text(text, sizeof text, e->bound);
+            FW_NEED(e->reason =
+                        fw_arena_printf(c->arena, "%s; at most %s %%, in the error of every peak",
+                                        e->reason, text));
+            continue;
+        }
+        FW_TRY(rows[i]->beside(c, &share));
+        if (share > fw_beside_small) ledger->undecided = e->reason;
+    }
+    return FW_OK;
+}
+
 /* smallest bounds first, while their sum stays below the accuracy; hinges as they were asked for */
 static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
                                  const fw_effect_choice *choice, bool calm,
@@ -157,7 +185,7 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
     bool settled[ROWS], in;
     double sum = 0;
     for (int i = 0; i < ROWS; i++) {
-        settled[i] = !entry[i].called_for || (calm && rows[i]->calms);
+        settled[i] = !entry[i].called_for || (calm && rows[i]->calms) || rows[i]->beside;
         if (!settled[i] && fw_effects_hinge_forced(rows[i]->id, choice->hinge, &in)) {
             settled[i] = true;
             entry[i].active = in;
@@ -225,7 +253,7 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
     bool all = whole || choice->mode == FW_EFFECTS_ALL, list = choice->mode == FW_EFFECTS_LIST;
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &entry[i];
-        if (!e->called_for) continue;
+        if (!e->called_for || rows[i]->beside) continue;
         if (fw_effects_hinge_forced(e->id, choice->hinge, &e->active)) {
             e->reason = fw_effects_hinge_forced_reason(choice);
             continue;
@@ -275,7 +303,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
-    ledger->left_out = 0;
+    ledger->left_out = ledger->beside = 0;
+    ledger->undecided = NULL;
     FW_TRY(fw_effects_loads_new(arena, mechanism, scene, loads));
     FW_NEED(envelope.taken = fw_arena_array(arena, bool, ROWS));
     FW_TRY(look_around(&c, &envelope));
@@ -284,12 +313,14 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(decide_auto(&c, accuracy, choice, ledger->item));
     else
         decide_asked(&c, choice, ledger->item);
+    FW_TRY(set_aside(&c, ledger->item, ledger));
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &ledger->item[i];
         if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
         bool forced, was;
         forced = fw_effects_hinge_forced(e->id, choice->hinge, &was);
-        if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active && !forced)
+        if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active && !forced &&
+            !rows[i]->beside)
             ledger->left_out += e->bound;
         if (e->active) {
             if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));

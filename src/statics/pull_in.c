@@ -340,39 +340,13 @@ bool fw_statics_pull_in_fingers_snap(const fw_statics_pull_in *p) {
 
 /* ---- fingers ---- */
 
-/* the softest modulus of any direction in the wafer: of a cubic crystal that along [100] */
-static double softest_Pa(const fw_device_material *of) {
-    const double e = of->youngs.value, a = of->c11.value, b = of->c12.value;
-    return fw_device_material_is_crystal(of) ? fmin(e, (a - b) * (a + 2 * b) / (a + b)) : e;
-}
-
-/* Fingers are cantilevers of length L in a field that pulls them to either side: per gap and length the energy is
-   -kappa V^2 D^2/2 of what the gap changes by, kappa = eps0 (h/g^3 + F''/2). Where D is the sum of what two fingers bend,
-   D^2 <= 2 (y_a^2 + y_b^2), and each has two gaps: 4 kappa V^2 < mu keeps all stable, mu the least eigenvalue of EI d4/ds4.
-   1/mu is at most the trace of the cantilever's answers, int s^3/(3 EI) ds = L^4/(12 EI):
-
-     V^2 = 12 EI/(4 kappa L^4),   12.36 in place of 12 where mu is exact
-
-   and beside a rotor that gives, 1/V^2 adds up at most (Dunkerley). In: SI, from the element, so as made in a verdict;
-   out: V, a lower bound. Source: S. Dunkerley, Phil. Trans. A 185 (1894) 279. Theory: docs/theory/effects/comb-drive.md.
-   Test: test_pull_in.c */
-static double finger_V(const fw_effects_comb_element *c, const fw_mechanism_variant *made) {
-    double by[2];
-    if (c->kind != FW_ELECTRODES_COMB || !made) return (double)INFINITY;
-    fw_effects_comb_edge(c->gap_m, c->width_m, by);
-    const double l2 = c->length_m * c->length_m, g = c->gap_m, w = c->width_m,
-                 bending = softest_Pa(&made->material) * c->depth_m * w * w * w / 12,
-                 kappa = FW_VACUUM_PERMITTIVITY_F_PER_m *
-                         (c->depth_m / (g * g * g) + (c->edge ? 0.5 * by[1] : 0));
-    return sqrt(3 * bending / (kappa * l2 * l2));
-}
-
 static void fingers(seeker *k, const fw_mechanism *mechanism) {
     fw_statics_pull_in *out = k->out;
     out->fingers_V = (double)INFINITY;
     for (int i = 0; i < k->w.model->nelement; i++) {
         const fw_effects_comb_element *c = comb_at(k, i);
-        const double least = c ? finger_V(c, mechanism->variant) : (double)INFINITY;
+        const double least = c ? fw_effects_comb_fingers_V(c, mechanism->variant, c->edge != NULL)
+                               : (double)INFINITY;
         const double share = c ? c->voltage_V / least : 0;
         if (!(share * share > out->fingers)) continue;
         out->fingers = share * share;

@@ -12,7 +12,10 @@
    Inputs: an evaluated stable equilibrium, scaled units. Outputs: m, rad. Valid to first order: test_statics.c compares
    with motions that come to rest from either side. Not where a contact presses (its force is another question), or the
    stiffness vanishes. Where friction makes what presses grow faster than itself (spectral radius of m r G at 1) it holds
-   anywhere. Cost: one evaluation for each joint that rubs. Source: docs/theory/effects/friction.md. */
+   anywhere. Cost: one evaluation for each joint that rubs. Source: docs/theory/effects/friction.md.
+
+   Cables that rub on eyelets: each segment may pull by the share c of the tension T more or less, x_j its length, and
+   |S_j| T c_j adds up likewise (docs/theory/effects/eyelet-friction.md). Test: tests/cli/test_effects.py */
 #include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>
@@ -204,12 +207,99 @@ static fw_status room(rub *r, fw_statics_friction_range *out) {
     return FW_OK;
 }
 
+/* ---- cables on eyelets ---- */
+
+/* as far as the poses and angles go by a push of 1 N along a row h (n) times `most` N: += */
+static void go_by(const fw_statics_equilibrium *w, const double *h, double most_N, double *give,
+                  fw_statics_friction_range *out) {
+    const fw_statics_reduced *d = &w->reduced;
+    const size_t n = (size_t)d->n;
+    const double by = most_N / fw_multibody_newton(w->model);
+    memset(give, 0, n * sizeof *give);
+    for (size_t k = 0; k < (size_t)d->dof; k++) {
+        double along = 0;
+        for (size_t i = 0; i < n; i++)
+            along += d->shape[k * n + i] * h[i];
+        for (size_t i = 0; i < n; i++)
+            give[i] += d->shape[k * n + i] * along / d->value[k];
+    }
+    for (size_t i = 0; i < n; i++)
+        out->q[i] += fabs(give[i]) * by * (i % 3 == 2 ? 1 : w->model->scale.length_m);
+    for (int k = 0; k < w->mechanism->npin; k++) {
+        const fw_mechanism_pin *p = &w->mechanism->pin[k];
+        const int a = body_row(w, p->body_a), b = body_row(w, p->body_b);
+        out->angle_rad[k] +=
+            by * fabs((b == FW_NONE ? 0 : give[b + 2]) - (a == FW_NONE ? 0 : give[a + 2]));
+    }
+}
+
+typedef struct cable {
+    double *p, *v, *f, *share, *force, *h, *give;
+    bool *on;
+} cable;
+
+static fw_status cable_room(const fw_statics_equilibrium *w, int ports, cable *c) {
+    const size_t n = 3 * (size_t)ports, bodies = 3 * (size_t)w->mechanism->nbody;
+    double **of[] = {&c->p, &c->v, &c->f, &c->share};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+        FW_NEED(*of[i] = fw_arena_array(w->arena, double, n));
+    FW_NEED(c->force = fw_arena_array(w->arena, double, bodies));
+    FW_NEED(c->h = fw_arena_array(w->arena, double, bodies));
+    FW_NEED(c->give = fw_arena_array(w->arena, double, bodies));
+    FW_NEED(c->on = fw_arena_array(w->arena, bool, 1));
+    return FW_OK;
+}
+
+/* the tension behind the last eyelet pulls at nothing but that */
+static double tension_of(const fw_statics_equilibrium *w, const fw_effects_force_element *e,
+                         const cable *c) {
+    const double end = w->scene->duration_s;
+    const fw_effects_port_state s = {
+        .t_s = end, .piece_s = end, .load = 1, .p = c->p, .w = c->v, .on = c->on, .still = true};
+    if (e->switches > 0) c->on[0] = e->class_->switch_value(e, &s, 0) > 0;
+    e->class_->force(e, &s, c->f);
+    return hypot(c->f[3 * (e->ports - 1)], c->f[3 * (e->ports - 1) + 1]);
+}
+
+static fw_status cables(const fw_statics_equilibrium *w, fw_statics_friction_range *out) {
+    const double coefficient = fw_effects_eyelet_friction_of(w->scene);
+    double *q, *angle;
+    int tendon = 0;
+    FW_NEED(q = fw_arena_array(w->arena, double, (size_t)w->model->nq));
+    FW_NEED(angle = fw_arena_array(w->arena, double, (size_t)w->mechanism->npin));
+    fw_statics_equilibrium_pose(w, w->y, q, angle);
+    for (int i = 0; i < w->loads->nelement; i++) {
+        const fw_effects_force_element *e = &w->loads->element[i];
+        cable c;
+        if (strcmp(e->class_->effect, "tendon") != 0) continue;
+        const bool kept = !isnan(w->scene->tendon[tendon++].pull_N);
+        FW_TRY(cable_room(w, e->ports, &c));
+        fw_effects_element_place_ports(e, q, NULL, c.p, c.v);
+        fw_effects_eyelet_friction_shares(c.p, e->ports, coefficient, kept, c.share);
+        const double tension = tension_of(w, e, &c);
+        for (int k = 0; k + 1 < e->ports; k++) {
+            const double *a = c.p + 3 * k, x = a[3] - a[0], y = a[4] - a[1], far = hypot(x, y);
+            if (!(far > 0)) continue;
+            memset(c.f, 0, 3 * (size_t)e->ports * sizeof *c.f);
+            memset(c.force, 0, 3 * (size_t)w->mechanism->nbody * sizeof *c.force);
+            c.f[3 * k] = -x / far, c.f[3 * k + 1] = -y / far;
+            c.f[3 * k + 3] = x / far, c.f[3 * k + 4] = y / far;
+            fw_effects_element_add_forces(e, q, c.f, c.force);
+            for (int j = 0; j < w->model->nq; j++)
+                c.h[j] = c.force[j] / (j % 3 == 2 ? w->model->scale.length_m : 1);
+            go_by(w, c.h, c.share[k] * tension, c.give, out);
+        }
+    }
+    return FW_OK;
+}
+
 fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
                                           const fw_statics_friction_range **range) {
     const fw_effects_loads *loads = w->loads;
     fw_statics_friction_range *out;
     *range = NULL;
-    if (!loads || loads->nfriction == 0) return FW_OK;
+    const bool rubs = loads && w->scene && fw_effects_eyelet_friction_of(w->scene) > 0;
+    if (!loads || (loads->nfriction == 0 && !rubs)) return FW_OK;
     rub r = {.w = w, .item = loads->friction, .count = loads->nfriction};
     FW_NEED(out = fw_arena_one(w->arena, fw_statics_friction_range));
     out->count = r.count;
@@ -220,7 +310,8 @@ fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
     for (int k = 0; k < w->reduced.dof; k++)
         if (!(w->reduced.value[k] > w->reduced.zero[k]))
             out->why = "nothing but friction holds it: it may rest anywhere nearby";
-    if (!out->why) FW_TRY(find(&r, out));
+    if (!out->why && r.count > 0) FW_TRY(find(&r, out));
+    if (!out->why && rubs) FW_TRY(cables(w, out));
     *range = out;
     return FW_OK;
 }

@@ -4,6 +4,7 @@
    give at most (body_arms.c) frequencies have their lower end and sags their upper one.
    Theory: docs/theory/effects/out-of-plane.md. Test: test_out_of_plane.py */
 #include "base/constants.h"
+#include "effects/effects.h"
 #include "mechanism/mechanism_plates.h"
 #include "quantity/quantity_law.h"
 #include "verdict/strain.h"
@@ -167,41 +168,13 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
 
 /* ---- electrodes that lift it ---- */
 
-/* N, up: what the field pulls at the upper edges of one drive where the lower ones feel nothing, because the carrier
-   below has the rotor's potential and screens them. Of the map of fringe_field.c the field on an upper face is
-   V/((w + g) (t - kappa^2)^(1/2)), and its stress adds up to eps0 V^2/(4 g) per length and edge of a gap, whatever w is:
-
-     comb   N L eps0 V^2/(2 g), two edges to a finger, engaged all along;   plate   l eps0 V^2/(4 g)
-
-   Exact for electrodes deep against the gap; any other carrier lifts less, and one at the stator's potential pulls down. */
-static double lift_N(const fw_device_comb *c, const fw_device_scene *s) {
-    const double volt = c->voltage_V * fw_quantity_law_measure(c->law, s->duration_s).most,
-                 one = FW_VACUUM_PERMITTIVITY_F_PER_m * volt * volt / (4 * c->gap_m);
-    if (c->kind == FW_ELECTRODES_PLATE) return one * c->length_m;
-    return 2 * one * c->fingers * (isnan(c->length_m) ? 2 * c->overlap_m : c->length_m);
-}
-
 static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags *diags,
                               fw_verdict_variant_verdict *v, fw_verdict_across *to) {
     const fw_mechanism *m = v->mechanism;
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
     const fw_geometry_vec2 origin = {0, 0};
-    const fw_device_comb *first = NULL;
     memset(is->f, 0, (size_t)p->n * sizeof *is->f);
-    for (int i = 0; i < s->ncomb; i++) {
-        const fw_device_comb *c = &s->comb[i];
-        const fw_geometry_vec2 at = fw_mechanism_local_place(m, c->body_b, c->bx_m, c->by_m);
-        const int body[2] = {c->body_a, c->body_b};
-        const double up = lift_N(c, s);
-        for (int k = 0; k < 2 && up != 0; k++) {
-            if (body[k] == FW_GROUND) continue;
-            double *f = is->f + 3 * body[k];
-            f[0] += up;
-            f[1] += (at.y - m->body[body[k]].y_m) * up;
-            f[2] -= (at.x - m->body[body[k]].x_m) * up;
-            if (!first) first = c;
-        }
-    }
+    const fw_device_comb *first = fw_effects_levitation_lift(m, s, is->f);
     if (!first) return FW_OK;
     fw_mechanism_plates_answer(p, is->f, is->x);
     const fw_mechanism_plates_reach r = fw_mechanism_plates_reached(p, is->x, NULL, 0, origin);
@@ -331,7 +304,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
         if (out->why) continue;
         if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, &is, s, v, to));
         if (!brief) FW_TRY(judge_tipping(arena, &is, s, v->motion[i], v, to));
-        if (!brief && s->ncomb > 0 && !m->variant->below.open && !m->variant->substrate_insulates)
+        if (!brief && s->ncomb > 0 && fw_effects_levitation_may_be(m))
             FW_TRY(warn_of_lift(&is, s, diags, v, to));
     }
     return FW_OK;

@@ -205,6 +205,14 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
                                step->why_not));
 }
 
+/* what no motion has and nothing bounds */
+static fw_status judge_beside(fw_arena *arena, const fw_device_scene *scene,
+                              const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
+    if (!motion->ledger.undecided) return FW_OK;
+    return add(v, scene, 607, FW_INCONCLUSIVE, 0.7,
+               fw_arena_printf(arena, "in scene %s %s", scene->name, motion->ledger.undecided));
+}
+
 /* what the run itself says is not to be relied on: another start than the stated one, an energy that
    does not add up */
 static fw_status judge_reliability(const fw_device_scene *scene, const fw_diags *said,
@@ -236,6 +244,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(status);
     FW_TRY(judge_pull_in(arena, scene, p, v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
+    FW_TRY(judge_beside(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
     return judge_stability(arena, scene, v->motion[i], diags, v);
 }

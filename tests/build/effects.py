@@ -45,6 +45,7 @@ SCENES = [
     ("free", "rubbing", []),
     ("free", "rubbing", ["--still"]),  # sticks
     ("pulled", "pulled", []),  # tendons
+    ("pulled", "rubbed", []),
     ("drawn", "comb", []),
     ("drawn", "plate", []),
     ("giving", "plain", []),  # hinges that give
@@ -83,12 +84,15 @@ COSTS = [
     ("friction", "stated", "rubbing", ["--pins", "--still"], "joint that sticks"),
     ("friction", "stated", "rubbing-twice", ["--pins"], "joint of two that slip"),
     ("tendon", "pulled", "pulled", [], "pull over two eyelets"),
+    ("eyelet-friction", "pulled", "rubbed", [], "in no motion: nothing"),
     ("comb-drive", "drawn", "comb", ["--off", "fringe-field"], "comb, constant voltage"),
     ("comb-drive", "drawn", "driven", ["--off", "fringe-field"], "comb, voltage with a law"),
     ("comb-drive", "drawn", "plate", ["--off", "fringe-field"], "plate, constant voltage"),
     ("fringe-field", "drawn", "comb", [], "comb, constant voltage"),
     ("fringe-field", "drawn", "driven", [], "comb, voltage with a law"),
     ("fringe-field", "drawn", "plate", [], "plate, constant voltage"),
+    ("finger-bending", "drawn", "comb", [], "in no motion: nothing"),
+    ("levitation", "drawn", "comb", [], "in no motion: nothing"),
     ("temperature", "stated", "warm", ["--pins"], "constant: nothing"),
     ("temperature", "stated", "warming", ["--pins"], "hinge that softens with a law"),
     ("temperature", "stated", "growing", ["--pins"], "ground that grows with a law, per hinge"),

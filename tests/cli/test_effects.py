@@ -161,6 +161,71 @@ class Effects(unittest.TestCase):
             self.assertEqual(("FW-D595", "oscillate", "inconclusive") in
                              [(r["code"], r["scene"], r["verdict"]) for r in verdict["reasons"]], beyond)
 
+    def ledger(self, text, scene, *options):
+        r = self.result(run("simulate", "-", "--scene", scene, "--json", *options, input=text))
+        return {e["id"]: e for e in r["effects"]}, max(abs(p["angle_rad"]) for p in r["peaks"]), r
+
+    CABLES = """<device xmlns="urn:flexwright:device:1" name="arms"><mechanism>
+<body id="arm" mass="0.02 mg" inertia="0.003 mg mm^2" x="0.5 mm" y="0 mm"/>
+<body id="tip" mass="0.02 mg" inertia="0.003 mg mm^2" x="1.5 mm" y="0 mm"/>
+<revolute id="root" a="ground" b="arm" b-x="-0.5 mm" stiffness="1.7e-6 N m/rad"/>
+<revolute id="elbow" a="arm" a-x="0.5 mm" b="tip" b-x="-0.5 mm" stiffness="1.5e-6 N m/rad"/></mechanism>
+<scene name="pulled" duration="1 ms">%s</scene></device>"""
+    OUTER, BEND, POST = '<eyelet on="tip" x="0.4 mm" y="0.1 mm"/>', '<eyelet on="arm" x="0.3 mm" y="0.4 mm"/>', \
+        '<eyelet on="ground" x="0.5 mm" y="1.5 mm"/>'
+
+    def test_cables_rub_on_eyelets(self):
+        """a cable cut at its eyelet, the outer part pulled by e^(+-mu beta) of the inner one: the motions are within the bound of the
+        ledger, the equilibria within the range of statics; no motion has the effect, whatever was asked for"""
+        whole = self.CABLES % (f'<tendon id="t" pull="4 uN">{self.OUTER}{self.BEND}{self.POST}</tendon>%s')
+        cut = self.CABLES % (f'<tendon id="t" pull="4 uN">{self.BEND}{self.POST}</tendon>'
+                             f'<tendon id="u" pull="%.17g uN">{self.OUTER}{self.BEND}</tendon>')
+        bend = math.acos((1.1 * 0.3 + 0.3 * 1.1) / (1.1**2 + 0.3**2))
+        for mu in (0.02, 0.2):
+            rubs = whole % f'<eyelet-friction coefficient="{mu}"/>'
+            for asked in ("none", "all", "auto"):
+                ledger, peak, r = self.ledger(rubs, "pulled", "--effects", asked)
+                self.assertTrue(ledger["eyelet-friction"]["called_for"])
+                self.assertFalse(ledger["eyelet-friction"]["active"])
+            bound = ledger["eyelet-friction"]["bound"]
+            self.assertTrue(0 < bound < 30 * mu, bound)
+            self.assertGreaterEqual(max(p["error_rad"] for p in r["peaks"]), bound * peak)
+            free = self.ledger(whole % "", "pulled")
+            self.assertFalse(free[0]["eyelet-friction"]["called_for"])
+            self.assertAlmostEqual(free[1] / peak, 1, 9)
+            rest = self.result(run("statics", "-", "--scene", "pulled", "--json", input=rubs))
+            within = rest["friction_range"]["angle_rad"]
+            for sign in (-1, 1):
+                other = cut % (4 * math.exp(sign * mu * bend))
+                self.assertLess(abs(self.ledger(other, "pulled")[1] / peak - 1), bound)
+                there = self.result(run("statics", "-", "--scene", "pulled", "--json", input=other))
+                for a, b in zip(rest["hinges"], there["hinges"]):
+                    far = abs(a["angle_rad"] - b["angle_rad"])
+                    self.assertLess(far, within[a["id"]] * (1 + 2 * mu), (mu, sign, a["id"]))
+                    self.assertGreater(far, 0.5 * within[a["id"]], (mu, sign, a["id"]))
+
+    def test_cables_that_rub_and_may_go_slack(self):
+        """nothing bounds what a stiff cable does that may go slack: undecided where friction may count, and only there"""
+        head, tail = example("tendons").read_text().rsplit("</scene>", 1)
+        for coefficient, undecided in ((0.2, True), (1e-3, False)):
+            text = f'{head}<eyelet-friction coefficient="{coefficient}"/></scene>{tail}'
+            said = json.loads(run("check", "-", "--json", "--corners", "none", "--advice", "none", input=text).stdout)
+            self.assertEqual(("FW-D607", "drawn", "inconclusive") in
+                             [(r["code"], r["scene"], r["verdict"]) for r in said["reasons"]], undecided, said["reasons"])
+
+    def test_drives_over_a_carrier_rise(self):
+        """the ledger's bound against the same comb over less depth by as much as it may rise"""
+        stage = (ROOT / "docs/gallery/comb-stage/device.xml").read_text()
+        silicon = re.sub(r'<flow ref="silicon-on-glass"[^>]*/>', '<flow ref="soi-deep-rie"/>', re.sub(r"<wafer.*?</wafer>", "", stage, flags=re.S))
+        ledger, peak, _ = self.ledger(silicon, "switch-on")
+        rises, bends = ledger["levitation"], ledger["finger-bending"]
+        self.assertEqual([e["called_for"] and not e["active"] for e in (rises, bends)], [True, True])
+        self.assertTrue(0 < rises["bound"] < 0.5 and 0 <= bends["bound"] < 0.1, (rises, bends))
+        share = float(re.search(r"rise by up to ([-0-9.e]+) %", rises["reason"]).group(1)) / 100
+        lower = re.sub(r"(<comb-drive )", rf'\1depth="{50 * (1 - share):.9g} um" ', silicon)
+        change = abs(self.ledger(lower, "switch-on")[1] / peak - 1)
+        self.assertTrue(0.5 * share < change < rises["bound"], (share, change, rises["bound"]))
+
     def test_widths_are_accepted_where_the_verdict_judged_them(self):
         """top and bottom of the narrowest flexure, 6 um, of 50 um silicon: printed edge 0.15 um and that of the aluminium 0.22 um
         either way, and what an anisotropy takes at the top, (1 - A) 50 um in the nominal time at every edge"""

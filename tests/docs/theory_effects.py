@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The worked examples of docs/theory/effects, written again from their equations. SI in and out. Functions are effect_NAME; the
 program's own bound of an effect, and the true change of the largest peak without it, are asked for in the same way everywhere."""
-from math import asin, cos, exp, hypot, log, pi, sin, sqrt, tanh
+from math import asin, atan2, cos, exp, hypot, log, pi, sin, sqrt, tanh
 
 import theory_flexures
 
@@ -275,6 +275,69 @@ def effect_fringe_field(g):
 def effect_fringe_field_program(run, _):
     pull_in = at_rest(run, CART, "plate")["pull_in"][0]
     return {"x": at_rest(run, CART, "comb")["q"]["plate"][0], "pullin": pull_in["voltage_V"], "left": pull_in["fringe"]}
+
+
+def fringe(m, w):
+    """F of fringe-field (3), its first and second derivative by the gap"""
+    x, ln = m / w, log(1 + 2 * m / w)
+    return ((2 * (ln - log(x)) + ln / x) / pi, -ln / (pi * x * x * w), (2 * ln / x - 2 / (1 + 2 * x)) / (pi * x * x * w * w))
+
+
+def effect_finger_bending(g):
+    c11, c12 = 165.7e9, 63.9e9
+    E = (c11 - c12) * (c11 + 2 * c12) / (c11 + c12)
+    EI = E * g["h"] * g["w"] ** 3 / 12
+
+    def volts(gap):
+        return sqrt(3 * EI / (EPS0 * (g["h"] / gap**3 + fringe(gap, g["w"])[2] / 2) * g["L"] ** 4))
+    more = 0.0
+    for _ in range(200):
+        r = (g["V"] / volts(g["gap"])) ** 2 * (g["gap"] / (g["gap"] - g["y"] - more)) ** 3
+        more = g["y"] * 1.5 * r / (1 - 1.5 * r)
+    n, L = 80, g["L"]
+    s = [(i + 0.5) * L / n for i in range(n)]
+    green = [[min(a, b) ** 2 * (3 * max(a, b) - min(a, b)) / (6 * EI) * L / n for b in s] for a in s]
+
+    def pull(D):
+        near, far = g["gap"] - D, g["gap"] + D
+        return EPS0 * g["V"] ** 2 / 2 * (g["h"] / near**2 - g["h"] / far**2 - fringe(near, g["w"])[1] + fringe(far, g["w"])[1])
+    u = [0.0] * n
+    for _ in range(60):  # the stator's finger comes from the other side
+        p = [pull(g["y"] + u[i] + u[n - 1 - i]) for i in range(n)]
+        u = [sum(k * q for k, q in zip(row, p)) for row in green]
+    beams = max(u[i] + u[n - 1 - i] for i in range(n))
+    assert beams < more, "the bound of finger-bending is below its beams"
+    return {"E": E, "Vf": volts(g["gap"]), "r": r, "more": more, "beams": beams}
+
+
+def effect_levitation(g):
+    P = g["N"] * g["L"] * EPS0 * g["V"] ** 2 / (2 * g["g"])
+    return {"P": P, "z": P / g["k"], "share": P / g["k"] / g["h"]}
+
+
+def effect_eyelet_friction(g):
+    def length(theta):
+        x, y = tip(g, theta)
+        return hypot(x - g["ex"], y - g["ey"])
+
+    def bend(theta):
+        x, y = tip(g, theta)
+        return atan2(g["ey"] - y, g["ex"] - x) - atan2(g["ay"] - g["ey"], g["ax"] - g["ex"])
+
+    def rests(sign):
+        step = 1e-6
+        return root(lambda q: g["k"] * q + g["pull"] * exp(sign * g["mu"] * bend(q)) * (length(q + step) - length(q - step)) / (2 * step),
+                    -1, 1)
+    q, step = rests(0), 1e-4
+    slope = (length(q + step) - length(q - step)) / (2 * step)
+    stiff = g["k"] + g["pull"] * (length(q + step) - 2 * length(q) + length(q - step)) / step**2
+    return {"beta": bend(q), "without": q, "less": rests(-1), "more": rests(1),
+            "range": abs(slope) * g["pull"] * (exp(g["mu"] * bend(q)) - 1) / stiff}
+
+
+def effect_eyelet_friction_program(run, _):
+    rest = at_rest(run, LEVER, "rubbed")
+    return {"without": rest["hinges"][0]["angle_rad"], "range": rest["friction_range"]["angle_rad"]["foot"]}
 
 
 def effect_temperature(g):

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Air: properties against published numbers, films against independent solutions, and what every
    element class must satisfy. */
-#include "effects/air.h"
+#include "effects/effect.h"
 #include "element_check.h"
 
 static const double pi = 3.14159265358979323846;

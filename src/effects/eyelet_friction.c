@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cables that rub on the eyelets that they bend around. No motion has that: what it may come to, sticking or slipping
+   either way, is in the error of every peak, and statics says within what range friction may hold (statics_friction.c).
+
+     T_before/T_behind = e^(+-mu beta) at most, at an eyelet that bends the cable by beta
+
+   Source: L. Euler 1762, the cable around a post. Theory: docs/theory/effects/eyelet-friction.md.
+   Test: tests/cli/test_effects.py */
+#include "effects/effect.h"
+#include "effects/envelope.h"
+#include "quantity/quantity_law.h"
+#include <math.h>
+#include <string.h>
+
+double fw_effects_eyelet_friction_of(const fw_device_scene *s) {
+    for (int i = 0; i < s->npart; i++)
+        if (strcmp(s->part[i].element, "eyelet-friction") == 0)
+            return fw_device_scene_part_number(&s->part[i], "coefficient");
+    return 0;
+}
+
+/* rad, between 0 and pi */
+static double bend_of(const double *p, int eyelet) {
+    const double *a = p + 3 * (eyelet - 1), *b = p + 3 * eyelet, *c = p + 3 * (eyelet + 1);
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
+    return fabs(atan2(ux * vy - uy * vx, ux * vx + uy * vy));
+}
+
+/* Kept by the actuator: of a segment all bends between it and the actuator count. Else the mean stays, which lies between
+   the least and the largest, and all bends count for all. */
+static void shares_of(const double *bend, int segments, double coefficient, bool kept,
+                      double *share) {
+    double sum = 0;
+    for (int i = segments - 1; i >= 0; i--) {
+        const double here = i > 0 ? bend[i] : 0;
+        share[i] = expm1(coefficient * sum);
+        sum += here;
+    }
+    for (int i = 0; i < segments && !kept; i++)
+        share[i] = expm1(coefficient * sum);
+}
+
+void fw_effects_eyelet_friction_shares(const double *p, int ports, double coefficient, bool kept,
+                                       double *share) {
+    for (int i = 1; i + 1 < ports; i++)
+        share[i] = bend_of(p, i); /* each is taken before it is overwritten */
+    shares_of(share, ports - 1, coefficient, kept, share);
+}
+
+static bool bends(const fw_device_scene *s) {
+    for (int i = 0; i < s->ntendon; i++)
+        if (s->tendon[i].neyelet > 2) return true;
+    return false;
+}
+
+static bool called_for(const fw_effect_case *c) {
+    return fw_effects_eyelet_friction_of(c->scene) > 0 && bends(c->scene);
+}
+
+static int count(const fw_effect_case *c) {
+    int n = 0;
+    for (int i = 0; i < c->scene->ntendon; i++)
+        n += c->scene->tendon[i].neyelet - 2;
+    return n;
+}
+
+typedef struct rubbing {
+    const fw_effect_case *c;
+    double *mode;             /* (modes) of what friction changes of the forces */
+    double *force;            /* (3 nbody) likewise, sizes */
+    double *bend, *share, *p; /* of one tendon's eyelets */
+} rubbing;
+
+/* bends as drawn, and by how much segments may turn until then: each by what its ends go over its length */
+static void bends_of(const rubbing *r, const fw_device_tendon *t, bool moved) {
+    const fw_effect_case *c = r->c;
+    for (int i = 0; i < t->neyelet; i++) {
+        const fw_device_eyelet *e = &t->eyelet[i];
+        const fw_geometry_vec2 at = fw_mechanism_local_place(c->mechanism, e->body, e->x_m, e->y_m);
+        r->p[3 * i] = at.x, r->p[3 * i + 1] = at.y;
+    }
+    for (int i = 1; i + 1 < t->neyelet; i++) {
+        double turn = 0;
+        for (int k = i - 1; k <= i && moved; k++) {
+            const double *a = r->p + 3 * k, *b = a + 3;
+            turn += (fw_effects_envelope_goes(c, &t->eyelet[k]) +
+                     fw_effects_envelope_goes(c, &t->eyelet[k + 1])) /
+                    hypot(b[0] - a[0], b[1] - a[1]);
+        }
+        r->bend[i] = fmin(FW_TURN / 2, bend_of(r->p, i) + turn);
+    }
+}
+
+/* what one cable's segments may pull further */
+static void pulls(rubbing *r, const fw_device_tendon *t, double coefficient) {
+    const fw_effect_case *c = r->c;
+    const fw_effects_envelope *e = c->envelope;
+    const double tension = fw_effects_envelope_tension(c, t);
+    bends_of(r, t, true);
+    shares_of(r->bend, t->neyelet - 1, coefficient, !isnan(t->pull_N), r->share);
+    for (int i = 0; i + 1 < t->neyelet; i++) {
+        const double *a = r->p + 3 * i, *b = a + 3, length = hypot(b[0] - a[0], b[1] - a[1]),
+                     further = r->share[i] * tension;
+        const fw_geometry_vec2 u = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
+        if (further == 0) continue;
+        for (int l = 0; l < e->modes; l++) {
+            const fw_geometry_vec2 from = fw_effects_envelope_moves(c, &t->eyelet[i], l),
+                                   to = fw_effects_envelope_moves(c, &t->eyelet[i + 1], l);
+            r->mode[l] += e->margin * further * fabs(u.x * (to.x - from.x) + u.y * (to.y - from.y));
+        }
+        for (int k = i; k <= i + 1; k++) {
+            const int body = t->eyelet[k].body;
+            if (body == FW_GROUND) continue;
+            r->force[3 * body] += fabs(u.x) * further;
+            r->force[3 * body + 1] += fabs(u.y) * further;
+        }
+    }
+}
+
+static fw_status room(rubbing *r, int eyelets) {
+    const fw_effects_envelope *e = r->c->envelope;
+    const size_t n = (size_t)eyelets;
+    FW_NEED(r->mode = fw_arena_array(r->c->arena, double, (size_t)e->modes));
+    FW_NEED(r->force = fw_arena_array(r->c->arena, double, (size_t)e->n));
+    FW_NEED(r->bend = fw_arena_array(r->c->arena, double, n));
+    FW_NEED(r->share = fw_arena_array(r->c->arena, double, n));
+    FW_NEED(r->p = fw_arena_array(r->c->arena, double, 3 * n));
+    return FW_OK;
+}
+
+/* the largest share of a tension as drawn; without an envelope, too */
+static fw_status largest(const fw_effect_case *c, int eyelets, double *share) {
+    rubbing r = {.c = c};
+    const double coefficient = fw_effects_eyelet_friction_of(c->scene);
+    FW_NEED(r.bend = fw_arena_array(c->arena, double, (size_t)eyelets));
+    FW_NEED(r.share = fw_arena_array(c->arena, double, (size_t)eyelets));
+    FW_NEED(r.p = fw_arena_array(c->arena, double, 3 * (size_t)eyelets));
+    *share = 0;
+    for (int i = 0; i < c->scene->ntendon; i++) {
+        const fw_device_tendon *t = &c->scene->tendon[i];
+        bends_of(&r, t, false);
+        shares_of(r.bend, t->neyelet - 1, coefficient, !isnan(t->pull_N), r.share);
+        *share = fmax(*share, r.share[0]);
+    }
+    return FW_OK;
+}
+
+static int most_eyelets(const fw_device_scene *s) {
+    int most = 0;
+    for (int i = 0; i < s->ntendon; i++)
+        most = s->tendon[i].neyelet > most ? s->tendon[i].neyelet : most;
+    return most;
+}
+
+/* Slipping follows the motion, and so does what it takes: of any course */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    const fw_effects_envelope *e = c->envelope;
+    const double coefficient = fw_effects_eyelet_friction_of(c->scene);
+    rubbing r = {.c = c};
+    double share;
+    *value = (double)INFINITY;
+    fw_mark mark = fw_arena_mark(c->arena);
+    FW_TRY(largest(c, most_eyelets(c->scene), &share));
+    if (e && e->valid && !(e->loose_pull > 0)) {
+        double rings = 1;
+        FW_TRY(room(&r, most_eyelets(c->scene)));
+        for (int i = 0; i < c->scene->ntendon; i++)
+            pulls(&r, &c->scene->tendon[i], coefficient);
+        for (int l = 0; l < e->modes; l++)
+            rings = fmax(rings, e->omega[l] * e->omega[l] * e->response_bound[l]);
+        *value = fw_effects_envelope_mode_answer(c, r.mode, (double)INFINITY) +
+                 fw_effects_envelope_displaced(c, r.force, rings - 1);
+    }
+    fw_arena_rewind(c->arena, mark);
+    char part[32];
+    FW_NEED(*reason = fw_arena_printf(
+                c->arena,
+                "where cables bend over eyelets friction may change their tension by up to %s %%%s",
+                fw_number_text(part, sizeof part, 100 * share, 3),
+                isfinite(*value) ? "" : "; nothing bounds what that does to the motion"));
+    return FW_OK;
+}
+
+static fw_status beside(const fw_effect_case *c, double *share) {
+    fw_mark mark = fw_arena_mark(c->arena);
+    const fw_status status = largest(c, most_eyelets(c->scene), share);
+    fw_arena_rewind(c->arena, mark);
+    return status;
+}
+
+/* no motion has it */
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
+    (void)c, (void)loads;
+    return FW_OK;
+}
+
+const fw_effect_row fw_effect_eyelet_friction = {
+    .id = "eyelet-friction",
+    .summary = "cables that rub on the eyelets they bend around; in the error of the motion",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .count = count,
+    .beside = beside};

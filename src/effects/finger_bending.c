@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fingers of combs bend towards each other where the rotor stands aside, and pull it aside the more. No motion has that:
+   what it may come to is in the error of every peak. Theory: docs/theory/effects/finger-bending.md.
+   Test: test_pull_in.c, tests/cli/test_effects.py, tests/docs/theory_effects.py */
+#include "base/constants.h"
+#include "effects/effect.h"
+#include "effects/envelope.h"
+
+/* the softest modulus of any direction in the wafer: of a cubic crystal that along [100] */
+static double softest_Pa(const fw_device_material *of) {
+    const double e = of->youngs.value, a = of->c11.value, b = of->c12.value;
+    return fw_device_material_is_crystal(of) ? fmin(e, (a - b) * (a + 2 * b) / (a + b)) : e;
+}
+
+/* Fingers are cantilevers of length L in a field that pulls them to either side: per gap and length the energy is
+   -kappa V^2 D^2/2 of what the gap changes by, kappa = eps0 (h/g^3 + F''/2). Where D is the sum of what two fingers bend,
+   D^2 <= 2 (y_a^2 + y_b^2), and each has two gaps: 4 kappa V^2 < mu keeps all stable, mu the least eigenvalue of EI d4/ds4.
+   1/mu is at most the trace of the cantilever's answers, int s^3/(3 EI) ds = L^4/(12 EI):
+
+     V^2 = 12 EI/(4 kappa L^4),   12.36 in place of 12 where mu is exact
+
+   and beside a rotor that gives, 1/V^2 adds up at most (Dunkerley). In: SI, from the element, so as made in a verdict;
+   out: V, a lower bound. Source: S. Dunkerley, Phil. Trans. A 185 (1894) 279. Theory: docs/theory/effects/comb-drive.md.
+   Test: test_pull_in.c */
+double fw_effects_comb_fingers_V(const fw_effects_comb_element *c, const fw_mechanism_variant *made,
+                                 bool edges) {
+    double by[2];
+    if (c->kind != FW_ELECTRODES_COMB || !made || !(softest_Pa(&made->material) > 0))
+        return (double)INFINITY;
+    fw_effects_comb_edge(c->gap_m, c->width_m, by);
+    const double l2 = c->length_m * c->length_m, g = c->gap_m, w = c->width_m,
+                 bending = softest_Pa(&made->material) * c->depth_m * w * w * w / 12,
+                 kappa = FW_VACUUM_PERMITTIVITY_F_PER_m *
+                         (c->depth_m / (g * g * g) + (edges ? 0.5 * by[1] : 0));
+    return sqrt(3 * bending / (kappa * l2 * l2));
+}
+
+static double share_of(const fw_effect_case *c, const fw_effects_comb_element *d,
+                       double square_V2) {
+    const double volt = fw_effects_comb_fingers_V(d, c->mechanism->variant, true);
+    return square_V2 / (volt * volt);
+}
+
+static int count(const fw_effect_case *c) {
+    int combs = 0;
+    for (int i = 0; i < c->scene->ncomb; i++)
+        combs += fw_effects_comb_drives(&c->scene->comb[i]) &&
+                 c->scene->comb[i].kind == FW_ELECTRODES_COMB;
+    return combs;
+}
+
+static bool called_for(const fw_effect_case *c) {
+    const fw_mechanism_variant *made = c->mechanism->variant;
+    return count(c) > 0 && made && softest_Pa(&made->material) > 0;
+}
+
+/* Where the gap changes by D at most the field pulls a finger with at most 2 kappa V^2 D per length, kappa that of the
+   least gap; a cantilever answers an even load p with p L^4/(8 EI) at its tip and less elsewhere. So with y of the rotor,
+   U of either finger and r = V^2/V_f^2 = kappa V^2 L^4/(3 EI)
+
+     D = y + 2 U,   U <= 3/4 r D   =>   2 U <= y 3/2 r/(1 - 3/2 r)
+
+   with r at the gap g - D, found from below. false: nothing is left of it for sure */
+static bool bends(const fw_effects_comb_element *d, double share, double y, double *kappa_F_per_m3,
+                  double *more) {
+    const double g = d->gap_m;
+    double by[2], left = g - y;
+    *more = 0;
+    for (int i = 0; i < 200; i++) {
+        if (!(left > 0.5 * g)) return false;
+        const double r = 1.5 * share * pow(g / left, 3);
+        if (!(r < 0.9)) return false;
+        const double next = y * r / (1 - r);
+        if (next <= *more * (1 + 1e-9)) break;
+        *more = next, left = g - y - next;
+    }
+    fw_effects_comb_edge(left, d->width_m, by);
+    *kappa_F_per_m3 = d->face_Fm / (left * left * left) + 0.5 * d->edge_F_per_m * by[1];
+    return true;
+}
+
+static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double *force,
+                  double *turns) {
+    const fw_effects_comb_element d = fw_effects_comb_as_drawn(c, from);
+    const fw_effects_comb_reach at = fw_effects_comb_reaches(c, from, &d);
+    const double y = at.aside_m + at.tilt_rad * at.half_m, g = d.gap_m;
+    double kappa, more;
+    *turns = at.turns;
+    if (!bends(&d, share_of(c, &d, at.square_V2), y, &kappa, &more)) return false;
+    const double across = 2 * kappa * at.square_V2 * 2 * at.half_m * more, far = y + more;
+    const double along =
+        d.face_Fm * at.square_V2 * g * (1 / ((g - far) * (g + far)) - 1 / ((g - y) * (g + y)));
+    fw_effects_comb_push(c, from, along, across + along * fmin(1, at.tilt_rad), at.half_m * across,
+                         force);
+    return true;
+}
+
+static double largest_share(const fw_effect_case *c) {
+    double most = 0;
+    for (int i = 0; i < c->scene->ncomb; i++) {
+        const fw_device_comb *from = &c->scene->comb[i];
+        if (!fw_effects_comb_drives(from)) continue;
+        const fw_effects_comb_element d = fw_effects_comb_as_drawn(c, from);
+        const double volt =
+            from->voltage_V * fw_quantity_law_measure(from->law, c->scene->duration_s).most;
+        most = fmax(most, share_of(c, &d, volt * volt));
+    }
+    return most;
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    const fw_effects_envelope *e = c->envelope;
+    const bool valid = e && e->valid;
+    double *force, sum = 0, turns;
+    fw_mark mark = fw_arena_mark(c->arena);
+    for (int i = 0; i < c->scene->ncomb && valid; i++) {
+        const fw_device_comb *from = &c->scene->comb[i];
+        if (!fw_effects_comb_drives(from) || from->kind != FW_ELECTRODES_COMB) continue;
+        FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
+        if (!lacks(c, from, force, &turns)) sum = (double)INFINITY;
+        sum += fw_effects_envelope_answer(c, force, turns) +
+               fw_effects_envelope_displaced(c, force, turns);
+    }
+    fw_arena_rewind(c->arena, mark);
+    *value = valid && sum < (double)INFINITY ? sum : (double)INFINITY;
+    char part[32];
+    FW_NEED(*reason = fw_arena_printf(
+                c->arena,
+                "fingers bend by up to %s %% of what would snap them, and pull the rotor aside the "
+                "more%s",
+                fw_number_text(part, sizeof part, 100 * largest_share(c), 2),
+                isfinite(*value) ? "" : "; nothing bounds what that does to the motion"));
+    return FW_OK;
+}
+
+static fw_status beside(const fw_effect_case *c, double *share) {
+    *share = 1.5 * largest_share(c);
+    return FW_OK;
+}
+
+/* no motion has it */
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
+    (void)c, (void)loads;
+    return FW_OK;
+}
+
+const fw_effect_row fw_effect_finger_bending = {
+    .id = "finger-bending",
+    .summary = "fingers of combs that bend towards each other; in the error of the motion",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .count = count,
+    .beside = beside};
