@@ -159,8 +159,10 @@ typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
     double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
-    double beside;   /* likewise of what no motion has, whatever was asked for; those that are finite */
-    const char *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
+    double
+        beside; /* likewise of what no motion has, whatever was asked for; those that are finite */
+    const char
+        *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
     fw_effects_hinge_use hinge;
 } fw_effect_ledger;
 

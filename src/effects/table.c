@@ -78,8 +78,11 @@ static fw_status settle(const fw_effect_case *c, fw_effect_entry *entry) {
     }
     for (int i = 0; i < ROWS && loose > 0; i++) {
         if (!entry[i].called_for || rows[i]->kept) continue;
-        if (loose < 0.5)
-            entry[i].bound /= 1 - loose;
+        /* tensions are what they are, however far the motion goes: no answer to itself */
+        const bool own = strcmp(rows[i]->id, "eyelet-friction") == 0 && isfinite(entry[i].bound);
+        const double others = own ? loose - entry[i].bound : loose;
+        if (others < 0.5)
+            entry[i].bound /= 1 - others;
         else if (isfinite(entry[i].bound)) {
             entry[i].bound = (double)INFINITY;
             FW_NEED(entry[i].reason = fw_arena_printf(

@@ -199,18 +199,21 @@ class Effects(unittest.TestCase):
                 other = cut % (4 * math.exp(sign * mu * bend))
                 self.assertLess(abs(self.ledger(other, "pulled")[1] / peak - 1), bound)
                 there = self.result(run("statics", "-", "--scene", "pulled", "--json", input=other))
-                for a, b in zip(rest["hinges"], there["hinges"]):
-                    far = abs(a["angle_rad"] - b["angle_rad"])
-                    self.assertLess(far, within[a["id"]] * (1 + 2 * mu), (mu, sign, a["id"]))
-                    self.assertGreater(far, 0.5 * within[a["id"]], (mu, sign, a["id"]))
+                (root, elbow), (_, moved) = rest["hinges"], there["hinges"]
+                self.assertLess(within[root["hinge"]], 1e-12)  # the outer part pulls the arm and the tip against each other
+                far = abs(elbow["angle_rad"] - moved["angle_rad"])
+                self.assertTrue(0.9 * (1 - 1.5 * mu) < far / within[elbow["hinge"]] < 1.02 + mu / 20, (mu, sign, far, within))
 
     def test_cables_that_rub_and_may_go_slack(self):
         """nothing bounds what a stiff cable does that may go slack: undecided where friction may count, and only there"""
-        head, tail = example("tendons").read_text().rsplit("</scene>", 1)
+        plate = (ROOT / "tests/data/theory/plate.xml").read_text()
+        cable = ('<tendon id="t" draw="5 um" stiffness="500 N/m" slack="2 um" law="sine" frequency="2 kHz"><eyelet on="plate" x="0.2 mm"/>'
+                 '<eyelet on="ground" x="0.8 mm" y="2 mm"/><eyelet on="ground" x="2 mm" y="2 mm"/></tendon>')
         for coefficient, undecided in ((0.2, True), (1e-3, False)):
-            text = f'{head}<eyelet-friction coefficient="{coefficient}"/></scene>{tail}'
+            text = re.sub(r'<scene name="table".*</scene>', f'<scene name="table" duration="1 ms">{cable}<eyelet-friction '
+                          f'coefficient="{coefficient}"/></scene>', plate, flags=re.S)
             said = json.loads(run("check", "-", "--json", "--corners", "none", "--advice", "none", input=text).stdout)
-            self.assertEqual(("FW-D607", "drawn", "inconclusive") in
+            self.assertEqual(("FW-D607", "table", "inconclusive") in
                              [(r["code"], r["scene"], r["verdict"]) for r in said["reasons"]], undecided, said["reasons"])
 
     def test_drives_over_a_carrier_rise(self):
