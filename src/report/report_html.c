@@ -100,6 +100,7 @@ static const char style_sheet[] =
     "thead th{font-size:7.5pt}"
     "th.n,td.n,th.id{white-space:normal}svg.bar{min-width:60px;max-width:80px}"
     "td.step,th.step{min-width:9em}"
+    ".two{grid-template-columns:minmax(0,3fr) minmax(min-content,2fr);gap:16px}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}\n";
 
 /* The player: body poses between frames, flexures bent as in film.c, cursors in the plots. Neither

@@ -24,7 +24,7 @@ describe("the report", () => {
                 await page.emulateMedia({ media });
                 const cut = await page.evaluate(() => [...document.querySelectorAll("main table, main svg, main pre, p")]
                     .filter((e) => !e.parentElement.closest("svg") && e.getBoundingClientRect().right > (e.closest(".wide, main") ?? document.body).getBoundingClientRect().right + 1)
-                    .map((e) => `${e.tagName} ${e.querySelector("caption, title")?.textContent ?? ""}`.slice(0, 60)));
+                    .map((e) => `${e.tagName} of ${e.closest("section")?.id}: ${e.textContent}`.slice(0, 60)));
                 assert.deepEqual(cut, [], `${media} ${width}`);
             }
         } finally {
