@@ -54,12 +54,18 @@ typedef struct work {
 } work;
 
 static fw_status read_data(work *w, const char *name, char **data, size_t *n) {
-    const char *path;
+    const char *path, *const *pack, *near = NULL;
+    size_t npack;
     FW_TRY(fw_data_path(w->arena, w->options->design.data_directory, name, &path));
-    if (!path)
+    if (!path) {
+        FW_TRY(
+            fw_data_names(w->arena, w->options->design.data_directory, "processes", &pack, &npack));
+        if (w->options->design.flow) near = fw_did_you_mean(w->options->design.flow, pack, npack);
         return fw_diag_error(&w->diags, 224, (fw_place){.file = name},
-                             "there is no such process pack: correct the name of the flow, or set "
-                             "FLEXWRIGHT_DATA to the directory that holds processes/");
+                             "there is no such process pack%s%s%s: correct the name of the flow, "
+                             "or set FLEXWRIGHT_DATA to the directory that holds processes/",
+                             near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    }
     return fw_input_read(w->arena, path, MOST_BYTES, &w->diags, data, n);
 }
 

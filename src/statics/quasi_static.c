@@ -124,6 +124,8 @@ static fw_status walk(fw_statics_quasi_static *r, double end, double *h) {
         FW_TRY(fw_statics_quasi_static_record(r));
         r->motion->ended = t < r->duration && turned_too_far(r);
         r->motion->end_s = t * r->w.model->scale.time_s;
+        fw_arena_tell(r->w.arena, "sequence of equilibria", r->motion->end_s,
+                      r->duration * r->w.model->scale.time_s, "s");
         swap_ends(r);
     }
     return FW_OK;

@@ -315,6 +315,7 @@ static fw_status walk(walker *k, bool *left_unstable) {
     double s = 0, ds = fw_first_share;
     while (s < 1) {
         if (fw_arena_cancelled(w->arena)) return FW_CANCELLED;
+        fw_arena_tell(w->arena, "looking for the equilibrium", 100 * s, 100, "% of the load");
         double to = s + ds >= 1 ? 1 : s + ds;
         bool good;
         FW_TRY(predict(k, to, to - s, &good));
