@@ -275,6 +275,7 @@ static bool valid(const fw_effects_force_element *e, const fw_effects_port_state
 }
 
 const fw_effects_element_class fw_effects_flexed_class = {.effect = "nonlinear-hinge",
+                                                          .closed_form = true,
                                                           .force = force,
                                                           .tangent = tangent,
                                                           .energy = energy,

@@ -42,8 +42,7 @@ static fw_status add(fw_verdict_variant_verdict *v, const fw_device_scene *scene
 
 static const fw_diag *formula_ended(const fw_diags *diags) {
     for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].severity == FW_ERROR && diags->item[i].number == 242)
-            return &diags->item[i];
+        if (diags->item[i].ended != FW_ENDED_NOT) return &diags->item[i];
     return NULL;
 }
 
