@@ -259,3 +259,11 @@ fw_effects_comb_element fw_effects_comb_as_drawn(const fw_effect_case *c,
     d.face_Fm = d.edge_F_per_m * d.depth_m;
     return d;
 }
+
+fw_status fw_effects_element_ended(const fw_effects_force_element *e, const char *scene,
+                                   const char *at, const char *why, fw_diags *diags) {
+    fw_status status = fw_diag_formula_ended(
+        diags, 242, e->class_->closed_form ? FW_ENDED_CLOSED_FORM : FW_ENDED_FORMULA, e->place,
+        "%s of scene %s at %s: %s", e->id, scene, at, why);
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}

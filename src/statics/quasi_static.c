@@ -391,7 +391,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
             continue;
         }
         if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
-        if (status == FW_SOLVER && fw_statics_level_goes_on(mechanism, asked, &own, &o.effects)) {
+        if (status == FW_SOLVER && fw_statics_level_goes_on(asked, &own, &o.effects)) {
             if (options->within_limits)
                 o.most_angle_rad = fmin(o.most_angle_rad > 0 ? o.most_angle_rad : HUGE_VAL,
                                         hopeless_rad(mechanism));

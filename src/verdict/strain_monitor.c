@@ -10,7 +10,7 @@ fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mec
                                         fw_verdict_strain_monitor *monitor) {
     size_t n = (size_t)mechanism->nhinge;
     *monitor = (fw_verdict_strain_monitor){.mechanism = mechanism, .arena = arena};
-    FW_NEED(monitor->hinge = fw_arena_array(arena, fw_verdict_strain_peak, n));
+    FW_NEED(monitor->hinge = fw_arena_array(arena, fw_verdict_hinge_peak, n));
     if (cycles) FW_NEED(monitor->root = fw_arena_alloc(arena, n, sizeof *monitor->root));
     return FW_OK;
 }
@@ -28,6 +28,7 @@ static void start_counting(fw_verdict_strain_monitor *w, int k) {
 
 static void count(fw_verdict_strain_monitor *w, int k, const fw_verdict_hinge_strains *strain,
                   const fw_dynamics_instant *now) {
+    if (!strain->known) return;
     for (int side = 0; side < FW_FACES; side++) {
         if (now->begins) fw_maths_turning_jump(&w->root[k][side]);
         fw_maths_turning_add(&w->root[k][side], w->arena, now->t_s,
@@ -44,8 +45,8 @@ double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin) {
     double most = 0;
     for (int k = 0; k < tighter->mechanism->nhinge; k++)
-        if (tighter->hinge[k].samples > 0 && looser->hinge[k].samples > 0)
-            most = fmax(most, fabs(tighter->hinge[k].strain - looser->hinge[k].strain));
+        if (tighter->hinge[k].strain.samples > 0 && looser->hinge[k].strain.samples > 0)
+            most = fmax(most, fabs(tighter->hinge[k].strain.value - looser->hinge[k].strain.value));
     return fw_strains_settle * margin * most;
 }
 
@@ -56,7 +57,7 @@ double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *loos
     for (int k = 0; k < monitor->mechanism->nhinge; k++) {
         const fw_flexure_result *c = &monitor->mechanism->hinge[k].closed_form;
         limit = fmin(limit, c->limit_angle_rad * c->strain_per_rad);
-        most = fmax(most, monitor->hinge[k].strain);
+        most = fmax(most, monitor->hinge[k].strain.value);
     }
     double of = monitor->trial ? limit : fmin(fmax(most, fw_small_strain * limit), limit);
     double times = monitor->trial ? fw_trial_accurate : fw_strains_accurate;
@@ -92,22 +93,31 @@ static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynami
         m, k, now->q, now->angle_rad[hinge->pin], now->reaction_N + 2 * hinge->pin, now->hinge);
     load.least_known = w->hinge[k].least;
     fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
-    const fw_verdict_strain_peak *peak = &w->hinge[k];
-    bool surely = peak->samples > 0 && peak->s[1] > surely_share * peak->strain;
-    if (beam && !w->root && peak->strain > 0 && !surely) {
+    const fw_verdict_largest *peak = &w->hinge[k].strain;
+    bool surely = peak->samples > 0 && peak->last[1] > surely_share * peak->value;
+    if (beam && !w->root && peak->value > 0 && !surely) {
         fw_verdict_hinge_strain(hinge, NULL, &load, strain);
-        if (strain->held && strain->peak < asked_share * peak->strain) return;
+        if (strain->known && strain->peak < asked_share * peak->value) return;
     }
     fw_verdict_hinge_strain(hinge, beam, &load, strain);
 }
 
+static void lose(fw_verdict_strain_monitor *w, int k, double t_s) {
+    fw_verdict_hinge_peak *peak = &w->hinge[k];
+    peak->strain.samples = 0; /* no parabola across it */
+    if (!peak->lost) peak->lost = true, peak->lost_s = t_s;
+}
+
 static void take(fw_verdict_strain_monitor *w, int k, double t_s, double angle_rad,
                  const fw_verdict_hinge_strains *strain) {
+    if (!strain->known) {
+        lose(w, k, t_s);
+        return;
+    }
     double by_angle = fabs(angle_rad) * w->mechanism->hinge[k].closed_form.strain_per_rad;
     w->hinge[k].forced = fmax(w->hinge[k].forced, fabs(strain->peak - by_angle));
-    fw_verdict_strain_peak_add(&w->hinge[k], t_s, strain->peak);
+    fw_verdict_largest_add(&w->hinge[k].strain, t_s, strain->peak);
     w->hinge[k].least = fmax(w->hinge[k].least, strain->least);
-    w->lost = w->lost || !strain->held;
 }
 
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *now) {
@@ -118,11 +128,11 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
     if (w->bending.arm) fw_verdict_bending_record(&w->bending, w->mechanism, now);
     for (int k = 0; k < w->mechanism->nhinge; k++) {
         if (!now) {
-            w->hinge[k] = (fw_verdict_strain_peak){0};
+            w->hinge[k] = (fw_verdict_hinge_peak){0};
             start_counting(w, k);
             continue;
         }
-        if (now->begins) w->hinge[k].samples = 0; /* no parabola across a jump */
+        if (now->begins) w->hinge[k].strain.samples = 0; /* no parabola across a jump */
         fw_verdict_hinge_strains strain;
         strain_at(w, k, now, &strain);
         take(w, k, now->t_s, now->angle_rad[w->mechanism->hinge[k].pin], &strain);
@@ -134,9 +144,9 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
 
 static const double small_share = 0.6, smooth_share = 0.05, counted_share = 0.005;
 
-static bool is_enough(const fw_verdict_strain_peak *p, const fw_verdict_hinge_strains *third) {
-    double before = p->s[1], a = third[0].peak, b = third[1].peak, c = third[2].peak;
-    double most = fmax(fmax(before, a), fmax(b, c)), peak = fmax(p->strain, most);
+static bool is_enough(const fw_verdict_largest *p, const fw_verdict_hinge_strains *third) {
+    double before = p->last[1], a = third[0].peak, b = third[1].peak, c = third[2].peak;
+    double most = fmax(fmax(before, a), fmax(b, c)), peak = fmax(p->value, most);
     return most < small_share * peak || fabs(before - 3 * a + 3 * b - c) < smooth_share * peak;
 }
 
@@ -159,11 +169,12 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
     if (w->probe || n > FW_GLANCED) return false;
     fw_verdict_hinge_strains strain[FW_GLANCED][FW_THIRDS];
     for (int k = 0; k < n; k++) {
-        if (w->hinge[k].samples < 2) return false;
+        if (w->hinge[k].strain.samples < 2) return false;
         for (int i = 0; i < FW_THIRDS; i++)
             strain_at(w, k, &third[i], &strain[k][i]);
-        if (!is_enough(&w->hinge[k], strain[k])) return false;
-        if (w->root && !is_enough_to_count(w->root[k], w->hinge[k].strain, strain[k])) return false;
+        if (!is_enough(&w->hinge[k].strain, strain[k])) return false;
+        if (w->root && !is_enough_to_count(w->root[k], w->hinge[k].strain.value, strain[k]))
+            return false;
     }
     for (int k = 0; k < n; k++)
         for (int i = 0; i < FW_THIRDS; i++) {

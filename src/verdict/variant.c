@@ -88,14 +88,14 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                              const fw_verdict_strain_monitor *monitor, int k, const char *scene,
                              fw_verdict_hinge_verdict *out) {
     const fw_dynamics_peak *peak = &motion->peak[by->hinge->pin];
-    const fw_verdict_strain_peak *strain = &monitor->hinge[k];
+    const fw_verdict_largest *strain = &monitor->hinge[k].strain;
     const fw_flexure_result *c = &by->hinge->closed_form;
     double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
     out->scene = scene;
     out->peak_angle_rad = peak->angle_rad;
     out->angle_error_rad = peak->error_rad;
-    out->peak_strain = strain->strain;
-    out->utilisation = strain->strain / out->strain_limit;
+    out->peak_strain = strain->value;
+    out->utilisation = strain->value / out->strain_limit;
     out->force_share = out->utilisation > by_angle ? 1.0 - by_angle / out->utilisation : 0.0;
     out->t_s = strain->t_s;
     /* a run that was ended went a whole turn, or to several times a limit: no error of its own changes that */
@@ -103,11 +103,13 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                          ? 0.0
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
-    double moved = fw_verdict_motion_model_error(by->m, motion);
+    const bool lost = monitor->hinge[k].lost;
+    double moved = lost ? fw_verdict_model_not_known : fw_verdict_motion_model_error(by->m, motion);
     double bent = fw_verdict_bending_counted(motion);
     out->numeric = numeric;
     double stays = fmin(moved, fw_verdict_motion_lasting_error(by->m));
-    double least = fmin(strain->least + strain->between, strain->strain) / out->strain_limit;
+    double least =
+        fmin(monitor->hinge[k].least + strain->between, strain->value) / out->strain_limit;
     double less = fw_verdict_motion_lasting_error(by->m) - fw_verdict_motion_lasting_above(by->m);
     /* not of a figure that stands for the reference cases */
     bool usual =
@@ -121,6 +123,7 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     chance(by, out);
     FW_TRY(count_fatigue(arena, by, monitor->root ? monitor->root[k] : NULL, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
+    if (lost && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
     collide(by->drawn, out);
     return FW_OK;
 }

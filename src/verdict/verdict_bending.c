@@ -55,7 +55,7 @@ static double gone(const fw_verdict_bending *b, const fw_mechanism_hinge *h,
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                           const fw_dynamics_instant *now) {
     double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
-    fw_verdict_strain_peak *peak = b->peak + 1;
+    fw_verdict_largest *peak = b->peak + 1;
     if (now->begins) /* no parabola across a jump */
         for (int i = 0; i <= 2 * m->nhinge; i++)
             b->peak[i].samples = 0;
@@ -65,20 +65,20 @@ static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                      squared = force[0] * force[0] + force[1] * force[1],
                      moment = fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]);
         sum += squared;
-        fw_verdict_strain_peak_add(&peak[2 * k], now->t_s, squared);
-        fw_verdict_strain_peak_add(&peak[2 * k + 1], now->t_s, moment);
-        most[2 * k] = peak[2 * k].strain;
-        most[2 * k + 1] = peak[2 * k + 1].strain;
+        fw_verdict_largest_add(&peak[2 * k], now->t_s, squared);
+        fw_verdict_largest_add(&peak[2 * k + 1], now->t_s, moment);
+        most[2 * k] = peak[2 * k].value;
+        most[2 * k + 1] = peak[2 * k + 1].value;
     }
-    const double before = b->peak->strain;
-    fw_verdict_strain_peak_add(b->peak, now->t_s, sum);
+    const double before = b->peak->value;
+    fw_verdict_largest_add(b->peak, now->t_s, sum);
     if (sum > b->hardest_N2) {
         b->hardest_N2 = sum;
         for (int k = 0; k < m->nhinge; k++)
             for (int i = 0; i < 2; i++)
                 b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
     }
-    if (b->peak->strain > before) b->beside = sqrt(b->peak->strain / b->hardest_N2);
+    if (b->peak->value > before) b->beside = sqrt(b->peak->value / b->hardest_N2);
 }
 
 /* what a hinge puts on its body at a side, in the axes in which that was drawn */
@@ -189,7 +189,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
         for (int k = 0; k <= 2 * m->nhinge; k++)
-            b->peak[k] = (fw_verdict_strain_peak){0};
+            b->peak[k] = (fw_verdict_largest){0};
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         for (int i = 0; b->cut_N_per_m && i < 2 * m->nhinge; i++)
@@ -253,8 +253,7 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
     FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
-    FW_NEED(bending->peak =
-                fw_arena_array(arena, fw_verdict_strain_peak, 2 * (size_t)m->nhinge + 1));
+    FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 2 * (size_t)m->nhinge + 1));
     if (straight) return worst_of(arena, m, arm, &bending->worst);
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));

@@ -494,8 +494,8 @@ static seen most_of_scenes(const fw_verdict_variant_verdict *v, int k) {
         const fw_dynamics_peak *peak = &motion->peak[pin];
         double error = isfinite(peak->error_rad) ? peak->error_rad : 0;
         most.turn = fmax(most.turn, fabs(peak->angle_rad) * (1 + off) + error);
-        most.strain = fmax(most.strain, saw->hinge[k].strain * (1 + off));
-        most.forced = fmax(most.forced, saw->hinge[k].forced + off * saw->hinge[k].strain);
+        most.strain = fmax(most.strain, saw->hinge[k].strain.value * (1 + off));
+        most.forced = fmax(most.forced, saw->hinge[k].forced + off * saw->hinge[k].strain.value);
     }
     return most;
 }

@@ -80,9 +80,9 @@ double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double
 
 /* ---- a largest value ---- */
 
-static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double between) {
-    if (strain <= p->strain) return;
-    p->strain = strain;
+static void keep(fw_verdict_largest *p, double t_s, double value, double between) {
+    if (value <= p->value) return;
+    p->value = value;
     p->t_s = t_s;
     p->between = between;
 }
@@ -90,24 +90,24 @@ static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double be
 /* peak of the parabola through three instants, spacings a and b about the middle one:
      slope = ((s1-s0) b/a + (s2-s1) a/b)/(a+b), bend = 2 ((s2-s1)/b - (s1-s0)/a)/(a+b)
      at t1 - slope/bend, s1 - slope^2/(2 bend)
-   in: times s, strains; error O(spacing^3) of the peak's height, and `between` bounds it; cost none
+   in: times s, values; error O(spacing^3) of the peak's height, and `between` bounds it; cost none
    source: Newton's divided differences; test_watch.c finds_the_peak_between_instants */
-void fw_verdict_strain_peak_add(fw_verdict_strain_peak *p, double t_s, double strain) {
+void fw_verdict_largest_add(fw_verdict_largest *p, double t_s, double value) {
     if (p->samples >= 2) {
         double a = p->t[1] - p->t[0], b = t_s - p->t[1];
-        double up = p->s[1] - p->s[0], down = strain - p->s[1];
+        double up = p->last[1] - p->last[0], down = value - p->last[1];
         if (a > 0.0 && b > 0.0 && up >= 0.0 && down <= 0.0 && up - down > 0.0) {
             double slope = (up * b / a + down * a / b) / (a + b);
             double bend = 2.0 * (down / b - up / a) / (a + b);
             double add = -slope * slope / (2.0 * bend);
-            keep(p, p->t[1] - slope / bend, p->s[1] + add, add);
+            keep(p, p->t[1] - slope / bend, p->last[1] + add, add);
         }
     }
-    keep(p, t_s, strain, 0.0); /* the first and the last instant have no neighbours */
+    keep(p, t_s, value, 0.0); /* the first and the last instant have no neighbours */
     p->t[0] = p->t[1];
-    p->s[0] = p->s[1];
+    p->last[0] = p->last[1];
     p->t[1] = t_s;
-    p->s[1] = strain;
+    p->last[1] = value;
     p->samples++;
 }
 
@@ -151,39 +151,73 @@ static bool is_there(const fw_flexure_elastica_result *r, double c, double s, do
            same_moment * fmax(fabs(r->wrench[0]), fabs(r->start_Nm));
 }
 
-/* The beam turned by theta under a dead force at W on its second body, in the first one's frame.
+/* Has the beam that was found the force that acts? Along a strip that is stiff a place is known to rounding of
+   1e-16 alone. */
+static const double same_force = 1e-3;
+
+static bool bears(const fw_flexure_elastica_result *r, const double force_N[2], double length_m) {
+    double off = hypot(r->wrench[1] - force_N[0], r->wrench[2] - force_N[1]);
+    return off <= same_force * hypot(force_N[0], force_N[1]) ||
+           off * length_m <= same_moment * fmax(fabs(r->wrench[0]), fabs(r->start_Nm));
+}
+
+/* as a motion with exact beams solves it (hinge_element.c): all of the place is given */
+static bool in_place(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
+                     fw_flexure_elastica *beam, const double twist[3], const double force_N[2]) {
+    const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                           {twist[0], twist[1], twist[2]}};
+    fw_flexure_elastica_result r;
+    double near[3];
+    fw_flexure_hinge_law_wrench(&h->law, rest, twist, near, NULL);
+    fw_flexure_elastica_near(beam, &task, twist, near, tolerance, &r);
+    return is_solved(&r) && bears(&r, force_N, fw_flexure_elastica_linear(beam)->length_m);
+}
+
+/* under the force that acts, beginning from the closed form */
+static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
+                        fw_flexure_elastica *beam, const fw_flexure_elastica_task *task,
+                        const double along[2], double apart_m) {
+    const double th = task->value[0], c = cos(0.5 * th), s = sin(0.5 * th);
+    fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
+    double u[2] = {0, 0}, moment = 0, pull = 0;
+    const bool placed = isfinite(apart_m);
+    const double length_m = fw_flexure_elastica_linear(beam)->length_m;
+    bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
+    if (under && pull >= pressed && fw_flexure_elastica_again(beam, task, followed)) return true;
+    bool held = (!under || pull < pressed) && placed &&
+                fw_flexure_hinge_law_held(&h->law, rest, th, along[1], apart_m, u, &moment, &pull);
+    const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
+    const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task->value[1],
+                              task->value[2]};
+    if (held) fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
+    if (is_solved(&r) && bears(&r, task->value + 1, length_m)) return true;
+    if (under)
+        fw_flexure_elastica_near(beam, task, twist, wrench, tolerance, &r);
+    else
+        fw_flexure_elastica_solve(beam, task, tolerance, false, &r);
+    const bool one = under && pull >= pressed; /* equilibrium with this force */
+    return is_solved(&r) && (one || !placed || is_there(&r, c, s, apart_m));
+}
+
+/* The beam turned by theta under a dead force at W on its second body, in the first one's frame; apart_m:
+   where W is on that body, along and across the axis half turned (NaN: not known).
    Where the strip is pressed, more than one equilibrium has this force: it is that near the closed
-   form's. A path that turns far leaves the closed form, and is not found from there by its place: then it
-   is sought by its force, and has to be at that place. Error 1e-8, and 1e-5 where one solution
+   form's. A path that turns far, and a strip that is pressed until it bows, leave the closed form, and are
+   not found from there: then the beam is sought by its force, and has to be at that place, or by its
+   place, and has to bear that force. Error 1e-8, and 1e-5 where one solution
    follows another. Cost 6 us (2 us then), and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
    docs/theory/hinge-models.md. Test: test_strain_exact.c. */
 static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
                     fw_flexure_elastica *beam, double th, const double along[2],
-                    const double *apart_m, fw_flexure_strip_strains *out) {
-    double c = cos(0.5 * th), s = sin(0.5 * th);
+                    const double apart_m[2], fw_flexure_strip_strains *out) {
+    const double c = cos(0.5 * th), s = sin(0.5 * th), w = apart_m[0], v = apart_m[1];
     const fw_flexure_elastica_task task = {
         {FW_END_THETA, FW_END_FX, FW_END_FY},
         {th, c * along[0] - s * along[1], s * along[0] + c * along[1]}};
-    fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
-    double u[2] = {0, 0}, moment = 0, pull = 0;
-    bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
-    bool held = (!under || pull < pressed) && apart_m &&
-                fw_flexure_hinge_law_held(&h->law, rest, th, along[1], *apart_m, u, &moment, &pull);
-    if (under && pull >= pressed && fw_flexure_elastica_again(beam, &task, followed)) {
-        fw_flexure_strip_strain_exact(&h->section, beam, out);
-        return true;
-    }
-    const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
-    const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task.value[1],
-                              task.value[2]};
-    if (held) fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
-    if (!is_solved(&r)) {
-        if (under)
-            fw_flexure_elastica_near(beam, &task, twist, wrench, tolerance, &r);
-        else
-            fw_flexure_elastica_solve(beam, &task, tolerance, false, &r);
-        if (!is_solved(&r) || (held && !is_there(&r, c, s, *apart_m))) return false;
-    }
+    const double twist[3] = {th, c * w - s * v, s * w + c * v};
+    if (!under_force(h, rest, beam, &task, along, w) &&
+        !(isfinite(w) && isfinite(v) && in_place(h, rest, beam, twist, task.value + 1)))
+        return false;
     fw_flexure_strip_strain_exact(&h->section, beam, out);
     return true;
 }
@@ -198,33 +232,33 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
     double c = cos(axis_rad), s = sin(axis_rad), by = -sense;
     const double along[2] = {by * (c * load->fx_N + s * load->fy_N),
                              by * (c * load->fy_N - s * load->fx_N)};
-    double apart = sense * (c * load->apart_m[0] + s * load->apart_m[1]);
-    const double *known = isfinite(apart) ? &apart : NULL;
+    const double apart[2] = {sense * (c * load->apart_m[0] + s * load->apart_m[1]),
+                             sense * (c * load->apart_m[1] - s * load->apart_m[0])};
     fw_flexure_hinge_rest rest = {0}; /* a pin's place does not move */
     if (beam || !load->pinned) rest = fw_flexure_hinge_rest_of(&h->law);
-    if (beam && by_beam(h, &rest, beam, th, along, known, out)) return true;
+    if (beam && by_beam(h, &rest, beam, th, along, apart, out)) return true;
     fw_flexure_strip_load strip;
-    fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, known,
-                             &strip);
+    fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along,
+                             isfinite(apart[0]) ? apart : NULL, &strip);
     strip.least_known = load->least_known;
     fw_flexure_strip_strain(&h->section, &strip, out);
-    return strip.held;
+    return strip.held && !beam;
 }
 
 void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *beam,
                              const fw_verdict_hinge_load *load, fw_verdict_hinge_strains *out) {
     fw_flexure_strip_strains now;
     if (isfinite(h->axis_rad)) {
-        out->held = strains_along(h, beam, load, h->axis_rad + load->frame_rad, &now);
+        out->known = strains_along(h, beam, load, h->axis_rad + load->frame_rad, &now);
         out->peak = now.peak, out->least = now.least;
         memcpy(out->root, now.root, sizeof now.root);
         return;
     }
     fw_verdict_hinge_load all = *load;
     all.least_known = 0; /* of every direction */
-    *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .held = true};
+    *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .known = true};
     for (int i = 0; i < DIRECTIONS; i++) {
-        if (!strains_along(h, NULL, &all, i * FW_TURN / DIRECTIONS, &now)) out->held = false;
+        if (!strains_along(h, NULL, &all, i * FW_TURN / DIRECTIONS, &now)) out->known = false;
         out->least = fmin(out->least, now.least);
         if (!(now.peak > out->peak)) continue;
         out->peak = now.peak;
@@ -276,7 +310,7 @@ static void strains(const fw_mechanism *m, fw_effects_hinge_model level,
         fw_verdict_hinge_strains s;
         fw_verdict_hinge_strain(&m->hinge[k], level == FW_HINGE_ELASTICA ? beam[k] : NULL, &load,
                                 &s);
-        at->strain[k] = s.peak;
+        at->strain[k] = s.known ? s.peak : (double)INFINITY;
     }
 }
 
@@ -335,17 +369,18 @@ double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
    step. Exact beams have no next level: what is left is what they have in common with solids. Where the
    step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
    equilibrium, the utilisation may be off by half: a verdict is then neither. */
-static const double model_not_known = 0.5;
+const double fw_verdict_model_not_known = 0.5;
 
 double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const fw_statics_level_step *s = x->level;
     double usual = fw_verdict_model_error.motion, common = fw_verdict_motion_lasting_error(m),
            off = 0, largest = 0;
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
-    if (s && s->unknown) return model_not_known;
+    if (s && s->unknown) return fw_verdict_model_not_known;
     if (!s || s->why_not || m->nhinge == 0) return usual;
     for (int k = 0; k < m->nhinge; k++) {
-        if (!isfinite(s->at.strain[k]) || !isfinite(s->up.strain[k])) return usual;
+        if (isinf(s->at.strain[k]) || isinf(s->up.strain[k])) return fw_verdict_model_not_known;
+        if (isnan(s->at.strain[k]) || isnan(s->up.strain[k])) return usual;
         off = fmax(off, fabs(s->up.strain[k] - s->at.strain[k]));
         largest = fmax(largest, s->at.strain[k]);
     }
