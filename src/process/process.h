@@ -182,7 +182,7 @@ typedef struct fw_process_finish {
 /* how long a wafer may wait between two steps because of what it is like (wafer_state.c) */
 typedef struct fw_process_wait {
     int from, to; /* steps: end of the one, start of the other */
-    double max_s;
+    double max_s, most_s; /* most_s: no pack can state more */
     const fw_quantity *q; /* where max_s is from; NULL: the program's own default, assumed */
     bool first_only;      /* of a lot that goes through one by one: for the first wafer */
     const char *is, *why; /* "wet with h.pan"; "it goes on etching, ..." */
