@@ -387,13 +387,18 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     FW_TRY(entries_of(plan, options, run, &list));
     FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,
                                        (size_t)(run->nentry + list.n), sizeof *run->entry));
+    fw_status wrong = FW_OK; /* every mistake of a list is told, and nothing of it is added */
     for (int i = 0; i < list.n; i++) {
-        FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, run, list.words[i], list.place[i],
-                                   options->now_s, &plan->diags, &line));
+        fw_status status = fw_recipe_asrun_add(plan->arena, pf->flow, run, list.words[i],
+                                               list.place[i], options->now_s, &plan->diags, &line);
+        if (status != FW_OK && status != FW_INPUT) return status;
+        if (status != FW_OK) wrong = status;
+        if (status != FW_OK) continue;
         fw_text_add(added, line);
         FW_TRY(fw_recipe_asrun_read_next(plan->arena, pf->flow, options->run, line, &plan->diags,
                                          run));
     }
+    FW_TRY(wrong);
     return fw_text_end(added);
 }
 

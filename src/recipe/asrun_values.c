@@ -279,8 +279,10 @@ static bool same_reading(const fw_recipe_asrun_entry *a, const fw_recipe_coupon 
     const char *wa = a->wafer ? a->wafer : "", *wb = b->wafer ? b->wafer : "";
     bool drawn = isnan(ca->row.drawn_m) ? isnan(cb->row.drawn_m)
                                         : fabs(ca->row.drawn_m - cb->row.drawn_m) < 1e-12;
-    /* a rate is read off several times of one wafer */
-    bool under = isnan(ca->row.at) ? isnan(cb->row.at) : ca->row.at == cb->row.at;
+    /* a rate is read off several times of one wafer; where all readings are of one run, the later one corrects what was
+       written under at, too */
+    bool under = (a != b && fw_process_coupon_of_one_run(ca->row.coupon)) ||
+                 (isnan(ca->row.at) ? isnan(cb->row.at) : ca->row.at == cb->row.at);
     return a->step == b->step && strcmp(wa, wb) == 0 && drawn && under &&
            strcmp(ca->row.coupon, cb->row.coupon) == 0 &&
            strcmp(ca->row.feature, cb->row.feature) == 0;
