@@ -28,6 +28,7 @@ typedef struct fw_verdict_arm {
        which a moment and a force are multiplied to be stress times thickness; where the latter is, and how the way
        runs there */
     double edge_m2, edge_m;
+    double edge_wide_m; /* how wide it is there */
     fw_geometry_vec2 edge, along;
     /* a straight cut there, square to the way, that parts this hinge from the body's others: a point of
        it, what it leaves of the body (0: there is none), and the integral over that of the distance from the point */
@@ -35,7 +36,24 @@ typedef struct fw_verdict_arm {
     double cut_m, cut_m2;
 } fw_verdict_arm;
 
-/* arm: (2 nhinge) of hinge k in body a, in body b. In: outlines of the layout in the drawn pose. Range:
+/* Where something acts on a body in one of the flow's scenes. known_N: how large it becomes, where the scene says so;
+   NaN: it follows from the motion. what, id: "eyelet of tendon", "T1"; id NULL: it has none */
+typedef struct fw_verdict_load_end {
+    int scene, body;
+    int first;           /* the first of all that acts at this place: they have one way */
+    fw_geometry_vec2 at; /* world, as drawn */
+    double known_N;
+    const char *what, *id;
+} fw_verdict_load_end;
+fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
+                               fw_verdict_load_end **end, int *n);
+/* stress at most over what is allowed of a hinge's material, of the strip along a way that bears a moment and a force
+   at its end alone. Three times (Kirsch) that of a beam, for what holes and corners do to it; walls that the flow puts
+   farther in leave less, and of the narrowest place most */
+double fw_verdict_arm_bears(const fw_mechanism *mechanism, int hinge, const fw_verdict_arm *arm,
+                            double moment_Nm, double force_N);
+
+/* arm: (2 nhinge) of hinge k in body a, in body b, then of each load end. In: outlines of the layout in the drawn pose. Range:
    any outline; unknown where nothing is drawn or the way is narrower than a cell of the grid, a 400th of the body.
    Error: an upper bound as far as a strip of inscribed circles is a beam. Cost: some 1e6 operations for a body.
    Test: test_body_arms.c */
@@ -144,6 +162,8 @@ typedef struct fw_verdict_bending {
     double *
         cut_N_per_m; /* (2 nhinge) the most that stress is at least across the cut of an arm, times thickness;
                             NULL: no holes */
+    double *rest_N; /* (nbody) largest so far of the force that all hinges together put on a body */
+    double *rest;   /* (2 nbody) of the instant, N, world */
     double *
         put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
 } fw_verdict_bending;

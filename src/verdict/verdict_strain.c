@@ -36,7 +36,8 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     arm->length_m += length;
     if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
     double edge = 6 * vec_length(r) / (w * w) + 1 / w;
-    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at, arm->along = along;
+    if (edge > arm->edge_m)
+        arm->edge_m = edge, arm->edge_wide_m = w, arm->edge = at, arm->along = along;
     arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
 }
 
@@ -54,6 +55,103 @@ void fw_verdict_arm_cut(const double *at, int n, double *middle, fw_verdict_arm 
         arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
     }
 }
+
+/* ---- where loads act ---- */
+
+typedef struct ends {
+    const fw_mechanism *m;
+    fw_verdict_load_end *end;
+    int n, scene;
+} ends;
+
+static void add_end(ends *to, int body, double x_m, double y_m, double known_N, const char *what,
+                    const char *id) {
+    const double same_m = 1e-9;
+    if (body == FW_GROUND) return;
+    const fw_geometry_vec2 at = fw_mechanism_local_place(to->m, body, x_m, y_m);
+    int first = 0;
+    while (first < to->n &&
+           (to->end[first].body != body || vec_distance(to->end[first].at, at) > same_m))
+        first++;
+    to->end[to->n++] = (fw_verdict_load_end){to->scene, body, first, at, known_N, what, id};
+}
+
+/* in the bar behind the fingers, or in the rotor's face: fingers bear their own shares only */
+static void add_rotor(ends *to, const fw_device_comb *c) {
+    const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
+    const double back =
+        c->kind == FW_ELECTRODES_COMB ? length - 0.5 * c->overlap_m + 0.5 * FW_FINGER_WIDTH_M : 0;
+    const double stator = c->body_a == FW_GROUND ? 0 : to->m->drawn[c->body_a].phi_rad,
+                 turn = c->direction_rad + stator - to->m->drawn[c->body_b].phi_rad;
+    add_end(to, c->body_b, c->bx_m - back * cos(turn), c->by_m - back * sin(turn), (double)NAN,
+            "comb drive", c->id);
+}
+
+static void add_scene(ends *to, const fw_device_scene *s) {
+    const double by = s->duration_s;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_device_force *f = &s->force[i];
+        add_end(to, f->body, f->x_m, f->y_m,
+                hypot(f->fx_N, f->fy_N) * fw_quantity_law_largest(f->law, by), "force", NULL);
+    }
+    for (int i = 0; i < s->ntendon; i++) {
+        const fw_device_tendon *t = &s->tendon[i];
+        for (int k = 0; k < t->neyelet; k++) /* a cable that passes pulls from two sides */
+            add_end(to, t->eyelet[k].body, t->eyelet[k].x_m, t->eyelet[k].y_m,
+                    t->pull_N * fw_quantity_law_largest(t->law, by) *
+                        (k > 0 && k + 1 < t->neyelet ? 2 : 1),
+                    "eyelet of tendon", t->id);
+    }
+    for (int i = 0; i < s->ncomb; i++)
+        add_rotor(to, &s->comb[i]);
+    for (int i = 0; i < s->ncontact; i++) {
+        const fw_device_contact_use *c = &s->contact[i];
+        if (c->joint != FW_NONE) continue;
+        add_end(to, c->body_a, c->ax_m, c->ay_m, (double)NAN, "contact", c->id);
+        add_end(to, c->body_b, c->bx_m, c->by_m, (double)NAN, "contact", c->id);
+    }
+    for (int i = 0; i < to->m->nspring; i++) {
+        const fw_device_spring *k = &to->m->spring[i];
+        add_end(to, k->body_a, k->ax_m, k->ay_m, (double)NAN, "spring", k->id);
+        add_end(to, k->body_b, k->bx_m, k->by_m, (double)NAN, "spring", k->id);
+    }
+}
+
+fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *m, fw_verdict_load_end **end,
+                               int *n) {
+    const fw_device *d = m->device;
+    const int scenes = d ? d->nscene : 0; /* a mechanism alone has none */
+    size_t most = 0;
+    for (int i = 0; i < scenes; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        most += (size_t)(s->nforce + s->ncomb + 2 * s->ncontact + 2 * m->nspring);
+        for (int k = 0; k < s->ntendon; k++)
+            most += (size_t)s->tendon[k].neyelet;
+    }
+    ends to = {.m = m};
+    FW_NEED(to.end = fw_arena_array(arena, fw_verdict_load_end, most));
+    for (int i = 0; i < scenes; i++) {
+        to.scene = i;
+        if (fw_device_in_flow(d->scene[i].flow, m->variant->flow)) add_scene(&to, &d->scene[i]);
+    }
+    *end = to.end, *n = to.n;
+    return FW_OK;
+}
+
+double fw_verdict_arm_bears(const fw_mechanism *m, int hinge, const fw_verdict_arm *arm,
+                            double moment_Nm, double force_N) {
+    const double corner = 3;
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[hinge].limits);
+    if (!arm->known || !limit) return 0;
+    const double allowed_N_per_m =
+        limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
+    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
+    const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
+    return corner * (moment_Nm * arm->edge_m2 + force_N * arm->edge_m) /
+           (fmin(made, 1) * fmin(made, 1)) / allowed_N_per_m;
+}
+
+/* ---- and what such a way gives ---- */
 
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c) {
