@@ -252,7 +252,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     const bool brief = is_brief(options, v);
     FW_TRY(fw_verdict_clearance_begin(arena, options->hinges_only ? NULL : layout, m,
                                       !brief && !v->corner, watch, v));
-    watch[0].ways = watch[1].ways = options->ways || !(brief && v->corner);
+    watch[0].ways = watch[1].ways = options->ways || !(options->bounded || (brief && v->corner));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
