@@ -464,7 +464,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     const bool brief = is_brief(options, v) || v->corner || options->hinges_only;
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
-    if (!options->hinges_only) FW_TRY(fw_verdict_stiction_judge(arena, m, brief, v));
+    if (!options->hinges_only)
+        FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
     FW_TRY(fw_verdict_bending_judge_required(arena, v));

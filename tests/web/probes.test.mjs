@@ -138,9 +138,10 @@ describe("probes", () => {
         await chosen(":v stage", true);
         figure((await saved("Save as SVG"))[1]);
         await box.selectOption(":left");
-        const told = await page.locator(".leftout-row").evaluateAll((rows) => rows.map((r) => [r.querySelector(".leftout-name").textContent, r.querySelector(".leftout-value").textContent]));
+        const told = await page.locator(".leftout-row").evaluateAll((rows) => rows.map((r) => [r.querySelector(".leftout-name").textContent, r.classList.contains("active"), r.getAttribute("aria-label")]));
         const ledger = await page.evaluate(() => globalThis.flexwright.state.preview.ledger.filter((e) => e.called_for).map((e) => [e.id, e.active]));
-        assert.deepEqual(told.map(([id, x]) => [id, x.endsWith("computed")]).sort(), ledger.sort());
+        assert.deepEqual(told.map(([id, active]) => [id, active]).sort(), ledger.sort());
+        assert.ok(told.every(([id, active, label]) => label.startsWith(`${id}: `) && label.endsWith(active ? ", computed" : ", left out")));
         assert.equal((await saved("Save as CSV"))[1].split("\n").length, ledger.length + 2);
         figure((await saved("Save as SVG"))[1]);
         if (process.env.FW_PICTURE) await page.screenshot({ path: join(process.env.FW_PICTURE, "left-out.png") });

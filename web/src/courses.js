@@ -20,6 +20,7 @@ export function pointsOf(p) {
 export const pointAt = (row, { body, at }) => moved([row[3 * body] * 1e6, row[3 * body + 1] * 1e6, row[3 * body + 2]], at);
 
 const SIDE = ["x", "y"];
+export const ENERGIES = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work", "work_J"]];
 
 function ofPoints(p) {
     const m = p.motion;
@@ -62,6 +63,7 @@ export function coursesOf(p) {
         ...probes.map((x) => ({ group: "Probes", id: x.id, label: x.id, unit: x.unit, kind: x.kind, probe: x, curves: () => [{ name: x.id, values: x.value }] })),
         ...probes.filter((x) => ["m", "rad"].includes(x.unit)).map((x) => ({ group: "How fast probes change", id: `:rate ${x.id}`, label: `${x.id}, rate`, unit: `${x.unit}/s`, rates: true, curves: () => [{ name: `${x.id}, rate`, values: x.rate }] })),
         ...ofPoints(p),
+        ...(m.energy ? [{ group: "Energy", id: ":energy", label: "energies", unit: "J", curves: () => ENERGIES.filter(([, k]) => m.energy[k]).map(([name, k]) => ({ name, values: m.energy[k] })) }] : []),
         ...(m.constraint_norm ? [{ group: "Numerics", id: ":gap", label: "gap of the joints", unit: "", log: true, curves: () => [{ name: "norm", values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }] }] : []),
         ...(p.ledger?.some((e) => e.called_for) ? [{ group: "Numerics", id: ":left", label: "what was left out", unit: "" }] : []),
     ];

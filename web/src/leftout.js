@@ -6,27 +6,31 @@ import { percent } from "./format.js";
 
 const LEAST = 1e-12; // a bound below it is drawn as nothing
 
-/** {rows: [{id, active, bound, reason}] (largest first), wanted, total (of those left out)} */
+/** {rows: [{id, active, bound, reason}] (largest first), wanted, total: of those left out, by the program or by who asked for
+ *  less, null without bound, pins: the first look takes hinges as pins, and has that in its bands} */
 export function leftOutOf(p, wanted) {
     const size = (e) => e.bound ?? Infinity;
     const rows = (p.ledger ?? []).filter((e) => e.called_for).map(({ id, active, bound, reason }) => ({ id, active, bound, reason }));
     rows.sort((a, b) => Number(a.active) - Number(b.active) || size(b) - size(a));
     const sizes = [wanted, ...rows.map((e) => e.bound)].filter((x) => Number.isFinite(x) && x > LEAST);
-    return { rows, wanted, total: p.ledger_left_out, low: Math.floor(Math.log10(Math.min(...sizes) / 3)), high: Math.max(0, Math.ceil(Math.log10(Math.max(...sizes)))) };
+    const out = rows.filter((e) => !e.active);
+    const total = out.some((e) => e.bound === null) ? null : out.reduce((sum, e) => sum + e.bound, 0);
+    const pins = (p.left_out ?? []).some((x) => x.what === "hinge-model");
+    return { rows, wanted, total, pins, low: Math.floor(Math.log10(Math.min(...sizes) / 3)), high: Math.max(0, Math.ceil(Math.log10(Math.max(...sizes)))) };
 }
 
 const share = (x, { low, high }) => (x === null || x > 10 ** high ? 1 : x <= LEAST ? 0 : Math.min(Math.max((Math.log10(x) - low) / (high - low), 0), 1));
 const boundOf = (e) => (e.bound === null ? "no bound" : percent(e.bound, 2));
 const stateOf = (e) => (e.active ? "computed" : "left out");
-const sumOf = (l) => `left out in all: at most ${percent(l.total, 2)} of the peak; wanted: ${percent(l.wanted, 2)}`;
+const sumOf = (l) => `left out in all: ${l.total === null ? "without bound" : `at most ${percent(l.total, 2)} of the peak`}; wanted: ${percent(l.wanted, 2)}${l.pins ? "; what pins in place of the hinges change is in the bands of this first look" : ""}`;
 
 export function leftOutList(l) {
     const at = `${100 * share(l.wanted, l)}%`;
     return h("div", { class: "leftout", role: "list", tabIndex: 0, "aria-label": `Effects and what leaving them out changes at most. ${sumOf(l)}` },
-        l.rows.map((e) => h("div", { class: e.active ? "leftout-row active" : "leftout-row", role: "listitem", title: e.reason },
-            h("span", { class: "leftout-name" }, e.id), h("span", { class: "leftout-track", "aria-hidden": "true" }, h("i", { class: "leftout-bar", style: { width: `${100 * share(e.bound, l)}%` } }), h("i", { class: "leftout-wanted", style: { left: at } })),
-            h("span", { class: "leftout-value" }, `${boundOf(e)}, ${stateOf(e)}`))),
-        h("p", { class: "leftout-sum" }, sumOf(l)));
+        l.rows.map((e) => h("div", { class: e.active ? "leftout-row active" : "leftout-row", role: "listitem", title: `${stateOf(e)}: ${e.reason ?? ""}`, "aria-label": `${e.id}: ${boundOf(e)}, ${stateOf(e)}` },
+            h("span", { "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", { class: "leftout-name" }, e.id), h("span", { class: "leftout-track", "aria-hidden": "true" }, h("i", { class: "leftout-bar", style: { width: `${100 * share(e.bound, l)}%` } }), h("i", { class: "leftout-wanted", style: { left: at } })),
+            h("span", { class: "leftout-value" }, boundOf(e)))),
+        h("p", { class: "leftout-sum" }, `○ ${sumOf(l)} (dashed)`));
 }
 
 const quoted = (x) => (/[",\n]/.test(x) ? `"${x.replaceAll('"', '""')}"` : x);

@@ -3,7 +3,7 @@
 // computed, with what that costs.
 import { Shown } from "./belong.js";
 import { curve, dash } from "./colours.js";
-import { coursesOf, pointAt, pointsOf } from "./courses.js";
+import { coursesOf, ENERGIES, pointAt, pointsOf } from "./courses.js";
 import { setOption } from "./design.js";
 import { button, h, s, select, setGroups, setOptions } from "./dom.js";
 import { deviceName, FRAMES_A_SECOND, filmMenu, record } from "./film.js";
@@ -188,7 +188,7 @@ export class Motion {
         this.angles.heading.firstChild.textContent = inDegrees ? "Hinge angle" : "Share of the limit";
         this.angles.heading.children[1].textContent = inDegrees ? "degrees, over ms" : "%, over ms";
         this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
-        const energies = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work", "work_J"]].filter(([, k]) => m.energy?.[k]);
+        const energies = ENERGIES.filter(([, k]) => m.energy?.[k]);
         const largest = Math.max(0, ...energies.flatMap(([, k]) => m.energy[k].map((x) => Math.abs(x ?? 0))));
         const [prefix, size] = prefixOf(largest);
         this.energy.heading.children[1].textContent = `${prefix}J, over ms`;
