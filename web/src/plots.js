@@ -48,6 +48,10 @@ export class Plot {
         const menu = h("details", { class: "plot-menu" }, h("summary", { "aria-label": `${this.title}: zoom, save` }, "⋯"), h("div", { class: "plot-menu-list" },
             act("Zoom in", () => this.zoom(0.5)), act("Zoom out", () => this.zoom(2)), act("Whole scene", () => this.onwindow?.(null)),
             act("Save as CSV", () => saveAs(`${name()}.csv`, this.csv(), "text/csv")), act("Save as SVG", () => saveAs(`${name()}.svg`, this.svg(), "image/svg+xml"))));
+        menu.addEventListener("toggle", () => { // in a low window it opens upwards
+            menu.classList.remove("up");
+            if (menu.open && menu.lastChild.getBoundingClientRect().bottom > innerHeight) menu.classList.add("up");
+        });
         menu.addEventListener("keydown", (e) => {
             if (e.key !== "Escape" || !menu.open) return;
             menu.open = false;
