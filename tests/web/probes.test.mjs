@@ -109,7 +109,7 @@ describe("probes", () => {
     });
 
     test("velocities of probes and points are the program's, and what was left out has its bounds; each is saved", async () => {
-        await page.setViewportSize(SMALL);
+        await page.setViewportSize({ width: 1440, height: 900 });
         const box = page.locator('.plots select[aria-label="What is plotted"]');
         const chosen = async (id, rates) => {
             await box.selectOption(id);
