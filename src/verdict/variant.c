@@ -255,7 +255,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     const bool brief = is_brief(options, v);
     FW_TRY(fw_verdict_clearance_begin(arena, options->hinges_only ? NULL : layout, m,
                                       !brief && !v->corner, watch, v));
-    watch[0].ways = watch[1].ways = options->ways || !(brief && v->corner);
+    watch[0].ways = watch[1].ways = options->ways || !(options->bounded || (brief && v->corner));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
@@ -467,7 +467,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     const bool brief = is_brief(options, v) || v->corner || options->hinges_only;
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
-    if (!options->hinges_only) FW_TRY(fw_verdict_stiction_judge(arena, m, brief, v));
+    if (!options->hinges_only)
+        FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
     FW_TRY(fw_verdict_bending_judge_required(arena, v));
