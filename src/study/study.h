@@ -104,6 +104,8 @@ typedef struct fw_study {
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
     struct fw_study_engines *engines; /* what samples have in common */
+    /* of a size at a wanted yield: the yield of a device, first of the description as it stands, then of what was found */
+    struct fw_study *dies;
 } fw_study;
 
 /* Reads, runs the description as it stands, resolves inputs and responses. What is wrong is in
