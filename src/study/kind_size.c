@@ -26,7 +26,8 @@ enum {
     DIGITS = 5,        /* of what is tried: more no mask resolves */
     FRONT_MOST = 200,  /* devices of a front */
     LISTS_MOST = 1000, /* combinations of listed values */
-    ROUNDS = 12,       /* searches at a wanted yield */
+    ROUNDS = 12,       /* searches at a wanted yield, in one go */
+    USUAL_ROUNDS = 4,  /* what a budget is shared out for */
     ESTIMATED = 5,     /* devices whose yield is estimated by few dies, in one go */
     CONFIRMED = 3,     /* devices whose yield is estimated in full, until one is enough */
     DIES = 4,          /* of a flow that searches look at; the last ones found */
@@ -53,6 +54,7 @@ typedef struct sizing {
     fw_study_die *die; /* (ndie) that a device has to hold as well */
     int ndie;
     double beta; /* how far they lie */
+    long left;   /* devices that searches may still judge */
 } sizing;
 
 /* ---- what is small, and what must not be above 0 ---- */
@@ -336,12 +338,14 @@ static fw_status search_with_dies(sizing *s, const aim *a, int most, long *first
                            .constraint = constraint,
                            .besides = besides,
                            .context = a,
-                           .most = most,
+                           .most = s->left < most ? (int)s->left : most,
                            .digits = DIGITS,
                            .first = *first};
     *first += PART;
+    if (one.most <= 0) return FW_OK;
     FW_TRY(fw_study_search_from(s->study, &s->kept[*b], &one));
     FW_TRY(fw_study_search_run(s->study, &one, 1));
+    s->left -= one.used;
     if (one.used > 0 && one.best.run) {
         s->kept[s->nkept] = one.best;
         *b = s->nkept++;
@@ -420,6 +424,7 @@ static fw_status at_yield(sizing *s, int most, long *first) {
     double missed = constraint_of(s->study, &s->kept[b]), low;
     if (!(missed <= 0)) return keep_found(s->study, &s->kept[b], missed, &r->nearest);
     s->beta = fw_maths_normal_quantile(wanted);
+    s->left = (long)USUAL_ROUNDS * most;
     FW_NEED(s->die = fw_arena_array(s->study->arena, fw_study_die,
                                     (size_t)(DIES * (s->study->plan->nflow + 1))));
     for (int k = 0; k < CONFIRMED; k++) {
@@ -468,7 +473,7 @@ static fw_status count_lists(sizing *s) {
 
 static int searches_of(const fw_study *study, int goals) {
     return goals == 2                ? (2 + LEVELS) * STARTS
-           : study->asked->yield > 0 ? STARTS + CONFIRMED * ROUNDS
+           : study->asked->yield > 0 ? STARTS + USUAL_ROUNDS
                                      : STARTS;
 }
 
@@ -500,7 +505,7 @@ static fw_status prepare(sizing *s, int *most) {
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
-    size_t room = (size_t)s->first_n + (size_t)searches;
+    size_t room = (size_t)s->first_n + (size_t)searches + CONFIRMED * ROUNDS;
     FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, room));
     for (long i = 0; i < s->first_n; i++)
         FW_TRY(fw_study_sample_new(study->arena, study, &s->kept[i]));
