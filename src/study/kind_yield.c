@@ -314,7 +314,7 @@ static fw_status worst_ends(fw_study_yielding *y, const double *u, double *unkno
     return FW_OK;
 }
 
-enum { TURNS = 6, STEERING = 600 };
+enum { TURNS = 6 };
 static const double apart =
     0.3; /* of differences, in standard deviations: wider than a first look is off by */
 
@@ -392,8 +392,10 @@ fw_status fw_study_dies_failing(fw_study *dies, int flow, double *share) {
     fw_status status = begin_worst(dies, flow, &y);
     const fw_chance_limit of = {
         .dimensions = y.scatter.dimensions, .g = fw_study_yielding_limit, .context = &y};
-    fw_chance_options o = {
-        .method = FW_CHANCE_IMPORTANCE, .seed = (uint64_t)dies->asked->seed, .budget = STEERING};
+    fw_chance_options o = {.method = FW_CHANCE_IMPORTANCE,
+                           .seed = (uint64_t)dies->asked->seed,
+                           .budget =
+                               (size_t)fmax(dies->asked->samples / 5, FW_CHANCE_BUDGET_LEAST)};
     double ends = 0;
     const size_t n = y.scatter.joint.unknowns;
     double *origin = NULL, *unknown = NULL;
