@@ -379,24 +379,31 @@ static fw_status round_at_yield(sizing *s, const aim *a, int most, long *first, 
                                 confirmed *c) {
     fw_study *dies;
     bool worse = false;
-    fw_status status = fw_study_open_dies(s->study, &s->kept[*b], &dies);
+    fw_status status = s->study->open_dies(s->study, &s->kept[*b], &dies);
     if (status == FW_OK) status = look_for_dies(s, dies, &worse);
     if (status == FW_OK && !worse) status = estimate_of(s, dies, a, *b, c);
-    fw_study_free(dies);
+    s->study->free_dies(dies);
     FW_TRY(status);
     return c->over || s->ndie == 0 ? FW_OK : search_with_dies(s, a, most, first, b);
+}
+
+static fw_status estimate_in_full(fw_study *dies) {
+    fw_study_result *result = fw_arena_one(dies->arena, fw_study_result);
+    FW_NEED(result);
+    dies->result = result;
+    return fw_study_kind_yield(dies, result);
 }
 
 /* the yield of what is returned, with its intervals, stays as long as the study; *low: its lower end */
 static fw_status confirm(sizing *s, const fw_study_sample *sample, double *low) {
     fw_study *study = s->study, *dies;
-    fw_status status = fw_study_open_dies(study, sample, &dies);
-    if (status == FW_OK) status = fw_study_run(dies);
+    fw_status status = study->open_dies(study, sample, &dies);
+    if (status == FW_OK) status = estimate_in_full(dies);
     if (status != FW_OK) {
-        fw_study_free(dies);
+        s->study->free_dies(dies);
         return status;
     }
-    fw_study_free(study->dies);
+    s->study->free_dies(study->dies);
     study->dies = dies;
     s->result->yield = dies->result->yield;
     s->result->nyield = dies->result->nyield;

@@ -352,9 +352,54 @@ static fw_status judge_device(fw_study *study) {
     return (fw_status)status;
 }
 
+static fw_study *new_study(const fw_study_options *options) {
+    fw_arena *arena = fw_arena_new(options->design.memory_cap);
+    fw_study *study = arena ? fw_arena_one(arena, fw_study) : NULL;
+    if (!study) {
+        fw_arena_free(arena);
+        return NULL;
+    }
+    *study = (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options};
+    if (options->cancel) fw_arena_stop_with(arena, options->cancel);
+    return study;
+}
+
+/* a yield of the device that a sample of a size has chosen, or NULL: of the description; *out is freed after any status */
+static fw_status open_dies_of(const fw_study *of, const fw_study_sample *chosen, fw_study **out) {
+    fw_study_options o = of->options;
+    o.output = NULL, o.shards = 0, o.resume = false, o.progress = NULL, o.waits = NULL;
+    fw_study *study = new_study(&o);
+    *out = study;
+    FW_NEED(study);
+    const int n = o.nset;
+    fw_device_set *set = fw_arena_array(study->arena, fw_device_set, (size_t)(n + of->nvary));
+    FW_NEED(set);
+    if (n > 0) memcpy(set, o.set, (size_t)n * sizeof *set);
+    for (int k = 0; chosen && k < of->nvary; k++) {
+        const char *text = fw_arena_strdup(study->arena, chosen->text[k]);
+        FW_NEED(text);
+        set[study->options.nset++] = (fw_device_set){of->input[k].what, text};
+    }
+    study->options.set = set;
+    study->device_path = of->device_path;
+    FW_TRY(fw_study_dies_asked(study->arena, of, chosen, &study->asked));
+    FW_TRY(open_device(study));
+    settle_options(study);
+    FW_TRY(take_inputs(study));
+    for (int k = 0; k < study->ninput; k++) {
+        fw_status status = fw_study_input_check(study, k);
+        if (status != FW_OK && status != FW_INPUT) return status;
+    }
+    if (study->diags.errors > 0) return FW_INPUT;
+    FW_TRY(judge_device(study));
+    FW_TRY(fw_study_scatter_check(study));
+    return add_made_inputs(study);
+}
+
 /* rows that say how dies differ are looked up before anything is run */
 static fw_status open_dies(fw_study *study) {
-    fw_status status = fw_study_open_dies(study, NULL, &study->dies);
+    study->open_dies = open_dies_of, study->free_dies = fw_study_free;
+    fw_status status = open_dies_of(study, NULL, &study->dies);
     FW_NEED(study->dies);
     for (int i = 0; status == FW_OK && i < study->dies->plan->nflow; i++) {
         fw_study_yielding y; /* does anything differ? */
@@ -395,18 +440,6 @@ static fw_status open_all(fw_study *study) {
     return run_as_it_stands(study);
 }
 
-static fw_study *new_study(const fw_study_options *options) {
-    fw_arena *arena = fw_arena_new(options->design.memory_cap);
-    fw_study *study = arena ? fw_arena_one(arena, fw_study) : NULL;
-    if (!study) {
-        fw_arena_free(arena);
-        return NULL;
-    }
-    *study = (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options};
-    if (options->cancel) fw_arena_stop_with(arena, options->cancel);
-    return study;
-}
-
 static fw_status open_in(fw_study *study) {
     return open_all(study);
 }
@@ -430,37 +463,6 @@ fw_status fw_study_open_points(const fw_study_options *options, const fw_device_
     FW_TRY(take_inputs(study));
     FW_TRY(take_responses(study));
     return study->diags.errors > 0 ? FW_INPUT : FW_OK;
-}
-
-fw_status fw_study_open_dies(const fw_study *of, const fw_study_sample *chosen, fw_study **out) {
-    fw_study_options o = of->options;
-    o.output = NULL, o.shards = 0, o.resume = false, o.progress = NULL, o.waits = NULL;
-    fw_study *study = new_study(&o);
-    *out = study;
-    FW_NEED(study);
-    const int n = o.nset;
-    fw_device_set *set = fw_arena_array(study->arena, fw_device_set, (size_t)(n + of->nvary));
-    FW_NEED(set);
-    if (n > 0) memcpy(set, o.set, (size_t)n * sizeof *set);
-    for (int k = 0; chosen && k < of->nvary; k++) {
-        const char *text = fw_arena_strdup(study->arena, chosen->text[k]);
-        FW_NEED(text);
-        set[study->options.nset++] = (fw_device_set){of->input[k].what, text};
-    }
-    study->options.set = set;
-    study->device_path = of->device_path;
-    FW_TRY(fw_study_dies_asked(study->arena, of, chosen, &study->asked));
-    FW_TRY(open_device(study));
-    settle_options(study);
-    FW_TRY(take_inputs(study));
-    for (int k = 0; k < study->ninput; k++) {
-        fw_status status = fw_study_input_check(study, k);
-        if (status != FW_OK && status != FW_INPUT) return status;
-    }
-    if (study->diags.errors > 0) return FW_INPUT;
-    FW_TRY(judge_device(study));
-    FW_TRY(fw_study_scatter_check(study));
-    return add_made_inputs(study);
 }
 
 void fw_study_free(fw_study *study) {

@@ -139,10 +139,6 @@ fw_status fw_study_input_check(fw_study *study, int k) {
 
 /* ---- samples: are they due, kept, within their limits ---- */
 
-fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample) {
-    return study->store ? fw_study_store_add(study->store, sample) : FW_OK;
-}
-
 bool fw_study_is_due(const fw_study *study, long i) {
     return study->options.shards == 0 || i % study->options.shards == study->options.shard - 1;
 }

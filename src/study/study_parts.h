@@ -288,8 +288,6 @@ typedef struct
    around the description's, or the middles of the ranges) */
 fw_status fw_study_dies_asked(fw_arena *arena, const fw_study *of, const fw_study_sample *chosen,
                               const fw_device_study **asked);
-/* opened as fw_study_open does; *out is freed after any status, its diagnostics are its own */
-fw_status fw_study_open_dies(const fw_study *of, const fw_study_sample *chosen, fw_study **out);
 /* The die of a flow, `beta` standard deviations from what is intended, that uses most: along the gradient, turned until it
    stays (advanced mean value: Y.-T. Wu, H. R. Millwater, T. A. Cruse, AIAA J. 28 (1990) 1663), and what is only assumed at
    the ends that are worst. Locally so. `die` is of `arena`. Cost: some 5 (n + 2) dies. */
