@@ -120,6 +120,15 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     if (out->utilisation > 0) out->lasting_low += 1 - least / out->utilisation;
     out->utilisation_low = fmax(0.0, least * (1.0 - moved - bent - c->error.strain) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + up + c->error.above) + numeric;
+    double share = out->utilisation > 0 ? 1 / out->utilisation : 0, kept = least * share;
+    double common = fmin(fw_verdict_motion_lasting_error(by->m), moved);
+    double above = fmin(fw_verdict_motion_lasting_above(by->m), up - bent);
+    out->parts = (fw_verdict_band_parts){.root = {kept * c->error.strain, c->error.above},
+                                         .stiffness = {kept * common, above},
+                                         .model = {kept * (moved - common), up - bent - above},
+                                         .place = {1 - kept, 0},
+                                         .bodies = {kept * bent, bent},
+                                         .numbers = {share * numeric, share * numeric}};
     chance(by, out);
     FW_TRY(count_fatigue(arena, by, monitor->root ? monitor->root[k] : NULL, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
@@ -182,6 +191,12 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - low) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + out->lasting);
     if (!workspace->certified) out->utilisation_high += numeric;
+    double open = out->utilisation > 0 ? numeric / out->utilisation : 0;
+    out->parts = (fw_verdict_band_parts){.root = {c->error.strain, c->error.above},
+                                         .stiffness = {moved, moved},
+                                         .model = {load->relief, load->give},
+                                         .place = {fades, 0},
+                                         .numbers = {open, workspace->certified ? 0 : open}};
     chance(by, out);
     workspace_fatigue(by, out);
     out->decision = decide(out->utilisation_low, out->utilisation_high);
