@@ -14,7 +14,8 @@ All numbers are SI. Arrays are views of the library's memory, which they keep al
 from ._design import Array, Progress, library_version
 from .device import Device, show_progress
 from .errors import (Cancelled, Diagnostic, FileError, FlexwrightError, GeometryError, InputError,
-                     InternalError, LimitError, MemoryLimitError, Severity, SolverError, UsageError)
+                     InternalError, LimitError, MemoryLimitError, MissingFileError, Severity, SolverError,
+                     UsageError)
 from .results import (Assembly, Fabrication, LoadPath, Modes, Motion, Statics, Tradeoff, Utilisation,
                       Verdict, Workspace)
 from .study import columns, grid, run_study, sweep, verdict_of
@@ -25,7 +26,8 @@ __version__ = library_version()
 __all__ = [
     "Array", "Assembly", "Cancelled", "Device", "Diagnostic", "Fabrication", "FileError",
     "FlexwrightError", "GeometryError", "InputError", "InternalError", "LimitError", "LoadPath",
-    "MemoryLimitError", "Modes", "Motion", "Named", "Progress", "Row", "Severity", "SolverError",
-    "Statics", "Table", "Tradeoff", "UsageError", "Utilisation", "Verdict", "Workspace", "columns",
-    "grid", "library_version", "run_study", "show_progress", "sweep", "truth", "verdict_of",
+    "MemoryLimitError", "MissingFileError", "Modes", "Motion", "Named", "Progress", "Row",
+    "Severity", "SolverError", "Statics", "Table", "Tradeoff", "UsageError", "Utilisation",
+    "Verdict", "Workspace", "columns", "grid", "library_version", "run_study", "show_progress",
+    "sweep", "truth", "verdict_of",
 ]

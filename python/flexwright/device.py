@@ -15,7 +15,8 @@ from typing import Any, Dict, Mapping, Optional, Tuple, Union
 from . import results
 from ._design import DOCUMENTS, Design, Progress, ProgressCallback
 from ._library import OptionsStruct
-from .errors import Diagnostic, FlexwrightError, UsageError
+from .errors import (Diagnostic, FileError, FlexwrightError, MissingFileError, Severity,
+                     UsageError)
 from .tables import Table, table
 
 #: options of every question, as in flexwright.h: the description of fw_design_options says what they are
@@ -88,8 +89,14 @@ class Device:
                  set: Optional[Mapping[str, Value]] = None,
                  options: Optional[Mapping[str, Any]] = None, **parameters: Value) -> None:
         path = os.fspath(source)
-        with open(path, "rb") as file:
-            text = file.read()
+        try:
+            with open(path, "rb") as file:
+                text = file.read()
+        except OSError as error:
+            kind = MissingFileError if isinstance(error, FileNotFoundError) else FileError
+            what = "cannot be read: %s" % error.strerror
+            raise kind(f"{os.fsdecode(path)} {what}", [
+                Diagnostic(220, Severity.ERROR, os.fsdecode(path), 0, 0, what)]) from error
         self._begin(text, path, os.path.dirname(path) or ".", set, options, parameters)
 
     @classmethod

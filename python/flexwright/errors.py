@@ -118,6 +118,10 @@ class FileError(FlexwrightError, OSError):
     status = 4
 
 
+class MissingFileError(FileError, FileNotFoundError):
+    """There is no file of that name."""
+
+
 class MemoryLimitError(FlexwrightError, MemoryError):
     """Out of memory, or over the design's memory_cap."""
 

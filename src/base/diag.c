@@ -46,7 +46,7 @@ static bool make_room(fw_diags *diags, fw_severity severity) {
     return false;
 }
 
-/* kind: number, severity, place and unreliable */
+/* kind: all but the message */
 static void add(fw_diags *diags, fw_diag kind, const char *format, va_list arguments) {
     if (kind.severity == FW_ERROR) diags->errors++;
     if (kind.unreliable) diags->unreliable++;
@@ -81,6 +81,16 @@ fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char 
     va_start(arguments, format);
     add(diags, (fw_diag){.number = number, .severity = FW_ERROR, .place = place}, format,
         arguments);
+    va_end(arguments);
+    return diags->failed ? FW_NOMEM : FW_INPUT;
+}
+
+fw_status fw_diag_formula_ended(fw_diags *diags, int number, fw_diag_ended ended, fw_place place,
+                                const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add(diags, (fw_diag){.number = number, .severity = FW_ERROR, .place = place, .ended = ended},
+        format, arguments);
     va_end(arguments);
     return diags->failed ? FW_NOMEM : FW_INPUT;
 }
@@ -120,6 +130,7 @@ void fw_diags_add(fw_diags *diags, const fw_diag *d, fw_severity severity) {
     fw_diag kind = {.number = d->number,
                     .severity = severity,
                     .place = d->place,
+                    .ended = severity == d->severity ? d->ended : FW_ENDED_NOT,
                     .unreliable = d->unreliable && severity == d->severity};
     add_text(diags, kind, "%s", d->message);
 }

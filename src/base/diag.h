@@ -25,11 +25,19 @@ typedef struct fw_place {
    file lies does not change a byte of them */
 const char *fw_place_file(fw_place place);
 
+/* does an error say that a run came to where a formula does not hold? */
+typedef enum fw_diag_ended {
+    FW_ENDED_NOT,
+    FW_ENDED_FORMULA,
+    FW_ENDED_CLOSED_FORM /* of a flexure: an exact beam may hold farther on */
+} fw_diag_ended;
+
 typedef struct fw_diag {
     int number;
     fw_severity severity;
     fw_place place;
     const char *message;
+    fw_diag_ended ended;
     bool unreliable; /* a warning after which the result is not to be relied on */
 } fw_diag;
 
@@ -49,6 +57,9 @@ fw_diags fw_diags_new(fw_arena *arena);
    errors, so that `return fw_diag_error(...)` reads well. */
 fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+/* of a run that came to where a formula does not hold */
+fw_status fw_diag_formula_ended(fw_diags *diags, int number, fw_diag_ended ended, fw_place place,
+                                const char *format, ...) __attribute__((format(printf, 5, 6)));
 void fw_diag_warning(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 /* A warning that the result is of another start than the stated one, or wrong in itself: there is

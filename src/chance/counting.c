@@ -6,18 +6,28 @@
 #include "maths/functions.h"
 #include <math.h>
 
-fw_status fw_chance_evaluate(fw_chance_run *run, size_t count, const double *u, double *value) {
+static fw_status evaluate(fw_chance_run *run, fw_chance_function *g, size_t count, const double *u,
+                          double *value) {
     size_t n = run->limit->dimensions;
     for (size_t done = 0; done < count;) {
         if (fw_arena_cancelled(run->arena)) return FW_CANCELLED;
         size_t now = count - done < run->batch ? count - done : run->batch;
-        FW_TRY(run->limit->g(run->limit->context, run->used, now, u + done * n, value + done));
+        FW_TRY(g(run->limit->context, run->used, now, u + done * n, value + done));
         for (size_t i = done; i < done + now; i++)
             run->unevaluated += isnan(value[i]) != 0;
         run->used += now;
         done += now;
     }
     return FW_OK;
+}
+
+fw_status fw_chance_evaluate(fw_chance_run *run, size_t count, const double *u, double *value) {
+    return evaluate(run, run->limit->g, count, u, value);
+}
+
+fw_status fw_chance_evaluate_apart(fw_chance_run *run, size_t count, const double *u,
+                                   double *value) {
+    return evaluate(run, run->limit->apart ? run->limit->apart : run->limit->g, count, u, value);
 }
 
 size_t fw_chance_left(const fw_chance_run *run) {
@@ -92,7 +102,7 @@ fw_status fw_chance_monte_carlo(fw_chance_run *run, fw_chance_estimate *out) {
         for (size_t i = 0; i < now; i++)
             for (size_t d = 0; d < n; d++)
                 u[i * n + d] = fw_chance_normal(run->seed, done + i, d);
-        FW_TRY(fw_chance_evaluate(run, now, u, value));
+        FW_TRY(fw_chance_evaluate_apart(run, now, u, value));
         for (size_t i = 0; i < now; i++)
             fw_chance_count_add(&count, value[i]);
         count_interval(&count, run->level, out);
@@ -116,7 +126,7 @@ static fw_status replicate(fw_chance_run *run, size_t number, size_t points, dou
         size_t now = points - done < run->batch ? points - done : run->batch;
         for (size_t i = 0; i < now; i++)
             fw_chance_sobol_normal(&sobol, done + i, u + i * n);
-        FW_TRY(fw_chance_evaluate(run, now, u, value));
+        FW_TRY(fw_chance_evaluate_apart(run, now, u, value));
         for (size_t i = 0; i < now; i++)
             fw_chance_count_add(count, value[i]);
     }

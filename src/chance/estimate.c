@@ -52,9 +52,9 @@ static fw_status subsets(fw_chance_run *run, size_t budget, size_t most, fw_chan
     return status;
 }
 
-static fw_status weighted(fw_chance_run *run, size_t samples, fw_chance_weighted *w) {
+static fw_status weighted(fw_chance_run *run, size_t samples, bool chooses, fw_chance_weighted *w) {
     fw_chance_run of = part_of(run, SEED_WEIGHTED);
-    fw_status status = fw_chance_weighted_draw(&of, samples, w);
+    fw_status status = fw_chance_weighted_draw(&of, samples, chooses, w);
     account(run, &of);
     return status;
 }
@@ -78,7 +78,7 @@ static fw_status weighted_to_the_end(fw_chance_run *run, fw_chance_weighted *w,
     size_t each = (fw_chance_left(run) / PARTS / run->batch + 1) * run->batch;
     do {
         size_t now = fw_chance_left(run) < each ? fw_chance_left(run) : each;
-        FW_TRY(weighted(run, now, w));
+        FW_TRY(weighted(run, now, false, w));
         fw_chance_weighted_result(w, run->level, out);
         fw_chance_trace(run, out, out);
     } while (fw_chance_left(run) > 0);
@@ -100,6 +100,7 @@ static const char *const no_repetition =
 
 static fw_status by_subsets(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_subset s;
+    if (run->limit->apart) return FW_LIMIT;
     FW_TRY(subsets_start(run, fw_chance_left(run), REPEATED, &s));
     FW_TRY(subsets_to_the_end(run, &s, out));
     if (s.repetitions < 2) out->caution = no_repetition;
@@ -205,7 +206,7 @@ static fw_status explore(fw_chance_run *run, rare *r) {
                                  &r->points));
     fw_chance_weighted_start(&r->points, &r->weighted);
     size_t tried = TRIED < part(run, OF_PILOT) ? TRIED : part(run, OF_PILOT);
-    return r->points.count ? weighted(run, tried, &r->weighted) : FW_OK;
+    return r->points.count ? weighted(run, tried, true, &r->weighted) : FW_OK;
 }
 
 /* the rest of the budget for the one or the other */
@@ -218,6 +219,7 @@ static fw_status go_on(fw_chance_run *run, rare *r, bool around_points, fw_chanc
         return FW_OK;
     }
     out->method = FW_CHANCE_SUBSET;
+    if (run->limit->apart) return FW_LIMIT; /* one machine has to do it */
     FW_TRY(subsets_to_the_end(run, &r->subset, out));
     if (r->subset.repetitions < 2) out->caution = no_repetition;
     return FW_OK;

@@ -18,6 +18,10 @@ typedef struct fw_chance_limit {
     size_t dimensions; /* at least 1 */
     fw_chance_function *g;
     void *context;
+    /* As g, of points whose values choose neither other points nor the method: somebody who has a share of them only may
+       give any value for the others, and reads nothing of the estimate then. Subset simulation, whose points all
+       choose later ones, is FW_LIMIT where there is one. NULL: g. */
+    fw_chance_function *apart;
 } fw_chance_limit;
 
 /* method, its name in files, its name in sentences */

@@ -19,6 +19,9 @@ typedef struct fw_chance_run {
 
 /* value (count) of u (count x dimensions), in batches; the caller has looked at what is left */
 fw_status fw_chance_evaluate(fw_chance_run *run, size_t count, const double *u, double *value);
+/* the same of points whose values choose neither other points nor the method */
+fw_status fw_chance_evaluate_apart(fw_chance_run *run, size_t count, const double *u,
+                                   double *value);
 size_t fw_chance_left(const fw_chance_run *run);
 
 /* of points: failed, and not evaluated */
@@ -96,7 +99,9 @@ typedef struct fw_chance_weighted {
 } fw_chance_weighted;
 
 void fw_chance_weighted_start(const fw_chance_points *points, fw_chance_weighted *out);
-fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, fw_chance_weighted *weighted);
+/* chooses: the method is chosen by these */
+fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, bool chooses,
+                                  fw_chance_weighted *weighted);
 /* how many failures of equal weight would be as good: sum^2/(sum of squares) */
 double fw_chance_weighted_effective(const fw_chance_weighted *weighted);
 void fw_chance_weighted_result(const fw_chance_weighted *weighted, double level,

@@ -244,7 +244,8 @@ static void add(fw_chance_weighted *w, double weight, double value) {
    rare. Error: unbiased; coefficient of variation sqrt(beta sqrt(pi/2)/N) for a linear limit. Cost: one evaluation a
    point. Source: G. I. Schueller, R. Stix, Struct. Safety 4 (1987) 293; T. Hesterberg, Technometrics 37 (1995) 185
    (the share of the own density). Test: test_estimate.c (coverage) */
-fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, fw_chance_weighted *w) {
+fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, bool chooses,
+                                  fw_chance_weighted *w) {
     size_t n = run->limit->dimensions;
     fw_mark mark = fw_arena_mark(run->arena);
     double *u = fw_arena_array(run->arena, double, run->batch *n),
@@ -260,7 +261,8 @@ fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, fw_chance_
                     fw_chance_normal(run->seed, sample, d) + (k ? w->points->point[k - 1].u[d] : 0);
             w->own += k == 0;
         }
-        FW_TRY(fw_chance_evaluate(run, now, u, value));
+        FW_TRY(chooses ? fw_chance_evaluate(run, now, u, value)
+                       : fw_chance_evaluate_apart(run, now, u, value));
         for (size_t i = 0; i < now; i++)
             add(w, weight_of(w, n, u + i * n), value[i]);
         w->samples += now;

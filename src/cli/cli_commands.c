@@ -181,7 +181,9 @@ static bool one_option(const fw_cli_command *command, char **argv, int *i, fw_cl
         o->given[o->ngiven].first = first, o->given[o->ngiven++].last = *i;
     }
     const char *wrong = row->take(o, value);
-    if (wrong) fw_cli_usage("--%s%s%s %s", row->name, value ? " " : "", value ? value : "", wrong);
+    if (wrong)
+        fw_cli_usage("--%s%s%s %s%s", row->name, value ? " " : "", value ? value : "", wrong,
+                     value ? fw_cli_meant(value, wrong) : "");
     return !wrong;
 }
 
@@ -198,7 +200,8 @@ static bool one_document(const fw_cli_command *command, const fw_cli_options *o)
                {"--csv -", is_stdout(o->csv)},
                {"--forces -", is_stdout(o->forces)},
                {"--animate -", is_stdout(o->animate)},
-               {"--svg -", is_stdout(o->svg)}};
+               {"--svg -", is_stdout(o->svg)},
+               {"--gds -", is_stdout(o->gds)}};
     const char *first = NULL;
     for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
         if (!use[i].wanted) continue;

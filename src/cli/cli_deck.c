@@ -43,17 +43,15 @@ static fw_status save(const writer *w, const char *kind, const char *id, const c
 
 static fw_status one_hinge(const writer *w, int h) {
     fw_plan *plan = w->plan;
-    const fw_device_material *m = &w->mechanism->variant->material;
     const fw_mechanism_hinge *hinge = &w->mechanism->hinge[h];
-    const fw_continuum_material material = {.youngs_Pa = m->youngs.value,
-                                            .poisson = m->poisson.value};
+    const fw_continuum_material material = fw_continuum_material_of(w->mechanism, hinge);
     fw_continuum_options options = {.refinement = w->refinement, .nangle = 4};
     fw_place place = plan->device->flexure[hinge->flexure].place;
     fw_continuum_shape shape;
     if (fw_flexure_input_varies(&hinge->input)) {
-        fw_diag_note(&plan->diags, 213, place,
-                     "no deck of hinge %s: solids are made of one arc or line of one width",
-                     w->mechanism->pin[hinge->pin].id);
+        fw_diag_warning(&plan->diags, 213, place,
+                        "no deck of hinge %s: solids are made of one arc or line of one width",
+                        w->mechanism->pin[hinge->pin].id);
         return FW_OK;
     }
     fw_continuum_shape_of(&hinge->input, &shape);

@@ -86,7 +86,61 @@ int fw_cli_command_plan(fw_cli_options *options) {
     return fabricate(options, FW_DESIGN_EVERYTHING, "", FW_DOCUMENT_VERDICT_JSON);
 }
 
+/* the flow whose mask is asked for; NULL: there is none, or there are several, as was said */
+static const fw_plan_flow *only_flow(fw_design *design) {
+    const fw_plan *plan = fw_plan_design_plan(design);
+    const fw_plan_flow *found = NULL;
+    for (int i = 0; i < plan->nflow; i++) {
+        if (!plan->flow[i].flow) continue;
+        if (found) {
+            fw_plan_design_usage(design, "--gds is of one flow, and the device names several: say "
+                                         "which with --flow");
+            return NULL;
+        }
+        found = &plan->flow[i];
+    }
+    if (!found) fw_plan_design_usage(design, "--gds: the device names no <flow>");
+    return found;
+}
+
+/* the device alone as GDSII; *drawn: there is a mask */
+static int draw(fw_design *design, const fw_cli_options *options, bool *drawn) {
+    fw_plan *plan = fw_plan_design_plan(design);
+    const fw_plan_flow *flow = only_flow(design);
+    if (!flow) return FW_STATUS_USAGE;
+    plan->options.drawn_alone = true;
+    int status = judge(design, options);
+    if (status != FW_STATUS_OK) return status;
+    fw_cli_session_stage(options, "bias and mask");
+    status = fw_design_fabricate(design);
+    *drawn = flow->mask != NULL;
+    if (status != FW_STATUS_OK || !*drawn) return status;
+    return (int)fw_output_single(plan->arena, options->gds, flow->gds.data, flow->gds.length,
+                                 &plan->diags);
+}
+
+static int mask_alone(fw_cli_options *options) {
+    int exit_status;
+    bool drawn = false;
+    if (options->output)
+        return fw_cli_usage("--gds draws the device alone, and -o writes all masks: one of them");
+    fw_design *design = fw_cli_session_open(options, &exit_status);
+    if (!design) return exit_status;
+    int status = draw(design, options, &drawn);
+    const bool taken = drawn && fw_cli_session_file_on_stdout(options);
+    if (status == FW_STATUS_OK && options->json && !taken)
+        status = fw_cli_session_print(design, options, FW_DOCUMENT_MASKS_JSON);
+    else if (status == FW_STATUS_OK && !taken && !options->quiet)
+        status = fw_cli_session_print(design, options, FW_DOCUMENT_VERDICT_TEXT);
+    if (status == FW_STATUS_OK && !drawn)
+        fputs("flexwright: nothing was written: a rejected design, or one whose mask breaks rules, "
+              "is drawn with --force only\n",
+              stderr);
+    return fw_cli_session_close(design, options, status, fw_design_decision(design));
+}
+
 int fw_cli_command_mask(fw_cli_options *options) {
+    if (options->gds) return mask_alone(options);
     return fabricate(options, FW_DESIGN_MASKS, "-masks", FW_DOCUMENT_MASKS_JSON);
 }
 

@@ -20,15 +20,24 @@ static fw_status head_name(fw_arena *arena, const char *file, const char **name)
     return FW_OK;
 }
 
-/* the log against its head; without one only its beginning can be told to be whole, which is said also to those who want no
-   warnings (-q): the next entry writes a new head, and then nothing shows any more that one was gone */
-static fw_status check_head(fw_arena *arena, fw_diags *diags, const char *file,
+/* The log against its head, there since the log has begun. One that says that a head is kept is refused without: the next entry would write a new head,
+   and then nothing would show any more that lines were removed. Of one of before there were heads only the beginning can be
+   told to be whole, which is said also to those who want no warnings (-q). */
+static fw_status check_head(fw_arena *arena, fw_diags *diags, const char *file, bool begun,
                             const fw_recipe_asrun *run) {
     const char *name;
     char *text;
     size_t n;
     FW_TRY(head_name(arena, file, &name));
     if (access(name, F_OK) != 0) {
+        if (begun && run->headed)
+            return fw_diag_error(
+                diags, 280, (fw_place){file, 1, 1},
+                "there is no %s, which is kept beside this log: without it nothing "
+                "shows whether lines were removed at its end. Put it back there "
+                "(the two are copied together), or keep the log as it is and begin "
+                "a new one",
+                name);
         if (run->nentry > 0)
             fw_diag_unreliable(
                 diags, 283, (fw_place){file, 1, 1},
@@ -54,12 +63,18 @@ typedef struct work {
 } work;
 
 static fw_status read_data(work *w, const char *name, char **data, size_t *n) {
-    const char *path;
+    const char *path, *const *pack, *near = NULL;
+    size_t npack;
     FW_TRY(fw_data_path(w->arena, w->options->design.data_directory, name, &path));
-    if (!path)
+    if (!path) {
+        FW_TRY(
+            fw_data_names(w->arena, w->options->design.data_directory, "processes", &pack, &npack));
+        if (w->options->design.flow) near = fw_did_you_mean(w->options->design.flow, pack, npack);
         return fw_diag_error(&w->diags, 224, (fw_place){.file = name},
-                             "there is no such process pack: correct the name of the flow, or set "
-                             "FLEXWRIGHT_DATA to the directory that holds processes/");
+                             "there is no such process pack%s%s%s: correct the name of the flow, "
+                             "or set FLEXWRIGHT_DATA to the directory that holds processes/",
+                             near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    }
     return fw_input_read(w->arena, path, MOST_BYTES, &w->diags, data, n);
 }
 
@@ -90,7 +105,7 @@ static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, 
     fw_recipe_asrun run;
     fw_process_readings readings;
     FW_TRY(fw_recipe_asrun_read(w->arena, flow, NULL, file, text, w->n, &w->diags, &run));
-    FW_TRY(check_head(w->arena, &w->diags, file, &run));
+    FW_TRY(check_head(w->arena, &w->diags, file, true, &run));
     FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &readings));
     readings.file = slash ? slash + 1 : file;
     readings.sha256 = hash;
@@ -213,7 +228,7 @@ static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *has
     FW_TRY(fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, text, n, &plan->diags,
                                 &run));
-    FW_TRY(check_head(plan->arena, &plan->diags, options->run, &run));
+    FW_TRY(check_head(plan->arena, &plan->diags, options->run, true, &run));
     if (options->report) FW_TRY(write_report(plan, pf->flow, &run, options));
     if (options->report && strcmp(options->report, "-") == 0) return FW_OK;
     return print_log(plan, pf->flow, &run, options->json);
@@ -363,28 +378,52 @@ static fw_status first_line(fw_plan *plan, const fw_plan_flow *pf, const char *h
 static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flow *pf,
                          const char *hash, const fw_cli_options *options, fw_text *added,
                          fw_recipe_asrun *run) {
+    const bool begun = file->n > 0;
     fw_text whole = fw_text_new(plan->arena);
     const char *line;
     entries list = {0};
-    FW_TRY(first_line(plan, pf, hash, file->n > 0, options, &line));
+    FW_TRY(first_line(plan, pf, hash, begun, options, &line));
     fw_text_bytes(&whole, file->text, file->n);
     fw_text_add(&whole, line);
     fw_text_add(added, line);
     FW_TRY(fw_text_end(&whole));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data, whole.length,
                                 &plan->diags, run));
-    FW_TRY(check_head(plan->arena, &plan->diags, options->run, run));
+    FW_TRY(check_head(plan->arena, &plan->diags, options->run, begun, run));
     FW_TRY(entries_of(plan, options, run, &list));
     FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,
                                        (size_t)(run->nentry + list.n), sizeof *run->entry));
+    fw_status wrong = FW_OK; /* every mistake of a list is told, and nothing of it is added */
     for (int i = 0; i < list.n; i++) {
-        FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, run, list.words[i], list.place[i],
-                                   options->now_s, &plan->diags, &line));
+        fw_status status = fw_recipe_asrun_add(plan->arena, pf->flow, run, list.words[i],
+                                               list.place[i], options->now_s, &plan->diags, &line);
+        if (status != FW_OK && status != FW_INPUT) return status;
+        if (status != FW_OK) wrong = status;
+        if (status != FW_OK) continue;
         fw_text_add(added, line);
         FW_TRY(fw_recipe_asrun_read_next(plan->arena, pf->flow, options->run, line, &plan->diags,
                                          run));
     }
+    FW_TRY(wrong);
     return fw_text_end(added);
+}
+
+static fw_status write_head(fw_plan *plan, const char *log, int nentry, const char *chain) {
+    const char *head, *name;
+    FW_TRY(fw_recipe_asrun_head(plan->arena, nentry, chain, &head));
+    FW_TRY(head_name(plan->arena, log, &name));
+    return fw_output_single(plan->arena, name, head, strlen(head), &plan->diags);
+}
+
+/* lines behind a log that has a head, and then the head of all */
+static fw_status write_behind(fw_append *file, fw_plan *plan, const fw_text *added,
+                              const fw_recipe_asrun *run) {
+    const size_t before = file->n;
+    FW_TRY(fw_append_text(file, added->data, added->length));
+    fw_status status = write_head(plan, file->path, run->nentry, run->chain);
+    if (status != FW_OK)
+        fw_append_take_back(file, before); /* else it would be added a second time */
+    return status;
 }
 
 /* the file is locked from here to the end, so that two entries never have one line before them */
@@ -392,19 +431,15 @@ static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, 
                         const fw_cli_options *options) {
     fw_recipe_asrun run = {0};
     fw_text added = fw_text_new(plan->arena);
+    const bool begins = file->n == 0;
+    const char *name;
     FW_TRY(compose(file, plan, pf, hash, options, &added, &run));
-    const char *head, *name;
-    FW_TRY(fw_recipe_asrun_head(plan->arena, run.nentry, run.chain, &head));
     FW_TRY(head_name(plan->arena, options->run, &name));
-    size_t before = file->n;
-    FW_TRY(fw_append_text(file, added.data, added.length));
-    fw_status status = fw_output_single(plan->arena, name, head, strlen(head), &plan->diags);
-    if (status != FW_OK) {
-        fw_append_take_back(file, before); /* else it would be added a second time */
-        return status;
-    }
-    if (!options->quiet) printf("%s: entry %d\n", options->run, run.nentry);
-    return FW_OK;
+    if (begins) FW_TRY(write_head(plan, options->run, 0, run.begun));
+    fw_status status = write_behind(file, plan, &added, &run);
+    if (status != FW_OK && begins) unlink(name); /* there is no log */
+    if (status == FW_OK && !options->quiet) printf("%s: entry %d\n", options->run, run.nentry);
+    return status;
 }
 
 static fw_status keep(fw_plan *plan, const fw_cli_options *options) {

@@ -140,9 +140,11 @@ static fw_status run(fw_study *study, const fw_cli_options *options) {
     return FW_OK;
 }
 
-/* every diagnostic, on standard error */
-static void say(const fw_study *study) {
+/* every diagnostic, on standard error; json: on standard output too, in place of the document that there is not */
+static void say(const fw_study *study, bool json) {
     fw_text text = fw_text_new(study->arena);
+    if (json && fw_plan_diags_json(&study->diags, &text) == FW_OK) fputs(text.data, stdout);
+    text = fw_text_new(study->arena);
     fw_diags_print(&study->diags, &text, study->options.file, study->source, study->source_length,
                    0);
     if (!text.failed && text.length) fputs(text.data, stderr);
@@ -150,7 +152,8 @@ static void say(const fw_study *study) {
 
 static int finish(fw_study *study, const fw_cli_options *options, fw_status status) {
     int number = fw_cancel_requested(options->interrupted);
-    say(study);
+    const bool ended = status == FW_NOMEM || status == FW_CANCELLED;
+    say(study, options->json && status != FW_OK && !ended);
     int exit_status = status == FW_OK ? (options->plan_only ? 0 : fw_study_decision(study))
                                       : fw_status_exit(status);
     if (status == FW_CANCELLED && number) {

@@ -80,6 +80,50 @@ const char *fw_cli_needs(const char *(*names)(void)) {
     return text;
 }
 
+/* the next of the names that "needs A, B (why) or C" lists; what is in brackets or behind ';' is none */
+static const char *next_name(const char *at, char *name, size_t room) {
+    int depth = 0;
+    for (bool begins = true; *at && *at != ';'; at++) {
+        if (*at == '(') depth++;
+        if (*at == ')') depth--;
+        const size_t n = strspn(at, "abcdefghijklmnopqrstuvwxyz0123456789-");
+        if (depth == 0 && begins && n >= 3 && n < room) {
+            memcpy(name, at, n), name[n] = '\0';
+            return at + n;
+        }
+        begins = *at == ' ' && (at[-1] == ',' || (at[-1] == 'r' && at[-2] == 'o' && at[-3] == ' '));
+        if (n > 0) at += n - 1;
+    }
+    return NULL;
+}
+
+const char *fw_cli_meant(const char *value, const char *needs) {
+    enum { NAMES = 24, NAME = 40 };
+    static char text[NAME + 24], name[NAMES][NAME];
+    const char *list[NAMES], *at = needs;
+    const size_t lead = strlen("needs ");
+    size_t n = 0;
+    if (strncmp(needs, "needs ", lead) != 0) return "";
+    for (at += lead; n < NAMES && (at = next_name(at, name[n], NAME)) != NULL; n++)
+        list[n] = name[n];
+    char word[NAME];
+    for (const char *v = value;;
+         v++) { /* of several with commas between the first that is none of them */
+        const size_t length = strcspn(v, ",");
+        if (length >= NAME) return "";
+        memcpy(word, v, length), word[length] = '\0';
+        bool known = false;
+        for (size_t i = 0; i < n; i++)
+            known = known || strcmp(word, list[i]) == 0;
+        v += length;
+        if (known && *v) continue;
+        const char *near = known ? NULL : fw_did_you_mean(word, list, n);
+        if (!near) return "";
+        snprintf(text, sizeof text, "; did you mean %s?", near);
+        return text;
+    }
+}
+
 int fw_cli_usage(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -114,6 +158,11 @@ const char *fw_cli_take_mask_flatten(fw_cli_options *o, const char *v) {
     fw_geometry_flattening kind;
     o->design.mask_flatten = v;
     return *v && fw_mask_flattening_named(v, &kind) ? NULL : "needs inside or equal-area";
+}
+
+const char *fw_cli_take_gds(fw_cli_options *o, const char *v) {
+    o->gds = v;
+    return *v ? NULL : "needs the name of a file";
 }
 
 const char *fw_cli_take_layers(fw_cli_options *o, const char *v) {

@@ -418,6 +418,10 @@ static const fw_cli_option_row table[] = {
      take_hinge_model},
     {"force", 0, NULL, "masks and recipes of a rejected design too, each marked REJECTED",
      FW_OPT_FABRICATE, take_force},
+    {"gds", 0, "FILE",
+     "the device of one flow alone as GDSII, in place of -o: no test die, wafer or order sheet; - "
+     "is standard output",
+     FW_OPT_MASK, fw_cli_take_gds},
     {"mask-tolerance", 0, "NM",
      "largest distance between an arc and its polygon, in nm, from 0.36 to 1000; default 5",
      FW_OPT_FABRICATE, fw_cli_take_tolerance},

@@ -19,6 +19,7 @@ typedef struct fw_cli_options {
     const char *output; /* -o */
     const char *csv, *forces, *animate;
     const char *svg;                         /* of assemble and hinge */
+    const char *gds;                         /* of mask */
     const char *level, *deck;                /* of hinge; NULL: by accuracy, none */
     const char *run, *entry, *entries, *lot; /* of log */
     const char *wafer, *wafer_ids, *instrument, *report;
@@ -79,7 +80,8 @@ enum { /* option groups */
        FW_OPT_SERVE = 8192,
        FW_OPT_VERDICT = 16384,
        FW_OPT_STUDY = 32768,
-       FW_OPT_FIGURE = 65536
+       FW_OPT_FIGURE = 65536,
+       FW_OPT_MASK = 131072
 };
 
 /* the program with its arguments: the exit status of the contract */
@@ -121,6 +123,9 @@ const char *fw_cli_needs(const char *(*names)(void));
 const char *fw_cli_take_tolerance(fw_cli_options *o, const char *v);
 const char *fw_cli_take_mask_format(fw_cli_options *o, const char *v);
 const char *fw_cli_take_mask_flatten(fw_cli_options *o, const char *v);
+/* what was probably meant, of the names in "needs A, B (why) or C": "; did you mean A?" or ""; until the next call */
+const char *fw_cli_meant(const char *value, const char *needs);
+const char *fw_cli_take_gds(fw_cli_options *o, const char *v);
 const char *fw_cli_take_layers(fw_cli_options *o, const char *v);
 const char *fw_cli_take_mask_vertices(fw_cli_options *o, const char *v);
 

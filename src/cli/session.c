@@ -48,9 +48,16 @@ static int show(void *context, const char *what, double done, double of, const c
     if (now - shown.start_s < 1.0 || now - shown.said_s < 0.1) return 0;
     shown.said_s = now;
     fprintf(stderr, "\r\033[K%s", what);
-    if (of > 0) fprintf(stderr, ": %.3g of %.3g %s", done, of, unit);
-    const double left = of > 0 && done > 0 ? (now - shown.what_s) * (of / done - 1.0) : 0.0;
-    if (left >= 1.0 && now - shown.what_s >= 1.0) fprintf(stderr, ", about %.0f s left", left);
+    const double since = now - shown.what_s;
+    const double left = of > 0 && done > 0 ? since * (of / done - 1.0) : 0.0;
+    if (of > 0)
+        fprintf(stderr, ": %.3g of %.3g %s", done, of, unit);
+    else if (done > 0)
+        fprintf(stderr, ": %.3g %s so far", done, unit);
+    if (left >= 1.0 && since >= 1.0)
+        fprintf(stderr, ", about %.0f s left", left);
+    else if (!(of > 0) && since >= 1.0)
+        fprintf(stderr, ", %.0f s", since); /* nobody knows how many there will be */
     fflush(stderr);
     return 0;
 }
@@ -133,7 +140,8 @@ int fw_cli_session_save(fw_design *design, const char *directory, const fw_cli_s
 }
 
 bool fw_cli_session_file_on_stdout(const fw_cli_options *options) {
-    const char *const file[] = {options->csv, options->forces, options->animate, options->svg};
+    const char *const file[] = {options->csv, options->forces, options->animate, options->svg,
+                                options->gds};
     for (size_t i = 0; i < sizeof file / sizeof file[0]; i++)
         if (file[i] && strcmp(file[i], "-") == 0) return true;
     return false;

@@ -45,7 +45,7 @@ bool fw_cli_session_file_on_stdout(const fw_cli_options *options);
    hinge-ID[-FLOW].inp       unit loads on each flexure
    hinge-ID[-FLOW]-large.inp a quarter, half, three quarters and all of its limit angle
    mechanism-SCENE[-FLOW].inp the whole mechanism under each scene's loads at its end; where it
-                             cannot be written a note (FW-D213) says why
+                             cannot be written a warning (FW-D213) says why
    each file whole or not at all. refinement 0: the default. *files counts them. */
 fw_status fw_cli_decks(fw_plan *plan, const char *directory, double refinement, int *files);
 

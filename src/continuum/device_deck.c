@@ -62,6 +62,29 @@ static void hinge_of(const fw_mechanism *m, int h, fw_continuum_solid_hinge *to)
     to->second = hinge->first_is_a ? pin->body_b : pin->body_a;
 }
 
+fw_continuum_material fw_continuum_material_of(const fw_mechanism *m,
+                                               const fw_mechanism_hinge *hinge) {
+    const fw_flexure_input *in = &hinge->input;
+    const fw_device_material *of = &m->variant->material;
+    if (!in->crystal.known || !in->crystal.aligned)
+        return (fw_continuum_material){.youngs_Pa = in->youngs_Pa, .poisson = in->poisson};
+    return (fw_continuum_material){.cubic = true,
+                                   .c11_Pa = of->c11.value,
+                                   .c12_Pa = of->c12.value,
+                                   .c44_Pa = of->c44.value,
+                                   .crystal_rad =
+                                       -0.25 * atan2(in->crystal.sin4, in->crystal.cos4)};
+}
+
+/* what all hinges are made of; of a crystal with [100] where it lies in the wafer */
+static fw_continuum_material material_of(const fw_mechanism *m) {
+    const fw_device_material *of = &m->variant->material;
+    fw_continuum_material material = {.youngs_Pa = of->youngs.value, .poisson = of->poisson.value};
+    if (m->nhinge > 0) material = fw_continuum_material_of(m, &m->hinge[0]);
+    if (material.cubic) material.crystal_rad = m->variant->orientation_rad;
+    return material;
+}
+
 static double factor_at_end(const fw_quantity_law *law, double duration_s) {
     double value[3] = {1.0, 0.0, 0.0};
     if (law) fw_quantity_law_value(law, duration_s, duration_s, value);
@@ -71,12 +94,9 @@ static double factor_at_end(const fw_quantity_law *law, double duration_s) {
 fw_status fw_continuum_solid_device_of(fw_arena *arena, const fw_mechanism *m,
                                        const fw_device_scene *scene, fw_diags *diags,
                                        fw_continuum_solid_device *device) {
-    const fw_device_material *material = &m->variant->material;
     FW_TRY(representable(arena, m, scene, diags));
     *device = (fw_continuum_solid_device){
-        .nhinge = m->nhinge,
-        .nbody = m->nbody,
-        .material = {.youngs_Pa = material->youngs.value, .poisson = material->poisson.value}};
+        .nhinge = m->nhinge, .nbody = m->nbody, .material = material_of(m)};
     int nforce = scene ? scene->nforce : 0;
     FW_NEED(device->hinge = fw_arena_array(arena, fw_continuum_solid_hinge, (size_t)m->nhinge));
     FW_NEED(device->body = fw_arena_array(arena, fw_continuum_solid_body, (size_t)m->nbody));

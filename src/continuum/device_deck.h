@@ -57,9 +57,14 @@ typedef struct fw_continuum_solid_result {
     fw_continuum_mesh_size mesh;
 } fw_continuum_solid_result;
 
+/* What a hinge is made of, in its own frame, where [100] lies at minus the angle that its axis has from it. A
+   crystal in which it has no direction is isotropic, as the closed form takes it. */
+fw_continuum_material fw_continuum_material_of(const fw_mechanism *mechanism,
+                                               const fw_mechanism_hinge *hinge);
+
 /* From a mechanism whose joints all are flexures, with the scene's forces and torques at its end
    (scene NULL: none). Fillets as the mechanism's closed forms have them; blocks as for one hinge;
-   material isotropic. FW_GEOMETRY (FW-D213): other joints, or loads that are not forces and
+   a crystal in turned axes. FW_GEOMETRY (FW-D213): other joints, or loads that are not forces and
    torques. */
 fw_status fw_continuum_solid_device_of(fw_arena *arena, const fw_mechanism *mechanism,
                                        const fw_device_scene *scene, fw_diags *diags,

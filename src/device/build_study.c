@@ -191,7 +191,15 @@ static fw_status build_table(fw_xml_reader *r, const fw_xml_record *record,
     return FW_OK;
 }
 
-/* which of mean, sd, from and to a spread is stated by; further: it is a deviation from an earlier row's mean */
+/* the <vary> that chooses it, so that what is uncertain is a deviation from that; -1: none */
+static int chosen_by(const fw_device_study *s, const char *what, const char *flow) {
+    for (int k = 0; k < s->nvary && what && !flow; k++)
+        if (strcmp(s->vary[k].what, what) == 0) return k;
+    return -1;
+}
+
+/* which of mean, sd, from and to a spread is stated by; further: it is a deviation, from an earlier row's mean or from
+   what is chosen */
 static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
                          const fw_device_uncertain *u, bool further) {
     static const char *const name[] = {"mean", "sd", "from", "to"};
@@ -208,8 +216,8 @@ static void check_spread(fw_xml_reader *r, const fw_xml_record *record,
             r->diags, 491, given ? fw_xml_place_of(record, name[i]) : record->element->place,
             needed ? "%s: spread=\"%s\" needs %s=\"...\""
             : further
-                ? "%s: spread=\"%s\" of a further level is a deviation and has no %s; the first "
-                  "row of the input has it"
+                ? "%s: spread=\"%s\" is a deviation here, from the first row of the input or from "
+                  "what is chosen, and has no %s; remove it"
                 : "%s: spread=\"%s\" has no %s; remove it, or name another spread",
             fw_xml_label(record, label), fw_device_study_words_of.spread[u->spread], name[i]);
         return;
@@ -241,12 +249,11 @@ static void check_level(fw_xml_reader *r, const fw_xml_record *record, const fw_
     const char *what = NULL;
     bool all = strncmp(u->what, "flexure[*]/", 11) == 0;
     if (further && u->spread != FW_SPREAD_NORMAL && u->spread != FW_SPREAD_UNIFORM)
-        what =
-            "a further level of an input is a deviation from its mean: normal with sd, or uniform "
-            "with from and to about 0";
+        what = "it is a deviation, from the mean of the input's first row or from what is chosen: "
+               "normal with sd, or uniform with from and to about 0";
     else if (further && u->spread == FW_SPREAD_UNIFORM && !(u->from < 0 && u->to > 0))
-        what = "a further level of an input is a deviation from its mean: from is below 0 and to "
-               "above";
+        what = "it is a deviation, from the mean of the input's first row or from what is chosen: "
+               "from is below 0 and to above";
     else if (u->spread == FW_SPREAD_INTERVAL && (u->levelled || further))
         what =
             "an interval is one value of which nothing is known, on no level; remove the level, or "
@@ -284,7 +291,9 @@ static fw_status build_uncertain(fw_xml_reader *r, const fw_xml_record *record,
         .unit = "",
         .spread = (fw_device_spread)word_of(record, "spread", words->spread, 0),
         .place = record->element->place};
-    bool known = false, further = false;
+    u.chosen = chosen_by(s, u.what, u.flow);
+    u.deviates = u.chosen >= 0;
+    bool known = false, further = u.deviates;
     size_t before = r->diags->errors;
     for (int k = 0; k < s->nuncertain && u.what; k++)
         further = further || is_same_input(u.what, u.flow, &s->uncertain[k]);
@@ -358,6 +367,16 @@ static fw_status build_respond(fw_xml_reader *r, const fw_xml_record *record, fw
 
 /* an input that is chosen twice, or chosen and left to chance, has two values */
 static void check_inputs(fw_xml_reader *r, const fw_device_study *s) {
+    for (int i = 0; i < s->nuncertain; i++) {
+        const fw_device_uncertain *u = &s->uncertain[i];
+        if (u->deviates && s->yield > 0 &&
+            (s->vary[u->chosen].ntext > 0 ||
+             !fw_quantity_dimension_equal(u->dimension, s->vary[u->chosen].dimension)))
+            fw_diag_error(r->diags, 491, u->place,
+                          "study '%s': '%.80s' is chosen between from and to; what it differs by "
+                          "is of the same dimension, and listed values have no spread of their own",
+                          s->name ? s->name : "", u->what);
+    }
     for (int i = 0; i < s->nvary + s->nuncertain; i++) {
         const char *what = i < s->nvary ? s->vary[i].what : s->uncertain[i - s->nvary].what;
         fw_place place = i < s->nvary ? s->vary[i].place : s->uncertain[i - s->nvary].place;
@@ -365,6 +384,7 @@ static void check_inputs(fw_xml_reader *r, const fw_device_study *s) {
             const char *other = k < s->nvary ? s->vary[k].what : s->uncertain[k - s->nvary].what;
             /* several rows of chance add up, level by level */
             if (strcmp(what, other) != 0 || (i >= s->nvary && k >= s->nvary)) continue;
+            if (s->yield > 0 && i >= s->nvary) continue; /* chosen, and made off by something */
             fw_diag_error(r->diags, 490, place,
                           "study '%s': '%.80s' has two rows; an input is chosen or left to chance, "
                           "once",
@@ -404,16 +424,23 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
         what = "a goal belongs to kind=\"size\"; remove it";
     if (!what && s->kind != FW_STUDY_IS_yield && s->nrespond == 0)
         what = "nothing is asked; add <respond name=\"...\" value=\"governing.utilisation\"/>";
-    bool yield = s->kind == FW_STUDY_IS_yield;
-    if (!what && !yield && s->ntrend > 0) what = "<trend> belongs to kind=\"yield\"; remove it";
-    if (!what && !yield && s->ncorrelation > 0)
-        what = "<correlation> belongs to kind=\"yield\"; remove it";
+    bool yield = s->kind == FW_STUDY_IS_yield, wanted = s->yield > 0;
+    if (!what && wanted && s->kind != FW_STUDY_IS_size)
+        what = "yield=\"...\" is wanted of a size; remove it, or make kind=\"size\" of it";
+    if (!what && wanted && goals > 1)
+        what = "a wanted yield and two goals; keep one goal, and make the other a limit";
+    if (!what && !yield && !wanted && s->ntrend > 0)
+        what = "<trend> belongs to kind=\"yield\" or to a size with yield=\"...\"; remove it";
+    if (!what && !yield && !wanted && s->ncorrelation > 0)
+        what = "<correlation> belongs to kind=\"yield\" or to a size with yield=\"...\"; remove it";
     if (!what && yield && s->nvary > 0)
         what = "a yield chooses nothing; remove <vary>, or make it <uncertain>";
     if (!what && yield && s->nrespond > 0)
         what = "a yield asks what check asks; state limits of its own as <require> in the device";
-    if (!what && !yield && s->nuncertain > 0)
-        what = "<uncertain> belongs to kind=\"yield\"; remove it, or make it <vary>";
+    if (!what && !yield && !wanted && s->nuncertain > 0)
+        what =
+            "<uncertain> belongs to kind=\"yield\" or to a size with yield=\"...\"; remove it, or "
+            "make it <vary>";
     if (!what && s->kind != FW_STUDY_IS_sweep && fw_xml_given(record, "points"))
         what = "points belong to kind=\"sweep\"; remove them";
     if (!what && yield && fw_xml_given(record, "as"))
@@ -437,6 +464,7 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         .samples = (int)fw_xml_number_or(record, "samples", 0),
         .seed = (long)fw_xml_number_or(record, "seed", 1),
         .confidence = fw_xml_number_or(record, "confidence", 0.95),
+        .yield = fw_xml_number_or(record, "yield", 0),
         .place = record->element->place};
     size_t varied = (size_t)fw_xml_children(record, "vary"),
            uncertain = (size_t)fw_xml_children(record, "uncertain"),
@@ -448,8 +476,9 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
     FW_NEED(s->trend = fw_arena_array(r->arena, fw_device_trend, trends));
     FW_NEED(s->correlation = fw_arena_array(r->arena, fw_device_correlation, correlations));
     FW_NEED(s->respond = fw_arena_array(r->arena, fw_device_respond, responses));
-    for (const fw_xml_record *c = record->first_child; c; c = c->next) {
+    for (const fw_xml_record *c = record->first_child; c; c = c->next)
         if (fw_xml_is(c, "vary")) FW_TRY(build_vary(r, c, s));
+    for (const fw_xml_record *c = record->first_child; c; c = c->next) {
         if (fw_xml_is(c, "uncertain")) FW_TRY(build_uncertain(r, c, s));
         if (fw_xml_is(c, "trend")) FW_TRY(build_trend(r, c, s));
         if (fw_xml_is(c, "correlation")) build_correlation(c, s);

@@ -153,6 +153,8 @@ typedef struct fw_device_uncertain {
     const char *flow; /* NULL: an input of the device */
     fw_device_level level;
     bool levelled; /* the level is stated */
+    bool deviates; /* from what the study chooses by vary[chosen]: no mean of its own */
+    int chosen;
     fw_device_spread spread;
     double mean, sd, from,
         to; /* SI; NaN: not stated; a mean that is not stated: 0 of a further row, of a flow what the
@@ -211,6 +213,7 @@ typedef struct fw_device_study {
     int samples;          /* 0: as many as the kind wants */
     long seed;            /* of random numbers */
     double confidence;    /* of intervals */
+    double yield;         /* that a size wants; 0: none */
     fw_device_vary *vary; /* (nvary) */
     int nvary;
     fw_device_uncertain *uncertain; /* (nuncertain) */

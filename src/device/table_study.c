@@ -79,9 +79,13 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
         {"seed",          D_PURE,                                                                  \
          WHOLE,           RANGE(0, 2147483647, "seeds have 31 bits"),                              \
          .fallback = "1", .sentence = "Of random numbers: the same seed gives the same study."},   \
+        {"confidence", D_PURE, ABOVE(0.5, 0.999999, "of an interval"), .fallback = "0.95",         \
+         .sentence = "How often intervals hold the truth."},                                       \
     {                                                                                              \
-        "confidence", D_PURE, ABOVE(0.5, 0.999999, "of an interval"),                              \
-            .fallback = "0.95", .sentence = "How often intervals hold the truth."                  \
+        "yield", D_PURE, RANGE(0.5, 0.999999, "below, most devices fail; above, nothing is sure"), \
+            .fallback = "none",                                                                    \
+            .sentence = "Of a size: the share of devices that have to hold every limit, of each "  \
+                        "flow, with what its pack and <uncertain> say of how they differ."         \
     }
 
 static const fw_xml_attribute_row study_rows[] = {STUDY_ROWS};
@@ -119,7 +123,9 @@ static const fw_xml_attribute_row uncertain_rows[] = {
      .sentence = "normal and lognormal: mean and sd; uniform: from and to; truncated: all four; "
                  "table: table; interval: nothing is known but from and to, and the yield is then "
                  "a range."},
-    {"mean", .kind = FW_KIND_ANY, .sentence = "Mean of the values."},
+    {"mean", .kind = FW_KIND_ANY,
+     .sentence = "Mean of the values; of what a size chooses it is what is chosen, and none is "
+                 "stated."},
     {"sd", .kind = FW_KIND_ANY, .sentence = "Standard deviation of the values."},
     {"from", .kind = FW_KIND_ANY, .sentence = "Least value."},
     {"to", .kind = FW_KIND_ANY, .sentence = "Largest value."},

@@ -5,6 +5,7 @@
 #include "dynamics/run.h"
 #include "quantity/law_kind.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- smooth pieces, between the breaks of all laws ---- */
@@ -237,15 +238,12 @@ fw_status fw_dynamics_run_position_jumps(const fw_dynamics_run *r, double t) {
 fw_status fw_dynamics_run_valid(const fw_dynamics_run *r, double t, const double *y) {
     const fw_multibody_model *m = r->problem.model;
     const char *why = "";
-    char time[32];
+    char time[32], at[40];
     if (m->nelement == 0) return FW_OK;
     const fw_multibody_pose *pose = fw_multibody_pose_at(r->problem.system, t, y);
     const fw_effects_force_element *e =
         fw_multibody_element_invalid(r->problem.system, pose, y + m->nq, &why);
     if (!e) return FW_OK;
-    fw_status status =
-        fw_diag_error(r->diags, 242, e->place, "%s of scene %s at %s s: %s", e->id,
-                      fw_dynamics_scene_name(&r->problem),
-                      fw_number_text(time, sizeof time, t * m->scale.time_s, 4), why);
-    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+    snprintf(at, sizeof at, "%s s", fw_number_text(time, sizeof time, t * m->scale.time_s, 4));
+    return fw_effects_element_ended(e, fw_dynamics_scene_name(&r->problem), at, why, r->diags);
 }

@@ -48,6 +48,7 @@ fw_geometry_vec2 fw_effects_element_root(const fw_effects_force_element *element
 
 typedef struct fw_effects_element_class {
     const char *effect; /* id of its row in the ledger */
+    bool closed_form;   /* of a flexure: where it does not hold an exact beam may */
     bool electrodes;    /* driven by voltages, which have a factor of their own in statics */
     /* f (3 ports): force on the port and couple on its body; overwritten */
     void (*force)(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f);
@@ -92,6 +93,10 @@ struct fw_effects_force_element {
     const void *data;       /* the class's own */
 };
 
+/* The error of a run that came to where an element's formula does not hold, FW-D242; `at`: where in
+   the run, `why`: of its `valid`. FW_SOLVER, or FW_NOMEM */
+fw_status fw_effects_element_ended(const fw_effects_force_element *e, const char *scene,
+                                   const char *at, const char *why, fw_diags *diags);
 /* where the ports are, from body poses q (3 nbody) and velocities v (3 nbody; NULL: at rest), SI */
 void fw_effects_element_place_ports(const fw_effects_force_element *e, const double *q,
                                     const double *v, double *p, double *w);

@@ -349,3 +349,11 @@ void fw_effects_comb_push(const fw_effect_case *c, const fw_device_comb *from, d
     push(c, from->body_a, at, ahead, along_N, across_N, couple_Nm, force);
     push(c, from->body_b, at, ahead, along_N, across_N, couple_Nm, force);
 }
+
+fw_status fw_effects_element_ended(const fw_effects_force_element *e, const char *scene,
+                                   const char *at, const char *why, fw_diags *diags) {
+    fw_status status = fw_diag_formula_ended(
+        diags, 242, e->class_->closed_form ? FW_ENDED_CLOSED_FORM : FW_ENDED_FORMULA, e->place,
+        "%s of scene %s at %s: %s", e->id, scene, at, why);
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}

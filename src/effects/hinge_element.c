@@ -3,6 +3,7 @@
 #include "effects/effect.h"
 #include "flexure/beam.h"
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 /* ---- in closed form ---- */
@@ -274,6 +275,7 @@ static bool valid(const fw_effects_force_element *e, const fw_effects_port_state
 }
 
 const fw_effects_element_class fw_effects_flexed_class = {.effect = "nonlinear-hinge",
+                                                          .closed_form = true,
                                                           .force = force,
                                                           .tangent = tangent,
                                                           .energy = energy,
@@ -312,6 +314,8 @@ static const double rough = 1e-6, deflected = 1e-3;
 static const double linear = 3e-8;
 
 struct fw_effects_exact {
+    fw_flexure_input input; /* what the beam is made of, all of it times `scale` */
+    double scale;
     fw_flexure_beam beam;
     double length_m; /* of the strip */
     fw_flexure_elastica *solver;
@@ -338,6 +342,7 @@ fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *h,
     const fw_flexure_result *c = &h->closed_form;
     fw_effects_exact *x = fw_arena_one(arena, fw_effects_exact);
     FW_NEED(x);
+    x->input = h->input, x->scale = h->scale;
     FW_TRY(fw_flexure_beam_of_input(arena, &h->input, c, &x->beam));
     fw_flexure_beam_scale(&x->beam, h->scale);
     /* where the pin is: the ends of the strip are that far from it in both bodies */
@@ -352,13 +357,33 @@ fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *h,
     return FW_OK;
 }
 
+/* of the same numbers, to the last bit, and so the same beam and the same law */
+static bool same_beam(const fw_effects_exact *x, const fw_effects_exact *y) {
+    const fw_flexure_input *a = &x->input, *b = &y->input;
+    const fw_flexure_crystal *c = &a->crystal, *d = &b->crystal;
+    const size_t doubles = offsetof(fw_flexure_input, piece) - offsetof(fw_flexure_input, length_m);
+    const size_t of_crystal = sizeof *c - offsetof(fw_flexure_crystal, a0_per_Pa);
+    return x->scale == y->scale && a->kind == b->kind && a->ends == b->ends &&
+           a->npiece == b->npiece && (a->npiece == 0 || a->piece == b->piece) &&
+           c->known == d->known && c->aligned == d->aligned &&
+           memcmp(&a->length_m, &b->length_m, doubles) == 0 &&
+           memcmp(&c->a0_per_Pa, &d->a0_per_Pa, of_crystal) == 0;
+}
+
+/* flexures that are the same beam ask one lattice of its solutions */
 fw_status fw_effects_hinges_follow(fw_arena *arena, const fw_effects_loads *loads) {
     for (int i = 0; i < loads->nelement; i++) {
         if (loads->element[i].class_ != &fw_effects_exact_class) continue;
         const fw_effects_flexed *f = loads->element[i].data;
         fw_effects_exact *x = f->exact;
         x->chart = NULL, x->asked = false;
-        if (arena) FW_TRY(fw_flexure_chart_new(arena, &f->law, x->solver, &x->chart));
+        for (int k = 0; arena && k < i && !x->chart; k++) {
+            if (loads->element[k].class_ != &fw_effects_exact_class) continue;
+            const fw_effects_exact *y = ((const fw_effects_flexed *)loads->element[k].data)->exact;
+            if (same_beam(x, y)) x->chart = y->chart;
+        }
+        if (!arena || x->chart) continue;
+        FW_TRY(fw_flexure_chart_new(arena, &f->law, x->solver, &x->chart));
     }
     return FW_OK;
 }

@@ -479,12 +479,12 @@ fw_status fw_layout_rotor_flaw(fw_layout_drawing *d, int body, const fw_layout_c
                             "its fingers are %s um wide, so that their tips are rounded with %s um "
                             "only, and every mask shows %s um; make them %s um wide or wider",
                             fw_layout_um(wide, p->width_m), is, least,
-                            fw_layout_um(x, p->width_m * f.limit_m / f.value_m));
+                            fw_layout_um(x, fw_layout_comb_width_shown()));
     else if (comb && *f.what == 'w' && fabs(f.value_m - p->width_m) < 1e-9)
         *why = fw_arena_printf(d->arena,
                                "its fingers are %s um wide, and the least width that every mask "
-                               "shows is %s um; make them wider",
-                               is, least);
+                               "shows is %s um; make them %s um wide or wider",
+                               is, least, fw_layout_um(x, fw_layout_comb_width_shown()));
     else
         *why = fw_arena_printf(d->arena,
                                "with it the outline of its body would have a %s of only %s um at "
@@ -575,5 +575,6 @@ fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int only,
     d->base = FW_NONE;
     FW_TRY(status);
     if (body < 0) return FW_OK;
+    if (fw_layout_has_shapes(d->device, body)) FW_TRY(fw_layout_shapes_say_cut(d, body));
     return fw_layout_body_measure(d, body, NULL, 0);
 }

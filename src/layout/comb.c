@@ -10,9 +10,10 @@
 
 static const double BACK_M = FW_PLATE_BAR_M; /* bar behind the fingers, plate, lead */
 static const double TIP_M = 3e-6;            /* rounding of finger tips, within their length */
-static const double PAD_M = 150e-6;          /* side of the part of a pad that is bonded */
-static const double STROKE_M = 5e-6;         /* of the letters on it */
-static const double MARGIN_M = 10e-6;        /* around them */
+static const double TIP_SHARE = 0.4;  /* of the width of fingers that are too narrow for that */
+static const double PAD_M = 150e-6;   /* side of the part of a pad that is bonded */
+static const double STROKE_M = 5e-6;  /* of the letters on it */
+static const double MARGIN_M = 10e-6; /* around them */
 static const double FREE_M = 60e-6;   /* of lead and pad from what moves, where there is room */
 static const double LEAST_M = 20e-6;  /* and where there is less */
 static const double LONGER_M = 10e-6; /* a stator's plate at either end, beyond the gap */
@@ -20,7 +21,11 @@ static const double BASE_M = 40e-6;   /* the base may be so much wider than its 
 enum { FINGERS_MOST = 100, LETTERS = 6 };
 
 double fw_layout_comb_tip(double width_m) {
-    return fmin(TIP_M, 0.4 * width_m);
+    return fmin(TIP_M, TIP_SHARE * width_m);
+}
+
+double fw_layout_comb_width_shown(void) {
+    return fmax(fw_layout_rule.own_width_m, fw_layout_rule.own_tip_m / TIP_SHARE);
 }
 
 /* Fingers along +x from a bar behind them, in the frame of the drive:

@@ -285,6 +285,8 @@ bool fw_layout_only_shapes(const fw_device *device, int body); /* neither width 
 fw_status fw_layout_shapes_unite(fw_layout_drawing *d);
 /* cuts the holes of the description out of what is drawn of a body */
 fw_status fw_layout_shapes_pierce(fw_layout_drawing *d, int body, fw_geometry_region *all);
+/* notes of what the round places of hinges take off it, heads and necks apart (FW-D537); its raw outline is drawn */
+fw_status fw_layout_shapes_say_cut(fw_layout_drawing *drawing, int body);
 /* unit vector from W and where from W the neck, `half_m` wide to either side, may begin to end in
    what is drawn, at least clear_m; false: nowhere within reach */
 bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry_vec2 w,
@@ -324,6 +326,8 @@ fw_status fw_layout_tracks_cut(fw_layout_drawing *d, const fw_geometry_contour *
                                fw_geometry_region *parts);
 /* radius of the tips of fingers */
 double fw_layout_comb_tip(double width_m);
+/* the least width of fingers whose sides and tips every mask shows */
+double fw_layout_comb_width_shown(void);
 /* rotor's and stator's electrodes alone: world outlines. docs/theory/layout.md, section 5 */
 fw_status fw_layout_comb_rotor(fw_arena *arena, const fw_layout_comb_plan *plan,
                                fw_geometry_contour *rotor);

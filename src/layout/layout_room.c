@@ -180,14 +180,22 @@ static fw_status find_fingers(search *s, int *fingers) {
     return FW_OK;
 }
 
-/* The narrowest fingers that are drawn where these ones lie, to 0.05 um; 0: width is not what they lack. What is up to
-   four times as wide as any mask needs is looked at. */
+/* The least width that every mask shows, which is the one that the reason names (fw_layout_rotor_flaw); where fingers as
+   wide are not drawn where these ones lie, the narrowest that are, to 0.05 um. 0: width is not what they lack. What is up
+   to four times as wide as any mask needs is looked at. */
 static fw_status find_width(search *s, double *width_m) {
     const double step_m = 0.05e-6, enough_m = 30e-6, grow = 1.25,
-                 stated = fw_device_comb_width_m(s->missing->comb);
-    double low = stated, high = 0.0;
+                 stated = fw_device_comb_width_m(s->missing->comb),
+                 shown = fw_layout_comb_width_shown();
+    double low = fmax(stated, shown), high = 0.0;
     *width_m = 0.0;
-    for (double w = grow * stated; w <= enough_m && high == 0.0; w *= grow) {
+    if (stated < shown) {
+        bool drawn;
+        FW_TRY(try_change(s, &(change){.width_m = shown}, &drawn));
+        if (drawn) *width_m = shown;
+        if (drawn) return FW_OK;
+    }
+    for (double w = grow * low; w <= enough_m && high == 0.0; w *= grow) {
         bool fits;
         FW_TRY(try_change(s, &(change){.width_m = w}, &fits));
         *(fits ? &high : &low) = w;

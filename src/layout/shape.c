@@ -331,3 +331,35 @@ bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry
     }
     return found;
 }
+
+/* ---- what hinges take of it ---- */
+
+fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
+    const double told_m2 = 25e-12; /* less is no more than a rounded corner */
+    const fw_geometry_region *solid = &d->shapes[body].solid;
+    fw_geometry_region drawn = {&d->raw[body], 1};
+    for (int j = 0; j < d->device->nrevolute && !d->said; j++) {
+        const fw_layout_hinge_layout *h = &d->layout->hinge[j];
+        fw_geometry_contour disc;
+        fw_geometry_region round = {&disc, 1}, within, lost;
+        double area = 0;
+        FW_TRY(fw_geometry_contour_disc(d->arena, h->centre, h->keep_out_m, &disc));
+        FW_TRY(fw_geometry_region_boolean(d->arena, solid, &round, FW_INTERSECTION, &within));
+        if (within.count == 0) continue;
+        FW_TRY(fw_geometry_region_boolean(d->arena, &within, &drawn, FW_DIFFERENCE, &lost));
+        for (int i = 0; i < lost.count; i++)
+            area += fw_geometry_contour_area(&lost.contour[i]);
+        if (area < told_m2) continue;
+        char r[32], um2[32], x[32], y[32];
+        const char *label = fw_layout_body_label(d, body);
+        FW_NEED(label);
+        fw_diag_note(d->diags, 537, fw_layout_body_place(d, body),
+                     "%s is drawn into the round place of hinge %s, %s um about (%s, %s) um, and "
+                     "%s um^2 of it are not on the masks; end what is drawn outside of that, or "
+                     "move the hinge",
+                     label, d->device->revolute[j].id, fw_layout_um(r, h->keep_out_m),
+                     fw_layout_um(x, h->centre.x), fw_layout_um(y, h->centre.y),
+                     fw_number_text(um2, sizeof um2, 1e12 * area, 3));
+    }
+    return FW_OK;
+}

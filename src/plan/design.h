@@ -97,5 +97,7 @@ int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argum
 void fw_plan_design_forget_documents(fw_design *d);
 /* what a document prints of the motion of a simulated scene: asked for now where it is not known */
 fw_status fw_plan_design_know(fw_design *d, unsigned wanted);
+/* for programs, in the order in which they were found: schema flexwright.diagnostics/1 */
+fw_status fw_plan_diags_json(const fw_diags *diags, fw_text *out);
 
 #endif

@@ -186,15 +186,15 @@ static fw_status diagnostics_text(fw_design *d, fw_text *out) {
     return fw_text_end(out);
 }
 
-static fw_status diagnostics_json(fw_design *d, fw_text *out) {
+fw_status fw_plan_diags_json(const fw_diags *diags, fw_text *out) {
     static const char *const severity[] = {
         [FW_NOTE] = "note", [FW_WARNING] = "warning", [FW_ERROR] = "error"};
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
     fw_json_object(&json, NULL);
     fw_json_text(&json, "schema", "flexwright.diagnostics/1");
     fw_json_list(&json, "diagnostics");
-    for (size_t i = 0; i < d->plan->diags.count; i++) {
-        const fw_diag *item = &d->plan->diags.item[i];
+    for (size_t i = 0; i < diags->count; i++) {
+        const fw_diag *item = &diags->item[i];
         char code[16];
         snprintf(code, sizeof code, "FW-D%03d", item->number);
         fw_json_object(&json, NULL);
@@ -209,6 +209,10 @@ static fw_status diagnostics_json(fw_design *d, fw_text *out) {
     fw_json_end(&json);
     fw_json_end(&json);
     return fw_json_finish(&json, "\n");
+}
+
+static fw_status diagnostics_json(fw_design *d, fw_text *out) {
+    return fw_plan_diags_json(&d->plan->diags, out);
 }
 
 /* one row per document: what must be done before it, and who composes it */

@@ -174,6 +174,21 @@ static int named_joint(const fw_plan *plan, const char *id) {
     return FW_NONE;
 }
 
+static const char *unknown_joint(const fw_plan *plan, const char *id) {
+    const fw_device *d = plan->device;
+    const char **name = fw_arena_array(plan->arena, const char *, 2 * (size_t)d->nrevolute);
+    size_t n = 0;
+    for (int j = 0; name && j < d->nrevolute; j++) {
+        if (!plan->layout->hinge[j].drawn) continue;
+        if (d->revolute[j].id) name[n++] = d->revolute[j].id;
+        if (d->revolute[j].flexure != FW_NONE) name[n++] = d->flexure[d->revolute[j].flexure].id;
+    }
+    const char *near = name ? fw_did_you_mean(id, name, n) : NULL;
+    return fw_arena_printf(plan->arena,
+                           "no drawn hinge or flexure of this device has that id%s%s%s",
+                           near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+}
+
 /* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through
    the narrowest gap of a hinge; stays NULL where there is neither */
 static fw_status cut_wafer(fw_plan *plan, fw_plan_flow *pf) {
@@ -187,7 +202,7 @@ static fw_status cut_wafer(fw_plan *plan, fw_plan_flow *pf) {
     } else {
         int joint = asked ? named_joint(plan, asked + strlen(flexure)) : narrowest(plan);
         if (joint == FW_NONE && asked)
-            return refuse(plan, "no drawn hinge or flexure of this device has that id");
+            return refuse(plan, unknown_joint(plan, asked + strlen(flexure)));
         if (joint == FW_NONE) return FW_OK;
         FW_TRY(through_joint(plan, pf, joint, cut, &there));
     }
@@ -439,10 +454,11 @@ fw_status fw_plan_masks(fw_plan *plan) {
         fw_arena_tell(plan->arena, "drawing masks", i, plan->nflow, "flows");
         if (!pf->mask_examined) FW_TRY(build_mask(plan, pf, rejected));
         if (!pf->mask) continue;
-        FW_TRY(cut_wafer(plan, pf));
         pf->gds = fw_text_new(plan->arena);
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
         FW_TRY(fw_plan_hash(plan, &pf->gds, &pf->mask_sha256));
+        if (plan->options.drawn_alone) continue;
+        FW_TRY(cut_wafer(plan, pf));
         if (plan->options.dies == 0) FW_TRY(lay_out_coupons(plan, pf)); /* one test die will do */
     }
     return FW_OK;
@@ -459,15 +475,32 @@ static bool is_step(const fw_plan *plan, const char *id, size_t n) {
     return false;
 }
 
+/* *near: the step that was probably meant, of all flows; NULL: none is near */
+static fw_status step_meant(const fw_plan *plan, const char *id, const char **near) {
+    size_t n = 0;
+    for (int i = 0; i < plan->nflow; i++)
+        n += plan->flow[i].flow ? (size_t)plan->flow[i].flow->nstep : 0;
+    const char **name = fw_arena_array(plan->arena, const char *, n);
+    FW_NEED(name);
+    n = 0;
+    for (int i = 0; i < plan->nflow; i++)
+        for (int k = 0; plan->flow[i].flow && k < plan->flow[i].flow->nstep; k++)
+            name[n++] = plan->flow[i].flow->step[k].id;
+    *near = fw_did_you_mean(id, name, n);
+    return FW_OK;
+}
+
 /* a planning time for a step that no flow of the device has is a slip of the pen */
 static fw_status check_planned(fw_plan *plan) {
     for (const char *at = plan->options.schedule.planned; at && *at;) {
         size_t part = strcspn(at, ","), name = strcspn(at, "=,");
         if (name < part && !is_step(plan, at, name)) {
-            const char *id = fw_arena_strndup(plan->arena, at, name);
+            const char *id = fw_arena_strndup(plan->arena, at, name), *near;
             FW_NEED(id);
+            FW_TRY(step_meant(plan, id, &near));
             fw_diag_error(&plan->diags, 199, (fw_place){0},
-                          "planning time for '%s': no flow of this device has such a step", id);
+                          "planning time for '%s': no flow of this device has such a step%s%s%s",
+                          id, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
             return FW_USAGE;
         }
         at += part + (at[part] == ',');

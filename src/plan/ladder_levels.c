@@ -3,6 +3,7 @@
    and its row in the table at the end. docs/theory/flexure-errors.md. */
 #include "base/constants.h"
 #include "continuum/continuum.h"
+#include "continuum/device_deck.h"
 #include "flexure/beam.h"
 #include "plan/ladder.h"
 #include <math.h>
@@ -194,20 +195,6 @@ static fw_status elastica(const fw_plan_ladder_case *c, fw_report_level *row) {
 
 /* ---- solid ---- */
 
-/* [100] lies at minus the angle that the hinge's axis has from it */
-static fw_continuum_material material_of(const fw_plan_ladder_case *c) {
-    const fw_flexure_input *in = &c->hinge->input;
-    const fw_device_material *m = &c->mechanism->variant->material;
-    if (!in->crystal.known)
-        return (fw_continuum_material){.youngs_Pa = in->youngs_Pa, .poisson = in->poisson};
-    return (fw_continuum_material){.cubic = true,
-                                   .c11_Pa = m->c11.value,
-                                   .c12_Pa = m->c12.value,
-                                   .c44_Pa = m->c44.value,
-                                   .crystal_rad =
-                                       -0.25 * atan2(in->crystal.sin4, in->crystal.cos4)};
-}
-
 static const char *unfit(const fw_plan_ladder_case *c) {
     const fw_flexure_input *in = &c->hinge->input;
     if (in->crystal.known && !in->crystal.aligned)
@@ -245,7 +232,7 @@ static fw_status continuum(const fw_plan_ladder_case *c, fw_report_level *row) {
     const fw_flexure_result *r = &c->hinge->closed_form;
     *row = (fw_report_level){.state = FW_LEVEL_NONE, .why = unfit(c)};
     if (row->why) return FW_OK;
-    const fw_continuum_material material = material_of(c);
+    const fw_continuum_material material = fw_continuum_material_of(c->mechanism, c->hinge);
     fw_continuum_shape shape;
     fw_continuum_result s;
     fw_diags own = fw_diags_new(c->arena);

@@ -132,13 +132,14 @@ static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
 }
 
 /* status: of what was tried last */
-static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
+static fw_status compose(fw_design *d, fw_status status, bool rates, fw_text *out) {
     fw_plan *plan = d->plan;
     fw_report_left_out left_out[LEFT_OUT_MOST];
     bool judged = d->done & FW_DONE_JUDGED, moved = d->done & FW_DONE_SIMULATED;
     fw_report_preview in = {.status = plan->device ? "ok" : "invalid",
                             .left_out = left_out,
                             .nleft_out = leave_out(plan, judged, left_out),
+                            .rates = rates,
                             .diags = &plan->diags,
                             .file = plan->source_file,
                             .device = plan->device,
@@ -163,7 +164,7 @@ static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
 
 fw_status fw_plan_design_preview_json(fw_design *design, fw_text *out) {
     if (design->done & FW_DONE_SIMULATED) FW_TRY(fw_plan_design_know(design, WANTED));
-    return compose(design, FW_OK, out);
+    return compose(design, FW_OK, false, out);
 }
 
 /* ---- the request ---- */
@@ -176,12 +177,13 @@ static bool hopeless(int status) {
 
 typedef struct work {
     fw_status status;
+    bool rates;
     fw_text *out;
 } work;
 
 static fw_status document(fw_design *d, void *argument) {
     const work *w = argument;
-    return compose(d, w->status, w->out);
+    return compose(d, w->status, w->rates, w->out);
 }
 
 /* so many rows that a page can still take them: fewer of a mechanism with hundreds of bodies */
@@ -204,7 +206,7 @@ static void excuse(fw_plan *plan) {
     }
 }
 
-static fw_status look(fw_design *d, fw_plan_live_request *request, fw_text *out) {
+static fw_status look(fw_design *d, fw_plan_live_request *request, bool rates, fw_text *out) {
     int status = fw_design_read_memory(d, "device.xml", request->text, request->length);
     if (status == FW_STATUS_USAGE && d->wrong_option)
         return fw_plan_live_wrong(request, d->wrong_option, NULL);
@@ -220,18 +222,21 @@ static fw_status look(fw_design *d, fw_plan_live_request *request, fw_text *out)
         if (hopeless(moved)) status = moved;
     }
     if (hopeless(status)) return (fw_status)status;
-    return (fw_status)fw_plan_design_run(d, document, &(work){(fw_status)status, out});
+    return (fw_status)fw_plan_design_run(d, document, &(work){(fw_status)status, rates, out});
 }
 
 static fw_status preview(fw_plan_live *live, fw_plan_live_request *request, fw_text *out) {
+    const json_t *rates = json_object_get(request->root, "rates");
     fw_design *design;
+    if (rates && !json_is_null(rates) && !json_is_boolean(rates))
+        return fw_plan_live_wrong(request, "true or false is needed for", "rates");
     FW_TRY(fw_plan_live_design(live, request, &design));
-    fw_status status = look(design, request, out);
+    fw_status status = look(design, request, json_is_true(rates), out);
     fw_design_free(design);
     return status;
 }
 
 fw_plan_live_answer fw_plan_live_preview(fw_plan_live *live, const char *request, size_t n) {
-    static const char *const keys[] = {"text", "set", "options", "lab", NULL};
+    static const char *const keys[] = {"text", "set", "options", "lab", "rates", NULL};
     return fw_plan_live_call(live, request, n, keys, preview);
 }

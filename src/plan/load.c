@@ -271,8 +271,14 @@ static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char
     return remember_input(plan, name, *data, *n);
 }
 
-static const char *material_names(fw_plan *plan) {
+static const char *material_names(fw_plan *plan, const char *wrong) {
     fw_text names = fw_text_new(plan->arena);
+    const char **all = fw_arena_array(plan->arena, const char *, (size_t)plan->materials.count);
+    for (int i = 0; all && i < plan->materials.count; i++)
+        all[i] = plan->materials.item[i].id;
+    const char *near =
+        wrong && all ? fw_did_you_mean(wrong, all, (size_t)plan->materials.count) : NULL;
+    if (near) fw_text_printf(&names, "did you mean '%s'? ", near);
     fw_text_add(&names, "choose one of");
     for (int i = 0; i < plan->materials.count; i++)
         if (!plan->materials.item[i].youngs.unknown)
@@ -283,7 +289,8 @@ static const char *material_names(fw_plan *plan) {
 fw_status fw_plan_need_material(fw_plan *plan) {
     if (plan->device->material_ref) return FW_OK;
     return fw_diag_error(&plan->diags, 225, (fw_place){plan->device->file, 1, 1},
-                         "no <material>: add <material ref=\"...\"/>; %s", material_names(plan));
+                         "no <material>: add <material ref=\"...\"/>; %s",
+                         material_names(plan, NULL));
 }
 
 /* the variant of the description itself: what explicit masses and stiffnesses refer to */
@@ -368,7 +375,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
             &plan->diags, 225, place,
             "material '%s' has no modulus, Poisson number, density or strength: it "
             "cannot be the device layer; %s",
-            m->id, material_names(plan));
+            m->id, material_names(plan, NULL));
     check_orientation(plan, use, m);
     if (pf->flow && pf->flow->material && !fw_text_same(pf->flow->material, m->id))
         fw_diag_warning(&plan->diags, 227, place,
@@ -527,7 +534,7 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
     if (d->material_ref && !fw_device_material_find(&plan->materials, d->material_ref))
         status =
             fw_diag_error(&plan->diags, 225, d->material_place, "material '%s' is not in %s: %s",
-                          d->material_ref, plan->base_file, material_names(plan));
+                          d->material_ref, plan->base_file, material_names(plan, d->material_ref));
     for (int i = 0; i < d->nflow; i++) {
         const fw_device_flow_use *use = &d->flow[i];
         const char *name =
@@ -546,7 +553,7 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
         if (use->material && !fw_device_material_find(&plan->materials, use->material))
             status = fw_diag_error(&plan->diags, 225, use->material_place,
                                    "material '%s' is not in %s: %s", use->material, plan->base_file,
-                                   material_names(plan));
+                                   material_names(plan, use->material));
     }
     return status;
 }

@@ -40,6 +40,7 @@ typedef struct fw_plan_options {
     const fw_device_set *set;   /* (nset) */
     int nset;
     bool force; /* masks and recipes of a rejected design too */
+    bool drawn_alone;   /* masks of the device alone: no test die, no wafer, no schedule */
     bool without_masks; /* the verdict does not ask whether masks can be drawn: for studies */
     int dies;   /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
     bool at_equilibrium; /* modes: not about rest */

@@ -118,6 +118,9 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_mask_frame_marks(arena, table, layout, &marked, &left_out));
     add_areas(marked, insulated, facts);
     narrowest(device, layout, facts);
+    for (int i = 0; table && i < table->nlayer; i++)
+        if (table->layer[i].biased)
+            facts->least_space_m = fmax(facts->least_space_m, table->layer[i].min_space_m);
     return name_gaps(arena, device, layout, variant->flow, facts);
 }
 

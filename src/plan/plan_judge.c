@@ -177,7 +177,7 @@ static void note_tolerance(fw_plan *plan, double asked, double used) {
 static fw_status explain_pull_in(fw_plan *plan, const fw_statics_pull_in *pull_in, size_t from) {
     for (size_t i = from; pull_in && i < plan->diags.count; i++) {
         const fw_diag *d = &plan->diags.item[i];
-        if (d->number != 242 || d->severity != FW_ERROR) continue;
+        if (d->ended == FW_ENDED_NOT) continue;
         const char *text = fw_statics_pull_in_explain(plan->arena, pull_in);
         FW_NEED(text);
         fw_diag_warning(&plan->diags, 242, d->place, "%s", text);

@@ -191,8 +191,10 @@ static fw_status make_all(fw_plan *plan) {
     if (w->nsweep > 0) {
         FW_NEED(plan->step = fw_arena_array(plan->arena, fw_plan *, (size_t)n));
         plan->nstep = n;
-        for (int i = 0; i < n; i++)
+        for (int i = 0; i < n; i++) {
+            fw_arena_tell(plan->arena, "planning the steps of the wafer's sweeps", i, n, "steps");
             FW_TRY(run_step(plan, i, value[i], &why[i]));
+        }
     }
     for (int i = 0; i < plan->nflow; i++)
         if (plan->flow[i].mask) FW_TRY(make(plan, i, (const double(*)[2])value, why));
@@ -202,6 +204,7 @@ static fw_status make_all(fw_plan *plan) {
 /* A step of a sweep has masks and schedules, but no wafer of its own. */
 fw_status fw_plan_fabricate(fw_plan *plan) {
     FW_TRY(fw_plan_masks(plan));
+    if (plan->options.drawn_alone) return FW_OK;
     FW_TRY(make_all(plan));
     FW_TRY(fw_plan_compute_wafers(plan));
     return fw_plan_schedules(plan);

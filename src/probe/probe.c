@@ -163,19 +163,64 @@ const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *
 }
 
 /* where a law jumps at a row, its value behind that; of the last row that before the end */
-double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row) {
+static fw_probe_state state_at_row(const fw_dynamics_motion *motion, int row) {
     size_t i = (size_t)row, n = 3 * (size_t)motion->nbody;
     double t = motion->t_s[row], end = motion->end_s, near = 1e-9 * end;
     fw_dynamics_motion_rows(motion, row, 1);
-    const fw_probe_state s = {.t_s = t,
-                              .piece_s = t + near < end ? t + near : t - near,
-                              .q = motion->q + i * n,
-                              .v = motion->v + i * n,
-                              .angle_rad = motion->angle_rad + i * (size_t)motion->npin,
-                              .reaction_N = motion->reaction_N + i * 2 * (size_t)motion->npin,
-                              .joint_N = motion->joint_N + i * 3 * (size_t)motion->njoint,
-                              .driver_N = motion->driver_N + i * (size_t)motion->ndriver};
+    return (fw_probe_state){.t_s = t,
+                            .piece_s = t + near < end ? t + near : t - near,
+                            .q = motion->q + i * n,
+                            .v = motion->v + i * n,
+                            .angle_rad = motion->angle_rad + i * (size_t)motion->npin,
+                            .reaction_N = motion->reaction_N + i * 2 * (size_t)motion->npin,
+                            .joint_N = motion->joint_N + i * 3 * (size_t)motion->njoint,
+                            .driver_N = motion->driver_N + i * (size_t)motion->ndriver};
+}
+
+double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row) {
+    const fw_probe_state s = state_at_row(motion, row);
     return fw_probe_value(p, &s);
+}
+
+bool fw_probe_has_rate(const fw_probe *p) {
+    const fw_quantity_dimension is = p->kind->dimension;
+    return p->row->value && (fw_quantity_dimension_equal(is, (fw_quantity_dimension){.m = 1}) ||
+                             fw_quantity_dimension_equal(is, (fw_quantity_dimension){.rad = 1}));
+}
+
+/* so far to either side that neither rounding nor curvature is seen: of the largest arm, and of a radian */
+static const double aside = 1e-6;
+
+/* d/dt of a function of the pose: the difference of its values at q + h v and q - h v, over 2 h. Its error is the third
+   derivative along the way times (1e-6 arm)^2/6, and rounding over 1e-6. */
+double fw_probe_rate_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row,
+                            double *room) {
+    const fw_mechanism *m = p->mechanism;
+    const int n = 3 * motion->nbody;
+    fw_probe_state s = state_at_row(motion, row);
+    const double *q = s.q, *angle = s.angle_rad;
+    double arm = 0, fastest = 0, value[2];
+    for (int i = 0; i < m->npin; i++)
+        arm = fmax(arm, fmax(hypot(m->pin[i].ax_m, m->pin[i].ay_m),
+                             hypot(m->pin[i].bx_m, m->pin[i].by_m)));
+    for (int i = 0; i < n; i++)
+        fastest = fmax(fastest, fabs(s.v[i]) * (i % 3 == 2 ? fmax(arm, 1e-9) : 1));
+    if (!(fastest > 0) || !fw_probe_has_rate(p)) return fw_probe_has_rate(p) ? 0 : (double)NAN;
+    const double h = aside * fmax(arm, 1e-9) / fastest;
+    for (int side = 0; side < 2; side++) {
+        const double by = side ? h : -h;
+        for (int i = 0; i < n; i++)
+            room[i] = q[i] + by * s.v[i];
+        for (int i = 0; i < m->npin; i++) {
+            const int a = m->pin[i].body_a, b = m->pin[i].body_b;
+            const double turning =
+                (b == FW_GROUND ? 0 : s.v[3 * b + 2]) - (a == FW_GROUND ? 0 : s.v[3 * a + 2]);
+            room[n + i] = angle[i] + by * turning;
+        }
+        s.q = room, s.angle_rad = room + n;
+        value[side] = fw_probe_value(p, &s);
+    }
+    return (value[1] - value[0]) / (2 * h);
 }
 
 double fw_probe_at_equilibrium(const fw_probe *p, const fw_device_scene *scene,

@@ -79,6 +79,11 @@ double fw_probe_across(const fw_probe *p, const fw_probe_state *s);
 double fw_probe_origin(const fw_probe *p);
 /* at a row of a motion whose probes are bound to its loads */
 double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row);
+/* is it a length or an angle, which the pose alone says? */
+bool fw_probe_has_rate(const fw_probe *p);
+/* d/dt of its value there, SI; NaN without a rate. room: 3 nbody + npin. Cost: two values */
+double fw_probe_rate_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row,
+                            double *room);
 double fw_probe_at_equilibrium(const fw_probe *p, const fw_device_scene *scene,
                                const fw_statics *statics);
 

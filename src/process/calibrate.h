@@ -48,6 +48,8 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
 fw_status fw_process_coupon_forms(const char *words, fw_text *out);
 /* FW_INPUT and FW-D211 where a row lacks what its coupon needs */
 fw_status fw_process_measurement_check(const fw_process_measurement *row, fw_diags *diags);
+/* are all rows of the coupon of one run, so that what stands under `at` is the same in all? */
+bool fw_process_coupon_of_one_run(const char *coupon);
 
 /* ---- coupons of several wafers, at several sites of each ---- */
 

@@ -447,7 +447,8 @@ typedef struct trial {
     double fold_gap_m, fold_anisotropy;
 } trial;
 
-/* every opening at least so wide: made, and printed with the gap of the flow, not in perfect contact only */
+/* every opening at least so wide: made, printed with the gap of the flow, not in perfect contact only, and as wide on the
+   mask as its rules ask for, with a grid of 1 nm at either edge */
 static fw_status with_gap(trial *t, double gap_m, bool *made) {
     fw_process_mask_facts facts = *t->facts;
     *made = false;
@@ -460,7 +461,8 @@ static fw_status with_gap(trial *t, double gap_m, bool *made) {
     facts.gap = t->gap;
     facts.narrowest_slot_m = fmax(facts.narrowest_slot_m, gap_m);
     fw_status status = fw_process_flow_compute_once(t->arena, t->flow, &facts, &quiet);
-    *made = status == FW_OK && t->flow->manufacturable != 0 && !t->flow->tight;
+    *made = status == FW_OK && t->flow->manufacturable != 0 && !t->flow->tight &&
+            facts.narrowest_slot_m - 2.0 * t->flow->bias_m >= facts.least_space_m + 2e-9;
     return status == FW_INPUT ? FW_OK : status;
 }
 

@@ -487,9 +487,16 @@ static void lint_clock(fw_process_pack *pack, const fw_process_step *s) {
 /* a plasma is set by its pressure before anything else; a value that nobody knows is a blank on the sheet */
 static void lint_plasma(fw_process_pack *pack, const fw_process_step *s) {
     const fw_quantity_dimension pressure = FW_DIM(-1, 1, -2, 0, 0, 0, 0);
+    const fw_quantity *q = NULL;
     if (!fw_process_step_is_op(s, "dry-etch")) return;
     for (int k = 0; k < s->nsetting; k++)
-        if (fw_quantity_dimension_equal(s->setting[k].q->dimension, pressure)) return;
+        if (fw_quantity_dimension_equal(s->setting[k].q->dimension, pressure)) q = s->setting[k].q;
+    if (q && !q->unknown && !(q->value >= 1e-3 && q->value <= 5000.0))
+        fw_diag_error(pack->diags, 278, q->replaced ? q->place : s->place,
+                      "step %s (dry-etch) is set to %s Pa (%s), but a plasma that etches a wafer "
+                      "evenly burns between 0.001 and 5000 Pa; is the unit right?",
+                      s->id, fw_number_text((char[32]){0}, 32, q->value, 4), q->id);
+    if (q) return;
     fw_diag_error(pack->diags, 542, s->place,
                   "step %s (dry-etch) does not say at which pressure: nobody can run it, and its "
                   "rate means nothing; add a <set> of it, with an unknown value if need be",

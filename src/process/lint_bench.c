@@ -288,6 +288,35 @@ fw_status fw_process_lint_longest(fw_process_pack *pack) {
     return FW_OK;
 }
 
+/* a pack's own hold that is longer than what the wafer bears in between: it would never be used, and says so to nobody */
+static fw_status lint_lag(fw_process_pack *pack, const fw_process_wait *w,
+                          const fw_process_lag *lag) {
+    const char *to = pack->flow->step[w->to].id, *from = pack->flow->step[w->from].id;
+    char is[32], most[32];
+    if (!(lag->max_s > w->max_s) || strcmp(lag->from, from) != 0) return FW_OK;
+    const char *why = fw_arena_printf(
+        pack->arena,
+        "step %s may wait for %s min after step %s, but the wafer is %s then and bears %s min "
+        "(%s): %s; give a shorter max, or finish it at the bench before",
+        to, minutes(is, lag->max_s), from, w->is, minutes(most, w->max_s),
+        w->q ? w->q->id : "assumed, since no quantity says how long", w->why);
+    FW_NEED(why);
+    if (w->q || lag->max_s > w->most_s)
+        fw_diag_error(pack->diags, 578, lag->place, "%s", why);
+    else
+        fw_diag_warning(pack->diags, 578, lag->place, "%s", why);
+    return FW_OK;
+}
+
+fw_status fw_process_lint_lags(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    FW_TRY(fw_process_flow_waits(pack->arena, pack->flow));
+    for (int i = 0; i < f->nwait; i++)
+        for (int k = 0; k < f->step[f->wait[i].to].nlag; k++)
+            FW_TRY(lint_lag(pack, &f->wait[i], &f->step[f->wait[i].to].lag[k]));
+    return FW_OK;
+}
+
 /* ---- what a rinse takes off ---- */
 
 static fw_status takes_off(fw_process_pack *pack, int step, const fw_process_finish *r,
@@ -317,6 +346,42 @@ fw_status fw_process_lint_rinses(fw_process_pack *pack) {
             for (int m = 0; m < r->with->nattacks; m++)
                 FW_TRY(takes_off(pack, i, r, r->with->attacks[m]));
         }
+    return FW_OK;
+}
+
+/* ---- what a critical point dryer takes up ----
+   Liquid carbon dioxide mixes with alcohols and ketones; water stays, and dries with its meniscus. */
+
+static const fw_process_hazard *liquid_before(const fw_process_step *s, int finish,
+                                              const fw_process_wafer *came) {
+    for (int k = finish - 1; k >= 0; k--)
+        if (s->finish[k].kind == FW_FINISH_RINSE) return s->finish[k].with; /* NULL: water */
+    if (fw_process_step_in_liquid(s)) return fw_process_step_liquid(s);
+    return came && came->is[FW_STATE_WET] ? came->liquid : NULL;
+}
+
+static void lint_taken_up(fw_process_pack *pack, const fw_process_step *s, int finish,
+                          const fw_process_wafer *came) {
+    const fw_process_hazard *h = liquid_before(s, finish, came);
+    if (strcmp(s->finish[finish].by, "critical-point") != 0) return;
+    if (h &&
+        (fw_words_hold(h->reacts_as, " ", "alcohol") || fw_words_hold(h->reacts_as, " ", "ketone")))
+        return;
+    fw_diag_error(pack->diags, 591, s->finish[finish].place,
+                  "step %s dries at the critical point out of %s, which carbon dioxide does not "
+                  "take up: a meniscus stays, and pulls compliant parts down; exchange it for an "
+                  "alcohol or a ketone before, and name that among the step's hazards",
+                  s->id, h ? h->name : "water");
+}
+
+fw_status fw_process_lint_critical(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_wafer *after;
+    FW_TRY(fw_process_flow_wafers(pack->arena, f, &after));
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nfinish; k++)
+            if (f->step[i].finish[k].kind == FW_FINISH_DRY)
+                lint_taken_up(pack, &f->step[i], k, i > 0 ? &after[i - 1] : NULL);
     return FW_OK;
 }
 

@@ -241,12 +241,34 @@ static double lies_in(const fw_process_stack *stack, int column, const fw_proces
     return sum;
 }
 
+/* a removal that goes sideways takes the layer that lies there, whose thickness it states */
+static fw_status lint_below(fw_process_pack *pack, int index, const fw_process_change *c) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_stack stack;
+    double lies = 0.0;
+    char takes[32], there[32];
+    if (!c->thickness || c->thickness->unknown) return FW_OK;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, index - 1, &stack, NULL));
+    for (int column = 0; column < stack.columns; column++)
+        if (fw_process_where_holds(f, c->where, column))
+            lies = fmax(lies, lies_in(&stack, column, c));
+    if (!(lies > 0.0) || !(c->thickness->value > 2.0 * lies || c->thickness->value < 0.5 * lies))
+        return FW_OK;
+    fw_diag_error(pack->diags, 349, c->place,
+                  "step %s takes %s um of '%s' (%s) sideways below the device, but %s um lie "
+                  "there; state the layer's own thickness",
+                  f->step[index].id,
+                  fw_number_text(takes, sizeof takes, 1e6 * c->thickness->value, 4), c->material,
+                  c->thickness->id, fw_number_text(there, sizeof there, 1e6 * lies, 4));
+    return FW_OK;
+}
+
 static fw_status lint_through(fw_process_pack *pack, int index, const fw_process_change *c) {
     const fw_process_flow *f = pack->flow;
     const fw_process_step *s = &f->step[index];
     const fw_quantity *q = through(s, c);
     fw_process_stack stack;
-    if (!q || c->reach) return FW_OK;
+    if (!q || c->reach) return c->reach ? lint_below(pack, index, c) : FW_OK;
     FW_TRY(fw_process_flow_stack(pack->arena, f, index - 1, &stack, NULL));
     const double goes = q->value * (1.0 + fmax(s->overrun, 0.0));
     for (int column = 0; column < stack.columns; column++) {
@@ -273,8 +295,26 @@ fw_status fw_process_lint_through(fw_process_pack *pack) {
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; k < f->step[i].nchange; k++)
             if (strcmp(f->step[i].change[k].kind, "remove") == 0 &&
-                fw_words_hold("wet-etch dry-etch strip", " ", f->step[i].op))
+                fw_words_hold(f->step[i].change[k].reach ? "wet-etch dry-etch strip release"
+                                                         : "wet-etch dry-etch strip",
+                              " ", f->step[i].op))
                 FW_TRY(lint_through(pack, i, &f->step[i].change[k]));
+    return FW_OK;
+}
+
+/* ---- how well masks lie on each other ---- */
+
+fw_status fw_process_lint_overlay(fw_process_pack *pack) {
+    const double best_m = 1e-8, worst_m = 2e-4; /* a stepper's; a mask laid on by eye */
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        const fw_process_step *s = &pack->flow->step[i];
+        const fw_quantity *q = s->align.to ? s->align.overlay : NULL;
+        if (!q || q->unknown || (q->value >= best_m && q->value <= worst_m)) continue;
+        fw_diag_error(pack->diags, 278, q->replaced ? q->place : s->align.place,
+                      "step %s aligns its mask to %s um (%s), outside 0.01 to 200 um: no aligner "
+                      "is exact, and what is laid on by eye lies within tenths of a millimetre",
+                      s->id, fw_number_text((char[32]){0}, 32, 1e6 * q->value, 4), q->id);
+    }
     return FW_OK;
 }
 

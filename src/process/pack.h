@@ -38,6 +38,14 @@ typedef struct fw_process_pack {
     const char *lacks; /* what the device has none of; NULL: nothing */
 } fw_process_pack;
 
+/* process_read.c: both files as elements; the records of base.xml, or of the flow, checked against the table; and the flow
+   of the records, as they stand. The last two are FW_OK although there may be mistakes in them. */
+fw_status fw_process_pack_files(fw_xml_reader *base, const char *base_file, const char *base_xml,
+                                size_t base_n, fw_xml_reader *own, const char *file,
+                                const char *xml, size_t n);
+fw_status fw_process_pack_records(fw_xml_reader *reader, bool is_base, const fw_xml_record **root);
+fw_status fw_process_pack_flow(fw_process_pack *pack);
+
 /* process_table.c */
 extern const fw_xml_table fw_process_pack_table, fw_process_laboratory_table;
 
@@ -100,7 +108,9 @@ fw_status fw_process_pack_lint(fw_process_pack *pack);
 fw_status fw_process_lint_people(fw_process_pack *pack);
 fw_status fw_process_lint_hands(fw_process_pack *pack);
 fw_status fw_process_lint_longest(fw_process_pack *pack);
+fw_status fw_process_lint_lags(fw_process_pack *pack);
 fw_status fw_process_lint_rinses(fw_process_pack *pack);
+fw_status fw_process_lint_critical(fw_process_pack *pack);
 fw_status fw_process_lint_lifted(fw_process_pack *pack);
 fw_status fw_process_lint_baths(fw_process_pack *pack);
 fw_status fw_process_lint_stock(fw_process_pack *pack);
@@ -119,6 +129,7 @@ fw_status fw_process_lint_through(fw_process_pack *pack);
 /* masks one after the other (FW-D373) */
 fw_status fw_process_lint_plates(fw_process_pack *pack);
 fw_status fw_process_lint_shrink(fw_process_pack *pack);
+fw_status fw_process_lint_overlay(fw_process_pack *pack);
 /* hazards of what a step uses up (FW-D374) */
 fw_status fw_process_lint_uses(fw_process_pack *pack);
 /* after fw_process_flow_judge: does the flow reach every die of the wafer? */

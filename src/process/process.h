@@ -181,8 +181,8 @@ typedef struct fw_process_finish {
 
 /* how long a wafer may wait between two steps because of what it is like (wafer_state.c) */
 typedef struct fw_process_wait {
-    int from, to; /* steps: end of the one, start of the other */
-    double max_s;
+    int from, to;         /* steps: end of the one, start of the other */
+    double max_s, most_s; /* most_s: no pack can state more */
     const fw_quantity *q; /* where max_s is from; NULL: the program's own default, assumed */
     bool first_only;      /* of a lot that goes through one by one: for the first wafer */
     const char *is, *why; /* "wet with h.pan"; "it goes on etching, ..." */
@@ -427,6 +427,7 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     const fw_release *release;
     const fw_release_hold *hold; /* what holds its bodies meanwhile; NULL: not looked for */
     const char *release_change;  /* what opens a window for it; NULL: not looked for */
+    double least_space_m; /* what the rules of the biased layers ask for on the mask; 0: nothing */
 } fw_process_mask_facts;
 
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that

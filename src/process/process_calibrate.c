@@ -25,6 +25,11 @@ static const fw_process_coupon *kind_named(const char *name) {
     return NULL;
 }
 
+bool fw_process_coupon_of_one_run(const char *coupon) {
+    const fw_process_coupon *kind = kind_named(coupon);
+    return kind && kind->one_run;
+}
+
 static const char *unit_of(fw_quantity_dimension d) {
     const fw_quantity_dimension length = FW_DIM_LENGTH, time = FW_DIM_TIME;
     if (fw_quantity_dimension_equal(d, length)) return " um";

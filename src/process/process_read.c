@@ -7,161 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- other ways of doing a step ----
-   <alternative> holds a whole <step> with the id of the one whose place it takes when a laboratory pack says
-   <choose alternative="...">. It is put there before anything is read from the steps, so that every check, time and picture
-   is of the flow as it is run. */
-
-static fw_xml_record *step_of(const fw_xml_record *root, const char *id, fw_xml_record **before) {
-    *before = NULL;
-    for (const fw_xml_record *e = root->first_child; e; e = e->next) {
-        if (fw_xml_is(e, "step") && strcmp(fw_process_pack_text(e, "id"), id) == 0)
-            return (fw_xml_record *)e;
-        *before = (fw_xml_record *)e;
-    }
-    return NULL;
-}
-
-static const fw_xml_record *inner_step(const fw_xml_record *alternative) {
-    for (const fw_xml_record *e = alternative->first_child; e; e = e->next)
-        if (fw_xml_is(e, "step")) return e;
-    return NULL;
-}
-
-static void put(const fw_xml_record *root, fw_xml_record *step, fw_xml_record *old,
-                fw_xml_record *before) {
-    step->next = old->next;
-    if (before)
-        before->next = step;
-    else
-        ((fw_xml_record *)root)->first_child = step;
-}
-
-/* <alternative>s of the flow, each with its step; mistakes are FW-D375 */
-static fw_status list(fw_process_pack *pack) {
-    fw_process_flow *f = pack->flow;
-    size_t most = (size_t)fw_xml_children(pack->root, "alternative");
-    FW_NEED(f->alternative = fw_arena_array(pack->arena, fw_process_alternative, most));
-    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next) {
-        if (!fw_xml_is(e, "alternative")) continue;
-        const fw_xml_record *step = inner_step(e);
-        fw_xml_record *before;
-        fw_process_alternative a = {.id = fw_process_pack_text(e, "id"),
-                                    .title = fw_process_pack_text(e, "title"),
-                                    .step = step ? fw_process_pack_text(step, "id") : "",
-                                    .place = e->element->place};
-        for (int i = 0; i < f->nalternative; i++)
-            if (strcmp(f->alternative[i].id, a.id) == 0)
-                fw_diag_error(pack->diags, 375, a.place,
-                              "alternative '%s' is there twice; rename "
-                              "one",
-                              a.id);
-        if (fw_xml_children(e, "step") != 1)
-            fw_diag_error(pack->diags, 375, a.place,
-                          "<alternative> holds one <step>, the one that takes another's place");
-        else if (!step_of(pack->root, a.step, &before))
-            fw_diag_error(pack->diags, 375, step->element->place,
-                          "there is no step '%s' whose place this one could take; give it the id "
-                          "of a step of the flow",
-                          a.step);
-        else
-            f->alternative[f->nalternative++] = a;
-    }
-    return FW_OK;
-}
-
-static fw_status no_such(const fw_process_pack *pack, const fw_process_choice *c) {
-    const fw_process_flow *f = pack->flow;
-    const char **name = fw_arena_array(pack->arena, const char *, (size_t)f->nalternative);
-    FW_NEED(name);
-    for (int i = 0; i < f->nalternative; i++)
-        name[i] = f->alternative[i].id;
-    const char *best = fw_did_you_mean(c->alternative, name, (size_t)f->nalternative);
-    fw_diag_error(pack->diags, 375, c->place, "flow '%s' has no alternative '%s'%s%s%s", f->id,
-                  c->alternative, best ? "; did you mean '" : "", best ? best : "",
-                  best ? "'?" : "");
-    return FW_OK;
-}
-
-static fw_status choose(fw_process_pack *pack, const fw_process_choice *c) {
-    fw_process_flow *f = pack->flow;
-    fw_process_alternative *a = NULL;
-    for (int i = 0; i < f->nalternative; i++)
-        if (strcmp(f->alternative[i].id, c->alternative) == 0) a = &f->alternative[i];
-    if (!a) return no_such(pack, c);
-    for (int i = 0; i < f->nalternative; i++)
-        if (f->alternative[i].chosen && strcmp(f->alternative[i].step, a->step) == 0) {
-            fw_diag_error(pack->diags, 375, c->place,
-                          "'%s' and '%s' are both for step %s; use one of them",
-                          f->alternative[i].id, a->id, a->step);
-            return FW_OK;
-        }
-    a->chosen = true;
-    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next) {
-        fw_xml_record *before, *old = step_of(pack->root, a->step, &before);
-        if (!fw_xml_is(e, "alternative") || strcmp(fw_process_pack_text(e, "id"), a->id) != 0)
-            continue;
-        a->instead_of = fw_process_pack_text(old, "title");
-        put(pack->root, (fw_xml_record *)inner_step(e), old, before);
-        break;
-    }
-    return FW_OK;
-}
-
-/* lists the alternatives, and puts the chosen ones in the places of their steps */
-static fw_status choose_alternatives(fw_process_pack *pack, const fw_process_choice *choice,
-                                     int n) {
-    pack->flow->id = fw_process_pack_text(pack->root, "id");
-    FW_TRY(list(pack));
-    for (int i = 0; i < n; i++)
-        FW_TRY(choose(pack, &choice[i]));
-    return FW_OK;
-}
-
-/* ---- what this device does not need ----
-   A step with only-with="tethers" is there for devices that have some. For one that has none it is taken out before
-   anything is read from the steps, as an alternative is put in: sheet, tables, schedule, log and cost know nothing of it,
-   and the sheet says so where it stood. Test: test_alternative.c. */
-
-static bool is_needed(const fw_process_pack *pack, const fw_xml_record *e) {
-    return !pack->lacks || strcmp(fw_process_pack_text(e, "only-with"), pack->lacks) != 0;
-}
-
-static const char *next_needed(const fw_process_pack *pack, const fw_xml_record *e) {
-    while ((e = e->next))
-        if (fw_xml_is(e, "step") && is_needed(pack, e)) return fw_process_pack_text(e, "id");
-    return "";
-}
-
-static fw_status leave_out(fw_process_pack *pack) {
-    fw_process_flow *f = pack->flow;
-    fw_xml_record *root = (fw_xml_record *)pack->root, *before = NULL, *e;
-    if (!pack->lacks) return FW_OK;
-    FW_NEED(f->left_out = fw_arena_array(pack->arena, fw_process_left_out,
-                                         (size_t)fw_xml_children(root, "step")));
-    for (e = (fw_xml_record *)root->first_child; e; e = (fw_xml_record *)e->next) {
-        if (!fw_xml_is(e, "step") || is_needed(pack, e)) {
-            before = e;
-            continue;
-        }
-        fw_process_left_out *l = &f->left_out[f->nleft_out++];
-        *l = (fw_process_left_out){.id = fw_process_pack_text(e, "id"),
-                                   .title = fw_process_pack_text(e, "title"),
-                                   .before = next_needed(pack, e)};
-        FW_NEED(l->why = fw_arena_printf(pack->arena, "the device has no %s", pack->lacks));
-        if (before)
-            before->next = e->next;
-        else
-            root->first_child = e->next;
-    }
-    if (f->nleft_out > 0 && fw_xml_children(root, "step") == 0)
-        fw_diag_error(pack->diags, 590, root->element->place,
-                      "every step of flow '%s' is for devices with %s only, and this one has none; "
-                      "take only-with off those that every device needs",
-                      f->id, pack->lacks);
-    return FW_OK;
-}
-
 /* ---- the pack ---- */
 
 static int by_id(const void *a, const void *b) {
@@ -438,8 +283,7 @@ static void read_finished(fw_process_pack *pack) {
     }
 }
 
-/* the flow of the records, as their alternatives stand; FW_OK although there may be mistakes in them */
-static fw_status read_flow(fw_process_pack *pack) {
+fw_status fw_process_pack_flow(fw_process_pack *pack) {
     size_t errors = pack->diags->errors;
     fw_status status = read_sources(pack);
     if (status != FW_OK && status != FW_INPUT) return status;
@@ -459,67 +303,7 @@ static fw_status read_flow(fw_process_pack *pack) {
     return fw_process_flow_waits(pack->arena, pack->flow);
 }
 
-/* ---- alternatives that nobody chose: a laboratory finds them as sound as the flow itself ---- */
-
-static bool is_said(const fw_diags *diags, const fw_diag *d) {
-    for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].number == d->number && strcmp(diags->item[i].message, d->message) == 0)
-            return true;
-    return false;
-}
-
-/* what is said of the flow with the alternative, and not of the flow as it is */
-static fw_status tell(fw_process_pack *pack, const char *alternative, const fw_diags *of) {
-    for (size_t i = 0; i < of->count; i++) {
-        fw_diag d = of->item[i];
-        if (d.severity == FW_NOTE || is_said(pack->diags, &d)) continue;
-        FW_NEED(d.message = fw_arena_printf(pack->arena, "with the alternative '%s': %s",
-                                            alternative, d.message));
-        fw_diags_add(pack->diags, &d, d.severity);
-    }
-    return of->failed ? FW_NOMEM : FW_OK;
-}
-
-/* in the place of its step, chosen or not, and out again */
-static fw_status lint_alternative(fw_process_pack *pack, const fw_xml_record *e,
-                                  fw_process_alternative *a) {
-    fw_diags diags = fw_diags_new(pack->arena);
-    fw_process_pack other = {.arena = pack->arena,
-                             .diags = &diags,
-                             .base = pack->base,
-                             .root = pack->root,
-                             .lacks = pack->lacks};
-    fw_xml_record *before, *old = step_of(pack->root, a->step, &before),
-                           *inner = (fw_xml_record *)inner_step(e);
-    if (!old) return FW_OK; /* this device does not need the step, whichever way it is done */
-    const fw_xml_record *next = inner->next;
-    FW_NEED(other.flow = fw_arena_one(pack->arena, fw_process_flow));
-    other.flow->left_out = pack->flow->left_out, other.flow->nleft_out = pack->flow->nleft_out;
-    put(pack->root, inner, old, before);
-    fw_status status = read_flow(&other);
-    if (before)
-        before->next = old;
-    else
-        ((fw_xml_record *)pack->root)->first_child = old;
-    inner->next = next;
-    FW_TRY(status);
-    if (diags.errors == 0) a->drying = fw_process_flow_drying(other.flow);
-    return tell(pack, a->id, &diags);
-}
-
-static fw_status lint_alternatives(fw_process_pack *pack) {
-    fw_process_flow *f = pack->flow;
-    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next)
-        for (int i = 0; fw_xml_is(e, "alternative") && i < f->nalternative; i++)
-            if (!f->alternative[i].chosen &&
-                strcmp(f->alternative[i].id, fw_process_pack_text(e, "id")) == 0)
-                FW_TRY(lint_alternative(pack, e, &f->alternative[i]));
-    return FW_OK;
-}
-
-/* the records of base.xml, or of the flow, checked against the table; FW_OK although there may be
-   mistakes in them */
-static fw_status check(fw_xml_reader *r, bool is_base, const fw_xml_record **root) {
+fw_status fw_process_pack_records(fw_xml_reader *r, bool is_base, const fw_xml_record **root) {
     FW_TRY(fw_xml_records_read(r));
     FW_TRY(fw_xml_words_read(r));
     FW_TRY(fw_xml_numbers_read(r));
@@ -533,47 +317,13 @@ static fw_status check(fw_xml_reader *r, bool is_base, const fw_xml_record **roo
     return FW_OK;
 }
 
-static fw_status read_files(fw_xml_reader *base, const char *base_file, const char *base_xml,
-                            size_t base_n, fw_xml_reader *own, const char *file, const char *xml,
-                            size_t n) {
+fw_status fw_process_pack_files(fw_xml_reader *base, const char *base_file, const char *base_xml,
+                                size_t base_n, fw_xml_reader *own, const char *file,
+                                const char *xml, size_t n) {
     fw_status first =
         fw_xml_read(base->arena, base_file, base_xml, base_n, base->diags, &base->root);
     fw_status second = fw_xml_read(own->arena, file, xml, n, own->diags, &own->root);
     if (first == FW_NOMEM || second == FW_NOMEM) return FW_NOMEM;
     if (first != FW_OK || second != FW_OK) return first != FW_OK ? first : second;
     return base->root && own->root ? FW_OK : FW_INPUT;
-}
-
-fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
-                               size_t base_n, const char *file, const char *xml, size_t n,
-                               fw_diags *diags, fw_process_flow **flow) {
-    return fw_process_flow_read_chosen(arena, base_file, base_xml, base_n, file, xml, n, NULL, 0,
-                                       NULL, diags, flow);
-}
-
-fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, const char *base_xml,
-                                      size_t base_n, const char *file, const char *xml, size_t n,
-                                      const fw_process_choice *choice, int nchoice,
-                                      const char *lacks, fw_diags *diags, fw_process_flow **flow) {
-    fw_xml_reader base = {.arena = arena, .diags = diags, .table = &fw_process_pack_table};
-    fw_xml_reader own = base;
-    fw_process_pack pack = {.arena = arena, .diags = diags, .lacks = lacks};
-    size_t errors = diags->errors;
-    *flow = NULL;
-    FW_TRY(read_files(&base, base_file, base_xml, base_n, &own, file, xml, n));
-    FW_TRY(check(&base, true, &pack.base));
-    FW_TRY(check(&own, false, &pack.root));
-    FW_NEED(pack.flow = fw_arena_one(arena, fw_process_flow));
-    char hash[65];
-    fw_sha256(xml, n, hash);
-    FW_NEED(pack.flow->sha256 = fw_arena_strdup(arena, hash));
-    pack.flow->file = file;
-    FW_TRY(choose_alternatives(&pack, choice, nchoice));
-    FW_TRY(leave_out(&pack));
-    FW_TRY(read_flow(&pack));
-    if (diags->errors == errors) FW_TRY(lint_alternatives(&pack));
-    if (diags->failed) return FW_NOMEM;
-    if (diags->errors > errors) return FW_INPUT;
-    *flow = pack.flow;
-    return FW_OK;
 }

@@ -135,9 +135,10 @@ static void read_overrun(fw_process_pack *pack, const fw_xml_record *e, fw_proce
     if (!a) return;
     if (fw_number_parse(a->value, strlen(a->value), &value)) {
         s->overrun = value;
-        if (!(value >= 0.0 && value <= 100.0))
+        if (!(value >= 0.0 && value <= 3.0)) /* a range: docs/theory/process.md */
             fw_diag_error(pack->diags, 171, a->place,
-                          "overrun=\"%s\" is not between 0 and 100: it is a share of the time",
+                          "overrun=\"%s\" is not between 0 and 3: it is a share of the time, and "
+                          "what lasts four times as long as it takes has another time",
                           a->value);
         return;
     }

@@ -267,6 +267,7 @@ static fw_status add_wait(fw_arena *arena, fw_process_flow *flow, const fw_proce
         (fw_process_wait){.from = from,
                           .to = to,
                           .max_s = longest_s,
+                          .most_s = rows[state].most_s,
                           .q = q,
                           .first_only = state == FW_STATE_SEASONED,
                           .is = is,

@@ -10,7 +10,9 @@
 /* ---- the head of a log ----
    How many entries the log has, and the chain of the last one. A chain alone shows nothing of lines that were taken off
    at the end; a head beside the log does, unless both were changed. It is written after the line, so that a log that
-   was interrupted between the two has one entry more than its head says, and is whole.
+   was interrupted between the two has one entry more than its head says, and is whole; that of no entry is written before
+   the first line, which says that a head is kept (head=kept): a log without its head is not whole. Logs of before that
+   word say nothing, and may have none.
      flexwright-log-head TAB entries=12 TAB chain=...
    Test: test_asrun.c, heads. */
 
@@ -42,6 +44,7 @@ fw_status fw_recipe_asrun_check_head(const fw_recipe_asrun *run, const char *fil
             "the log has %d entries, but its head says %d: lines were removed at its "
             "end",
             run->nentry, entries);
+    if (entries == 0 && run->nentry == 0) return FW_OK; /* of a beginning that was interrupted */
     const char *there = entries > 0 ? run->entry[entries - 1].chain : run->begun;
     if (strcmp(there, chain) != 0)
         return torn(diags, place,
@@ -125,6 +128,8 @@ static fw_status read_first(const fw_recipe_asrun_reader *r, const char *plan, c
         return fw_diag_error(r->diags, 281, r->place, "this is a log of flow %s, not of %s", flow,
                              r->flow->id);
     FW_TRY(read_wafers(r, value_of(r->arena, line, words, "wafers"), run));
+    const char *head = value_of(r->arena, line, words, "head");
+    run->headed = head && strcmp(head, "kept") == 0;
     if (plan && strcmp(run->plan, plan) != 0)
         return fw_diag_error(r->diags, 281, r->place,
                              "the log was begun for plan %.12s..., but this device and these packs "
@@ -226,9 +231,9 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
                                 const char **line) {
     char chain[65];
-    const char *words = fw_arena_printf(arena, "%s\tflow=%s\tplan=%s%s%s%s%s", first_words,
-                                        flow->id, plan_sha256, lot ? "\tlot=" : "", lot ? lot : "",
-                                        wafers ? "\twafers=" : "", wafers ? wafers : "");
+    const char *words = fw_arena_printf(
+        arena, "%s\tflow=%s\tplan=%s%s%s%s%s\thead=kept", first_words, flow->id, plan_sha256,
+        lot ? "\tlot=" : "", lot ? lot : "", wafers ? "\twafers=" : "", wafers ? wafers : "");
     FW_NEED(words);
     link_of(arena, "", words, strlen(words), chain);
     FW_NEED(*line = fw_arena_printf(arena, "%s%s%s\n", words, chain_word, chain));

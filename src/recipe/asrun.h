@@ -55,6 +55,7 @@ typedef struct fw_recipe_asrun {
     int nentry;
     char chain[65]; /* of the last line */
     char begun[65]; /* of the first one */
+    bool headed;    /* its first line says that a head is kept beside it */
 } fw_recipe_asrun;
 
 /* does the text begin as a log does? */
@@ -86,7 +87,7 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               double now_s, fw_diags *diags, const char **line);
 
 /* asrun.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
-   others */
+   others. A log that says of itself that a head is kept (`headed`) is not whole without one. */
 fw_status fw_recipe_asrun_head(fw_arena *arena, int nentry, const char *chain, const char **line);
 fw_status fw_recipe_asrun_check_head(const fw_recipe_asrun *run, const char *file, const char *text,
                                      size_t n, fw_diags *diags);

@@ -2,6 +2,7 @@
 /* One entry of an as-run log, checked against the plan that the log is bound to. */
 #include "base/text.h"
 #include "recipe/asrun_parts.h"
+#include "recipe/recipe_words.h"
 #include "schedule/schedule.h"
 #include <math.h>
 #include <string.h>
@@ -111,33 +112,27 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
 
 /* ---- what was set ---- */
 
-/* a setting of the step, or what the plan computes for it (a current, a spin speed) */
-static bool setting_of(const fw_process_step *s, const char *name, fw_recipe_set *set) {
-    for (int i = 0; i < s->nsetting; i++)
-        if (strcmp(s->setting[i].name, name) == 0) {
-            set->q = s->setting[i].q;
-            set->low = s->setting[i].tolerance_low;
-            set->high = s->setting[i].tolerance_high;
-            return true;
-        }
-    for (int i = 0; i < s->nderived; i++)
-        if (s->derived[i]->id && strcmp(s->derived[i]->id, name) == 0) {
-            set->q = s->derived[i];
-            return true;
-        }
-    return false;
-}
-
-static fw_status no_setting(const fw_recipe_asrun_reader *r, const fw_process_step *s,
-                            const char *name) {
+/* whatever the sheet has a line and a cell for: what is set, what the time is computed from, and what the plan computes (a
+   current, a spin speed) */
+static fw_status setting_of(const fw_recipe_asrun_reader *r, const fw_process_step *s,
+                            fw_recipe_set *set) {
     const char *known[MOST_NAMES];
-    int n = 0;
-    for (int i = 0; i < s->nsetting && n < MOST_NAMES; i++)
-        known[n++] = s->setting[i].name;
-    for (int i = 0; i < s->nderived && n < MOST_NAMES; i++)
-        if (s->derived[i]->id) known[n++] = s->derived[i]->id;
-    return fw_recipe_asrun_unknown(r, fw_arena_printf(r->arena, "step %s sets no", s->id), name,
-                                   known, n);
+    fw_recipe_row *row;
+    int n, names = 0;
+    FW_TRY(fw_recipe_step_rows(r->arena, s, &row, &n));
+    for (int i = 0; i < n; i++) {
+        if (!row[i].name) continue;
+        if (strcmp(row[i].name, set->name) == 0) {
+            set->q = row[i].q;
+            set->low = row[i].low;
+            set->high = row[i].high;
+            return FW_OK;
+        }
+        if (names < MOST_NAMES) known[names++] = row[i].name;
+    }
+    if (!r->bound) return FW_OK;
+    return fw_recipe_asrun_unknown(r, fw_arena_printf(r->arena, "step %s sets no", s->id),
+                                   set->name, known, names);
 }
 
 static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
@@ -147,7 +142,7 @@ static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     for (int i = 0; i < e->nset; i++)
         if (strcmp(e->set[i].name, name) == 0)
             return fw_diag_error(r->diags, 282, r->place, "set %s is given twice", name);
-    if (!setting_of(e->step, name, &set) && r->bound) return no_setting(r, e->step, name);
+    FW_TRY(setting_of(r, e->step, &set));
     if (!set.q) { /* read without its plan, as calibrate does, which needs no settings */
         e->set[e->nset++] = set;
         return FW_OK;

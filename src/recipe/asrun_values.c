@@ -274,16 +274,18 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
 
 /* ---- the coupons of a log, as calibrate takes them ---- */
 
+/* Is b, which comes later, in the place of a? A rate is read off several times of one wafer; where all readings of a coupon
+   are of one run, a later entry under another `at` is of the run that counts, or corrects what was mistyped. */
 static bool same_reading(const fw_recipe_asrun_entry *a, const fw_recipe_coupon *ca,
                          const fw_recipe_asrun_entry *b, const fw_recipe_coupon *cb) {
     const char *wa = a->wafer ? a->wafer : "", *wb = b->wafer ? b->wafer : "";
     bool drawn = isnan(ca->row.drawn_m) ? isnan(cb->row.drawn_m)
                                         : fabs(ca->row.drawn_m - cb->row.drawn_m) < 1e-12;
-    /* a rate is read off several times of one wafer */
     bool under = isnan(ca->row.at) ? isnan(cb->row.at) : ca->row.at == cb->row.at;
-    return a->step == b->step && strcmp(wa, wb) == 0 && drawn && under &&
-           strcmp(ca->row.coupon, cb->row.coupon) == 0 &&
-           strcmp(ca->row.feature, cb->row.feature) == 0;
+    if (a->step != b->step || strcmp(wa, wb) != 0 || strcmp(ca->row.coupon, cb->row.coupon) != 0)
+        return false;
+    if (!under) return a != b && fw_process_coupon_of_one_run(ca->row.coupon);
+    return drawn && strcmp(ca->row.feature, cb->row.feature) == 0;
 }
 
 /* read again, in a later entry or further on in this one: the later reading counts */

@@ -284,7 +284,8 @@ static fw_status ladder_section(fw_report_page *page) {
     if (in->nhinge == 0) return FW_OK;
     fw_text_add(
         out,
-        "<h3>The hinges by models of growing fidelity</h3>\n<div class=\"wide\"><table><caption>"
+        "<details><summary><h3>The hinges by models of growing fidelity</h3></summary>\n"
+        "<div class=\"wide tight\"><table><caption>"
         "What each model says of the flexure and, behind \u00b1, of its own error. Kx is along the "
         "axis of symmetry, Ky across. The compliance model is the hinge at its limit angle, the "
         "others are at rest; drift of the axis under a pure moment is at the limit angle. A solid "
@@ -298,7 +299,7 @@ static fw_status ladder_section(fw_report_page *page) {
         rows(out, &in->hinge[i]);
     fw_text_add(out, "</tbody></table></div>\n<div class=\"wide\">");
     FW_TRY(hinges_picture(in->device, in->hinge, in->nhinge, out));
-    fw_text_add(out, "</div>\n");
+    fw_text_add(out, "</div></details>\n");
     return fw_text_end(out);
 }
 

@@ -157,6 +157,18 @@ static void limit(fw_json *json, const fw_verdict_hinge_verdict *h) {
     fw_json_real(json, "cycles", h->cycles);
 }
 
+/* shares of the utilisation, downwards and upwards */
+static void band_parts(fw_json *json, const fw_verdict_band_parts *p) {
+    fw_json_object(json, "band_parts");
+    fw_report_json_pair(json, "root", p->root[0], p->root[1]);
+    fw_report_json_pair(json, "stiffness", p->stiffness[0], p->stiffness[1]);
+    fw_report_json_pair(json, "hinge_model", p->model[0], p->model[1]);
+    fw_report_json_pair(json, "place", p->place[0], p->place[1]);
+    fw_report_json_pair(json, "bodies", p->bodies[0], p->bodies[1]);
+    fw_report_json_pair(json, "numbers", p->numbers[0], p->numbers[1]);
+    fw_json_end(json);
+}
+
 /* members of the object about one hinge */
 static void hinge(fw_json *json, const fw_verdict_hinge_verdict *h) {
     fw_json_text(json, "id", h->id);
@@ -171,6 +183,7 @@ static void hinge(fw_json *json, const fw_verdict_hinge_verdict *h) {
     fw_json_real(json, "t_s", h->t_s);
     fw_json_text(json, "flow", h->flow);
     fw_report_json_pair(json, "utilisation_band", h->utilisation_low, h->utilisation_high);
+    band_parts(json, &h->parts);
     fw_json_text(json, "verdict", word(h->decision));
     fw_json_text(json, "actuation", h->actuation);
     fw_json_real(json, "joint_force_N", h->joint_force_N);

@@ -157,6 +157,19 @@ static void column(fw_json *out, const char *name, const double *value, int stri
     fw_json_end(out);
 }
 
+/* rows like those of q: m/s and rad/s */
+static void velocities(const fw_dynamics_motion *x, fw_json *out) {
+    const int n = 3 * x->nbody;
+    fw_json_list(out, "v");
+    for (int i = 0; i < x->nsample; i++) {
+        fw_dynamics_motion_rows(x, i, 1);
+        fw_json_line(out, 0);
+        column(out, NULL, x->v + (size_t)i * (size_t)n, 1, n);
+    }
+    fw_json_end(out);
+    fw_json_line(out, 0);
+}
+
 /* rows of the states: [x, y, phi, x, y, phi ...] and [angle ...] */
 static void states(const fw_mechanism *m, const fw_dynamics_motion *x, fw_json *out) {
     int places = decimals(m), n = 3 * x->nbody;
@@ -254,12 +267,27 @@ static void ledger(const fw_dynamics_motion *x, fw_json *out) {
     fw_json_text(out, "hinge_model_why", x->ledger.hinge.why);
 }
 
+/* of a probe that is a length or an angle how fast it changes; null of all others */
+static void rates(const fw_probe *probe, const fw_dynamics_motion *x, double *room, fw_json *out) {
+    if (!fw_probe_has_rate(probe)) {
+        fw_json_null(out, "rate");
+        return;
+    }
+    fw_json_list(out, "rate");
+    for (int k = 0; k < x->nsample; k++)
+        fw_json_number(out, NULL, fw_probe_rate_at_row(probe, x, k, room), 7);
+    fw_json_end(out);
+}
+
 /* a column each, in SI; nothing where the device has none */
 static fw_status probes(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
     const fw_dynamics_motion *x = in->motion;
     const int n = fw_probe_count(in->mechanism);
+    double *room = NULL;
     fw_probe *probe;
     if (n == 0 || !in->scene) return FW_OK;
+    const size_t numbers = 3 * (size_t)x->nbody + (size_t)x->npin;
+    if (in->rates) FW_NEED(room = fw_arena_array(arena, double, numbers));
     FW_TRY(fw_probe_bind(arena, in->mechanism, in->scene, x->loads, &probe));
     fw_json_list(out, "probes");
     for (int i = 0; i < n; i++) {
@@ -273,6 +301,7 @@ static fw_status probes(fw_arena *arena, const fw_report_preview *in, fw_json *o
         for (int k = 0; k < x->nsample; k++)
             fw_json_number(out, NULL, fw_probe_at_row(&probe[i], x, k), 7);
         fw_json_end(out);
+        if (in->rates) rates(&probe[i], x, room, out);
         fw_json_end(out);
     }
     fw_json_end(out);
@@ -315,6 +344,7 @@ static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *o
     FW_TRY(fw_report_preview_tensions(arena, in->mechanism, in->scene, x, out));
     fw_json_line(out, 0);
     FW_TRY(probes(arena, in, out));
+    if (in->rates) velocities(x, out);
     states(in->mechanism, x, out);
     fw_json_end(out);
     fw_json_line(out, 0);

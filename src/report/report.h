@@ -259,6 +259,7 @@ typedef struct fw_report_preview {
     const char *status;                 /* "ok", "invalid", "failed" */
     int exit_status;                    /* that of the program for the same question */
     bool provisional;                   /* the verdict may still become worse by what is left out */
+    bool rates;                         /* of the motion velocities are asked for, too */
     const fw_report_left_out *left_out; /* (nleft_out) */
     int nleft_out;
     const fw_diags *diags;

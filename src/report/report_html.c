@@ -28,7 +28,8 @@ static const char style_sheet[] =
     "section{padding:26px 0 6px;scroll-margin-top:34px}\n"
     "h2{font-size:22px;line-height:1.3;margin:0 0 10px}\n"
     "summary{cursor:pointer;color:var(--soft)}\n"
-    "summary h2{display:inline;color:var(--ink)}\n"
+    "summary h2,summary h3{display:inline;color:var(--ink)}\n"
+    "details details{margin:20px 0 6px}\n"
     "details[open]>summary{margin-bottom:10px}\n"
     "nav button{font:inherit;font-size:13px;border:0;padding:0;background:none;color:var(--soft);"
     "cursor:pointer;margin-left:auto}\n"
@@ -53,6 +54,7 @@ static const char style_sheet[] =
     "thead th{border-bottom:2px solid #afb8c1;font-weight:600;font-size:12.5px;color:var(--soft);"
     "overflow-wrap:normal}\n"
     "th.n,td.n{text-align:right;white-space:nowrap}\n"
+    ".tight table{font-size:12.5px}.tight th,.tight td{padding-right:9px}\n"
     "tbody th{font-weight:600}\n"
     "th.id{white-space:nowrap}\n"
     "th .soft{font-weight:400}\n"
@@ -94,6 +96,11 @@ static const char style_sheet[] =
     "section{padding:12px 0 0}h2,h3,caption{break-after:avoid}"
     "tr,figure,svg,.advice{break-inside:avoid}thead{display:table-header-group}"
     ".wide{overflow:visible}"
+    "table,.tight table{font-size:8pt}th,td,.tight th,.tight td{padding:3px 6px 3px 0}"
+    "thead th{font-size:7.5pt}"
+    "th.n,td.n,th.id{white-space:normal}svg.bar{min-width:60px;max-width:80px}"
+    "td.step,th.step{min-width:9em}"
+    ".two{grid-template-columns:minmax(0,3fr) minmax(min-content,2fr);gap:16px}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}\n";
 
 /* The player: body poses between frames, flexures bent as in film.c, cursors in the plots. Neither
@@ -163,7 +170,7 @@ static const char player_script[] =
     "addEventListener('beforeprint',function(){stop();t=d.at;show(false);});\n"
     "fig.querySelector('.controls').hidden=false;show(false);}\n"
     "all(document,'.motion').forEach(motion);\n"
-    "var parts=all(document,'main>section>details'),each=document.querySelector('.each');\n"
+    "var parts=all(document,'main details'),each=document.querySelector('.each');\n"
     "function reveal(){var e=document.getElementById(location.hash.slice(1));\n"
     "var part=e?e.querySelector('details'):null;if(part)part.open=true;}\n"
     "function shut(part){return !part.open;}\n"

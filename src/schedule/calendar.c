@@ -201,7 +201,7 @@ double fw_schedule_machine_worked(const fw_schedule_machine *m, double from_s, d
 
 double fw_schedule_alone_fit(const fw_schedule_shop *shop, int task, double from_s) {
     const fw_schedule_task *k = &shop->task[task];
-    double there = k->by_day ? k->duration_s : k->attended_s, t = from_s;
+    double there = fw_schedule_task_there_s(k), t = from_s;
     for (double before = -(double)INFINITY; t > before;) {
         if (!(t <= from_s + FW_HORIZON_S)) return (double)INFINITY; /* hours that never meet */
         before = t;

@@ -43,7 +43,14 @@ typedef struct fw_schedule_task { /* a step of the flow as it is planned */
     bool by_day;       /* the whole run inside the working day: nobody may be alone with it */
     bool unknown;      /* no time is known: counted with attended_s only */
     bool stated;       /* the time is the user's planning time */
+    bool
+        in_parts; /* somebody looks at it between its parts: the whole run inside the working day where one is so long */
 } fw_schedule_task;
+
+/* how long from its start on people must be in the house; their hands are taken for attended_s of it */
+static inline double fw_schedule_task_there_s(const fw_schedule_task *t) {
+    return t->by_day || t->in_parts ? t->duration_s : t->attended_s;
+}
 
 typedef struct fw_schedule_hold { /* min <= start of `to` - end of `from` <= max, for every wafer */
     int from, to;                 /* tasks */

@@ -167,7 +167,7 @@ static double earliest(const fw_schedule_placing *p, int task, int first, int co
                        fw_schedule_wait *why) {
     const fw_schedule_shop *shop = p->shop;
     const fw_schedule_task *t = &shop->task[task];
-    double start = p->start_s, there = t->by_day ? t->duration_s : t->attended_s;
+    double start = p->start_s, there = fw_schedule_task_there_s(t);
     *why = FW_WAIT_NOTHING;
     for (int w = first; w < first + count; w++) {
         double ready = task > 0 ? p->finish_s[at(p, task - 1, w)] : p->start_s;

@@ -20,10 +20,6 @@ static int rounds_of(const fw_schedule_shop *shop, int task) {
     return (runs + places - 1) / places;
 }
 
-static double there_of(const fw_schedule_task *t) {
-    return t->by_day ? t->duration_s : t->attended_s;
-}
-
 /* earliest end of the flow when task `from` may start at t: tasks alone, in their hours */
 static double rest_after(const fw_schedule_shop *shop, int from, double t) {
     for (int i = from; i < shop->ntask; i++)
@@ -53,7 +49,7 @@ static double machine_bound(const fw_schedule_shop *shop, int machine, const dou
         double load = t->alone ? 1.0 : t->load,
                runs = ceil(shop->wafers / load) / shop->machine[machine].places;
         busy += runs * t->duration_s;
-        there += runs * there_of(t);
+        there += runs * fw_schedule_task_there_s(t);
         if (t->duration_s > 0.0) shortest = fmin(shortest, t->duration_s);
         most = fmax(most, task_bound(shop, i, earliest_s[i]));
     }
@@ -503,7 +499,7 @@ static fw_status solve_with_less(fw_arena *arena, const fw_schedule_shop *shop, 
 static fw_status day_too_short(fw_arena *arena, const fw_schedule_shop *shop, const char **why) {
     for (int i = 0; i < shop->ntask; i++) {
         const fw_schedule_task *t = &shop->task[i];
-        double there = t->by_day ? t->duration_s : t->attended_s;
+        double there = fw_schedule_task_there_s(t);
         fw_text text = fw_text_new(arena);
         if (isinf(fw_schedule_calendar_fit(&shop->calendar, 0.0, there)))
             fw_text_printf(&text, "%s %s longer than the working day", t->id,

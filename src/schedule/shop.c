@@ -46,6 +46,7 @@ static void make_task(making *m, int index) {
                             .latest_s = s->attended_s,
                             .lot = fw_process_step_is_of_lot(s),
                             .by_day = never_alone(s),
+                            .in_parts = s->pulse && s->pause && s->attended_s > 0.0,
                             .unknown = !s->time.computable};
     t->alone = strcmp(s->op, "hold") == 0 && s->attended_s <= 0.0 && !t->lot;
     t->load = t->alone ? 1 : t->lot ? m->shop->wafers : fw_process_step_load(s);
@@ -182,6 +183,10 @@ static fw_status shop_of(fw_arena *arena, const fw_process_flow *flow,
     m.shop->task = m.task;
     m.shop->machine = m.machine;
     m.shop->hold = hold;
+    for (int i = 0; i < flow->nstep;
+         i++) /* else nobody could run it at all: it is looked at when there is somebody */
+        if (m.task[i].in_parts && isinf(fw_schedule_alone_fit(m.shop, i, 0.0)))
+            m.task[i].in_parts = false;
     *shop = m.shop;
     return FW_OK;
 }

@@ -124,6 +124,8 @@ static fw_status walk(fw_statics_quasi_static *r, double end, double *h) {
         FW_TRY(fw_statics_quasi_static_record(r));
         r->motion->ended = t < r->duration && turned_too_far(r);
         r->motion->end_s = t * r->w.model->scale.time_s;
+        fw_arena_tell(r->w.arena, "sequence of equilibria", r->motion->end_s,
+                      r->duration * r->w.model->scale.time_s, "s");
         swap_ends(r);
     }
     return FW_OK;
@@ -389,7 +391,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
             continue;
         }
         if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
-        if (status == FW_SOLVER && fw_statics_level_goes_on(mechanism, asked, &own, &o.effects)) {
+        if (status == FW_SOLVER && fw_statics_level_goes_on(asked, &own, &o.effects)) {
             if (options->within_limits)
                 o.most_angle_rad = fmin(o.most_angle_rad > 0 ? o.most_angle_rad : HUGE_VAL,
                                         hopeless_rad(mechanism));

@@ -3,6 +3,7 @@
 #include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- from a state to a stable equilibrium nearby ---- */
@@ -144,12 +145,10 @@ fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_u
 
 /* the descent ended before a place where the formula of an element ends */
 static fw_status does_not_hold(const fw_statics_equilibrium *w) {
-    char factor[32];
-    fw_status status =
-        fw_diag_error(w->diags, 242, w->invalid->place, "%s of scene %s at load factor %s: %s",
-                      w->invalid->id, fw_statics_equilibrium_scene_name(w),
-                      fw_number_text(factor, sizeof factor, w->factor, 4), w->why);
-    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+    char factor[32], at[48];
+    snprintf(at, sizeof at, "load factor %s", fw_number_text(factor, sizeof factor, w->factor, 4));
+    return fw_effects_element_ended(w->invalid, fw_statics_equilibrium_scene_name(w), at, w->why,
+                                    w->diags);
 }
 
 fw_status fw_statics_equilibrium_nowhere(const fw_statics_equilibrium *w) {
@@ -315,6 +314,7 @@ static fw_status walk(walker *k, bool *left_unstable) {
     double s = 0, ds = fw_first_share;
     while (s < 1) {
         if (fw_arena_cancelled(w->arena)) return FW_CANCELLED;
+        fw_arena_tell(w->arena, "looking for the equilibrium", 100 * s, 100, "% of the load");
         double to = s + ds >= 1 ? 1 : s + ds;
         bool good;
         FW_TRY(predict(k, to, to - s, &good));

@@ -186,8 +186,7 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
             choice = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }
-        if (status == FW_SOLVER &&
-            fw_statics_level_goes_on(mechanism, &options->effects, &own, &choice))
+        if (status == FW_SOLVER && fw_statics_level_goes_on(&options->effects, &own, &choice))
             continue;
         if (!higher && !tried) fw_diags_take(diags, &own);
         FW_TRY(status);

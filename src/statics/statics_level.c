@@ -459,25 +459,17 @@ bool fw_statics_level_is_below(const fw_statics_level_step *step, double accurac
 }
 
 /* a flexure's own closed form ended it, and not another formula */
-static bool closed_form_ended(const fw_mechanism *m, const fw_diags *said) {
-    for (size_t i = 0; i < said->count && m->device; i++) {
-        const fw_diag *d = &said->item[i];
-        if (d->severity != FW_ERROR || d->number != 242) continue;
-        for (int k = 0; k < m->nhinge; k++) {
-            int pin = m->hinge[k].pin;
-            if (pin >= m->device->nrevolute) continue;
-            const fw_place at = m->device->revolute[pin].place;
-            if (at.line == d->place.line && at.column == d->place.column) return true;
-        }
-    }
+static bool closed_form_ended(const fw_diags *said) {
+    for (size_t i = 0; i < said->count; i++)
+        if (said->item[i].ended == FW_ENDED_CLOSED_FORM) return true;
     return false;
 }
 
-bool fw_statics_level_goes_on(const fw_mechanism *m, const fw_effect_choice *asked,
-                              const fw_diags *said, fw_effect_choice *choice) {
+bool fw_statics_level_goes_on(const fw_effect_choice *asked, const fw_diags *said,
+                              fw_effect_choice *choice) {
     bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
     if (asked->hinge != FW_HINGE_AUTO || by_hand || choice->ended) return false;
-    if (!closed_form_ended(m, said)) return false;
+    if (!closed_form_ended(said)) return false;
     choice->hinge = FW_HINGE_ELASTICA;
     choice->ended = true;
     return true;

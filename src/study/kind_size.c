@@ -6,8 +6,16 @@
    them, apart from each other, local searches (study_search.c). What is returned is a device that was
    judged as its texts say. Of two goals each is sought alone, then the first with the second held at nine levels
    between (epsilon constraints; Haimes, Lasdon, Wismer 1971), and the front is what nothing that was judged beats. Nothing is
-   proved: a better one may be where nobody looked. Test: tests/cli/test_study.py */
+   proved: a better one may be where nobody looked.
+
+   At a wanted yield a device has to hold every limit also as the dies that lie a distance beta from what is intended in the
+   direction that is worst for it (sequential optimisation and reliability assessment: X. Du, W. Chen, J. Mech. Des. 126
+   (2004) 225). Dies are found for the best device, searches follow with these, until none is worse; then its yield is
+   estimated, and beta follows what that says, since a limit that bends, or several of them, have another yield than a plane
+   at that distance. What is returned is a device whose yield was estimated so. Test: tests/cli/test_study.py,
+   tests/cli/test_sizing.py */
 #include "chance/random.h"
+#include "maths/functions.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <string.h>
@@ -18,6 +26,11 @@ enum {
     DIGITS = 5,        /* of what is tried: more no mask resolves */
     FRONT_MOST = 200,  /* devices of a front */
     LISTS_MOST = 1000, /* combinations of listed values */
+    ROUNDS = 12,       /* searches at a wanted yield, in one go */
+    USUAL_ROUNDS = 4,  /* what a budget is shared out for */
+    ESTIMATED = 5,     /* devices whose yield is estimated by few dies, in one go */
+    CONFIRMED = 3,     /* devices whose yield is estimated in full, until one is enough */
+    DIES = 4,          /* of a flow that searches look at; the last ones found */
     PART = 1000000     /* numbers of samples of one search begin at a multiple of it */
 };
 
@@ -37,6 +50,11 @@ typedef struct sizing {
     fw_study_sample *kept; /* (nkept) of the first look, the best first */
     double *f, *c;
     int nkept;
+    /* at a wanted yield */
+    fw_study_die *die; /* (ndie) that a device has to hold as well */
+    int ndie;
+    double beta; /* how far they lie */
+    long left;   /* devices that searches may still judge */
 } sizing;
 
 /* ---- what is small, and what must not be above 0 ---- */
@@ -59,6 +77,19 @@ typedef struct aim { /* of one search */
     double level;     /* of the one held */
     double scale;
 } aim;
+
+/* what the dies use counts as what the device uses */
+static fw_status besides(const void *context, fw_study_sample *sample) {
+    const sizing *s = ((const aim *)context)->s;
+    double most = log(sample->used);
+    for (int k = 0; k < s->ndie && !isnan(most); k++) {
+        double ln;
+        FW_TRY(fw_study_dies_at(s->study->dies, s->study, sample, &s->die[k], &ln));
+        most = isnan(ln) ? (double)NAN : fmax(most, ln);
+    }
+    sample->used = exp(most);
+    return FW_OK;
+}
 
 static double objective(const void *context, const fw_study_sample *sample) {
     const aim *a = context;
@@ -246,6 +277,177 @@ static fw_status finish(sizing *s) {
     return keep_found(s->study, &s->kept[best], c, r->found);
 }
 
+/* ---- at a wanted yield ---- */
+
+static const double still =
+    2e-3; /* ln by which a die may be worse than those that a search has looked at */
+static const double interval_adds = 1.1; /* to a share, of 3000 dies of which a hundredth fails */
+static const double near_enough = 0.03;  /* standard deviations: what estimates differ by */
+
+/* the worst die of each flow at this distance from sample b; *worse: some are worse than the search has seen */
+static fw_status look_for_dies(sizing *s, fw_study *dies, bool *worse) {
+    *worse = false;
+    for (int flow = 0; flow < dies->plan->nflow; flow++) {
+        fw_study_die die;
+        int of = 0, oldest = FW_NONE;
+        FW_TRY(fw_study_dies_worst(dies, flow, s->beta, s->study->arena, &die));
+        if (!(die.ln > still)) continue;
+        *worse = true;
+        for (int k = 0; k < s->ndie; k++)
+            if (s->die[k].flow == flow) {
+                if (of++ == 0) oldest = k;
+            }
+        if (of == DIES) { /* the order stays: those behind move up */
+            memmove(&s->die[oldest], &s->die[oldest + 1],
+                    (size_t)(s->ndie - oldest - 1) * sizeof *s->die);
+            s->ndie--;
+        }
+        s->die[s->ndie++] = die;
+    }
+    return FW_OK;
+}
+
+/* farther out, or nearer, the same way */
+static void move_dies(sizing *s, double beta) {
+    for (int k = 0; k < s->ndie; k++)
+        for (size_t d = 0; d < s->die[k].dimensions; d++)
+            s->die[k].u[d] *= beta / s->beta;
+    s->beta = beta;
+}
+
+/* the most over the flows of the shares that fail, with what an interval of a whole estimate will add */
+static fw_status failing(fw_study *dies, double *most) {
+    *most = 0;
+    for (int flow = 0; flow < dies->plan->nflow; flow++) {
+        double of;
+        FW_TRY(fw_study_dies_failing(dies, flow, &of));
+        *most = fmax(*most, interval_adds * of);
+    }
+    return FW_OK;
+}
+
+/* how much farther out dies have to lie that so many less fail */
+static double farther(double fail, double allowed) {
+    return fw_maths_normal_quantile(fmin(fmax(fail, 1e-7), 1 - 1e-7)) -
+           fw_maths_normal_quantile(allowed);
+}
+
+/* a search with the dies that are there, from sample b, which becomes the best that it met */
+static fw_status search_with_dies(sizing *s, const aim *a, int most, long *first, int *b) {
+    fw_study_search one = {.objective = objective,
+                           .constraint = constraint,
+                           .besides = besides,
+                           .context = a,
+                           .most = s->left < most ? (int)s->left : most,
+                           .digits = DIGITS,
+                           .first = *first};
+    *first += PART;
+    if (one.most <= 0) return FW_OK;
+    FW_TRY(fw_study_search_from(s->study, &s->kept[*b], &one));
+    FW_TRY(fw_study_search_run(s->study, &one, 1));
+    s->left -= one.used;
+    if (one.used > 0 && one.best.run) {
+        s->kept[s->nkept] = one.best;
+        *b = s->nkept++;
+    }
+    return FW_OK;
+}
+
+typedef struct confirmed { /* the best device that is enough by a first estimate */
+    int at;                /* of kept; FW_NONE: none */
+    int estimated;         /* devices */
+    bool over;
+} confirmed;
+
+/* sample b, whose dies at beta hold: by how many fail other dies are looked at, or it is the answer */
+static fw_status estimate_of(sizing *s, fw_study *dies, const aim *a, int b, confirmed *c) {
+    const double allowed = 1 - s->study->asked->yield;
+    double fail;
+    FW_TRY(failing(dies, &fail));
+    c->estimated++;
+    const double more = farther(fail, allowed);
+    const bool enough = fail <= allowed;
+    if (enough && (c->at == FW_NONE || objective(a, &s->kept[b]) < objective(a, &s->kept[c->at])))
+        c->at = b;
+    c->over = c->estimated == ESTIMATED || (enough && (s->ndie == 0 || more > -near_enough));
+    /* halfway into what is near enough, so that the next one is not short of it by a hair */
+    if (!c->over) move_dies(s, fmax(s->beta + more + 0.5 * near_enough, 0.1));
+    return FW_OK;
+}
+
+static fw_status round_at_yield(sizing *s, const aim *a, int most, long *first, int *b,
+                                confirmed *c) {
+    fw_study *dies;
+    bool worse = false;
+    fw_status status = s->study->open_dies(s->study, &s->kept[*b], &dies);
+    if (status == FW_OK) status = look_for_dies(s, dies, &worse);
+    if (status == FW_OK && !worse) status = estimate_of(s, dies, a, *b, c);
+    s->study->free_dies(dies);
+    FW_TRY(status);
+    return c->over || s->ndie == 0 ? FW_OK : search_with_dies(s, a, most, first, b);
+}
+
+static fw_status estimate_in_full(fw_study *dies) {
+    fw_study_result *result = fw_arena_one(dies->arena, fw_study_result);
+    FW_NEED(result);
+    dies->result = result;
+    return fw_study_kind_yield(dies, result);
+}
+
+/* the yield of what is returned, with its intervals, stays as long as the study; *low: its lower end */
+static fw_status confirm(sizing *s, const fw_study_sample *sample, double *low) {
+    fw_study *study = s->study, *dies;
+    fw_status status = study->open_dies(study, sample, &dies);
+    if (status == FW_OK) status = estimate_in_full(dies);
+    if (status != FW_OK) {
+        s->study->free_dies(dies);
+        return status;
+    }
+    s->study->free_dies(study->dies);
+    study->dies = dies;
+    s->result->yield = dies->result->yield;
+    s->result->nyield = dies->result->nyield;
+    *low = 1;
+    for (int i = 0; i < s->result->nyield; i++)
+        *low = fmin(*low, s->result->yield[i].low);
+    return FW_OK;
+}
+
+/* the best by first estimates: *b */
+static fw_status rounds(sizing *s, const aim *a, int most, long *first, int *b) {
+    confirmed c = {.at = FW_NONE};
+    for (int k = 0; k < ROUNDS && !c.over; k++)
+        FW_TRY(round_at_yield(s, a, most, first, b, &c));
+    if (c.at != FW_NONE) *b = c.at;
+    return FW_OK;
+}
+
+static fw_status at_yield(sizing *s, int most, long *first) {
+    fw_study_result *r = s->result;
+    const aim a = {.s = s, .goal = &s->goal[0]};
+    const double wanted = s->study->asked->yield;
+    int b = best_of(s, &s->goal[0]);
+    if (b == FW_NONE) return FW_OK;
+    double missed = constraint_of(s->study, &s->kept[b]), low;
+    if (!(missed <= 0)) return keep_found(s->study, &s->kept[b], missed, &r->nearest);
+    s->beta = fw_maths_normal_quantile(wanted);
+    s->left = (long)USUAL_ROUNDS * most;
+    FW_NEED(s->die = fw_arena_array(s->study->arena, fw_study_die,
+                                    (size_t)(DIES * (s->study->plan->nflow + 1))));
+    for (int k = 0; k < CONFIRMED; k++) {
+        FW_TRY(rounds(s, &a, most, first, &b));
+        FW_TRY(confirm(s, &s->kept[b], &low));
+        missed = constraint_of(s->study, &s->kept[b]);
+        if (low >= wanted && missed <= 0) {
+            FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
+            r->nfound = 1;
+            return keep_found(s->study, &s->kept[b], missed, r->found);
+        }
+        move_dies(s, s->beta + fmax(farther(1 - low, 1 - wanted), 0) + near_enough);
+    }
+    return keep_found(s->study, &s->kept[b], fmax(missed, still), &r->nearest);
+}
+
 static fw_status two_goals(sizing *s, int most, long *first) {
     const goal *a = &s->goal[0], *b = &s->goal[1];
     int low = best_of(s, b), high = best_of(s, a);
@@ -276,8 +478,10 @@ static fw_status count_lists(sizing *s) {
     return FW_OK;
 }
 
-static int searches_of(int goals) {
-    return goals == 2 ? (2 + LEVELS) * STARTS : STARTS;
+static int searches_of(const fw_study *study, int goals) {
+    return goals == 2                ? (2 + LEVELS) * STARTS
+           : study->asked->yield > 0 ? STARTS + USUAL_ROUNDS
+                                     : STARTS;
 }
 
 long fw_study_count_size(const fw_study *study) {
@@ -291,7 +495,7 @@ long fw_study_count_size(const fw_study *study) {
     }
     for (int k = 0; k < study->nresponse; k++)
         goals += study->response[k].asked->goal != FW_GOAL_NONE;
-    return (n == 0 ? 1 : 1 + 4 * n) * lists + 25 * (n + 1) * searches_of(goals);
+    return (n == 0 ? 1 : 1 + 4 * n) * lists + 25 * (n + 1) * searches_of(study, goals);
 }
 
 static fw_status prepare(sizing *s, int *most) {
@@ -304,11 +508,11 @@ static fw_status prepare(sizing *s, int *most) {
     for (int k = 0; k < study->nvary; k++)
         n += study->input[k].ntext == 0;
     FW_TRY(count_lists(s));
-    long budget = fw_study_count_size(study), searches = searches_of(s->ngoal);
+    long budget = fw_study_count_size(study), searches = searches_of(study, s->ngoal);
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
-    size_t room = (size_t)s->first_n + (size_t)searches;
+    size_t room = (size_t)s->first_n + (size_t)searches + CONFIRMED * ROUNDS;
     FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, room));
     for (long i = 0; i < s->first_n; i++)
         FW_TRY(fw_study_sample_new(study->arena, study, &s->kept[i]));
@@ -331,10 +535,14 @@ fw_status fw_study_kind_size(fw_study *study, fw_study_result *result) {
         FW_TRY(seek(&s, a, most, &first));
     }
     if (s.ngoal == 2 && most > 0) FW_TRY(two_goals(&s, most, &first));
-    FW_NEED(result->how = fw_arena_printf(study->arena,
-                                          "%ld devices over the ranges, then local searches "
-                                          "(COBYLA) from the best of them, at most %d "
-                                          "devices each; a better one may be where none was tried",
-                                          s.first_n, most));
-    return finish(&s);
+    FW_NEED(
+        result->how = fw_arena_printf(
+            study->arena,
+            "%ld devices over the ranges, then local searches (COBYLA) from the best of them, at "
+            "most %d devices each%s; a better one may be where none was tried",
+            s.first_n, most,
+            study->asked->yield > 0
+                ? ", the last ones with the dies that are worst for the best device"
+                : ""));
+    return study->asked->yield > 0 ? at_yield(&s, most, &first) : finish(&s);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Worst case: the least and the largest value of every response within the ranges. Corners (of many inputs: of a
    Sobol' sequence), the middle and points between are judged; from the best of them a local search goes on
-   for each end of each response. A value that was found is one that a device has; that none lies beyond it is not proved.
+   for each end of each response. Every shard judges what the searches begin from, and a share of the searches. A value that was found is one that a device has; that none lies beyond it is not proved.
    Test: tests/cli/test_study.py */
 #include "chance/random.h"
 #include "study/study_parts.h"
@@ -141,6 +141,12 @@ fw_status fw_study_kind_worst_case(fw_study *study, fw_study_result *result) {
         aim[e] = (end_aim){e / 2, e % 2 == 0 ? 1 : -1};
         FW_TRY(begin_search(&w, &aim[e], PART * (e + 1L), most, &search[running], &found));
         if (found) of[running++] = e;
+    }
+    if (study->options.shards > 0) { /* its own searches; merging has the results */
+        int own = 0;
+        for (int k = 0; k < running; k++)
+            if (fw_study_is_due(study, of[k])) search[own++] = search[k];
+        return fw_study_search_run(study, search, own);
     }
     FW_TRY(fw_study_search_run(study, search, running));
     for (int k = 0; k < running; k++)

@@ -17,263 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { PART = 100000000, BUDGET_USUAL = 4000 };
-
-typedef struct cached {
-    long i; /* number of its sample; -1: free */
-    double ln;
-} cached;
-
-typedef struct yielding {
-    fw_study *study;
-    int flow;        /* of the plan */
-    int ninput;      /* of the flow */
-    int first_input; /* column of its first one */
-    fw_study_scatter scatter;
-    const double *unknown; /* values of what is not known; NULL: middles */
-    double shift;          /* added to ln: what the model may be off by */
-    long evaluated;        /* devices of this flow so far */
-    long told;             /* those and what simulated wafers had, for progress */
-    long base;             /* number of its first sample */
-    /* devices by their values (open addressing): methods ask for the same ones again */
-    double *key;   /* (room x npoint) */
-    cached *value; /* (room) */
-    size_t room, filled;
-    /* of the estimators, which give back what they took: nothing of ours is in it */
-    fw_arena *chance;
-} yielding;
-
-/* ---- one batch of devices, in threads ---- */
-
-typedef struct batch {
-    yielding *y;
-    size_t n;
-    const double *x;       /* (n x npoint) */
-    fw_verdict_made *made; /* (n) */
-    bool *wanted;          /* (n) not known from before */
-} batch;
-
-/* with settings of <uncertain>: the description read again and judged as drawn, then as made */
-static fw_status judge_restated(const yielding *y, fw_arena *arena, const double *x,
-                                fw_verdict_made *made) {
-    const fw_study *study = y->study;
-    const fw_plan *plan = study->plan;
-    int n = study->nsetting;
-    fw_device_set *set = fw_arena_array(arena, fw_device_set, (size_t)n);
-    fw_verdict_variant_verdict *variant =
-        fw_arena_array(arena, fw_verdict_variant_verdict, (size_t)plan->nflow);
-    const fw_device *device;
-    const fw_layout *layout = NULL;
-    fw_diags diags = fw_diags_new(arena);
-    FW_NEED(set && variant ? set : NULL);
-    for (int k = 0; k < n; k++) {
-        char *text = fw_arena_array(arena, char, FW_STUDY_TEXT);
-        double shown;
-        FW_NEED(text);
-        FW_TRY(fw_study_input_write(&study->input[study->nvary + k], x[y->ninput + k], 12, text,
-                                    &shown));
-        set[k] = (fw_device_set){study->input[study->nvary + k].what, text};
-    }
-    *made = (fw_verdict_made){.ln = (double)NAN, .hinge = FW_NONE};
-    fw_status status = fw_plan_restated(plan, arena, set, n, &device, variant);
-    fw_verdict verdict = {.nvariant = plan->nflow, .variant = variant};
-    fw_verdict_options options = plan->options.verdict;
-    options.corners = FW_CORNERS_NONE;
-    options.with_advice = false;
-    options.at_a_glance = true;
-    if (status == FW_OK)
-        status = fw_verdict_run(arena, device, &options, &diags, &verdict, &layout);
-    if (status == FW_OK)
-        status = fw_verdict_made_at(arena, device, layout, &options, &variant[y->flow], x, made);
-    if (status == FW_NOMEM || status == FW_CANCELLED || status == FW_OK) return status;
-    made->ln = (double)NAN;
-    return FW_OK;
-}
-
-static fw_status judge_one(const yielding *y, const double *x, fw_verdict_made *made) {
-    const fw_plan *plan = y->study->plan;
-    fw_arena *arena = fw_arena_part(plan->arena, 0);
-    FW_NEED(arena);
-    fw_arena_stop_with(arena, y->study->options.cancel);
-    fw_status status;
-    if (y->study->nsetting > 0)
-        status = judge_restated(y, arena, x, made);
-    else
-        status = fw_verdict_made_at(arena, plan->device, plan->layout, &plan->options.verdict,
-                                    &plan->verdict.variant[y->flow], x, made);
-    made->why = NULL; /* of this arena */
-    fw_arena_free(arena);
-    return status;
-}
-
-static fw_status judge_kth(void *context, long k) {
-    batch *b = context;
-    return b->wanted[k]
-               ? judge_one(b->y, b->x + (size_t)k * (size_t)b->y->scatter.npoint, &b->made[k])
-               : FW_OK;
-}
-
-/* ---- devices that were judged before ---- */
-
-static size_t slot_of(const yielding *y, const double *x) {
-    size_t values = (size_t)y->scatter.npoint, n = values * sizeof *x, at = 0;
-    uint64_t hash = 14695981039346656037u; /* FNV-1a */
-    for (const unsigned char *byte = (const unsigned char *)x; at < n; at++)
-        hash = (hash ^ byte[at]) * 1099511628211u;
-    size_t k = (size_t)(hash ^ (hash >> 29)) & (y->room - 1);
-    while (y->value[k].i >= 0 && memcmp(y->key + k * values, x, n) != 0)
-        k = (k + 1) & (y->room - 1);
-    return k;
-}
-
-static fw_status make_room(yielding *y, size_t more) {
-    if (2 * (y->filled + more) < y->room) return FW_OK;
-    yielding was = *y;
-    size_t values = (size_t)y->scatter.npoint;
-    y->room = y->room ? y->room : 256;
-    while (2 * (y->filled + more) >= y->room)
-        y->room *= 2;
-    FW_NEED(y->key = fw_arena_array(y->study->arena, double, y->room *values));
-    FW_NEED(y->value = fw_arena_array(y->study->arena, cached, y->room));
-    for (size_t k = 0; k < y->room; k++)
-        y->value[k].i = -1;
-    for (size_t k = 0; k < was.room; k++) {
-        if (was.value[k].i < 0) continue;
-        size_t to = slot_of(y, was.key + k * values);
-        memcpy(y->key + to * values, was.key + k * values, values * sizeof *y->key);
-        y->value[to] = was.value[k];
-    }
-    return FW_OK;
-}
-
-/* ---- the limit state ---- */
-
-static void fill_sample(const yielding *y, const double *x, const cached *c,
-                        fw_study_sample *sample) {
-    const fw_study *study = y->study;
-    for (int k = 0; k < study->ninput; k++)
-        sample->value[k] = (double)NAN, sample->text[k][0] = '\0';
-    for (int k = 0; k < y->ninput; k++)
-        sample->value[y->first_input + k] = x[k];
-    for (int k = 0; k < study->nsetting; k++)
-        sample->value[study->nvary + k] = x[y->ninput + k];
-    for (int k = 0; k < study->nresponse; k++)
-        sample->response[k] = (double)NAN;
-    sample->i = c->i;
-    sample->run = !isnan(c->ln);
-    sample->used = exp(c->ln);
-    sample->decision = !sample->run ? -1 : c->ln > 0 ? 1 : 0;
-    if (!sample->run)
-        memcpy(sample->why, "it could not be judged", sizeof "it could not be judged");
-}
-
-/* what the store has of these devices is not judged again */
-static fw_status from_store(yielding *y, batch *b, fw_study_sample *sample, long first) {
-    for (size_t k = 0; y->study->store && k < b->n; k++) {
-        bool there;
-        if (!b->wanted[k]) continue;
-        FW_TRY(fw_study_store_get(y->study->store, first + (long)k, sample, &there));
-        if (!there) continue;
-        b->wanted[k] = false;
-        b->made[k] = (fw_verdict_made){.ln = sample->run ? log(sample->used) : (double)NAN,
-                                       .hinge = FW_NONE};
-    }
-    return FW_OK;
-}
-
-/* n points, numbered from `first` on, into the store as well */
-static fw_status judge_points(void *context, long first, size_t n, const double *x, double *ln) {
-    yielding *y = context;
-    fw_arena *scratch = fw_arena_part(y->study->arena, 0);
-    FW_NEED(scratch);
-    batch b = {.y = y, .n = n, .x = x};
-    fw_study_sample sample;
-    bool *stored = fw_arena_array(scratch, bool, n);
-    b.made = fw_arena_array(scratch, fw_verdict_made, n);
-    b.wanted = fw_arena_array(scratch, bool, n);
-    fw_status status = stored && b.made && b.wanted ? FW_OK : FW_NOMEM;
-    if (status == FW_OK) status = fw_study_sample_new(scratch, y->study, &sample);
-    for (size_t k = 0; status == FW_OK && k < n; k++)
-        b.wanted[k] = true;
-    if (status == FW_OK) status = from_store(y, &b, &sample, first);
-    for (size_t k = 0; status == FW_OK && k < n; k++)
-        stored[k] = !b.wanted[k];
-    if (status == FW_OK) status = fw_study_each(y->study, (long)n, judge_kth, &b);
-    for (size_t k = 0; status == FW_OK && k < n; k++) {
-        ln[k] = log(exp(b.made[k].ln)); /* as a store that is read again says it */
-        cached c = {first + (long)k, ln[k]};
-        if (stored[k]) continue;
-        fill_sample(y, x + k * (size_t)y->scatter.npoint, &c, &sample);
-        status = fw_study_keep(y->study, &sample);
-    }
-    fw_arena_free(scratch);
-    FW_TRY(status);
-    y->told += (long)n;
-    const fw_study_options *o = &y->study->options;
-    if (o->progress) o->progress(o->progress_context, y->told, 0, 0);
-    return FW_OK;
-}
-
-static fw_status judge_new(yielding *y, fw_arena *scratch, size_t n, const double *x) {
-    long first = y->base + y->evaluated;
-    size_t values = (size_t)y->scatter.npoint;
-    double *ln = fw_arena_array(scratch, double, n);
-    FW_NEED(ln);
-    FW_TRY(judge_points(y, first, n, x, ln));
-    for (size_t k = 0; k < n; k++) {
-        size_t to = slot_of(y, x + k * values);
-        if (y->value[to].i < 0) y->filled++;
-        memcpy(y->key + to * values, x + k * values, values * sizeof *x);
-        y->value[to] = (cached){first + (long)k, ln[k]};
-    }
-    y->evaluated += (long)n;
-    return FW_OK;
-}
-
-/* the last number of a point says at which place of the wafer it is, where that matters */
-static const fw_chance_place *place_of(const yielding *y, const double *u) {
-    const fw_study_scatter *s = &y->scatter;
-    if (s->dimensions == s->joint.dimensions) return NULL;
-    const fw_study_place *p =
-        fw_study_scatter_place(s, fw_maths_normal_cdf(u[s->joint.dimensions]));
-    return p ? &p->at : NULL;
-}
-
-static fw_status limit_with(yielding *y, fw_arena *scratch, size_t count, const double *u,
-                            double *value) {
-    const fw_study_scatter *s = &y->scatter;
-    size_t values = (size_t)s->npoint, n = 0;
-    double *x = fw_arena_array(scratch, double, count *values),
-           *drawn = fw_arena_array(scratch, double, s->joint.values + 1);
-    double *fresh = fw_arena_array(scratch, double, count *values);
-    FW_NEED(x && fresh && drawn ? x : NULL);
-    FW_TRY(make_room(y, count));
-    for (size_t k = 0; k < count; k++) {
-        const double *at = u + k * s->dimensions;
-        fw_study_scatter_point(s, at, y->unknown, place_of(y, at), drawn, x + k * values);
-        if (y->value[slot_of(y, x + k * values)].i >= 0) continue;
-        memcpy(fresh + n++ * values, x + k * values, values * sizeof *x);
-    }
-    if (n > 0) FW_TRY(judge_new(y, scratch, n, fresh));
-    for (size_t k = 0; k < count; k++)
-        value[k] = -(y->value[slot_of(y, x + k * values)].ln + y->shift);
-    return FW_OK;
-}
-
-static fw_status limit(void *context, size_t first, size_t count, const double *u, double *value) {
-    yielding *y = context;
-    fw_arena *scratch = fw_arena_part(y->study->arena, 0);
-    (void)first;
-    FW_NEED(scratch);
-    fw_status status = fw_cancel_requested(y->study->options.cancel)
-                           ? FW_CANCELLED
-                           : limit_with(y, scratch, count, u, value);
-    fw_arena_free(scratch);
-    return status;
-}
-
 static void set_unknown(void *context, const double *unknown) {
-    ((yielding *)context)->unknown = unknown;
+    ((fw_study_yielding *)context)->unknown = unknown;
 }
 
 /* ---- the estimate ---- */
@@ -285,9 +30,13 @@ typedef struct bounds {
     double low, high;           /* interval of the probability of failing, over both */
 } bounds;
 
-static fw_status estimate(yielding *y, bounds *out) {
+static fw_status estimate(fw_study_yielding *y, bounds *out) {
     fw_study *study = y->study;
-    const fw_chance_limit of = {.dimensions = y->scatter.dimensions, .g = limit, .context = y};
+    const bool apart = study->options.shards > 0;
+    const fw_chance_limit of = {.dimensions = y->scatter.dimensions,
+                                .g = fw_study_yielding_limit,
+                                .apart = apart ? fw_study_yielding_apart : NULL,
+                                .context = y};
     const fw_chance_options o = {.method = FW_CHANCE_AUTO,
                                  .seed = (uint64_t)study->asked->seed,
                                  .budget = study->asked->samples > 0 ? (size_t)study->asked->samples
@@ -323,6 +72,14 @@ static fw_status estimate(yielding *y, bounds *out) {
                             range.least_at, range.low,   range.high};
         }
     }
+    if (status == FW_LIMIT && apart)
+        return fw_diag_error(
+            &study->diags, 490, study->asked->place,
+            "shards: failures of study '%s' are so rare, and lie so, that subset simulation looks "
+            "for "
+            "them, and each of its points is chosen by the ones before; run it in one piece, in as "
+            "many threads as there are (--jobs)",
+            study->asked->name);
     if (status == FW_INPUT)
         return fw_diag_error(&study->diags, 490, study->asked->place, "study '%s': %s",
                              study->asked->name, why ? why : "its estimate could not be begun");
@@ -330,7 +87,7 @@ static fw_status estimate(yielding *y, bounds *out) {
 }
 
 /* the shares of the way to the nearest failing device: alpha^2 of every number, by the input that it is of */
-static void shares_of(const yielding *y, const fw_chance_design_point *p, double *share) {
+static void shares_of(const fw_study_yielding *y, const fw_chance_design_point *p, double *share) {
     const fw_study_scatter *s = &y->scatter;
     for (size_t d = 0; d < s->joint.dimensions; d++)
         for (int k = 0; k < s->groups; k++) {
@@ -341,7 +98,7 @@ static void shares_of(const yielding *y, const fw_chance_design_point *p, double
         share[s->groups] += p->alpha[d] * p->alpha[d];
 }
 
-static fw_status describe(yielding *y, const bounds *b, fw_study_flow_yield *out) {
+static fw_status describe(fw_study_yielding *y, const bounds *b, fw_study_flow_yield *out) {
     fw_study *study = y->study;
     const fw_study_scatter *s = &y->scatter;
     size_t n = (size_t)s->groups + (s->dimensions > s->joint.dimensions);
@@ -361,7 +118,7 @@ static fw_status describe(yielding *y, const bounds *b, fw_study_flow_yield *out
     double *share = fw_arena_array(study->arena, double, n),
            *at = fw_arena_array(study->arena, double, n);
     FW_NEED(share && at ? share : NULL);
-    const fw_chance_place *place = place_of(y, p->u);
+    const fw_chance_place *place = fw_study_yielding_place(y, p->u);
     fw_study_scatter_point(s, p->u, b->most_at, place, drawn, point);
     shares_of(y, p, share);
     for (int k = 0; k < s->groups; k++)
@@ -372,7 +129,7 @@ static fw_status describe(yielding *y, const bounds *b, fw_study_flow_yield *out
 }
 
 /* what the model may be off by is that of the hinge that governs the nominal device */
-static fw_status judge_nominal(const yielding *y, const fw_verdict_variant_verdict *v,
+static fw_status judge_nominal(const fw_study_yielding *y, const fw_verdict_variant_verdict *v,
                                fw_verdict_made *made) {
     double x[FW_FABRICATION_INPUTS];
     const fw_plan *plan = y->study->plan;
@@ -383,7 +140,7 @@ static fw_status judge_nominal(const yielding *y, const fw_verdict_variant_verdi
 }
 
 /* the yield where so many fail; what it points to outlives the estimators */
-static fw_status end_of(const yielding *y, const fw_chance_estimate *e, const double *at,
+static fw_status end_of(const fw_study_yielding *y, const fw_chance_estimate *e, const double *at,
                         fw_study_yield_end *out) {
     fw_arena *arena = y->study->arena;
     size_t n = y->scatter.joint.unknowns;
@@ -401,7 +158,7 @@ static fw_status end_of(const yielding *y, const fw_chance_estimate *e, const do
     return FW_OK;
 }
 
-static fw_status both_ends(const yielding *y, const bounds *b, fw_study_flow_yield *out) {
+static fw_status both_ends(const fw_study_yielding *y, const bounds *b, fw_study_flow_yield *out) {
     const fw_study_scatter *s = &y->scatter;
     size_t n = s->joint.unknowns;
     const char **name = fw_arena_array(y->study->arena, const char *, n + 1),
@@ -421,7 +178,7 @@ static fw_status both_ends(const yielding *y, const bounds *b, fw_study_flow_yie
     return FW_OK;
 }
 
-static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
+static fw_status estimate_all(fw_study_yielding *y, const fw_verdict_variant_verdict *v,
                               fw_study_flow_yield *out) {
     fw_arena *arena = y->study->arena;
     bounds plain, worst, best;
@@ -448,18 +205,19 @@ static fw_status estimate_all(yielding *y, const fw_verdict_variant_verdict *v,
 
 /* of one estimate; there are some more of each flow where the limit is moved or a range is not known */
 long fw_study_count_yield(const fw_study *study) {
-    return study->asked->samples > 0 ? study->asked->samples : BUDGET_USUAL;
+    return study->asked->samples > 0 ? study->asked->samples : FW_STUDY_DIES_USUAL;
 }
 
 /* only where somebody said on which level or where something differs: the yield itself does not need it */
-static fw_status simulate_wafers(yielding *y, fw_study_flow_yield *out) {
+static fw_status simulate_wafers(fw_study_yielding *y, fw_study_flow_yield *out) {
     fw_study *study = y->study;
     fw_study_scatter *scatter = fw_arena_one(study->arena, fw_study_scatter);
     fw_study_levels *levels = fw_arena_one(study->arena, fw_study_levels);
     FW_NEED(scatter && levels ? levels : NULL);
     *scatter = y->scatter;
-    FW_TRY(fw_study_levels_run(study, scatter, fw_study_count_yield(study), y->base + PART / 2,
-                               judge_points, y, levels));
+    FW_TRY(fw_study_levels_run(study, scatter, fw_study_count_yield(study),
+                               y->base_number + FW_STUDY_FLOW_PART / 2, fw_study_yielding_points, y,
+                               levels));
     out->levels = levels;
     out->evaluations += levels->devices;
     return FW_OK;
@@ -467,20 +225,9 @@ static fw_status simulate_wafers(yielding *y, fw_study_flow_yield *out) {
 
 static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_flow_yield *out) {
     const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[flow];
-    yielding y = {.study = study,
-                  .flow = flow,
-                  .ninput = v->ninput,
-                  .first_input = first_input,
-                  .base = (long)flow * PART};
+    fw_study_yielding y;
     *out = (fw_study_flow_yield){.flow = v->variant->flow, .beta = (double)NAN};
-    FW_TRY(fw_study_scatter_of(study, v, &y.scatter));
-    if (y.scatter.dimensions == 0)
-        return fw_diag_error(&study->diags, 491, study->asked->place,
-                             "study '%s': nothing differs from device to device%s%s; add an "
-                             "<uncertain>",
-                             study->asked->name, v->variant->flow ? " in flow " : "",
-                             v->variant->flow ? v->variant->flow : "");
-    FW_NEED(y.chance = fw_arena_part(study->arena, 0));
+    FW_TRY(fw_study_yielding_begin(study, flow, first_input, &y));
     fw_status status = estimate_all(&y, v, out);
     if (status == FW_OK && y.scatter.levels) status = simulate_wafers(&y, out);
     fw_arena_free(y.chance);
@@ -496,4 +243,214 @@ fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
         column += v->ninput;
     }
     return FW_OK;
+}
+
+/* ---- the dies of a device that a size looks at ---- */
+
+fw_status fw_study_dies_asked(fw_arena *arena, const fw_study *of, const fw_study_sample *chosen,
+                              const fw_device_study **out) {
+    fw_device_study *asked = fw_arena_one(arena, fw_device_study);
+    const size_t n = (size_t)of->asked->nuncertain;
+    FW_NEED(asked);
+    *asked = *of->asked;
+    asked->kind = FW_STUDY_IS_yield;
+    asked->judge = FW_JUDGE_MADE;
+    asked->nvary = asked->nrespond = 0;
+    /* thirty that fail; 3000 are the least with which rare failures are not merely counted */
+    asked->samples = (int)fmin(fmax(30 / (1 - asked->yield), 400), 3000);
+    FW_NEED(asked->uncertain = fw_arena_array(arena, fw_device_uncertain, n));
+    bool *met = fw_arena_array(arena, bool, (size_t)of->nvary);
+    FW_NEED(met);
+    for (size_t k = 0; k < n; k++) {
+        fw_device_uncertain *u = &asked->uncertain[k];
+        *u = of->asked->uncertain[k];
+        if (!u->deviates || met[u->chosen]) continue; /* further rows are deviations already */
+        const fw_study_input *in = &of->input[u->chosen];
+        const bool within = in->now >= in->from && in->now <= in->to;
+        const double value = chosen   ? chosen->value[u->chosen]
+                             : within ? in->now
+                                      : 0.5 * (in->from + in->to);
+        met[u->chosen] = true;
+        if (u->spread == FW_SPREAD_NORMAL)
+            u->mean = value;
+        else
+            u->from += value, u->to += value;
+    }
+    *out = asked;
+    return FW_OK;
+}
+
+/* ln of what dies use, their band in it: (n x dimensions) */
+static fw_status used_at(fw_study_yielding *y, size_t n, const double *u, double *ln) {
+    FW_TRY(fw_study_yielding_limit(y, 0, n, u, ln));
+    for (size_t k = 0; k < n; k++)
+        ln[k] = isnan(ln[k]) ? -HUGE_VAL : -ln[k];
+    return FW_OK;
+}
+
+/* the ends of what is only assumed that are worst at u; *unknown follows */
+static fw_status worst_ends(fw_study_yielding *y, const double *u, double *unknown, double *ln) {
+    const fw_chance_joint *joint = &y->scatter.joint;
+    double trial[FW_FABRICATION_INPUTS + 16];
+    size_t n = joint->unknowns < 10 ? joint->unknowns : 10;
+    *ln = -HUGE_VAL;
+    for (size_t k = 0; k < joint->unknowns; k++)
+        unknown[k] = y->scatter.middle[k];
+    if (joint->unknowns > sizeof trial / sizeof *trial) return FW_LIMIT;
+    for (size_t corner = 0; corner < (size_t)1 << n; corner++) {
+        double here;
+        memcpy(trial, unknown, joint->unknowns * sizeof *trial);
+        for (size_t k = 0; k < n; k++) {
+            const fw_chance_distribution *d = &joint->variable[joint->unknown[k]].distribution;
+            trial[k] = corner >> k & 1 ? d->high : d->low;
+        }
+        y->unknown = joint->unknowns > 0 ? trial : NULL;
+        FW_TRY(used_at(y, 1, u, &here));
+        if (corner > 0 && !(here > *ln)) continue;
+        *ln = here;
+        memcpy(unknown, trial, joint->unknowns * sizeof *trial);
+    }
+    y->unknown = joint->unknowns > 0 ? unknown : NULL;
+    return FW_OK;
+}
+
+enum { TURNS = 6 };
+static const double apart =
+    0.3; /* of differences, in standard deviations: wider than a first look is off by */
+
+/* from u, which uses *ln, along the gradient there; *turned false: it stays, or nothing is worse */
+static fw_status turn(fw_study_yielding *y, double beta, size_t n, double *u, double *ln,
+                      double *trial, bool *turned) {
+    double length = 0, *value = trial + n * n, *next = value + n, used;
+    for (size_t i = 0; i < n; i++) {
+        memcpy(trial + i * n, u, n * sizeof *u);
+        trial[i * n + i] += apart;
+    }
+    FW_TRY(used_at(y, n, trial, value));
+    *turned = false;
+    for (size_t i = 0; i < n; i++) {
+        next[i] = isfinite(value[i]) ? value[i] - *ln : 0;
+        length += next[i] * next[i];
+    }
+    if (!(length > 0)) return FW_OK;
+    double step = 0;
+    for (size_t i = 0; i < n; i++) {
+        next[i] *= beta / sqrt(length);
+        step += (next[i] - u[i]) * (next[i] - u[i]);
+    }
+    FW_TRY(used_at(y, 1, next, &used));
+    if (!(used > *ln)) return FW_OK;
+    memcpy(u, next, n * sizeof *u);
+    *ln = used;
+    *turned = sqrt(step) > 0.02 * beta;
+    return FW_OK;
+}
+
+static fw_status worst_of(fw_study_yielding *y, double beta, fw_study_die *die) {
+    size_t n = die->dimensions;
+    double *trial = fw_arena_array(y->chance, double, n *n + 2 * n + 1);
+    FW_NEED(trial);
+    for (int ends = 0; ends < 2; ends++) { /* the ends that are worst may be others there */
+        double there;
+        bool turned = true;
+        FW_TRY(worst_ends(y, die->u, die->unknown, &there));
+        if (ends > 0 && !(there > die->ln)) break;
+        die->ln = there;
+        for (int k = 0; turned && k < TURNS; k++)
+            FW_TRY(turn(y, beta, n, die->u, &die->ln, trial, &turned));
+    }
+    return FW_OK;
+}
+
+/* with the model's band against the device; y->chance is freed by the caller */
+static fw_status begin_worst(fw_study *dies, int flow, fw_study_yielding *y) {
+    fw_verdict_made nominal;
+    FW_TRY(fw_study_yielding_begin(dies, flow, 0, y));
+    FW_TRY(judge_nominal(y, &dies->plan->verdict.variant[flow], &nominal));
+    y->shift = isfinite(nominal.up) ? nominal.up : 0;
+    return FW_OK;
+}
+
+fw_status fw_study_dies_worst(fw_study *dies, int flow, double beta, fw_arena *arena,
+                              fw_study_die *die) {
+    fw_study_yielding y;
+    fw_status status = begin_worst(dies, flow, &y);
+    *die = (fw_study_die){
+        .flow = flow, .dimensions = y.scatter.dimensions, .unknowns = y.scatter.joint.unknowns};
+    die->u = fw_arena_array(arena, double, die->dimensions + 1);
+    die->unknown = fw_arena_array(arena, double, die->unknowns + 1);
+    if (!die->u || !die->unknown) status = FW_NOMEM;
+    if (status == FW_OK) status = worst_of(&y, beta, die);
+    fw_arena_free(y.chance);
+    return status;
+}
+
+fw_status fw_study_dies_failing(fw_study *dies, int flow, double *share) {
+    fw_study_yielding y;
+    fw_chance_estimate e;
+    const char *why;
+    fw_status status = begin_worst(dies, flow, &y);
+    const fw_chance_limit of = {
+        .dimensions = y.scatter.dimensions, .g = fw_study_yielding_limit, .context = &y};
+    fw_chance_options o = {.method = FW_CHANCE_IMPORTANCE,
+                           .seed = (uint64_t)dies->asked->seed,
+                           .budget =
+                               (size_t)fmax(dies->asked->samples / 5, FW_CHANCE_BUDGET_LEAST)};
+    double ends = 0;
+    const size_t n = y.scatter.joint.unknowns;
+    double *origin = NULL, *unknown = NULL;
+    if (status == FW_OK) {
+        origin = fw_arena_array(y.chance, double, of.dimensions + 1);
+        unknown = fw_arena_array(y.chance, double, n + 1);
+        if (!origin || !unknown) status = FW_NOMEM;
+    }
+    if (status == FW_OK) status = worst_ends(&y, origin, unknown, &ends);
+    if (status == FW_OK) status = fw_chance_estimate_run(y.chance, &of, &o, &e, &why);
+    if (status == FW_SOLVER || status == FW_LIMIT) { /* no way towards a failure was found */
+        o.method = FW_CHANCE_AUTO;
+        status = fw_chance_estimate_run(y.chance, &of, &o, &e, &why);
+    }
+    if (status == FW_OK) *share = e.probability_high;
+    fw_arena_free(y.chance);
+    return status;
+}
+
+static fw_status die_at(const fw_study *dies, const fw_study *of, const fw_study_sample *chosen,
+                        const fw_study_die *die, fw_arena *arena, double *ln) {
+    fw_study at = *dies; /* what is found of this device lies in `arena` */
+    const fw_device *device;
+    fw_device_set *set = fw_arena_array(arena, fw_device_set, (size_t)of->nvary);
+    fw_verdict_variant_verdict *variant =
+        fw_arena_array(arena, fw_verdict_variant_verdict, (size_t)dies->plan->nflow);
+    FW_NEED(set && variant ? set : NULL);
+    at.arena = arena, at.diags = fw_diags_new(arena);
+    for (int k = 0; k < of->nvary; k++)
+        set[k] = (fw_device_set){of->input[k].what, chosen->text[k]};
+    FW_TRY(fw_study_dies_asked(arena, of, chosen, &at.asked));
+    FW_TRY(fw_plan_restated(dies->plan, arena, set, of->nvary, &device, variant));
+    fw_study_yielding y = {.study = &at, .flow = die->flow, .base = set, .nbase = of->nvary};
+    y.ninput = variant[die->flow].ninput;
+    FW_TRY(fw_study_scatter_of(&at, &variant[die->flow], &y.scatter));
+    if (y.scatter.dimensions != die->dimensions || y.scatter.joint.unknowns != die->unknowns)
+        return FW_OK;
+    double *drawn = fw_arena_array(arena, double, y.scatter.joint.values + 1),
+           *x = fw_arena_array(arena, double, (size_t)y.scatter.npoint);
+    fw_verdict_made made;
+    FW_NEED(drawn && x ? x : NULL);
+    fw_study_scatter_point(&y.scatter, die->u, die->unknowns > 0 ? die->unknown : NULL,
+                           fw_study_yielding_place(&y, die->u), drawn, x);
+    FW_TRY(fw_study_yielding_judge(&y, x, &made));
+    *ln = made.ln + (isfinite(made.up) ? made.up : 0);
+    return FW_OK;
+}
+
+fw_status fw_study_dies_at(const fw_study *dies, const fw_study *of, const fw_study_sample *chosen,
+                           const fw_study_die *die, double *ln) {
+    fw_arena *arena = fw_arena_part(dies->plan->arena, 0);
+    FW_NEED(arena);
+    *ln = (double)NAN;
+    fw_status status = die_at(dies, of, chosen, die, arena, ln);
+    fw_arena_free(arena);
+    return fw_plan_is_final(status) ? status
+                                    : FW_OK; /* what cannot be read or drawn has no number */
 }

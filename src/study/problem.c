@@ -187,7 +187,7 @@ static double utilisation_of(const fw_mechanism *m, const fw_dynamics_motion *mo
     for (int k = 0; k < m->nhinge; k++) {
         const fw_flexure_result *c = &m->hinge[k].closed_form;
         double angle = fabs(motion->peak[m->hinge[k].pin].angle_rad) / c->limit_angle_rad;
-        double strain = w ? w->hinge[k].strain / (c->limit_angle_rad * c->strain_per_rad) : 0;
+        double strain = w ? w->hinge[k].strain.value / (c->limit_angle_rad * c->strain_per_rad) : 0;
         if (isfinite(angle)) most = fmax(most, fmax(angle, strain)); /* fmax passes by NaN */
     }
     return most;

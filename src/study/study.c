@@ -183,7 +183,7 @@ static fw_status take_inputs(fw_study *study) {
                                .place = v->place};
         FW_TRY(unit_of(v->unit, &in->unit));
     }
-    for (int k = 0; k < asked->nuncertain; k++)
+    for (int k = 0; asked->kind == FW_STUDY_IS_yield && k < asked->nuncertain; k++)
         FW_TRY(take_uncertain(study, &asked->uncertain[k]));
     study->nsetting = study->ninput - study->nvary;
     return FW_OK;
@@ -201,64 +201,6 @@ static void check_names(fw_study *study) {
                               "the response",
                               other);
         }
-}
-
-/* the description alone is read with one value of an input: what --set finds wrong with it is said at
-   the input's row */
-static fw_status check_value_in(fw_study *study, fw_arena *scratch, int k, const char *text) {
-    const fw_study_input *in = &study->input[k];
-    fw_plan *plan = study->plan;
-    const size_t n = (size_t)plan->options.nset;
-    const fw_device *device;
-    fw_diags said = fw_diags_new(scratch);
-    fw_device_set *set = fw_arena_array(scratch, fw_device_set, n + 1);
-    FW_NEED(set);
-    if (n > 0) memcpy(set, plan->options.set, n * sizeof *set);
-    set[n] = (fw_device_set){in->what, text};
-    fw_status status = fw_plan_device_again(plan, scratch, set, (int)n + 1, &said, &device);
-    if (fw_plan_is_final(status)) return status;
-    for (size_t i = 0; i < said.count; i++) {
-        const fw_diag *d = &said.item[i];
-        /* no such path, not a value of its kind, beyond what the parameter allows; what else may be wrong
-           with a value is the sample's own affair */
-        bool of_path = d->number == 55 || d->number == 57 || (d->number >= 20 && d->number < 30);
-        if (d->severity == FW_ERROR && of_path && d->place.file &&
-            strncmp(d->place.file, "--set", 5) == 0)
-            return fw_diag_error(&study->diags, 493, in->place, "\"%s\" set to %s: %s", in->what,
-                                 text, d->message);
-    }
-    return FW_OK;
-}
-
-static fw_status check_value(fw_study *study, int k, const char *text) {
-    fw_arena *scratch = fw_arena_part(study->arena, 0);
-    FW_NEED(scratch);
-    fw_status status = check_value_in(study, scratch, k, text);
-    fw_arena_free(scratch);
-    return status;
-}
-
-/* a value that an input left to chance is sure to have nearby */
-static double some_value(const fw_device_uncertain *u) {
-    return isnan(u->mean) ? 0.5 * (u->from + u->to) : u->mean;
-}
-
-/* the ends of an input, or what is listed: is there such a parameter or attribute, and may it be so? */
-static fw_status check_input(fw_study *study, int k) {
-    const fw_study_input *in = &study->input[k];
-    char text[FW_STUDY_TEXT];
-    double shown;
-    if (k >= study->nvary) {
-        double value = some_value(in->uncertain);
-        FW_TRY(fw_study_input_write(in, value, 12, text, &shown));
-        return check_value(study, k, text);
-    }
-    int last = fw_study_input_steps(in) - 1, step = in->ntext > 0 || last == 0 ? 1 : last;
-    for (int i = 0; i <= last; i += step) {
-        FW_TRY(fw_study_input_step(in, i, text, &shown));
-        FW_TRY(check_value(study, k, text));
-    }
-    return FW_OK;
 }
 
 /* ---- responses ---- */
@@ -347,6 +289,7 @@ static fw_status find_hash(fw_study *study) {
                    a->samples, a->seed);
     add_text(&t, a->name);
     add_real(&t, a->confidence);
+    if (a->yield > 0) add_real(&t, a->yield);
     for (int k = 0; k < a->nvary; k++) {
         const fw_device_vary *v = &a->vary[k];
         add_text(&t, v->what);
@@ -409,6 +352,64 @@ static fw_status judge_device(fw_study *study) {
     return (fw_status)status;
 }
 
+static fw_study *new_study(const fw_study_options *options) {
+    fw_arena *arena = fw_arena_new(options->design.memory_cap);
+    fw_study *study = arena ? fw_arena_one(arena, fw_study) : NULL;
+    if (!study) {
+        fw_arena_free(arena);
+        return NULL;
+    }
+    *study = (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options};
+    if (options->cancel) fw_arena_stop_with(arena, options->cancel);
+    return study;
+}
+
+/* a yield of the device that a sample of a size has chosen, or NULL: of the description; *out is freed after any status */
+static fw_status open_dies_of(const fw_study *of, const fw_study_sample *chosen, fw_study **out) {
+    fw_study_options o = of->options;
+    o.output = NULL, o.shards = 0, o.resume = false, o.progress = NULL, o.waits = NULL;
+    fw_study *study = new_study(&o);
+    *out = study;
+    FW_NEED(study);
+    const int n = o.nset;
+    fw_device_set *set = fw_arena_array(study->arena, fw_device_set, (size_t)(n + of->nvary));
+    FW_NEED(set);
+    if (n > 0) memcpy(set, o.set, (size_t)n * sizeof *set);
+    for (int k = 0; chosen && k < of->nvary; k++) {
+        const char *text = fw_arena_strdup(study->arena, chosen->text[k]);
+        FW_NEED(text);
+        set[study->options.nset++] = (fw_device_set){of->input[k].what, text};
+    }
+    study->options.set = set;
+    study->device_path = of->device_path;
+    FW_TRY(fw_study_dies_asked(study->arena, of, chosen, &study->asked));
+    FW_TRY(open_device(study));
+    settle_options(study);
+    FW_TRY(take_inputs(study));
+    for (int k = 0; k < study->ninput; k++) {
+        fw_status status = fw_study_input_check(study, k);
+        if (status != FW_OK && status != FW_INPUT) return status;
+    }
+    if (study->diags.errors > 0) return FW_INPUT;
+    FW_TRY(judge_device(study));
+    FW_TRY(fw_study_scatter_check(study));
+    return add_made_inputs(study);
+}
+
+/* rows that say how dies differ are looked up before anything is run */
+static fw_status open_dies(fw_study *study) {
+    study->open_dies = open_dies_of, study->free_dies = fw_study_free;
+    fw_status status = open_dies_of(study, NULL, &study->dies);
+    FW_NEED(study->dies);
+    for (int i = 0; status == FW_OK && i < study->dies->plan->nflow; i++) {
+        fw_study_yielding y; /* does anything differ? */
+        status = fw_study_yielding_begin(study->dies, i, 0, &y);
+        fw_arena_free(y.chance);
+    }
+    if (status == FW_INPUT) take_errors(study, &study->dies->diags);
+    return status;
+}
+
 static fw_status open_all(fw_study *study) {
     char *xml;
     size_t n;
@@ -426,7 +427,7 @@ static fw_status open_all(fw_study *study) {
     fw_status responses = take_responses(study);
     check_names(study);
     for (int k = 0; k < study->ninput; k++) {
-        fw_status status = check_input(study, k);
+        fw_status status = fw_study_input_check(study, k);
         if (status != FW_OK && status != FW_INPUT) return status;
     }
     FW_TRY(responses);
@@ -434,20 +435,9 @@ static fw_status open_all(fw_study *study) {
     if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(judge_device(study));
     if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(fw_study_scatter_check(study));
     if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(add_made_inputs(study));
+    if (study->asked->yield > 0) FW_TRY(open_dies(study));
     FW_TRY(find_hash(study));
     return run_as_it_stands(study);
-}
-
-static fw_study *new_study(const fw_study_options *options) {
-    fw_arena *arena = fw_arena_new(options->design.memory_cap);
-    fw_study *study = arena ? fw_arena_one(arena, fw_study) : NULL;
-    if (!study) {
-        fw_arena_free(arena);
-        return NULL;
-    }
-    *study = (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options};
-    if (options->cancel) fw_arena_stop_with(arena, options->cancel);
-    return study;
 }
 
 static fw_status open_in(fw_study *study) {
@@ -477,6 +467,7 @@ fw_status fw_study_open_points(const fw_study_options *options, const fw_device_
 
 void fw_study_free(fw_study *study) {
     if (!study) return;
+    fw_study_free(study->dies);
     fw_study_store_close(study->store);
     fw_study_engines_close(study);
     fw_design_free(study->design);
@@ -515,11 +506,10 @@ static fw_status tally(void *context, const fw_study_sample *sample) {
 }
 
 fw_status fw_study_check_apart(fw_study *study) {
-    if (study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity)
-        return FW_OK;
+    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
     return fw_diag_error(
         &study->diags, 490, study->asked->place,
-        "shards: a study of kind %s looks at earlier samples to choose later ones; "
+        "shards: a study of kind %s chooses each of its samples by the ones before; "
         "run it in one piece, in as many threads as there are (--jobs)",
         fw_device_study_kind_text(study->asked->kind));
 }

@@ -104,6 +104,12 @@ typedef struct fw_study {
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
     struct fw_study_engines *engines; /* what samples have in common */
+    /* of a size at a wanted yield: the yield of a device, first of the description as it stands, then of what was found */
+    struct fw_study *dies;
+    /* how the yield of a chosen device is opened and given back (study.c, which a kind does not call) */
+    fw_status (*open_dies)(const struct fw_study *of, const fw_study_sample *chosen,
+                           struct fw_study **out);
+    void (*free_dies)(struct fw_study *dies);
 } fw_study;
 
 /* Reads, runs the description as it stands, resolves inputs and responses. What is wrong is in

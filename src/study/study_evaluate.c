@@ -1,12 +1,176 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One device of a study: the description with its settings through the same calls that the commands make,
-   so that a sample says what `check` would say of it, and its numbers from the same documents. */
+   so that a sample says what `check` would say of it, and its numbers from the same documents; values of inputs, and what
+   all kinds of studies ask of their samples. */
+#include "base/sort.h"
+#include "base/text.h"
 #include "plan/design.h"
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ---- values of inputs ----
+   Numbers in SI inside, texts as --set takes them outside. What counts is the text: the value of a sample is the
+   one that its text has. Test: tests/unit/study/test_response.c */
+
+enum { SWEPT = 12 }; /* digits of a step, as those of a wafer's sweep */
+
+fw_status fw_study_input_write(const fw_study_input *input, double value, int digits,
+                               char text[FW_STUDY_TEXT], double *shown) {
+    char number[40];
+    double read;
+    fw_number_text(number, sizeof number, fw_quantity_unit_from_si(&input->unit, value), digits);
+    if (!fw_number_parse(number, strlen(number), &read)) return FW_INTERNAL;
+    *shown = fw_quantity_unit_to_si(&input->unit, read);
+    int n = snprintf(text, FW_STUDY_TEXT, "%s%s%s", number, *input->unit_text ? " " : "",
+                     input->unit_text);
+    return n < FW_STUDY_TEXT ? FW_OK : FW_LIMIT;
+}
+
+int fw_study_input_steps(const fw_study_input *input) {
+    return input->ntext > 0 ? input->ntext : input->steps;
+}
+
+static fw_status listed(const fw_study_input *input, int k, char text[FW_STUDY_TEXT],
+                        double *value) {
+    const char *given = input->text[k];
+    size_t n = strcspn(given, " \t");
+    double number;
+    fw_quantity_unit unit = {.factor = 1};
+    snprintf(text, FW_STUDY_TEXT, "%s", given);
+    *value = (double)NAN;
+    if (!fw_number_parse(given, n, &number)) return FW_OK;
+    const char *rest = given + n + strspn(given + n, " \t");
+    if (*rest && !fw_quantity_unit_parse(rest, strlen(rest), &unit, NULL, NULL)) return FW_OK;
+    *value = fw_quantity_unit_to_si(&unit, number);
+    return FW_OK;
+}
+
+static double between(const fw_study_input *input, double share) {
+    if (share <= 0) return input->from;
+    if (share >= 1) return input->to;
+    return input->logarithmic ? input->from * pow(input->to / input->from, share)
+                              : input->from + (input->to - input->from) * share;
+}
+
+fw_status fw_study_input_step(const fw_study_input *input, int k, char text[FW_STUDY_TEXT],
+                              double *value) {
+    if (input->ntext > 0) return listed(input, k, text, value);
+    return fw_study_input_write(input, between(input, k / (input->steps - 1.0)), SWEPT, text,
+                                value);
+}
+
+fw_status fw_study_input_at(const fw_study_input *input, double share, int digits,
+                            char text[FW_STUDY_TEXT], double *value) {
+    if (input->ntext > 0) {
+        int k = (int)(share * input->ntext);
+        return listed(input, k < 0 ? 0 : k >= input->ntext ? input->ntext - 1 : k, text, value);
+    }
+    return fw_study_input_write(input, between(input, share), digits, text, value);
+}
+
+double fw_study_input_share(const fw_study_input *input, double value) {
+    double share = input->logarithmic ? log(value / input->from) / log(input->to / input->from)
+                                      : (value - input->from) / (input->to - input->from);
+    return fmin(fmax(share, 0), 1);
+}
+
+/* ---- may they have these values? ---- */
+
+/* the description alone is read with one value of an input: what --set finds wrong with it is said at
+   the input's row */
+static fw_status check_value_in(fw_study *study, fw_arena *scratch, int k, const char *text) {
+    const fw_study_input *in = &study->input[k];
+    fw_plan *plan = study->plan;
+    const size_t n = (size_t)plan->options.nset;
+    const fw_device *device;
+    fw_diags said = fw_diags_new(scratch);
+    fw_device_set *set = fw_arena_array(scratch, fw_device_set, n + 1);
+    FW_NEED(set);
+    if (n > 0) memcpy(set, plan->options.set, n * sizeof *set);
+    set[n] = (fw_device_set){in->what, text};
+    fw_status status = fw_plan_device_again(plan, scratch, set, (int)n + 1, &said, &device);
+    if (fw_plan_is_final(status)) return status;
+    for (size_t i = 0; i < said.count; i++) {
+        const fw_diag *d = &said.item[i];
+        /* no such path, not a value of its kind, beyond what the parameter allows; what else may be wrong
+           with a value is the sample's own affair */
+        bool of_path = d->number == 55 || d->number == 57 || (d->number >= 20 && d->number < 30);
+        if (d->severity == FW_ERROR && of_path && d->place.file &&
+            strncmp(d->place.file, "--set", 5) == 0)
+            return fw_diag_error(&study->diags, 493, in->place, "\"%s\" set to %s: %s", in->what,
+                                 text, d->message);
+    }
+    return FW_OK;
+}
+
+static fw_status check_value(fw_study *study, int k, const char *text) {
+    fw_arena *scratch = fw_arena_part(study->arena, 0);
+    FW_NEED(scratch);
+    fw_status status = check_value_in(study, scratch, k, text);
+    fw_arena_free(scratch);
+    return status;
+}
+
+/* a value that an input left to chance is sure to have nearby */
+static double some_value(const fw_device_uncertain *u) {
+    return isnan(u->mean) ? 0.5 * (u->from + u->to) : u->mean;
+}
+
+/* the ends of an input, or what is listed: is there such a parameter or attribute, and may it be so? */
+fw_status fw_study_input_check(fw_study *study, int k) {
+    const fw_study_input *in = &study->input[k];
+    char text[FW_STUDY_TEXT];
+    double shown;
+    if (k >= study->nvary) {
+        double value = some_value(in->uncertain);
+        FW_TRY(fw_study_input_write(in, value, 12, text, &shown));
+        return check_value(study, k, text);
+    }
+    int last = fw_study_input_steps(in) - 1, step = in->ntext > 0 || last == 0 ? 1 : last;
+    for (int i = 0; i <= last; i += step) {
+        FW_TRY(fw_study_input_step(in, i, text, &shown));
+        FW_TRY(check_value(study, k, text));
+    }
+    return FW_OK;
+}
+
+/* ---- samples: are they due, kept, within their limits ---- */
+
+bool fw_study_is_due(const fw_study *study, long i) {
+    return study->options.shards == 0 || i % study->options.shards == study->options.shard - 1;
+}
+
+static int by_number(const void *a, const void *b) {
+    return fw_order_wholes(((const fw_study_sample *)a)->i, ((const fw_study_sample *)b)->i);
+}
+
+void fw_study_sort_samples(fw_study_sample *sample, int n) {
+    if (n > 1) qsort(sample, (size_t)n, sizeof *sample, by_number);
+}
+
+/* relative to the limit where that is not 0 */
+static double missed(double by, double limit) {
+    return by / (limit != 0 ? fabs(limit) : 1);
+}
+
+double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
+    double most = -HUGE_VAL;
+    if (!sample->run) return (double)NAN;
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_device_respond *q = study->response[k].asked;
+        double value = sample->response[k];
+        if (isnan(q->min) && isnan(q->max)) continue;
+        if (isnan(value)) return (double)NAN;
+        if (!isnan(q->min)) most = fmax(most, missed(q->min - value, q->min));
+        if (!isnan(q->max)) most = fmax(most, missed(value - q->max, q->max));
+    }
+    return most;
+}
+
+/* ---- one device ---- */
 
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample) {
     *sample = (fw_study_sample){.decision = -1};

@@ -38,7 +38,7 @@ bool fw_study_response_of_hinges(const fw_study_response *response);
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
                             char *why, size_t n);
 
-/* ---- study_samples.c: values of inputs as text and back ---- */
+/* ---- study_evaluate.c: values of inputs as text and back ---- */
 
 /* the text of a value (SI), so many digits in the input's unit, and the value that this text has */
 fw_status fw_study_input_write(const fw_study_input *input, double value, int digits,
@@ -52,10 +52,13 @@ int fw_study_input_steps(const fw_study_input *input);
 fw_status fw_study_input_at(const fw_study_input *input, double share, int digits,
                             char text[FW_STUDY_TEXT], double *value);
 
+/* the ends of an input, or what is listed: is there such a parameter or attribute, and may it be so? FW_INPUT: FW-D493 */
+fw_status fw_study_input_check(fw_study *study, int k);
+
 /* the other way: 0 at from, 1 at to, not beyond */
 double fw_study_input_share(const fw_study_input *input, double value);
 
-/* ---- study_evaluate.c: one device ---- */
+/* one device */
 
 /* a sample with room for inputs and responses */
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
@@ -118,6 +121,9 @@ typedef struct fw_study_search {
     /* of a sample that was run: what is to be small, and what must not be above 0 (NaN: as bad as can be) */
     double (*objective)(const void *context, const fw_study_sample *sample);
     double (*constraint)(const void *context, const fw_study_sample *sample);
+    /* what is looked at besides check, of a sample that was run and is not in the store: sample->used may rise by it;
+       NULL: nothing. Called by several threads at once. */
+    fw_status (*besides)(const void *context, fw_study_sample *sample);
     const void *context;
     /* shares 0..1 of the ranges of the ranged inputs; listed ones keep their texts */
     double *start;
@@ -216,6 +222,83 @@ typedef fw_status fw_study_judge(void *context, long first, size_t n, const doub
 fw_status fw_study_levels_run(fw_study *study, const fw_study_scatter *scatter, long devices,
                               long first, fw_study_judge *judge, void *context,
                               fw_study_levels *out);
+
+/* ---- study_made.c: devices that a flow may make, as a limit state ---- */
+
+enum { FW_STUDY_FLOW_PART = 100000000, FW_STUDY_DIES_USUAL = 4000 };
+
+typedef struct fw_study_cached {
+    long i; /* number of its sample; -1: free */
+    double ln;
+    bool elsewhere; /* another shard judges it: ln is none */
+} fw_study_cached;
+
+typedef struct fw_study_yielding {
+    fw_study *study;
+    int flow;        /* of the plan */
+    int ninput;      /* of the flow */
+    int first_input; /* column of its first one */
+    /* (nbase) settings of a device that was chosen, before those of what is uncertain; NULL: the study's own device */
+    const fw_device_set *base;
+    int nbase;
+    fw_study_scatter scatter;
+    const double *unknown; /* values of what is not known; NULL: middles */
+    double shift;          /* added to ln: what the model may be off by */
+    long evaluated;        /* devices of this flow so far */
+    long told;             /* those and what simulated wafers had, for progress */
+    long base_number;      /* of its first sample */
+    /* devices by their values (open addressing): methods ask for the same ones again */
+    double *key;            /* (room x npoint) */
+    fw_study_cached *value; /* (room) */
+    size_t room, filled;
+    /* of the estimators, which give back what they took: nothing of ours is in it */
+    fw_arena *chance;
+} fw_study_yielding;
+
+/* of a flow of the study's plan; y->chance is freed by the caller. FW_INPUT: nothing differs (FW-D491) */
+fw_status fw_study_yielding_begin(fw_study *study, int flow, int first_input, fw_study_yielding *y);
+/* one device; x: a point of the scatter */
+fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
+                                  fw_verdict_made *made);
+/* fw_chance_function, context the yielding: minus ln of the largest share of a limit that is used, less the shift */
+fw_status fw_study_yielding_limit(void *context, size_t first, size_t count, const double *u,
+                                  double *value);
+/* the same of points that choose no other ones: a shard leaves out those of others */
+fw_status fw_study_yielding_apart(void *context, size_t first, size_t count, const double *u,
+                                  double *value);
+/* fw_study_judge, of which a shard leaves out those of others */
+fw_status fw_study_yielding_points(void *context, long first, size_t n, const double *x,
+                                   double *ln);
+/* the last number of a point says at which place of the wafer it is, where that matters; NULL: nowhere */
+const fw_chance_place *fw_study_yielding_place(const fw_study_yielding *y, const double *u);
+
+/* ---- kind_yield.c: the dies of a device that a size looks at ----
+   A yield of the same description, its dies around a device that is chosen. */
+
+typedef struct
+    fw_study_die { /* one that a flow may make, where it uses most at a distance from what is intended */
+    int flow;
+    size_t dimensions, unknowns;
+    double *u, *unknown; /* (dimensions) in standard deviations; (unknowns) what is only assumed */
+    double
+        ln; /* of the largest share of a limit that it uses, its band in it; NaN: it could not be judged */
+} fw_study_die;
+
+/* the yield that a size asks of a device: rows of <uncertain>, those of what is chosen around the sample's values (NULL:
+   around the description's, or the middles of the ranges) */
+fw_status fw_study_dies_asked(fw_arena *arena, const fw_study *of, const fw_study_sample *chosen,
+                              const fw_device_study **asked);
+/* The die of a flow, `beta` standard deviations from what is intended, that uses most: along the gradient, turned until it
+   stays (advanced mean value: Y.-T. Wu, H. R. Millwater, T. A. Cruse, AIAA J. 28 (1990) 1663), and what is only assumed at
+   the ends that are worst. Locally so. `die` is of `arena`. Cost: some 5 (n + 2) dies. */
+fw_status fw_study_dies_worst(fw_study *dies, int flow, double beta, fw_arena *arena,
+                              fw_study_die *die);
+/* what a die of another device, chosen by a sample of `of`, uses: as die->ln. Several threads may ask at once. */
+fw_status fw_study_dies_at(const fw_study *dies, const fw_study *of, const fw_study_sample *chosen,
+                           const fw_study_die *die, double *ln);
+/* The share of dies of a flow that fail with the model's band against them, from few hundred dies around the nearest ones
+   that fail, what is only assumed at the ends that are worst for what is intended; no interval. */
+fw_status fw_study_dies_failing(fw_study *dies, int flow, double *share);
 
 /* ---- parts of the documents ---- */
 

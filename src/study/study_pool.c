@@ -7,6 +7,10 @@
 #include <time.h>
 #include <unistd.h>
 
+fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample) {
+    return study->store ? fw_study_store_add(study->store, sample) : FW_OK;
+}
+
 /* ---- the same work many times ---- */
 
 int fw_study_jobs(const fw_study *study) {

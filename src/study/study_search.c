@@ -68,9 +68,15 @@ static fw_status evaluate(one *o) {
     if (b->status != FW_OK) status = b->status;
     if (status == FW_OK && b->study->store)
         status = fw_study_store_get(b->study->store, o->now.i, &o->now, &there);
+    if (status == FW_OK && !there && b->study->stored_only)
+        status = fw_diag_error(&b->study->diags, 497, (fw_place){.file = b->study->options.file},
+                               "sample %ld is in none of the shards; run the shard that has it to "
+                               "its end with --resume",
+                               o->now.i);
     pthread_mutex_unlock(&b->lock);
     if (status != FW_OK || there) return status;
     FW_TRY(fw_study_evaluate(b->study, b->study->options.cancel, &o->now, &changed));
+    if (o->s->besides && o->now.run) FW_TRY(o->s->besides(o->s->context, &o->now));
     pthread_mutex_lock(&b->lock);
     status = fw_study_keep(b->study, &o->now);
     pthread_mutex_unlock(&b->lock);

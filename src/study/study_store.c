@@ -500,6 +500,27 @@ static fw_status shard_of(fw_study *study, const char *directory, sqlite3 *db, i
     return FW_OK;
 }
 
+/* samples that this store has as well are the same there; `shard` is attached */
+static fw_status agree(fw_study_store *store, const char *directory) {
+    sqlite3_stmt *s = NULL;
+    static const char sql[] =
+        "SELECT i FROM main.sample JOIN shard.sample AS other USING (i) WHERE main.sample.state IS "
+        "NOT "
+        "other.state OR main.sample.limit_used IS NOT other.limit_used LIMIT 1";
+    if (sqlite3_prepare_v2(store->db, sql, -1, &s, NULL) != SQLITE_OK)
+        return failed(store, "a shard could not be read");
+    const int step = sqlite3_step(s);
+    const long i = step == SQLITE_ROW ? (long)sqlite3_column_int64(s, 0) : 0;
+    sqlite3_finalize(s);
+    if (step == SQLITE_DONE) return FW_OK;
+    if (step != SQLITE_ROW) return failed(store, "a shard could not be read");
+    return fw_diag_error(&store->study->diags, 497, (fw_place){.file = directory},
+                         "sample %ld, which every shard judges, came out otherwise here than in "
+                         "another shard: the machines do not compute alike; run all shards on "
+                         "machines of one kind",
+                         i);
+}
+
 static fw_status merge_one(fw_study_store *store, const char *directory, int n, bool *seen) {
     fw_study *study = store->study;
     const char *path = fw_arena_printf(study->arena, "%s/study.sqlite", directory);
@@ -520,8 +541,15 @@ static fw_status merge_one(fw_study_store *store, const char *directory, int n, 
     bool done = sqlite3_step(attach) == SQLITE_DONE;
     sqlite3_finalize(attach);
     if (!done) return failed(store, "a shard could not be read");
-    status = run(store, "INSERT INTO main.sample SELECT * FROM shard.sample",
-                 "a shard could not be read");
+    /* what chooses later samples every shard has judged, to the same bits */
+    bool apart =
+        study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity;
+    if (!apart) status = agree(store, directory);
+    if (status == FW_OK)
+        status = run(store,
+                     apart ? "INSERT INTO main.sample SELECT * FROM shard.sample"
+                           : "INSERT OR IGNORE INTO main.sample SELECT * FROM shard.sample",
+                     "a shard could not be read");
     if (status == FW_OK) status = run(store, "DETACH shard", "a shard could not be read");
     return status;
 }

@@ -47,6 +47,14 @@ static void seconds(fw_text *out, double s) {
     fw_text_add(out, s < 120 ? " s" : s < 7200 ? " min" : " h");
 }
 
+static void percent(fw_text *out, double share) {
+    /* near 1 the rest is what counts */
+    double away = fmin(share, 1 - share);
+    int digits = away > 0 ? (int)fmax(2, 1 - floor(log10(100 * away))) : 2;
+    fw_text_fixed(out, 100 * share, digits > 9 ? 9 : digits);
+    fw_text_add(out, " %");
+}
+
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     const fw_device_study *a = study->asked;
     fw_text_printf(out, "study %s of %s: %s, ", a->name, study->device_name,
@@ -58,6 +66,12 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
         fw_text_printf(out, "each device judged as %s\n",
                        a->kind == FW_STUDY_IS_yield ? "made"
                                                     : fw_device_study_judge_text(a->judge));
+    if (a->yield > 0) {
+        fw_text_add(out, "  at a yield of at least ");
+        percent(out, a->yield);
+        fw_text_add(
+            out, ", which is estimated for some devices, each of dies beside the devices above\n");
+    }
     for (int k = 0; k < study->options.nset; k++)
         fw_text_printf(out, "  --set \"%s=%s\"\n", study->options.set[k].path,
                        study->options.set[k].value);
@@ -175,6 +189,10 @@ static void say_size(fw_text *out, const fw_study *study) {
     const fw_study_result *r = study->result;
     if (r->nfound == 0) {
         fw_text_add(out, "no device was found that holds every limit and is accepted");
+        if (study->asked->yield > 0) {
+            fw_text_add(out, " and has a yield of ");
+            percent(out, study->asked->yield);
+        }
         if (r->nearest.text) {
             fw_text_add(out, "; the nearest:\n");
             say_found(out, study, &r->nearest);
@@ -189,14 +207,6 @@ static void say_size(fw_text *out, const fw_study *study) {
         for (int i = 0; i < r->nfound; i++)
             say_found(out, study, &r->found[i]);
     }
-}
-
-static void percent(fw_text *out, double share) {
-    /* near 1 the rest is what counts */
-    double away = fmin(share, 1 - share);
-    int digits = away > 0 ? (int)fmax(2, 1 - floor(log10(100 * away))) : 2;
-    fw_text_fixed(out, 100 * share, digits > 9 ? 9 : digits);
-    fw_text_add(out, " %");
 }
 
 static void say_place(fw_text *out, const fw_study_levels *l, size_t q) {
@@ -341,6 +351,7 @@ fw_status fw_study_text(const fw_study *study, fw_text *out) {
         break;
     case FW_STUDY_IS_size:
         say_size(out, study);
+        say_yield(out, study); /* of what was found, where one is wanted */
         break;
     case FW_STUDY_IS_sensitivity:
         say_sensitivity(out, study);

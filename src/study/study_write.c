@@ -234,8 +234,9 @@ static void yield_end(fw_json *j, const char *key, const fw_study_flow_yield *y,
     fw_json_end(j);
 }
 
+/* of a yield, and of the device that a size at a wanted yield has found */
 static void yields(fw_json *j, const fw_study *study) {
-    if (study->asked->kind != FW_STUDY_IS_yield) return;
+    if (study->asked->kind != FW_STUDY_IS_yield && !(study->asked->yield > 0)) return;
     fw_json_list(j, "yields");
     for (int i = 0; i < study->result->nyield; i++) {
         const fw_study_flow_yield *y = &study->result->yield[i];
@@ -305,6 +306,7 @@ fw_status fw_study_json(const fw_study *study, fw_text *out) {
     inputs(&j, study);
     responses_json(&j, study);
     size(&j, study);
+    if (study->asked->yield > 0) fw_json_real(&j, "wanted_yield", study->asked->yield);
     yields(&j, study);
     fw_json_text(&j, "how", r->how);
     fw_json_end(&j);

@@ -120,7 +120,7 @@ static void cross_rows(const grid *g, int first, int last, int *at, double *x) {
     }
 }
 
-/* cells of one row within one piece: between crossings, two by two */
+/* cells of a row within a piece: between crossings, two by two */
 static void fill_row(grid *g, int j, double *x, int n) {
     for (int i = 1; i < n; i++) {
         const double at = x[i];
@@ -495,12 +495,12 @@ static void follow(const grid *g, edges *around, fw_geometry_vec2 pin, fw_verdic
 
 /* ---- bodies ---- */
 
-typedef struct end {
-    int hinge, side;
+typedef struct end { /* of a hinge, or where a load acts: pin and root are that place */
+    fw_verdict_arm *to;
     fw_geometry_vec2 pin, root;
 } end;
 
-static int ends_of(const fw_mechanism *m, int body, end *out) {
+static int ends_of(const fw_mechanism *m, int body, fw_verdict_arm *arm, end *out) {
     int n = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
@@ -508,7 +508,7 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
             if ((side ? pin->body_b : pin->body_a) != body) continue;
             fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, side),
                              root = side ? pin->root_b_m : pin->root_a_m;
-            out[n++] = (end){k, side, at,
+            out[n++] = (end){&arm[2 * k + side], at,
                              vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
         }
     }
@@ -516,8 +516,8 @@ static int ends_of(const fw_mechanism *m, int body, end *out) {
 }
 
 /* whatever the stress is, over a cut it comes to what hinges put on either side */
-static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
-                             fw_verdict_arm *arm) {
+static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge) {
+    fw_verdict_arm *arm = ends[hinge].to;
     double *at, middle = 0;
     int count = 0;
     const double inward = vec_dot(vec_sub(arm->edge, ends[hinge].root), arm->along) < 0 ? -1 : 1;
@@ -539,8 +539,9 @@ static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge,
     return FW_OK;
 }
 
+/* ends: of hinges (nhinge), then of loads, n in all */
 static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, const end *ends,
-                         int n, fw_verdict_arm *arm) {
+                         int nhinge, int n) {
     grid g = {.arena = scratch};
     FW_TRY(take_lines(layout, body, &g));
     if (g.nline == 0) return FW_OK;
@@ -561,33 +562,39 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
         FW_TRY(edges_new(&g, &around));
         all = true;
         for (int i = 0; i < n; i++) {
-            fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
+            fw_verdict_arm *to = ends[i].to;
             *to = (fw_verdict_arm){.known = false};
             find_way(&g, &q, cell_at(&g, ends[i].root, 0), middle);
             if (g.nway > 0) follow(&g, &around, ends[i].pin, to);
             if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }
-    for (int i = 0; i < n; i++) {
-        fw_verdict_arm *to = &arm[2 * ends[i].hinge + ends[i].side];
-        if (to->known) FW_TRY(cut_at_edge(&g, ends, n, i, to));
-    }
+    for (int i = 0; i < nhinge; i++)
+        if (ends[i].to->known) FW_TRY(cut_at_edge(&g, ends, nhinge, i));
     return FW_OK;
 }
 
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
                                fw_verdict_arm **arm) {
-    size_t n = (size_t)m->nhinge;
-    FW_NEED(*arm = fw_arena_array(arena, fw_verdict_arm, 2 * n));
+    size_t n = 2 * (size_t)m->nhinge;
+    fw_verdict_load_end *load;
+    int nload;
+    FW_TRY(fw_verdict_load_ends(arena, m, &load, &nload));
+    FW_NEED(*arm = fw_arena_array(arena, fw_verdict_arm, n + (size_t)nload));
     for (int b = 0; layout && layout->drawn && b < m->nbody; b++) {
         fw_arena *scratch = fw_arena_part(arena, 0);
         FW_NEED(scratch);
-        end *ends = fw_arena_array(scratch, end, 2 * n);
-        int found = ends ? ends_of(m, b, ends) : 0;
+        end *ends = fw_arena_array(scratch, end, n + (size_t)nload);
+        int nhinge = ends ? ends_of(m, b, *arm, ends) : 0, found = nhinge;
+        for (int j = 0; ends && j < nload; j++)
+            if (load[j].body == b && load[j].first == j)
+                ends[found++] = (end){*arm + n + j, load[j].at, load[j].at};
         fw_status status = ends ? FW_OK : FW_NOMEM;
-        if (found > 0) status = arms_of(scratch, layout, b, ends, found, *arm);
+        if (nhinge > 0) status = arms_of(scratch, layout, b, ends, nhinge, found);
         fw_arena_free(scratch);
         FW_TRY(status);
     }
+    for (int j = 0; j < nload; j++)
+        (*arm)[n + (size_t)j] = (*arm)[n + (size_t)load[j].first];
     return FW_OK;
 }

@@ -28,6 +28,7 @@ typedef struct fw_verdict_arm {
        which a moment and a force are multiplied to be stress times thickness; where the latter is, and how the way
        runs there */
     double edge_m2, edge_m;
+    double edge_wide_m; /* how wide it is there */
     fw_geometry_vec2 edge, along;
     /* a straight cut there, square to the way, that parts this hinge from the body's others: a point of
        it, what it leaves of the body (0: there is none), and the integral over that of the distance from the point */
@@ -35,7 +36,24 @@ typedef struct fw_verdict_arm {
     double cut_m, cut_m2;
 } fw_verdict_arm;
 
-/* arm: (2 nhinge) of hinge k in body a, in body b. In: outlines of the layout in the drawn pose. Range:
+/* Where something acts on a body in one of the flow's scenes. known_N: how large it becomes, where the scene says so;
+   NaN: it follows from the motion. what, id: "eyelet of tendon", "T1"; id NULL: it has none */
+typedef struct fw_verdict_load_end {
+    int scene, body;
+    int first;           /* the first of all that acts at this place: they have one way */
+    fw_geometry_vec2 at; /* world, as drawn */
+    double known_N;
+    const char *what, *id;
+} fw_verdict_load_end;
+fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
+                               fw_verdict_load_end **end, int *n);
+/* stress at most over what is allowed of a hinge's material, of the strip along a way that bears a moment and a force
+   at its end alone. Three times (Kirsch) that of a beam, for what holes and corners do to it; walls that the flow puts
+   farther in leave less, and of the narrowest place most */
+double fw_verdict_arm_bears(const fw_mechanism *mechanism, int hinge, const fw_verdict_arm *arm,
+                            double moment_Nm, double force_N);
+
+/* arm: (2 nhinge) of hinge k in body a, in body b, then of each load end. In: outlines of the layout in the drawn pose. Range:
    any outline; unknown where nothing is drawn or the way is narrower than a cell of the grid, a 400th of the body.
    Error: an upper bound as far as a strip of inscribed circles is a beam. Cost: some 1e6 operations for a body.
    Test: test_body_arms.c */
@@ -97,25 +115,30 @@ typedef struct fw_verdict_hinge_strains {
        any direction of it has */
     double least;
     double root[2][2]; /* at both faces of both roots, signed: their sign is what makes cycles */
-    bool held; /* false: beyond the strip's buckling load, of which the closed form knows nothing */
+    /* false: this is not the strain. An exact beam was asked for and none found with that place and force,
+       or the closed form was, and the strip is beyond its buckling load, of which that knows nothing */
+    bool known;
 } fw_verdict_hinge_strains;
-/* beam: of fw_verdict_hinge_beam; NULL, or where it has no such equilibrium: closed form */
+/* beam: of fw_verdict_hinge_beam; NULL, or where no such equilibrium is found: closed form */
 void fw_verdict_hinge_strain(const fw_mechanism_hinge *hinge, fw_flexure_elastica *beam,
                              const fw_verdict_hinge_load *load, fw_verdict_hinge_strains *out);
 /* *beam NULL: the strip's axis is not known */
 fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *hinge,
                                 fw_flexure_elastica **beam);
 
-/* ---- strain_monitor.c: the peak strain of every hinge, followed along the motion ---- */
+/* error of a model, relative, where nothing bounds it (fw_verdict_motion_model_error) */
+extern const double fw_verdict_model_not_known;
 
-typedef struct fw_verdict_strain_peak {
-    double strain, t_s; /* largest so far, and when */
-    double least;       /* likewise of what it is at least, of the instants alone */
-    double forced;      /* largest |strain less that of the rotation alone| at an instant */
-    double between;     /* what the parabola added to the largest sample: the error of the search */
-    double t[2], s[2];  /* the last two instants */
+/* ---- verdict_strain.c: the largest value of what is followed along a motion: a strain, a force ---- */
+
+typedef struct fw_verdict_largest {
+    double value, t_s; /* so far, and when; 0: of nothing below that */
+    double between;    /* what the parabola added to the largest sample: the error of the search */
+    double t[2], last[2]; /* the last two instants */
     int samples;
-} fw_verdict_strain_peak;
+} fw_verdict_largest;
+/* one more instant */
+void fw_verdict_largest_add(fw_verdict_largest *largest, double t_s, double value);
 
 /* ---- verdict_bending.c: what bodies that are taken as rigid would store ---- */
 
@@ -132,13 +155,15 @@ typedef struct fw_verdict_bending {
         worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
     double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
     double beside;     /* by how much they are larger beside it: at least 1 */
-    fw_verdict_strain_peak *peak; /* (1 + 2 nhinge) of that sum, of each force squared and moment */
+    fw_verdict_largest *peak; /* (1 + 2 nhinge) of that sum, of each force squared and moment */
     double *
         hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
                                   force squared, and moment */
     double *
         cut_N_per_m; /* (2 nhinge) the most that stress is at least across the cut of an arm, times thickness;
                             NULL: no holes */
+    double *rest_N; /* (nbody) largest so far of the force that all hinges together put on a body */
+    double *rest;   /* (2 nbody) of the instant, N, world */
     double *
         put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
 } fw_verdict_bending;
@@ -149,13 +174,22 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanis
 void fw_verdict_bending_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
                                const fw_dynamics_instant *now);
 
+/* ---- strain_monitor.c: the peak strain of every hinge, followed along the motion ---- */
+
+typedef struct fw_verdict_hinge_peak {
+    fw_verdict_largest strain;
+    double least;  /* of what it is at least, of the instants alone */
+    double forced; /* largest |strain less that of the rotation alone| at an instant */
+    bool lost;     /* at an instant it was not known, first at lost_s; such are left out */
+    double lost_s;
+} fw_verdict_hinge_peak;
+
 typedef struct fw_verdict_strain_monitor { /* of one run */
     const fw_mechanism *mechanism;
     fw_arena *arena;
     fw_flexure_elastica **beam; /* (nhinge) made when first needed; NULL: not yet */
-    bool lost;                  /* a hinge was pressed beyond its buckling load */
     bool no_memory; /* for them: strains are those of the closed form, and the run has failed */
-    fw_verdict_strain_peak *hinge;                /* (nhinge) */
+    fw_verdict_hinge_peak *hinge;                 /* (nhinge) */
     struct fw_verdict_clearance_watch *clearance; /* verdict_parts.h */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
@@ -186,8 +220,6 @@ double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
    fw_dynamics_motion_options.unsettled */
 double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *looser, double margin,
                                            double accuracy);
-/* one more instant of one hinge */
-void fw_verdict_strain_peak_add(fw_verdict_strain_peak *peak, double t_s, double strain);
 
 /* ---- strain_monitor.c: fatigue of a motion that is repeated ---- */
 

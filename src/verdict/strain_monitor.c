@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue
-   counts. */
+/* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue counts. And what bodies bear
+   of what was seen there: the stress of the ways of body_arms.c under what hinges and loads bring.
+   Theory: docs/theory/verdict.md, docs/theory/release.md. Test: test_body_arms.c */
+#include "base/text.h"
 #include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
 #include <math.h>
 
 enum { FW_GLANCED = 64 }; /* hinges whose thirds are kept; of more all instants are taken */
@@ -10,7 +13,7 @@ fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mec
                                         fw_verdict_strain_monitor *monitor) {
     size_t n = (size_t)mechanism->nhinge;
     *monitor = (fw_verdict_strain_monitor){.mechanism = mechanism, .arena = arena};
-    FW_NEED(monitor->hinge = fw_arena_array(arena, fw_verdict_strain_peak, n));
+    FW_NEED(monitor->hinge = fw_arena_array(arena, fw_verdict_hinge_peak, n));
     if (cycles) FW_NEED(monitor->root = fw_arena_alloc(arena, n, sizeof *monitor->root));
     return FW_OK;
 }
@@ -28,6 +31,7 @@ static void start_counting(fw_verdict_strain_monitor *w, int k) {
 
 static void count(fw_verdict_strain_monitor *w, int k, const fw_verdict_hinge_strains *strain,
                   const fw_dynamics_instant *now) {
+    if (!strain->known) return;
     for (int side = 0; side < FW_FACES; side++) {
         if (now->begins) fw_maths_turning_jump(&w->root[k][side]);
         fw_maths_turning_add(&w->root[k][side], w->arena, now->t_s,
@@ -44,8 +48,8 @@ double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin) {
     double most = 0;
     for (int k = 0; k < tighter->mechanism->nhinge; k++)
-        if (tighter->hinge[k].samples > 0 && looser->hinge[k].samples > 0)
-            most = fmax(most, fabs(tighter->hinge[k].strain - looser->hinge[k].strain));
+        if (tighter->hinge[k].strain.samples > 0 && looser->hinge[k].strain.samples > 0)
+            most = fmax(most, fabs(tighter->hinge[k].strain.value - looser->hinge[k].strain.value));
     return fw_strains_settle * margin * most;
 }
 
@@ -56,7 +60,7 @@ double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *loos
     for (int k = 0; k < monitor->mechanism->nhinge; k++) {
         const fw_flexure_result *c = &monitor->mechanism->hinge[k].closed_form;
         limit = fmin(limit, c->limit_angle_rad * c->strain_per_rad);
-        most = fmax(most, monitor->hinge[k].strain);
+        most = fmax(most, monitor->hinge[k].strain.value);
     }
     double of = monitor->trial ? limit : fmin(fmax(most, fw_small_strain * limit), limit);
     double times = monitor->trial ? fw_trial_accurate : fw_strains_accurate;
@@ -92,22 +96,31 @@ static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynami
         m, k, now->q, now->angle_rad[hinge->pin], now->reaction_N + 2 * hinge->pin, now->hinge);
     load.least_known = w->hinge[k].least;
     fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
-    const fw_verdict_strain_peak *peak = &w->hinge[k];
-    bool surely = peak->samples > 0 && peak->s[1] > surely_share * peak->strain;
-    if (beam && !w->root && peak->strain > 0 && !surely) {
+    const fw_verdict_largest *peak = &w->hinge[k].strain;
+    bool surely = peak->samples > 0 && peak->last[1] > surely_share * peak->value;
+    if (beam && !w->root && peak->value > 0 && !surely) {
         fw_verdict_hinge_strain(hinge, NULL, &load, strain);
-        if (strain->held && strain->peak < asked_share * peak->strain) return;
+        if (strain->known && strain->peak < asked_share * peak->value) return;
     }
     fw_verdict_hinge_strain(hinge, beam, &load, strain);
 }
 
+static void lose(fw_verdict_strain_monitor *w, int k, double t_s) {
+    fw_verdict_hinge_peak *peak = &w->hinge[k];
+    peak->strain.samples = 0; /* no parabola across it */
+    if (!peak->lost) peak->lost = true, peak->lost_s = t_s;
+}
+
 static void take(fw_verdict_strain_monitor *w, int k, double t_s, double angle_rad,
                  const fw_verdict_hinge_strains *strain) {
+    if (!strain->known) {
+        lose(w, k, t_s);
+        return;
+    }
     double by_angle = fabs(angle_rad) * w->mechanism->hinge[k].closed_form.strain_per_rad;
     w->hinge[k].forced = fmax(w->hinge[k].forced, fabs(strain->peak - by_angle));
-    fw_verdict_strain_peak_add(&w->hinge[k], t_s, strain->peak);
+    fw_verdict_largest_add(&w->hinge[k].strain, t_s, strain->peak);
     w->hinge[k].least = fmax(w->hinge[k].least, strain->least);
-    w->lost = w->lost || !strain->held;
 }
 
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *now) {
@@ -118,11 +131,11 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
     if (w->bending.arm) fw_verdict_bending_record(&w->bending, w->mechanism, now);
     for (int k = 0; k < w->mechanism->nhinge; k++) {
         if (!now) {
-            w->hinge[k] = (fw_verdict_strain_peak){0};
+            w->hinge[k] = (fw_verdict_hinge_peak){0};
             start_counting(w, k);
             continue;
         }
-        if (now->begins) w->hinge[k].samples = 0; /* no parabola across a jump */
+        if (now->begins) w->hinge[k].strain.samples = 0; /* no parabola across a jump */
         fw_verdict_hinge_strains strain;
         strain_at(w, k, now, &strain);
         take(w, k, now->t_s, now->angle_rad[w->mechanism->hinge[k].pin], &strain);
@@ -134,9 +147,9 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
 
 static const double small_share = 0.6, smooth_share = 0.05, counted_share = 0.005;
 
-static bool is_enough(const fw_verdict_strain_peak *p, const fw_verdict_hinge_strains *third) {
-    double before = p->s[1], a = third[0].peak, b = third[1].peak, c = third[2].peak;
-    double most = fmax(fmax(before, a), fmax(b, c)), peak = fmax(p->strain, most);
+static bool is_enough(const fw_verdict_largest *p, const fw_verdict_hinge_strains *third) {
+    double before = p->last[1], a = third[0].peak, b = third[1].peak, c = third[2].peak;
+    double most = fmax(fmax(before, a), fmax(b, c)), peak = fmax(p->value, most);
     return most < small_share * peak || fabs(before - 3 * a + 3 * b - c) < smooth_share * peak;
 }
 
@@ -159,11 +172,12 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
     if (w->probe || n > FW_GLANCED) return false;
     fw_verdict_hinge_strains strain[FW_GLANCED][FW_THIRDS];
     for (int k = 0; k < n; k++) {
-        if (w->hinge[k].samples < 2) return false;
+        if (w->hinge[k].strain.samples < 2) return false;
         for (int i = 0; i < FW_THIRDS; i++)
             strain_at(w, k, &third[i], &strain[k][i]);
-        if (!is_enough(&w->hinge[k], strain[k])) return false;
-        if (w->root && !is_enough_to_count(w->root[k], w->hinge[k].strain, strain[k])) return false;
+        if (!is_enough(&w->hinge[k].strain, strain[k])) return false;
+        if (w->root && !is_enough_to_count(w->root[k], w->hinge[k].strain.value, strain[k]))
+            return false;
     }
     for (int k = 0; k < n; k++)
         for (int i = 0; i < FW_THIRDS; i++) {
@@ -241,4 +255,220 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
         *out = (fw_verdict_fatigue){used, fw_verdict_miner(law, cycle, n, times, 1), counted};
     }
     return FW_OK;
+}
+
+/* ---- rims of release holes ---- */
+
+/* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
+typedef struct brought {
+    double moment_Nm, force_N, cut_N_per_m;
+} brought;
+
+/* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
+   every strip, and of the narrowest one most; walls farther out leave more */
+static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_arm *arm, int i,
+                               const brought *by) {
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
+    if (!arm->known || !limit) return (fw_verdict_band){0, 0};
+    const double allowed_N_per_m =
+        limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
+    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
+    const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
+    const double low = by->cut_N_per_m / (fmax(made, 1) * fmax(made, 1));
+    return (fw_verdict_band){low / allowed_N_per_m,
+                             fw_verdict_arm_bears(m, i / 2, arm, by->moment_Nm, by->force_N)};
+}
+
+static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
+    const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
+    return (brought){most[1], sqrt(most[0]), b->cut_N_per_m[i]};
+}
+
+fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                                        int at[2]) {
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    fw_verdict_band worst = {0, 0};
+    if (!saw || !saw->bending.arm || !saw->bending.cut_N_per_m)
+        return (fw_verdict_band){(double)NAN, (double)NAN};
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const brought by = in_motion(m, &saw->bending, i);
+        const fw_verdict_band here = rims_of(m, &saw->bending.arm[i], i, &by);
+        if (here.low > worst.low) worst.low = here.low, at[0] = i;
+        if (here.high > worst.high) worst.high = here.high, at[1] = i;
+    }
+    const double off = fw_verdict_motion_model_error(m, motion);
+    return (fw_verdict_band){worst.low * fmax(1 - off, 0), worst.high * (1 + off)};
+}
+
+/* No required pose turns a hinge further, or has a larger joint force, than is proved of all of them; what drift and
+   give of the hinges add to strains they are taken to add to forces. Where nothing bounds that (FW-D535) it is left
+   out: the poses are undecided. */
+static double required_at_most(const fw_verdict_variant_verdict *v, int *at) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_workspace_result *w = &v->workspace;
+    double worst = 0;
+    if (!v->arm || !w->required || !w->reachable) return (double)NAN;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const int pin = m->hinge[i / 2].pin;
+        if (pin >= FW_SIX) continue;
+        const fw_workspace_load *load = &w->load[pin];
+        const double more =
+            (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
+        const brought by = {.moment_Nm = m->pin[pin].stiffness_Nm_per_rad *
+                                         (fabs(w->peak[pin].angle_rad) + w->peak[pin].error_rad),
+                            .force_N = load->known ? more * load->most_N : 0};
+        const double high = rims_of(m, &v->arm[i], i, &by).high;
+        if (high > worst) worst = high, *at = i;
+    }
+    return worst * (1 + fw_verdict_motion_lasting_error(m));
+}
+
+double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at) {
+    return v->mechanism->device->release_pitch_m > 0 ? required_at_most(v, at) : (double)NAN;
+}
+
+/* band: over what is allowed, of the rims beside end i; of required poses its low end is not known */
+static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, fw_verdict_band band,
+                           const char *scene, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+    const bool breaks = band.low > 1, posed = scene == NULL;
+    char low[32], high[32], x[32], y[32];
+    const char *use = posed ? "at most"
+                            : fw_arena_printf(arena, "%s to",
+                                              fw_number_text(low, sizeof low, 100 * band.low, 2)),
+               *where = posed ? "required poses" : fw_arena_printf(arena, "scene %s", scene);
+    FW_NEED(use && where ? use : NULL);
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
+        "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
+        "smaller holes (release-hole), a wider body there or %s lowers it",
+        where, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
+        breaks ? "do not bear" : "are not known to bear", pin->id, use,
+        fw_number_text(high, sizeof high, 100 * band.high, 4),
+        fw_number_text(x, sizeof x, 1e6 * arm->edge.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4),
+        posed ? "a smaller required box" : "less load");
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
+                                                  .flow = m->variant->flow,
+                                                  .number = FW_VERDICT_RIMS,
+                                                  .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
+                                                  .keep = fmin(fmax(0.98 / band.high, 1e-3), 0.99),
+                                                  .not_by_loads = posed,
+                                                  .not_by_width = true,
+                                                  .text = text};
+    return FW_OK;
+}
+
+/* ---- and of bodies, with holes and without ---- */
+
+typedef struct weak { /* what a body is not known to bear */
+    double share;     /* over what is allowed, at most */
+    const fw_verdict_arm *arm;
+    int body;
+    const char *what, *id;
+} weak;
+
+/* what a load that follows from the motion comes to: what hinges put on the body, and what its other loads may balance */
+static double load_of(const fw_verdict_load_end *end, int n, int at, const double *rest_N) {
+    double known = 0;
+    if (isfinite(end[at].known_N)) return fmax(end[at].known_N, rest_N[end[at].body]);
+    for (int k = 0; k < n; k++)
+        if (end[k].scene == end[at].scene && end[k].body == end[at].body &&
+            isfinite(end[k].known_N))
+            known += end[k].known_N;
+    return known + rest_N[end[at].body];
+}
+
+static void take_weak(weak *worst, double share, const fw_verdict_arm *arm, int body,
+                      const char *what, const char *id) {
+    if (share > worst->share) *worst = (weak){share, arm, body, what, id};
+}
+
+static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
+                            const fw_verdict_bending *b, weak *worst) {
+    fw_verdict_load_end *end;
+    int n;
+    for (int i = 0; !b->cut_N_per_m && i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
+        take_weak(worst, fw_verdict_arm_bears(m, i / 2, &b->arm[i], most[1], sqrt(most[0])),
+                  &b->arm[i], i % 2 ? pin->body_b : pin->body_a, "hinge", pin->id);
+    }
+    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    for (int k = 0; k < n; k++)
+        for (int i = 0; end[k].scene == scene && i < 2 * m->nhinge; i++) {
+            const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+            const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
+            if ((i % 2 ? pin->body_b : pin->body_a) != end[k].body) continue;
+            take_weak(worst, fw_verdict_arm_bears(m, i / 2, arm, 0, load_of(end, n, k, b->rest_N)),
+                      arm, end[k].body, end[k].what, end[k].id);
+        }
+    return FW_OK;
+}
+
+/* a body that is narrower than its hinges or loads ask for breaks before they do; scene NULL: in required poses */
+static fw_status say_weak(fw_arena *arena, const char *scene, const weak *w,
+                          fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    char high[32], wide[32], x[32], y[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s%s body %s is not known to bear what %s%s%s brings: at most %s %% of what is "
+        "allowed, where it is %s um wide, near (%s, %s) um, corners counted three times; make it "
+        "wider there, or %s",
+        scene ? "scene " : "required poses", scene ? scene : "", m->device->body[w->body].id,
+        w->what, w->id ? " " : "", w->id ? w->id : "",
+        fw_number_text(high, sizeof high, 100 * w->share, 3),
+        fw_number_text(wide, sizeof wide, 1e6 * w->arm->edge_wide_m, 3),
+        fw_number_text(x, sizeof x, 1e6 * w->arm->edge.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * w->arm->edge.y, 4),
+        scene ? "the load smaller" : "the required box smaller");
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene ? scene : "workspace",
+                                                  .flow = m->variant->flow,
+                                                  .number = FW_VERDICT_BODIES,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = fmin(fmax(0.98 / w->share, 1e-3), 0.99),
+                                                  .not_by_loads = scene == NULL,
+                                                  .not_by_width = true,
+                                                  .text = text};
+    return FW_OK;
+}
+
+static fw_status judge_bodies(fw_arena *arena, int scene, const fw_dynamics_motion *motion,
+                              fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    weak worst = {.share = 0};
+    if (!saw || !saw->bending.arm || !saw->bending.rest_N) return FW_OK;
+    FW_TRY(weakest_of(arena, m, scene, &saw->bending, &worst));
+    worst.share *= 1 + fw_verdict_motion_model_error(m, motion);
+    return worst.share > 1 ? say_weak(arena, m->device->scene[scene].name, &worst, v) : FW_OK;
+}
+
+fw_status fw_verdict_bending_judge(fw_arena *arena, int scene, const fw_dynamics_motion *motion,
+                                   fw_verdict_variant_verdict *v) {
+    int at[2] = {0, 0};
+    const fw_verdict_band band = fw_verdict_bending_rims(v->mechanism, motion, at);
+    FW_TRY(judge_bodies(arena, scene, motion, v));
+    if (!(band.high > 1)) return FW_OK;
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const int i = at[band.low > 1 ? 0 : 1];
+    return give_rims(arena, &saw->bending.arm[i], i, band, v->mechanism->device->scene[scene].name,
+                     v);
+}
+
+fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    int at = 0;
+    const double high = required_at_most(v, &at);
+    if (!(high > 1)) return FW_OK;
+    if (m->device->release_pitch_m > 0)
+        return give_rims(arena, &v->arm[at], at, (fw_verdict_band){0, high}, NULL, v);
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[at / 2].pin];
+    const weak worst = {high, &v->arm[at], at % 2 ? pin->body_b : pin->body_a, "hinge", pin->id};
+    return say_weak(arena, NULL, &worst, v);
 }

@@ -88,14 +88,14 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                              const fw_verdict_strain_monitor *monitor, int k, const char *scene,
                              fw_verdict_hinge_verdict *out) {
     const fw_dynamics_peak *peak = &motion->peak[by->hinge->pin];
-    const fw_verdict_strain_peak *strain = &monitor->hinge[k];
+    const fw_verdict_largest *strain = &monitor->hinge[k].strain;
     const fw_flexure_result *c = &by->hinge->closed_form;
     double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
     out->scene = scene;
     out->peak_angle_rad = peak->angle_rad;
     out->angle_error_rad = peak->error_rad;
-    out->peak_strain = strain->strain;
-    out->utilisation = strain->strain / out->strain_limit;
+    out->peak_strain = strain->value;
+    out->utilisation = strain->value / out->strain_limit;
     out->force_share = out->utilisation > by_angle ? 1.0 - by_angle / out->utilisation : 0.0;
     out->t_s = strain->t_s;
     /* a run that was ended went a whole turn, or to several times a limit: no error of its own changes that */
@@ -103,11 +103,13 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                          ? 0.0
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
-    double moved = fw_verdict_motion_model_error(by->m, motion);
+    const bool lost = monitor->hinge[k].lost;
+    double moved = lost ? fw_verdict_model_not_known : fw_verdict_motion_model_error(by->m, motion);
     double bent = fw_verdict_bending_counted(motion);
     out->numeric = numeric;
     double stays = fmin(moved, fw_verdict_motion_lasting_error(by->m));
-    double least = fmin(strain->least + strain->between, strain->strain) / out->strain_limit;
+    double least =
+        fmin(monitor->hinge[k].least + strain->between, strain->value) / out->strain_limit;
     double less = fw_verdict_motion_lasting_error(by->m) - fw_verdict_motion_lasting_above(by->m);
     /* not of a figure that stands for the reference cases */
     bool usual =
@@ -118,9 +120,19 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     if (out->utilisation > 0) out->lasting_low += 1 - least / out->utilisation;
     out->utilisation_low = fmax(0.0, least * (1.0 - moved - bent - c->error.strain) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + up + c->error.above) + numeric;
+    double share = out->utilisation > 0 ? 1 / out->utilisation : 0, kept = least * share;
+    double common = fmin(fw_verdict_motion_lasting_error(by->m), moved);
+    double above = fmin(fw_verdict_motion_lasting_above(by->m), up - bent);
+    out->parts = (fw_verdict_band_parts){.root = {kept * c->error.strain, c->error.above},
+                                         .stiffness = {kept * common, above},
+                                         .model = {kept * (moved - common), up - bent - above},
+                                         .place = {1 - kept, 0},
+                                         .bodies = {kept * bent, bent},
+                                         .numbers = {share * numeric, share * numeric}};
     chance(by, out);
     FW_TRY(count_fatigue(arena, by, monitor->root ? monitor->root[k] : NULL, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
+    if (lost && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
     collide(by->drawn, out);
     return FW_OK;
 }
@@ -179,6 +191,12 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - low) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + out->lasting);
     if (!workspace->certified) out->utilisation_high += numeric;
+    double open = out->utilisation > 0 ? numeric / out->utilisation : 0;
+    out->parts = (fw_verdict_band_parts){.root = {c->error.strain, c->error.above},
+                                         .stiffness = {moved, moved},
+                                         .model = {load->relief, load->give},
+                                         .place = {fades, 0},
+                                         .numbers = {open, workspace->certified ? 0 : open}};
     chance(by, out);
     workspace_fatigue(by, out);
     out->decision = decide(out->utilisation_low, out->utilisation_high);
@@ -252,7 +270,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     const bool brief = is_brief(options, v);
     FW_TRY(fw_verdict_clearance_begin(arena, options->hinges_only ? NULL : layout, m,
                                       !brief && !v->corner, watch, v));
-    watch[0].ways = watch[1].ways = options->ways || !(brief && v->corner);
+    watch[0].ways = watch[1].ways = options->ways || !(options->bounded || (brief && v->corner));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
@@ -281,7 +299,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
-        FW_TRY(fw_verdict_bending_judge(arena, scene, v->motion[i], v));
+        FW_TRY(fw_verdict_bending_judge(arena, (int)i, v->motion[i], v));
         FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief || options->bounded,
                                           diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
@@ -464,7 +482,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     const bool brief = is_brief(options, v) || v->corner || options->hinges_only;
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
-    if (!options->hinges_only) FW_TRY(fw_verdict_stiction_judge(arena, m, brief, v));
+    if (!options->hinges_only)
+        FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
     FW_TRY(fw_verdict_bending_judge_required(arena, v));

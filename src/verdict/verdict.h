@@ -19,6 +19,16 @@ const char *fw_verdict_decision_text(fw_verdict_decision decision);
 bool fw_verdict_is_worse(fw_verdict_decision a, fw_verdict_decision b);
 fw_verdict_decision fw_verdict_worse(fw_verdict_decision a, fw_verdict_decision b);
 
+/* what the band of a utilisation is made of, shares of it downwards and upwards */
+typedef struct fw_verdict_band_parts {
+    double root[2];      /* law of the peak strain */
+    double stiffness[2]; /* of the closed form, that is of solids */
+    double model[2];     /* step to the next level of the hinges */
+    double place[2];  /* where the moment stands at a root, and what blocks give along the strip */
+    double bodies[2]; /* that bend */
+    double numbers[2];
+} fw_verdict_band_parts;
+
 typedef struct fw_verdict_hinge_verdict {
     const char *id;    /* joint */
     const char *flow;  /* of the governing variant, may be NULL */
@@ -30,6 +40,7 @@ typedef struct fw_verdict_hinge_verdict {
     /* relative parts of it, upwards and downwards, that neither a tighter run nor a better model of
        the hinges would take away */
     double lasting, lasting_low;
+    fw_verdict_band_parts parts;
     double t_s; /* NaN for the workspace */
     fw_verdict_decision decision;
     int joint;

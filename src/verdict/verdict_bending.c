@@ -55,7 +55,7 @@ static double gone(const fw_verdict_bending *b, const fw_mechanism_hinge *h,
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                           const fw_dynamics_instant *now) {
     double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
-    fw_verdict_strain_peak *peak = b->peak + 1;
+    fw_verdict_largest *peak = b->peak + 1;
     if (now->begins) /* no parabola across a jump */
         for (int i = 0; i <= 2 * m->nhinge; i++)
             b->peak[i].samples = 0;
@@ -65,20 +65,20 @@ static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                      squared = force[0] * force[0] + force[1] * force[1],
                      moment = fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]);
         sum += squared;
-        fw_verdict_strain_peak_add(&peak[2 * k], now->t_s, squared);
-        fw_verdict_strain_peak_add(&peak[2 * k + 1], now->t_s, moment);
-        most[2 * k] = peak[2 * k].strain;
-        most[2 * k + 1] = peak[2 * k + 1].strain;
+        fw_verdict_largest_add(&peak[2 * k], now->t_s, squared);
+        fw_verdict_largest_add(&peak[2 * k + 1], now->t_s, moment);
+        most[2 * k] = peak[2 * k].value;
+        most[2 * k + 1] = peak[2 * k + 1].value;
     }
-    const double before = b->peak->strain;
-    fw_verdict_strain_peak_add(b->peak, now->t_s, sum);
+    const double before = b->peak->value;
+    fw_verdict_largest_add(b->peak, now->t_s, sum);
     if (sum > b->hardest_N2) {
         b->hardest_N2 = sum;
         for (int k = 0; k < m->nhinge; k++)
             for (int i = 0; i < 2; i++)
                 b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
     }
-    if (b->peak->strain > before) b->beside = sqrt(b->peak->strain / b->hardest_N2);
+    if (b->peak->value > before) b->beside = sqrt(b->peak->value / b->hardest_N2);
 }
 
 /* what a hinge puts on its body at a side, in the axes in which that was drawn */
@@ -86,6 +86,22 @@ typedef struct put {
     fw_geometry_vec2 force_N;
     double moment_Nm;
 } put;
+
+/* what acts on a body beside its hinges is what these put on it together, and the inertia */
+static void record_rests(fw_verdict_bending *b, const fw_mechanism *m,
+                         const fw_dynamics_instant *now) {
+    for (int i = 0; i < 2 * m->nbody; i++)
+        b->rest[i] = 0;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const int j = m->hinge[i / 2].pin, body = i % 2 ? m->pin[j].body_b : m->pin[j].body_a;
+        const double sign = i % 2 ? 1 : -1;
+        if (body == FW_GROUND) continue;
+        b->rest[2 * body] += sign * now->reaction_N[2 * j];
+        b->rest[2 * body + 1] += sign * now->reaction_N[2 * j + 1];
+    }
+    for (int i = 0; i < m->nbody; i++)
+        b->rest_N[i] = fmax(b->rest_N[i], hypot(b->rest[2 * i], b->rest[2 * i + 1]));
+}
 
 static put of_side(const fw_verdict_bending *b, const fw_mechanism_pin *pin, int j, int side,
                    const fw_dynamics_instant *now) {
@@ -189,9 +205,11 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
         for (int k = 0; k <= 2 * m->nhinge; k++)
-            b->peak[k] = (fw_verdict_strain_peak){0};
+            b->peak[k] = (fw_verdict_largest){0};
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
+        for (int i = 0; b->rest_N && i < m->nbody; i++)
+            b->rest_N[i] = 0;
         for (int i = 0; b->cut_N_per_m && i < 2 * m->nhinge; i++)
             b->cut_N_per_m[i] = 0;
         return;
@@ -221,6 +239,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         }
     }
     record_forces(b, m, now);
+    record_rests(b, m, now);
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
@@ -253,9 +272,10 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
     FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
-    FW_NEED(bending->peak =
-                fw_arena_array(arena, fw_verdict_strain_peak, 2 * (size_t)m->nhinge + 1));
+    FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 2 * (size_t)m->nhinge + 1));
     if (straight) return worst_of(arena, m, arm, &bending->worst);
+    FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
+    bending->rest = bending->rest_N + m->nbody;
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
     FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
@@ -382,7 +402,10 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, con
     if (v->straight && !straight) v->arm = NULL, v->straight = false;
     if (v->arm || !layout || !layout->drawn) return FW_OK;
     if (straight) {
-        FW_NEED(arm = fw_arena_array(arena, fw_verdict_arm, 2 * (size_t)m->nhinge));
+        fw_verdict_load_end *load;
+        int nload;
+        FW_TRY(fw_verdict_load_ends(arena, m, &load, &nload)); /* their ways stay unknown */
+        FW_NEED(arm = fw_arena_array(arena, fw_verdict_arm, 2 * (size_t)m->nhinge + (size_t)nload));
         FW_TRY(straight_arms(arena, m, layout, arm, &v->straight));
     }
     if (!v->straight) FW_TRY(fw_verdict_body_arms(arena, m, layout, &arm));
@@ -427,128 +450,4 @@ double fw_verdict_bending_moving(const fw_dynamics_motion *motion) {
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
     const double share = fw_verdict_bending_moving(motion);
     return share > fw_verdict_bending_told ? share : 0;
-}
-
-/* ---- rims of release holes ---- */
-
-static const double fw_verdict_rim = 3; /* Kirsch: of a hole in a wide plate that is pulled */
-
-/* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
-typedef struct brought {
-    double moment_Nm, force_N, cut_N_per_m;
-} brought;
-
-/* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
-   every strip, and of the narrowest one most; walls farther out leave more */
-static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_arm *arm, int i,
-                               const brought *by) {
-    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
-    if (!arm->known || !limit) return (fw_verdict_band){0, 0};
-    const double allowed_N_per_m =
-        limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
-    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
-    const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
-    const double high = fw_verdict_rim *
-                        (by->moment_Nm * arm->edge_m2 + by->force_N * arm->edge_m) /
-                        (fmin(made, 1) * fmin(made, 1));
-    const double low = by->cut_N_per_m / (fmax(made, 1) * fmax(made, 1));
-    return (fw_verdict_band){low / allowed_N_per_m, high / allowed_N_per_m};
-}
-
-static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
-    const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
-    return (brought){most[1], sqrt(most[0]), b->cut_N_per_m[i]};
-}
-
-fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                                        int at[2]) {
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    fw_verdict_band worst = {0, 0};
-    if (!saw || !saw->bending.arm || !saw->bending.cut_N_per_m)
-        return (fw_verdict_band){(double)NAN, (double)NAN};
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const brought by = in_motion(m, &saw->bending, i);
-        const fw_verdict_band here = rims_of(m, &saw->bending.arm[i], i, &by);
-        if (here.low > worst.low) worst.low = here.low, at[0] = i;
-        if (here.high > worst.high) worst.high = here.high, at[1] = i;
-    }
-    const double off = fw_verdict_motion_model_error(m, motion);
-    return (fw_verdict_band){worst.low * fmax(1 - off, 0), worst.high * (1 + off)};
-}
-
-/* No required pose turns a hinge further, or has a larger joint force, than is proved of all of them; what drift and
-   give of the hinges add to strains they are taken to add to forces. Where nothing bounds that (FW-D535) it is left
-   out: the poses are undecided. */
-double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_workspace_result *w = &v->workspace;
-    double worst = 0;
-    if (!v->arm || !w->required || !w->reachable || !(m->device->release_pitch_m > 0))
-        return (double)NAN;
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const int pin = m->hinge[i / 2].pin;
-        if (pin >= FW_SIX) continue;
-        const fw_workspace_load *load = &w->load[pin];
-        const double more =
-            (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
-        const brought by = {.moment_Nm = m->pin[pin].stiffness_Nm_per_rad *
-                                         (fabs(w->peak[pin].angle_rad) + w->peak[pin].error_rad),
-                            .force_N = load->known ? more * load->most_N : 0};
-        const double high = rims_of(m, &v->arm[i], i, &by).high;
-        if (high > worst) worst = high, *at = i;
-    }
-    return worst * (1 + fw_verdict_motion_lasting_error(m));
-}
-
-/* band: over what is allowed, of the rims beside end i; of required poses its low end is not known */
-static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, fw_verdict_band band,
-                           const char *scene, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-    const bool breaks = band.low > 1, posed = scene == NULL;
-    char low[32], high[32], x[32], y[32];
-    const char *use = posed ? "at most"
-                            : fw_arena_printf(arena, "%s to",
-                                              fw_number_text(low, sizeof low, 100 * band.low, 2)),
-               *where = posed ? "required poses" : fw_arena_printf(arena, "scene %s", scene);
-    FW_NEED(use && where ? use : NULL);
-    const char *text = fw_arena_printf(
-        arena,
-        "in %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
-        "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
-        "smaller holes (release-hole), a wider body there or %s lowers it",
-        where, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
-        breaks ? "do not bear" : "are not known to bear", pin->id, use,
-        fw_number_text(high, sizeof high, 100 * band.high, 4),
-        fw_number_text(x, sizeof x, 1e6 * arm->edge.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4),
-        posed ? "a smaller required box" : "less load");
-    FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
-                                                  .flow = m->variant->flow,
-                                                  .number = FW_VERDICT_RIMS,
-                                                  .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
-                                                  .keep = fmin(fmax(0.98 / band.high, 1e-3), 0.99),
-                                                  .not_by_loads = posed,
-                                                  .not_by_width = true,
-                                                  .text = text};
-    return FW_OK;
-}
-
-fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_device_scene *scene,
-                                   const fw_dynamics_motion *motion,
-                                   fw_verdict_variant_verdict *v) {
-    int at[2] = {0, 0};
-    const fw_verdict_band band = fw_verdict_bending_rims(v->mechanism, motion, at);
-    if (!(band.high > 1)) return FW_OK;
-    const fw_verdict_strain_monitor *saw = motion->observed;
-    const int i = at[band.low > 1 ? 0 : 1];
-    return give_rims(arena, &saw->bending.arm[i], i, band, scene->name, v);
-}
-
-fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    int at = 0;
-    const double high = fw_verdict_bending_rims_required(v, &at);
-    if (!(high > 1)) return FW_OK;
-    return give_rims(arena, &v->arm[at], at, (fw_verdict_band){0, high}, NULL, v);
 }

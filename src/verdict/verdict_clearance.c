@@ -296,6 +296,11 @@ static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const 
     else if (c->box == FW_NONE && !l->at.lane)
         mend = "draw them further apart or let them move less; where they are to meet, give the "
                "scene a <contact>";
+    if (l->given_up && c->low_m > c->required_m)
+        mend =
+            "that is enough, but so long a scene is followed in parts, each as if the motion were "
+            "off by 10 % at "
+            "most, and it may be off by more: shorten the scene, or make bodies that give stiffer";
     FW_NEED(*text =
                 fw_arena_printf(arena, "%s and %s %s in %s, at (%s, %s) um%s: %s", name_of(l->at.a),
                                 name_of(l->at.b), what, where, place_text(x, l->at.at_a.x),
@@ -494,8 +499,8 @@ static seen most_of_scenes(const fw_verdict_variant_verdict *v, int k) {
         const fw_dynamics_peak *peak = &motion->peak[pin];
         double error = isfinite(peak->error_rad) ? peak->error_rad : 0;
         most.turn = fmax(most.turn, fabs(peak->angle_rad) * (1 + off) + error);
-        most.strain = fmax(most.strain, saw->hinge[k].strain * (1 + off));
-        most.forced = fmax(most.forced, saw->hinge[k].forced + off * saw->hinge[k].strain);
+        most.strain = fmax(most.strain, saw->hinge[k].strain.value * (1 + off));
+        most.forced = fmax(most.forced, saw->hinge[k].forced + off * saw->hinge[k].strain.value);
     }
     return most;
 }

@@ -53,9 +53,11 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
                                    fw_verdict_variant_verdict *v);
 /* false: they may have to be */
 bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v);
-/* a reason of v where rims of release holes may not bear the scene, or required poses (FW-D575) */
-fw_status fw_verdict_bending_judge(fw_arena *arena, const fw_device_scene *scene,
-                                   const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v);
+enum { FW_VERDICT_BODIES = 538 }; /* FW-Dnnn: a body is not known to bear what is brought */
+/* a reason of v where a body (FW-D538) or the rims of its release holes (FW-D575) may not bear the scene, or required
+   poses */
+fw_status fw_verdict_bending_judge(fw_arena *arena, int scene, const fw_dynamics_motion *motion,
+                                   fw_verdict_variant_verdict *v);
 fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v);
 
 /* ---- verdict_out_of_plane.c: plates on flexures ---- */

@@ -15,7 +15,8 @@
        it would touch with voltages higher by what fringe fields can do: inconclusive,
      - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
        inconclusive,
-     - nothing says what its model of the hinges is off by: inconclusive,
+     - nothing says what its model of the hinges is off by, or the strain of a hinge is not known at an
+       instant: inconclusive,
      - it does not start as stated, or its energy does not add up: inconclusive.
    Test: test_program.py. */
 
@@ -41,8 +42,7 @@ static fw_status add(fw_verdict_variant_verdict *v, const fw_device_scene *scene
 
 static const fw_diag *formula_ended(const fw_diags *diags) {
     for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].severity == FW_ERROR && diags->item[i].number == 242)
-            return &diags->item[i];
+        if (diags->item[i].ended != FW_ENDED_NOT) return &diags->item[i];
     return NULL;
 }
 
@@ -213,6 +213,29 @@ static fw_status judge_beside(fw_arena *arena, const fw_device_scene *scene,
                fw_arena_printf(arena, "in scene %s %s", scene->name, motion->ledger.undecided));
 }
 
+/* an instant without a strain: a peak that nobody saw may be there */
+static fw_status judge_strains(fw_arena *arena, const fw_device_scene *scene,
+                               const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const fw_mechanism *m = v->mechanism;
+    char at[32];
+    int k = 0;
+    while (saw && k < m->nhinge && !saw->hinge[k].lost)
+        k++;
+    if (!saw || k == m->nhinge) return FW_OK;
+    return add(v, scene, 597, FW_INCONCLUSIVE, 0.5,
+               fw_arena_printf(
+                   arena,
+                   "the strain of hinge %s in scene %s at %s ms is not known: %s; lower the load "
+                   "or the displacement that bends it",
+                   m->pin[m->hinge[k].pin].id, scene->name,
+                   fw_number_text(at, sizeof at, 1e3 * saw->hinge[k].lost_s, 4),
+                   motion->ledger.hinge.used == FW_HINGE_ELASTICA
+                       ? "no exact beam was found that bears its force in its place"
+                       : "it is pressed beyond its buckling load, of which its closed form knows "
+                         "nothing (--hinge-model elastica may)"));
+}
+
 /* what the run itself says is not to be relied on: another start than the stated one, an energy that
    does not add up */
 static fw_status judge_reliability(const fw_device_scene *scene, const fw_diags *said,
@@ -245,6 +268,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(judge_pull_in(arena, scene, p, v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));
+    FW_TRY(judge_strains(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
     return judge_stability(arena, scene, v->motion[i], diags, v);
 }

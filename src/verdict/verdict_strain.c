@@ -36,7 +36,8 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     arm->length_m += length;
     if (w < arm->narrow_m) arm->narrow_m = w, arm->narrow = at;
     double edge = 6 * vec_length(r) / (w * w) + 1 / w;
-    if (edge > arm->edge_m) arm->edge_m = edge, arm->edge = at, arm->along = along;
+    if (edge > arm->edge_m)
+        arm->edge_m = edge, arm->edge_wide_m = w, arm->edge = at, arm->along = along;
     arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
 }
 
@@ -54,6 +55,103 @@ void fw_verdict_arm_cut(const double *at, int n, double *middle, fw_verdict_arm 
         arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
     }
 }
+
+/* ---- where loads act ---- */
+
+typedef struct ends {
+    const fw_mechanism *m;
+    fw_verdict_load_end *end;
+    int n, scene;
+} ends;
+
+static void add_end(ends *to, int body, double x_m, double y_m, double known_N, const char *what,
+                    const char *id) {
+    const double same_m = 1e-9;
+    if (body == FW_GROUND) return;
+    const fw_geometry_vec2 at = fw_mechanism_local_place(to->m, body, x_m, y_m);
+    int first = 0;
+    while (first < to->n &&
+           (to->end[first].body != body || vec_distance(to->end[first].at, at) > same_m))
+        first++;
+    to->end[to->n++] = (fw_verdict_load_end){to->scene, body, first, at, known_N, what, id};
+}
+
+/* in the bar behind the fingers, or in the rotor's face: fingers bear their own shares only */
+static void add_rotor(ends *to, const fw_device_comb *c) {
+    const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
+    const double back =
+        c->kind == FW_ELECTRODES_COMB ? length - 0.5 * c->overlap_m + 0.5 * FW_FINGER_WIDTH_M : 0;
+    const double stator = c->body_a == FW_GROUND ? 0 : to->m->drawn[c->body_a].phi_rad,
+                 turn = c->direction_rad + stator - to->m->drawn[c->body_b].phi_rad;
+    add_end(to, c->body_b, c->bx_m - back * cos(turn), c->by_m - back * sin(turn), (double)NAN,
+            "comb drive", c->id);
+}
+
+static void add_scene(ends *to, const fw_device_scene *s) {
+    const double by = s->duration_s;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_device_force *f = &s->force[i];
+        add_end(to, f->body, f->x_m, f->y_m,
+                hypot(f->fx_N, f->fy_N) * fw_quantity_law_largest(f->law, by), "force", NULL);
+    }
+    for (int i = 0; i < s->ntendon; i++) {
+        const fw_device_tendon *t = &s->tendon[i];
+        for (int k = 0; k < t->neyelet; k++) /* a cable that passes pulls from two sides */
+            add_end(to, t->eyelet[k].body, t->eyelet[k].x_m, t->eyelet[k].y_m,
+                    t->pull_N * fw_quantity_law_largest(t->law, by) *
+                        (k > 0 && k + 1 < t->neyelet ? 2 : 1),
+                    "eyelet of tendon", t->id);
+    }
+    for (int i = 0; i < s->ncomb; i++)
+        add_rotor(to, &s->comb[i]);
+    for (int i = 0; i < s->ncontact; i++) {
+        const fw_device_contact_use *c = &s->contact[i];
+        if (c->joint != FW_NONE) continue;
+        add_end(to, c->body_a, c->ax_m, c->ay_m, (double)NAN, "contact", c->id);
+        add_end(to, c->body_b, c->bx_m, c->by_m, (double)NAN, "contact", c->id);
+    }
+    for (int i = 0; i < to->m->nspring; i++) {
+        const fw_device_spring *k = &to->m->spring[i];
+        add_end(to, k->body_a, k->ax_m, k->ay_m, (double)NAN, "spring", k->id);
+        add_end(to, k->body_b, k->bx_m, k->by_m, (double)NAN, "spring", k->id);
+    }
+}
+
+fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *m, fw_verdict_load_end **end,
+                               int *n) {
+    const fw_device *d = m->device;
+    const int scenes = d ? d->nscene : 0; /* a mechanism alone has none */
+    size_t most = 0;
+    for (int i = 0; i < scenes; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        most += (size_t)(s->nforce + s->ncomb + 2 * s->ncontact + 2 * m->nspring);
+        for (int k = 0; k < s->ntendon; k++)
+            most += (size_t)s->tendon[k].neyelet;
+    }
+    ends to = {.m = m};
+    FW_NEED(to.end = fw_arena_array(arena, fw_verdict_load_end, most));
+    for (int i = 0; i < scenes; i++) {
+        to.scene = i;
+        if (fw_device_in_flow(d->scene[i].flow, m->variant->flow)) add_scene(&to, &d->scene[i]);
+    }
+    *end = to.end, *n = to.n;
+    return FW_OK;
+}
+
+double fw_verdict_arm_bears(const fw_mechanism *m, int hinge, const fw_verdict_arm *arm,
+                            double moment_Nm, double force_N) {
+    const double corner = 3;
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[hinge].limits);
+    if (!arm->known || !limit) return 0;
+    const double allowed_N_per_m =
+        limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
+    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
+    const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
+    return corner * (moment_Nm * arm->edge_m2 + force_N * arm->edge_m) /
+           (fmin(made, 1) * fmin(made, 1)) / allowed_N_per_m;
+}
+
+/* ---- and what such a way gives ---- */
 
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c) {
@@ -80,9 +178,9 @@ double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double
 
 /* ---- a largest value ---- */
 
-static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double between) {
-    if (strain <= p->strain) return;
-    p->strain = strain;
+static void keep(fw_verdict_largest *p, double t_s, double value, double between) {
+    if (value <= p->value) return;
+    p->value = value;
     p->t_s = t_s;
     p->between = between;
 }
@@ -90,24 +188,24 @@ static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double be
 /* peak of the parabola through three instants, spacings a and b about the middle one:
      slope = ((s1-s0) b/a + (s2-s1) a/b)/(a+b), bend = 2 ((s2-s1)/b - (s1-s0)/a)/(a+b)
      at t1 - slope/bend, s1 - slope^2/(2 bend)
-   in: times s, strains; error O(spacing^3) of the peak's height, and `between` bounds it; cost none
+   in: times s, values; error O(spacing^3) of the peak's height, and `between` bounds it; cost none
    source: Newton's divided differences; test_watch.c finds_the_peak_between_instants */
-void fw_verdict_strain_peak_add(fw_verdict_strain_peak *p, double t_s, double strain) {
+void fw_verdict_largest_add(fw_verdict_largest *p, double t_s, double value) {
     if (p->samples >= 2) {
         double a = p->t[1] - p->t[0], b = t_s - p->t[1];
-        double up = p->s[1] - p->s[0], down = strain - p->s[1];
+        double up = p->last[1] - p->last[0], down = value - p->last[1];
         if (a > 0.0 && b > 0.0 && up >= 0.0 && down <= 0.0 && up - down > 0.0) {
             double slope = (up * b / a + down * a / b) / (a + b);
             double bend = 2.0 * (down / b - up / a) / (a + b);
             double add = -slope * slope / (2.0 * bend);
-            keep(p, p->t[1] - slope / bend, p->s[1] + add, add);
+            keep(p, p->t[1] - slope / bend, p->last[1] + add, add);
         }
     }
-    keep(p, t_s, strain, 0.0); /* the first and the last instant have no neighbours */
+    keep(p, t_s, value, 0.0); /* the first and the last instant have no neighbours */
     p->t[0] = p->t[1];
-    p->s[0] = p->s[1];
+    p->last[0] = p->last[1];
     p->t[1] = t_s;
-    p->s[1] = strain;
+    p->last[1] = value;
     p->samples++;
 }
 
@@ -151,39 +249,73 @@ static bool is_there(const fw_flexure_elastica_result *r, double c, double s, do
            same_moment * fmax(fabs(r->wrench[0]), fabs(r->start_Nm));
 }
 
-/* The beam turned by theta under a dead force at W on its second body, in the first one's frame.
+/* Has the beam that was found the force that acts? Along a strip that is stiff a place is known to rounding of
+   1e-16 alone. */
+static const double same_force = 1e-3;
+
+static bool bears(const fw_flexure_elastica_result *r, const double force_N[2], double length_m) {
+    double off = hypot(r->wrench[1] - force_N[0], r->wrench[2] - force_N[1]);
+    return off <= same_force * hypot(force_N[0], force_N[1]) ||
+           off * length_m <= same_moment * fmax(fabs(r->wrench[0]), fabs(r->start_Nm));
+}
+
+/* as a motion with exact beams solves it (hinge_element.c): all of the place is given */
+static bool in_place(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
+                     fw_flexure_elastica *beam, const double twist[3], const double force_N[2]) {
+    const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                           {twist[0], twist[1], twist[2]}};
+    fw_flexure_elastica_result r;
+    double near[3];
+    fw_flexure_hinge_law_wrench(&h->law, rest, twist, near, NULL);
+    fw_flexure_elastica_near(beam, &task, twist, near, tolerance, &r);
+    return is_solved(&r) && bears(&r, force_N, fw_flexure_elastica_linear(beam)->length_m);
+}
+
+/* under the force that acts, beginning from the closed form */
+static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
+                        fw_flexure_elastica *beam, const fw_flexure_elastica_task *task,
+                        const double along[2], double apart_m) {
+    const double th = task->value[0], c = cos(0.5 * th), s = sin(0.5 * th);
+    fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
+    double u[2] = {0, 0}, moment = 0, pull = 0;
+    const bool placed = isfinite(apart_m);
+    const double length_m = fw_flexure_elastica_linear(beam)->length_m;
+    bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
+    if (under && pull >= pressed && fw_flexure_elastica_again(beam, task, followed)) return true;
+    bool held = (!under || pull < pressed) && placed &&
+                fw_flexure_hinge_law_held(&h->law, rest, th, along[1], apart_m, u, &moment, &pull);
+    const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
+    const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task->value[1],
+                              task->value[2]};
+    if (held) fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
+    if (is_solved(&r) && bears(&r, task->value + 1, length_m)) return true;
+    if (under)
+        fw_flexure_elastica_near(beam, task, twist, wrench, tolerance, &r);
+    else
+        fw_flexure_elastica_solve(beam, task, tolerance, false, &r);
+    const bool one = under && pull >= pressed; /* equilibrium with this force */
+    return is_solved(&r) && (one || !placed || is_there(&r, c, s, apart_m));
+}
+
+/* The beam turned by theta under a dead force at W on its second body, in the first one's frame; apart_m:
+   where W is on that body, along and across the axis half turned (NaN: not known).
    Where the strip is pressed, more than one equilibrium has this force: it is that near the closed
-   form's. A path that turns far leaves the closed form, and is not found from there by its place: then it
-   is sought by its force, and has to be at that place. Error 1e-8, and 1e-5 where one solution
+   form's. A path that turns far, and a strip that is pressed until it bows, leave the closed form, and are
+   not found from there: then the beam is sought by its force, and has to be at that place, or by its
+   place, and has to bear that force. Error 1e-8, and 1e-5 where one solution
    follows another. Cost 6 us (2 us then), and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
    docs/theory/hinge-models.md. Test: test_strain_exact.c. */
 static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
                     fw_flexure_elastica *beam, double th, const double along[2],
-                    const double *apart_m, fw_flexure_strip_strains *out) {
-    double c = cos(0.5 * th), s = sin(0.5 * th);
+                    const double apart_m[2], fw_flexure_strip_strains *out) {
+    const double c = cos(0.5 * th), s = sin(0.5 * th), w = apart_m[0], v = apart_m[1];
     const fw_flexure_elastica_task task = {
         {FW_END_THETA, FW_END_FX, FW_END_FY},
         {th, c * along[0] - s * along[1], s * along[0] + c * along[1]}};
-    fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
-    double u[2] = {0, 0}, moment = 0, pull = 0;
-    bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
-    bool held = (!under || pull < pressed) && apart_m &&
-                fw_flexure_hinge_law_held(&h->law, rest, th, along[1], *apart_m, u, &moment, &pull);
-    if (under && pull >= pressed && fw_flexure_elastica_again(beam, &task, followed)) {
-        fw_flexure_strip_strain_exact(&h->section, beam, out);
-        return true;
-    }
-    const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
-    const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task.value[1],
-                              task.value[2]};
-    if (held) fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
-    if (!is_solved(&r)) {
-        if (under)
-            fw_flexure_elastica_near(beam, &task, twist, wrench, tolerance, &r);
-        else
-            fw_flexure_elastica_solve(beam, &task, tolerance, false, &r);
-        if (!is_solved(&r) || (held && !is_there(&r, c, s, *apart_m))) return false;
-    }
+    const double twist[3] = {th, c * w - s * v, s * w + c * v};
+    if (!under_force(h, rest, beam, &task, along, w) &&
+        !(isfinite(w) && isfinite(v) && in_place(h, rest, beam, twist, task.value + 1)))
+        return false;
     fw_flexure_strip_strain_exact(&h->section, beam, out);
     return true;
 }
@@ -198,33 +330,33 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
     double c = cos(axis_rad), s = sin(axis_rad), by = -sense;
     const double along[2] = {by * (c * load->fx_N + s * load->fy_N),
                              by * (c * load->fy_N - s * load->fx_N)};
-    double apart = sense * (c * load->apart_m[0] + s * load->apart_m[1]);
-    const double *known = isfinite(apart) ? &apart : NULL;
+    const double apart[2] = {sense * (c * load->apart_m[0] + s * load->apart_m[1]),
+                             sense * (c * load->apart_m[1] - s * load->apart_m[0])};
     fw_flexure_hinge_rest rest = {0}; /* a pin's place does not move */
     if (beam || !load->pinned) rest = fw_flexure_hinge_rest_of(&h->law);
-    if (beam && by_beam(h, &rest, beam, th, along, known, out)) return true;
+    if (beam && by_beam(h, &rest, beam, th, along, apart, out)) return true;
     fw_flexure_strip_load strip;
-    fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, known,
-                             &strip);
+    fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along,
+                             isfinite(apart[0]) ? apart : NULL, &strip);
     strip.least_known = load->least_known;
     fw_flexure_strip_strain(&h->section, &strip, out);
-    return strip.held;
+    return strip.held && !beam;
 }
 
 void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *beam,
                              const fw_verdict_hinge_load *load, fw_verdict_hinge_strains *out) {
     fw_flexure_strip_strains now;
     if (isfinite(h->axis_rad)) {
-        out->held = strains_along(h, beam, load, h->axis_rad + load->frame_rad, &now);
+        out->known = strains_along(h, beam, load, h->axis_rad + load->frame_rad, &now);
         out->peak = now.peak, out->least = now.least;
         memcpy(out->root, now.root, sizeof now.root);
         return;
     }
     fw_verdict_hinge_load all = *load;
     all.least_known = 0; /* of every direction */
-    *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .held = true};
+    *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .known = true};
     for (int i = 0; i < DIRECTIONS; i++) {
-        if (!strains_along(h, NULL, &all, i * FW_TURN / DIRECTIONS, &now)) out->held = false;
+        if (!strains_along(h, NULL, &all, i * FW_TURN / DIRECTIONS, &now)) out->known = false;
         out->least = fmin(out->least, now.least);
         if (!(now.peak > out->peak)) continue;
         out->peak = now.peak;
@@ -276,7 +408,7 @@ static void strains(const fw_mechanism *m, fw_effects_hinge_model level,
         fw_verdict_hinge_strains s;
         fw_verdict_hinge_strain(&m->hinge[k], level == FW_HINGE_ELASTICA ? beam[k] : NULL, &load,
                                 &s);
-        at->strain[k] = s.peak;
+        at->strain[k] = s.known ? s.peak : (double)INFINITY;
     }
 }
 
@@ -335,17 +467,18 @@ double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
    step. Exact beams have no next level: what is left is what they have in common with solids. Where the
    step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
    equilibrium, the utilisation may be off by half: a verdict is then neither. */
-static const double model_not_known = 0.5;
+const double fw_verdict_model_not_known = 0.5;
 
 double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const fw_statics_level_step *s = x->level;
     double usual = fw_verdict_model_error.motion, common = fw_verdict_motion_lasting_error(m),
            off = 0, largest = 0;
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
-    if (s && s->unknown) return model_not_known;
+    if (s && s->unknown) return fw_verdict_model_not_known;
     if (!s || s->why_not || m->nhinge == 0) return usual;
     for (int k = 0; k < m->nhinge; k++) {
-        if (!isfinite(s->at.strain[k]) || !isfinite(s->up.strain[k])) return usual;
+        if (isinf(s->at.strain[k]) || isinf(s->up.strain[k])) return fw_verdict_model_not_known;
+        if (isnan(s->at.strain[k]) || isnan(s->up.strain[k])) return usual;
         off = fmax(off, fabs(s->up.strain[k] - s->at.strain[k]));
         largest = fmax(largest, s->at.strain[k]);
     }

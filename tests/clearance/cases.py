@@ -122,6 +122,15 @@ def roots(program):
         expect("pushed by %s, as made: %s" % (push, d["verdict"]), d["verdict"] == verdict)
         expect("only the larger push uses much of the way to the root",
                (c["way_share"] or 0) > 0.4 if push == "12 uN" else c["way_share"] is None)
+        said = subprocess.run([program, "check", path, "--set", "push=" + push, "--corners", "none", "--advice", "none",
+                               "--no-progress"], capture_output=True, text=True, check=False).stdout
+        way = re.search(r"^nearest: .*; (.*) and (.*) take ([\d.]+) % of the way until they meet", said, re.M)
+        if push == "12 uN":
+            expect("the line of the nearest names the pair and its share of the way",
+                   way and {way[1], way[2]} == {c["way_a"], c["way_b"]}
+                   and abs(float(way[3]) - 100 * c["way_share"]) < 0.1)
+        else:
+            expect("of less than half of a way nothing is said", way is None)
 
 
 def reasons(d, code):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measured values flow back: a mock lot of six wafers is logged, reported, calibrated and planned again, in one command
 each and with nothing copied between them; what cannot be is refused, with what there is."""
+import hashlib
 import json
 import math
 import pathlib
@@ -345,15 +346,34 @@ undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
                 head.write_bytes(beside)
                 self.assertIn(says, self.expect(reader(), 3).stderr, (name, k))
                 self.assertEqual(self.log.read_bytes(), b"".join(text), (name, k))
-        for reader in readers:  # without its head a log is read, and whoever reads it is told
-            self.log.write_bytes(whole)
+        for k, reader in enumerate(readers):  # without its head nothing shows what was removed
+            self.log.write_bytes(b"".join(lines[:-1]))
             head.unlink(missing_ok=True)
-            self.assertIn("whether lines were removed at the end of the log cannot be told [FW-D283]", reader().stderr)
+            self.assertIn("log.head, which is kept beside this log", self.expect(reader(), 3).stderr, k)
+            self.assertEqual((self.log.read_bytes(), head.exists()), (b"".join(lines[:-1]), False), k)
+        for left, status in ((kept.replace(b"=4", b"=0"), 0), (kept, 3)):  # a beginning that was interrupted; a log that is gone
+            self.log.unlink(missing_ok=True)
+            head.write_bytes(left)
+            self.expect(self.command("--entry", "S01; start=2026-11-02T08:01; end=2026-11-02T08:11; by=AB; thickness=50.1 um; "
+                                     "cracks or chipped edge=0", "-q"), status)
+
+    def unmark_head(self):
+        """the log as it was written before there were heads"""
+        before, lines = "", []
+        for line in self.log.read_text().splitlines():
+            words = line[:line.rindex("\tchain=")].replace("\thead=kept", "")
+            before = hashlib.sha256(f"{before}\n{words}".encode()).hexdigest()
+            lines.append(f"{words}\tchain={before}\n")
+        self.log.write_text("".join(lines))
+        pathlib.Path(f"{self.log}.head").unlink()
 
     def test_an_old_log(self):
         """one of before there were wafers is read, and goes on"""
         self.expect(self.command("--entry", "S01; start=2026-11-01T08:00; end=2026-11-01T08:08; by=AB; thickness=50.1"))
         self.assertNotIn("wafers=", self.log.read_text())
+        self.unmark_head()  # nor a head: it is read, and whoever reads it is told
+        self.assertIn("whether lines were removed at the end of the log cannot be told [FW-D283]",
+                      self.expect(self.command("-q")).stderr)
         self.expect(self.command())
         said = self.expect(run("calibrate", self.log, "--flow", SILICON), 3).stderr
         self.assertIn("holds no coupon", said)

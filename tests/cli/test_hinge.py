@@ -270,6 +270,16 @@ class Hinge(unittest.TestCase):
         again = {name: (out / name).read_bytes() for name in names}
         run("hinge", path, "--deck", out, "--level", "closed-form")
         self.assertEqual(again, {p.name: p.read_bytes() for p in out.iterdir()})
+        # of a crystal its constants, in axes that are turned as the hinge lies in it, and of the whole as the wafer lies
+        path.write_text(device([(leaf(400, 8, 4), 0), (leaf(400, 8, 4), 77)], crystal=True))
+        run("hinge", path, "--deck", out, "--level", "closed-form")
+        first = {}
+        for name in ("h0", "h1"):
+            deck = (out / f"hinge-{name}.inp").read_text()
+            self.assertIn("*ELASTIC, TYPE=ORTHO", deck)
+            x, y = (float(v) for v in re.search(r"SYSTEM=RECTANGULAR\n([^,]*), ([^,]*),", deck).groups())
+            first[name] = math.degrees(math.atan2(y, x))
+        self.assertAlmostEqual(((first["h0"] - first["h1"]) - 77 + 45) % 90 - 45, 0, places=6)
         missing = run("hinge", path, "--deck", self.here / "no/such/place")
         self.assertEqual(missing.returncode, 5, missing.stderr)
         self.assertFalse((self.here / "no").exists())

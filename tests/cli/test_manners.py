@@ -84,7 +84,13 @@ class Manners(unittest.TestCase):
         self.assertIn("did you mean 'al-masked-rie'?", run("check", "-", input=text).stderr)
         text = pathlib.Path(SIX_BAR).read_text().replace('ref="al-masked-rie"', 'ref="xyz"')
         self.assertIn("silicon-on-glass, soi-deep-rie", run("check", "-", input=text).stderr)
-        for command, options, near in (("simulate", ("--scene", "step-laod"), "'step-load'?"), ("simulate", ("--method", "chian"), "did you mean chain?"),
+        text = pathlib.Path(SIX_BAR).read_text().replace('ref="silicon-100"', 'ref="silicon-10"')
+        self.assertIn("did you mean 'silicon-100'?", run("check", "-", input=text).stderr)
+        fast = ("--corners", "none", "--advice", "none", "--hinge-model", "revolute", "--accuracy", "3e-2")
+        for command, options, near in (("mask", ("--mask-format", "svg,gdz"), "did you mean gds?"), ("check", ("--hinge-model", "elastika"), "mean elastica?"),
+                                       ("hinge", ("--level", "continum"), "did you mean continuum?"), ("check", ("--corners", "non"), "did you mean none?"),
+                                       ("modes", ("--at", "equilibrum"), "did you mean equilibrium?"), ("recipe", ("--planned", "S3=1 s", *fast), "'S03'?"),
+                                       ("simulate", ("--scene", "step-laod"), "'step-load'?"), ("simulate", ("--method", "chian"), "did you mean chain?"),
                                        ("simulate", ("--integrator", "radua5"), "did you mean radau5?"), ("check", ("--effects", "fricton"), "'friction'?")):
             done = run(command, SIX_BAR, *options)
             self.assertNotEqual(done.returncode, 0)
@@ -100,6 +106,8 @@ class Manners(unittest.TestCase):
         folds = re.findall(r'<section id="([\w-]+)" aria-labelledby="h-\1"><details( open="open")?><summary><h2', main)
         self.assertEqual(len(folds), main.count("<section "))
         self.assertEqual([name for name, opened in folds if opened], ["device", "hinges"])
+        # within them what few want is folded once more
+        self.assertRegex(main, r"<details><summary><h3>The hinges by models")
 
     def test_explain(self):
         want = run("explain", "FW-D204").stdout
@@ -115,6 +123,23 @@ class Manners(unittest.TestCase):
         self.assertEqual((first["severity"], first["line"], first["column"]), ("error", 1, 50))
         self.assertIn("did you mean 'name'?", first["message"])
         self.assertEqual(json.loads(run("check", SIX_BAR, "--json").stdout)["schema"], "flexwright.verdict/1")
+        wrong = "<device xmlns='urn:flexwright:device:1' name='x' nme='y'/>"
+        for command in ("plan", "simulate", "assemble", "statics", "modes", "mask", "recipe", "hinge", "workspace", "tradeoff", "study", "log"):
+            done = run(command, "-", "--json", input=wrong)
+            self.assertEqual((command, done.returncode, json.loads(done.stdout)["schema"]), (command, 3, "flexwright.diagnostics/1"))
+
+    def test_the_drawing_alone(self):
+        """the bytes of masks/FLOW.gds, on standard output too; of one flow, and in place of a directory"""
+        comb = ROOT / "docs/gallery/comb-stage/device.xml"
+        fast = ("--corners", "none", "--advice", "none", "--hinge-model", "revolute", "--accuracy", "3e-2", "-q")
+        with tempfile.TemporaryDirectory() as where:
+            run("mask", comb, *fast, "-o", where + "/all")
+            done = subprocess.run([PROGRAM, "mask", comb, *fast, "--gds", "-"], capture_output=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, b""))
+            self.assertEqual(done.stdout, pathlib.Path(where, "all/masks/silicon-on-glass.gds").read_bytes())
+            self.assertIn("--flow", run("mask", SIX_BAR, *fast, "--gds", where + "/x.gds").stderr)
+            self.assertEqual(run("mask", comb, "--gds", where + "/x.gds", "-o", where + "/both").returncode, 2)
+            self.assertEqual(sorted(os.listdir(where)), ["all"])
 
     KNOWN = set("m l c h re W W* n S f B f* B* rg RG w J j d gs cm q Q BT ET Tr Tm Tf Ts Tj Do".split())
 

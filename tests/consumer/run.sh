@@ -54,7 +54,9 @@ cmake --build found/build >/dev/null
 try find_package found/build/consumer
 
 # a program that was compiled before: its options are shorter, and nothing else has changed
-"$here/abi.py" "$here/former/flexwright.h" "$here/../../include/flexwright.h"
+for former in flexwright with-arrays; do # the first state, and the one that added arrays, progress and cancelling
+    "$here/abi.py" "$here/former/$former.h" "$here/../../include/flexwright.h"
+done
 # shellcheck disable=SC2046,SC2086
 cc -std=c17 $strict -I"$here/former" consumer.c -o former -L"$lib" -lflexwright
 try former ./former

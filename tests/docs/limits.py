@@ -27,6 +27,8 @@ CASES = {
     "Solids as hinges": (f"{THEORY}/flexures.xml", None, "hinge --json", '"level": ?"continuum"|"level": "ends".*"strain": 0\\.021'),
     "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=26um "
                          "--set body[coupler]/@width=26um --set body[rocker]/@width=26um", "FW-D510"),
+    "Strength of bodies": (f"{THEORY}/neck.xml", None, "check --corners none --advice none",
+                           r"neck: INCONCLUSIVE.*body arm is not known to bear what force brings.*where it is [67]"),
     "Flexures close to each other": ("docs/gallery/straight-stage/device.xml", None,
                                      "check --corners none --advice none --set flexure[leaf]/@length=1900um", r"1500 um apart, but their surfaces .*FW-D125"),
     "Paths with long straight pieces": ("tests/bad/path-ends-meet.xml", None, "check", "FW-D264"),

@@ -2,7 +2,7 @@
 """The worked examples of the pages about flexures, written again from their equations. SI units in and out."""
 import pathlib
 import re
-from math import atanh, cos, cosh, radians, sin, sinh, sqrt
+from math import atanh, cos, cosh, log, radians, sin, sinh, sqrt
 
 DEVICE = "tests/data/theory/flexures.xml"
 
@@ -13,15 +13,14 @@ def root_length(t, rho):
     return t * (0.4192 - 0.5972 * x - 0.1167 * x * x)
 
 
-def sum_of_page(value):
-    """G of (11a) as docs/theory/root-strain.md prints it"""
-    page = (pathlib.Path(__file__).resolve().parents[2] / "docs/theory/root-strain.md").read_text(encoding="utf-8")
-    text, total = re.search(r"^    G = (.*?)\n    eps", page, re.M | re.S).group(1), 0.0
-    for sign, number, product in re.findall(r"([+-]?) ?([0-9.]+)((?: [a-z]+(?:\^[0-9])?)*)", text):
-        term = float(sign + number)
-        for word in product.split():
-            name, _, power = word.partition("^")
-            term *= value[name] ** int(power or 1)
+def sum_of_table(*values):
+    """G of (11a), its terms as the table STRIP lists them"""
+    core = (pathlib.Path(__file__).resolve().parents[2] / "src/flexure/flexure_section.c").read_text(encoding="utf-8")
+    table, total = re.search(r"strip_term STRIP\[\] = \{(.*?)\n\};", core, re.S).group(1), 0.0
+    for number, powers in re.findall(r"\{([-+.0-9e]+), \{([^}]*)\}\}", table):
+        term = float(number)
+        for value, power in zip(values, powers.split(","), strict=False):
+            term *= value ** int(power)
         total += term
     return total
 
@@ -50,7 +49,7 @@ def arc(g):
     inner, outer = 1 - C1 / (r * t / 2), 1 + (C1 * ch * co + C2 * sh * si) / (r * t / 2)
     p, w, reach = h / (h + 4 * t), t / (3 * r), h * f / sqrt(6 * (1 + nu))
     d = nu * nu * f * reach * reach / (reach + 0.4192 * t)
-    G = sum_of_page({"x": x, "q": x ** (-2 / 3), "p": p, "nu": nu, "n": nu * f, "w": w})
+    G = sum_of_table(2 * log(x / 0.1) / log(12.5) - 1, 2 * (p - 1 / 9) / (10 / 14 - 1 / 9) - 1, nu, nu * f, sqrt(20 * w))
     bend, least = t / (2 * (L + 2 * dL)), t / (2 * (L + 2 * dL - 2 * d))
     return {"L": L, "dL": dL, "Kt": Kt, "D": D, "f": f, "xW": xW, "K": K, "kx": 1 / C_xx, "ky": 1 / C_yy, "F_i": inner,
             "F_o": outer, "G": G, "fit": bend * Kt * max((1 + w) * inner, (1 - w) * outer),

@@ -137,7 +137,7 @@ def examine(options, seed, wanted, where):
             continue
         hinge = {h["id"]: h for h in said["hinges"]}.get(names[worst])
         row[model] = {"verdict": said["verdict"], "wrong": compare(said, truths, names), "why": why.strip(),
-                      "utilisation": hinge["utilisation"], "band": hinge["utilisation_band"],
+                      "utilisation": hinge["utilisation"], "band": hinge["utilisation_band"], "parts": hinge.get("band_parts"),
                       "bands": {h["id"]: h["utilisation_band"] for h in said["hinges"]}}
     bands = [row[m].get("bands", {}) for m in ("default", "elastica")]
     row["apart"] = [k for k in bands[0] if k in bands[1]

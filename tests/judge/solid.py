@@ -32,7 +32,7 @@ COARSE = 0.25  # density of the flexures that do not govern
 def plane_stress(device, path, program, share):
     """what the judge says of the device where nothing has depth; the flexures stay where they are"""
     kept = strip.SOLID, strip.depth
-    strip.SOLID, strip.depth = (0.0,) * len(strip.SOLID), lambda *_: (1.0, 1.0, 1.0, 1.0)
+    strip.SOLID, strip.depth = ((1.0, 0, 0, 0, 0, 0),), lambda *_: (1.0, 1.0, 1.0, 1.0)
     try:
         path.write_text(device.model(), encoding="utf-8")
         roots = {name: [flexure.root(piece, end, 0) for piece, end in ((flexure.pieces[0], 0), (flexure.pieces[-1], 1))]

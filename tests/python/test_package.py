@@ -297,8 +297,10 @@ class Descriptions(unittest.TestCase):
 
     def test_wrong_use(self):
         d = flexwright.Device(SIX_BAR)
-        with self.assertRaises(FileNotFoundError):
+        with self.assertRaises(FileNotFoundError) as caught:
             flexwright.Device("there-is-none.xml")
+        self.assertIsInstance(caught.exception, flexwright.FileError)
+        self.assertEqual((caught.exception.code, caught.exception.file), ("FW-D220", "there-is-none.xml"))
         with self.assertRaisesRegex(flexwright.InputError, "step-load gentle-step"):
             d.simulate("nix")
         with self.assertRaisesRegex(TypeError, "did you mean accuracy"):

@@ -93,6 +93,7 @@ function shown() {
         bodies: m.mechanism.bodies.map((g) => [g.dataset.id, [...g.querySelectorAll("path")].map((p) => p.getAttribute("d")).join("")]),
         time: m.t ? m.time : null,
         tags: [...document.querySelectorAll("#panel-motion .hinge-tag")].map((g) => g.textContent),
+        course: m.t && !m.course.root.hidden ? { id: m.courseShown.id, left: [...m.course.root.querySelectorAll(".leftout-row .leftout-name")].map((x) => x.textContent).sort(), series: m.courseShown.id === ":left" ? [] : m.course.data.series.map((x) => x.values.map((v) => v === null ? null : v * m.courseUnit)) } : null,
         curves: m.t ? m.angles.data.series.map((x) => [x.name, x.values]) : null,
         fields: [...document.querySelectorAll("#panel-form input[data-path]")].filter((x) => !x.dataset.dirty).map((x) => [x.dataset.path, x.value]),
         notes: [...document.querySelectorAll("#panel-form details.element")].map((x) => [x.querySelector(".element-name").textContent, x.querySelector(".element-id").textContent, x.querySelector(".element-note").textContent]),
@@ -109,7 +110,7 @@ async function fresh() {
     const { state, parts } = globalThis.flexwright;
     const { token } = await (await fetch("/api/session")).json();
     const options = Object.fromEntries(Object.entries(state.options).map(([k, v]) => [k, ["rtol", "accuracy"].includes(k) ? Number(v) : v]));
-    const response = await fetch("/api/preview", { method: "POST", headers: { "X-Flexwright-Token": token, "Content-Type": "application/json" }, body: JSON.stringify({ text: parts.editor.text, set: state.set, options }) });
+    const response = await fetch("/api/preview", { method: "POST", headers: { "X-Flexwright-Token": token, "Content-Type": "application/json" }, body: JSON.stringify({ text: parts.editor.text, set: state.set, options, rates: true }) });
     const answer = await response.json();
     return response.ok ? answer : { status: "refused", diagnostics: [{ severity: "error", message: answer.error.message }] };
 }
@@ -149,6 +150,7 @@ function compareMotion(page, now) {
             if (rule[i]) assert.deepEqual(values.slice(0, 40), m.angle_rad.slice(0, 40).map((r) => r[i] * (100 / rule[i])), `curve of ${name}`);
         }
     }
+    compareCourse(page, now);
     let i = m.t_s.findLastIndex((t) => t <= page.time);
     i = Math.min(Math.max(i, 0), m.t_s.length - 2);
     const f = m.t_s[i + 1] > m.t_s[i] ? Math.min((page.time - m.t_s[i]) / (m.t_s[i + 1] - m.t_s[i]), 1) : 0;
@@ -157,6 +159,25 @@ function compareMotion(page, now) {
         const share = Math.abs(m.angle_rad[i][k] + f * (m.angle_rad[i + 1][k] - m.angle_rad[i][k])) / rule[k];
         const told = Number(/ (\d+) %$/.exec(page.tags[k])?.[1]);
         assert.ok(Math.abs(told - percent(share)) <= 1, `hinge ${pin.id} is told with ${page.tags[k]}, and has ${share}`);
+    });
+}
+
+/** The third plot: a probe, how fast it changes, or what bodies do, as the fresh answer has it. */
+function compareCourse(page, now) {
+    if (!page.course) return;
+    const m = now.motion;
+    const { id, series, left } = page.course;
+    const probe = m.probes?.find((x) => x.id === id || `:rate ${x.id}` === id);
+    const moving = now.bodies.flatMap((b, i) => (b.fixed ? [] : [[b, i]]));
+    const wanted = probe ? [id === probe.id ? probe.value : probe.rate]
+        : id === ":turning" ? moving.map(([, i]) => m.v.map((row) => row[3 * i + 2]))
+            : id === ":turn" ? moving.map(([b, i]) => m.q.map((row) => row[3 * i + 2] - b.rest[2]))
+                : id.startsWith(":v ") ? moving.filter(([b]) => id === `:v ${b.id}`).flatMap(([, i]) => [0, 1].map((k) => m.v.map((row) => row[3 * i + k]))) : [];
+    if (id === ":left") assert.deepEqual(left, now.ledger.filter((e) => e.called_for).map((e) => e.id).sort());
+    if (wanted.length) assert.equal(series.length, wanted.length, `curves of ${id}`);
+    wanted.forEach((values, i) => {
+        const most = Math.max(1e-300, ...values.map((v) => Math.abs(v ?? 0)));
+        assert.ok(values.every((v, k) => v === series[i][k] || Math.abs(v - series[i][k]) <= 1e-9 * most), `curve ${i} of ${id}`);
     });
 }
 
@@ -299,6 +320,12 @@ export const actions = {
     async scene(page, d) {
         const names = await page.locator("#scene option").evaluateAll((list) => list.map((o) => o.value));
         if (names.length) await page.selectOption("#scene", d.of(names));
+    },
+    /** Another course in the third plot. */
+    async course(page, d) {
+        const box = page.locator('.plots select[aria-label="What is plotted"]:visible');
+        if (!(await box.count())) return;
+        await box.selectOption(d.of(await box.locator("option").evaluateAll((list) => list.map((o) => o.value))));
     },
     async field(page, d) {
         const inputs = page.locator("#panel-form .slider input.value:visible");

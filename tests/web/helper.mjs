@@ -17,6 +17,9 @@ const require = createRequire(join(libraries, "package.json"));
 const { chromium } = require("playwright-core");
 export const axeSource = require("axe-core").source;
 
+/** How long a page is waited for; a machine that much else keeps busy needs more (FW_PATIENCE_MS). */
+const PATIENCE_MS = Number(process.env.FW_PATIENCE_MS ?? 15000);
+
 let browser = null;
 export async function theBrowser() {
     browser ??= await chromium.launch({ executablePath: process.env.FW_CHROMIUM, args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"] });
@@ -68,7 +71,7 @@ export const SMALL = { width: 1000, height: 560 };
 /** Opens the page of a server and waits for its first answer. */
 export async function open(server, { width = 1440, height = 900, colorScheme = "light", before, ...more } = {}) {
     const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true, reducedMotion: "reduce", ...more });
-    context.setDefaultTimeout(15000);
+    context.setDefaultTimeout(PATIENCE_MS);
     await context.addInitScript(() => {
         globalThis.refused = [];
         document.addEventListener("securitypolicyviolation", (e) => globalThis.refused.push(`${e.violatedDirective} ${e.blockedURI} ${e.sourceFile}:${e.lineNumber}`));
@@ -130,4 +133,4 @@ export const setText = (page, change) => page.evaluate((c) => {
     editor.replace(editor.text.replace(c[0], c[1]));
 }, change);
 export const verdict = (page, word) => page.waitForSelector(`#banner[data-verdict="${word}"]`);
-export const computed = (page, id, timeout = 15000) => page.waitForFunction((p) => /^computed/.test(document.querySelector(`#panel-${p} .job-message`)?.textContent ?? ""), id, { timeout });
+export const computed = (page, id, timeout = PATIENCE_MS) => page.waitForFunction((p) => /^computed/.test(document.querySelector(`#panel-${p} .job-message`)?.textContent ?? ""), id, { timeout });

@@ -1,12 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Broken rules, small screens, keyboard, paper, both themes.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { axeSource, close, computed, finish, open, serve, source, text, verdict, view } from "./helper.mjs";
+import { axeSource, close, computed, finish, open, program, serve, source, text, theBrowser, verdict, view } from "./helper.mjs";
 
 after(finish);
+
+describe("the report", () => {
+    test("nothing is cut at 1280 pixels or on paper, A4 or Letter, whatever is opened", async () => {
+        const server = await serve(null); // for its directory
+        const page = await (await theBrowser()).newPage();
+        try {
+            const out = join(server.directory, "out");
+            spawnSync(program, ["plan", join(source, "docs/gallery/reference-six-bar/device.xml"), "-o", out, "-q", "--corners", "none", "--advice", "none",
+                "--measurements", "none", "--hinge-model", "revolute", "--accuracy", "3e-2"]);
+            await page.goto(`file://${out}/report.html`);
+            await page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
+            for (const [media, width] of [["screen", 1280], ["print", 688], ["print", 710]]) { // paper less its margins of 14 mm
+                await page.setViewportSize({ width, height: 900 });
+                await page.emulateMedia({ media });
+                const cut = await page.evaluate(() => [...document.querySelectorAll("main table, main svg, main pre, p")]
+                    .filter((e) => !e.parentElement.closest("svg") && e.getBoundingClientRect().right > (e.closest(".wide, main") ?? document.body).getBoundingClientRect().right + 1)
+                    .map((e) => `${e.tagName} of ${e.closest("section")?.id}: ${e.textContent}`.slice(0, 60)));
+                assert.deepEqual(cut, [], `${media} ${width}`);
+            }
+        } finally {
+            await page.close();
+            await server.stop();
+        }
+    });
+});
 
 describe("rules and looks", () => {
     let server, page;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a device is for, on the page: requirements with their values beside the verdict, one probe over time with its
-// bounds beside the angles. A device without probes has neither.
+// bounds beside the angles, or how fast it changes, where points go and how fast, what was left out. A device without
+// probes has the points.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -32,14 +33,14 @@ describe("probes", () => {
 
     test("a probe is plotted with its bounds, and another can be chosen", async () => {
         const shown = () => page.evaluate(() => {
-            const { data } = globalThis.flexwright.parts.motion.probes;
+            const { data } = globalThis.flexwright.parts.motion.course;
             return { name: data.series[0].name, most: Math.max(...data.series[0].values), marks: data.marks.map((x) => x.y) };
         });
         const first = await shown();
         assert.equal(first.name, "stroke");
         assert.deepEqual(first.marks.map((x) => Math.round(x * 1e3) / 1e3), [40]);
         assert.ok(first.most > 57 && first.most < 62);
-        await page.locator(".plots select").selectOption("tension");
+        await page.locator('.plots select[aria-label="What is plotted"]').selectOption("tension");
         assert.equal((await shown()).name, "tension");
         assert.ok(Math.abs((await shown()).most - 115) < 0.01);
         if (process.env.FW_PICTURE) await page.screenshot({ path: join(process.env.FW_PICTURE, "probes.png") });
@@ -48,7 +49,7 @@ describe("probes", () => {
     test("a plot names its values under the pointer, is zoomed with the others, and saved as numbers and as a picture", async () => {
         const box = page.locator(".plots .plot-box").first();
         const b = await box.boundingBox();
-        const window = () => page.evaluate(() => [globalThis.flexwright.parts.motion.angles, globalThis.flexwright.parts.motion.probes].map((p) => [p.plot.scales.x.min, p.plot.scales.x.max]));
+        const window = () => page.evaluate(() => [globalThis.flexwright.parts.motion.angles, globalThis.flexwright.parts.motion.course].map((p) => [p.plot.scales.x.min, p.plot.scales.x.max]));
         await page.mouse.move(b.x + b.width / 2, b.y + 60);
         const look = page.locator(".plot-look:visible");
         const said = await look.innerText();
@@ -107,11 +108,52 @@ describe("probes", () => {
         assert.match(await page.locator(".purpose").innerText(), /at least 40 µm: rejected/);
     });
 
-    test("without probes there is neither card nor plot", async () => {
+    test("velocities of probes and points are the program's, and what was left out has its bounds; each is saved", async () => {
+        await page.setViewportSize({ width: 1440, height: 900 });
+        const box = page.locator('.plots select[aria-label="What is plotted"]');
+        const chosen = async (id, rates) => {
+            await box.selectOption(id);
+            if (rates) await page.waitForFunction(() => globalThis.flexwright.state.preview.motion.v && globalThis.flexwright.parts.motion.course.data.series.length > 0);
+            return page.evaluate(() => {
+                const { course } = globalThis.flexwright.parts.motion;
+                const { motion, bodies } = globalThis.flexwright.state.preview;
+                return { unit: course.unitWords, series: course.data.series, motion: { v: motion.v, probes: motion.probes }, stage: bodies.findIndex((b) => b.id === "stage"), words: course.words };
+            });
+        };
+        const saved = async (what) => {
+            await page.locator(".plots .plot:last-child .plot-menu > summary").click();
+            const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`.plots .plot:last-child button:has-text("${what}")`).click()]);
+            return [file.suggestedFilename(), readFileSync(await file.path(), "utf8")];
+        };
+        const near = (a, b) => assert.ok(a.every((x, i) => Math.abs(x - b[i]) <= 1e-9 * Math.max(...b.map(Math.abs))));
+        const rate = await chosen(":rate stroke", true);
+        const size = { m: 1e-3, µ: 1e-6, n: 1e-9 }[rate.unit[0]];
+        near(rate.series[0].values.map((x) => x * size), rate.motion.probes.find((x) => x.id === "stroke").rate);
+        const [name, csv] = await saved("Save as CSV");
+        assert.equal(name, "straight-stage-stroke-rate.csv");
+        assert.match(csv.split("\n")[0], /^t_ms,"?stroke, rate \((m|µ|n)m\/s\)"?$/);
+        const speed = await chosen(":speed", true);
+        const own = speed.series.find((x) => x.name === "stage");
+        near(own.values.map((x) => x * size), speed.motion.v.map((row) => Math.hypot(row[3 * speed.stage], row[3 * speed.stage + 1])));
+        await chosen(":v stage", true);
+        figure((await saved("Save as SVG"))[1]);
+        await box.selectOption(":left");
+        const told = await page.locator(".leftout-row").evaluateAll((rows) => rows.map((r) => [r.querySelector(".leftout-name").textContent, r.classList.contains("active"), r.getAttribute("aria-label")]));
+        const ledger = await page.evaluate(() => globalThis.flexwright.state.preview.ledger.filter((e) => e.called_for).map((e) => [e.id, e.active]));
+        assert.deepEqual(told.map(([id, active]) => [id, active]).sort(), ledger.sort());
+        assert.ok(told.every(([id, active, label]) => label.startsWith(`${id}: `) && label.endsWith(active ? ", computed" : ", left out")));
+        assert.equal((await saved("Save as CSV"))[1].split("\n").length, ledger.length + 2);
+        figure((await saved("Save as SVG"))[1]);
+        if (process.env.FW_PICTURE) await page.screenshot({ path: join(process.env.FW_PICTURE, "left-out.png") });
+        await box.selectOption("stroke");
+    });
+
+    test("without probes there is no card, and the points are plotted", async () => {
         const plain = await serve("leaf-four-bar");
         const other = await open(plain);
         assert.equal(await other.locator(".purpose:visible").count(), 0);
-        assert.equal(await other.locator(".plots.probed").count(), 0);
+        assert.equal(await other.locator('.plots optgroup[label="Probes"]').count(), 0);
+        assert.equal(await other.locator('.plots select[aria-label="What is plotted"]').inputValue(), ":way");
         await close(other);
         await plain.stop();
     });

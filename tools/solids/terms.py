@@ -5,14 +5,21 @@ What is fitted is G, the solid's strain per moment over Kt times that of the bea
 below 1 + margin, and the highest above its own `slack` be as low as it can be. slack: 0 within the range of the narrow band
 (`inside`), 0.02 beyond it (silicon 0.03). The moment is that of the closed form with what the ends lose (13a).
 
-A term is the powers of x, q, p, nu, n, u, c, s. An isotropic G is a sum of terms; one of silicon the product of a sum (what the
+Within the range of the narrow band isotropic strips and leaves of silicon have a law of their own: G a sum of terms, each the powers of
+
+    z = 2 ln(x/0.1)/ln 12.5 - 1, p = 2 (h/(h + 4 t) - 1/9)/(10/14 - 1/9) - 1 (-1 to 1 over the range), nu, n = nu f,
+    u = sqrt(20 t/3R), and c, s = cosine and sine of four times the direction from [100] (class Narrow).
+
+Beyond it G goes as a former law does, below, whose terms are the powers of x, q, p, nu, n, u, c, s. An isotropic G is a sum of terms; one of silicon the product of a sum (what the
 direction does) and 1 + a sum (what the depth does), the larger of either fillet of either root."""
+import itertools
 import math
 
 import numpy as np
 from scipy.optimize import linprog
 
 NAMES = ("x", "q", "p", "nu", "n", "u", "c", "s")
+FLAT, DEEP = 1 / 9, 10 / 14  # h/(h + 4 t) of h = t/2 and 10 t
 SHIFT = 1.35  # fillet radii before the root where the crystal's direction counts
 SILICON_REACH = 0.31990  # sqrt(s11/(3 s44)), as fw_flexure_crystal.reach
 
@@ -160,7 +167,163 @@ class Silicon(Rows):
         return self.on_floor(best)
 
 
-def table(name, texts, constants):
+def bow(deep, nu):
+    """share of the cross-bow that is free, (8); deep = h/sqrt(r t)"""
+    x = deep * (3 * (1 - nu * nu)) ** 0.25
+    return 1.0 if x < 1e-2 else 2 / x * (math.cosh(x) - math.cos(x)) / (math.sinh(x) + math.sin(x))
+
+
+class Narrow:
+    """rows within the range of the narrow band, and places between them: numpy arrays by the names of the powers, one for each fillet that
+    may be the worst, and what is asked of each row. What lies between solids says a Gaussian process through them (kriging), whose own
+    error is stated by leaving every solid out once; without it a sum of fifty terms is free between the rows, and at the range's corners"""
+
+    CAPS = {"isotropic": ((5, 5, 2, 2, 4, 0, 0), 7, 50), "silicon": ((4, 4, 0, 0, 0, 2, 1), 6, 36)}  # powers, their sum, terms
+    # lengths of the process, of z, p, nu, n, u or z, p, c, |s|; its noise
+    KRIGING = {"isotropic": ((1.6, 1.5, 3, 3, 3), 1e-9), "silicon": ((1.5, 1.5, 4, 4), 1e-5)}
+
+    def __init__(self, rows, margin):
+        def column(name):
+            return np.array([float(r[name]) for r in rows])
+
+        t, h = column("width_um"), column("depth_um")
+        leaf = np.array([r["kind"] == "leaf" for r in rows])
+        self.material = rows[0]["material"]
+        crystal = self.material == "silicon"
+        x = column("fillet_um") / t
+        z, p = 2 * np.log(x / 0.1) / math.log(12.5) - 1, 2 * (h / (h + 4 * t) - FLAT) / (DEEP - FLAT) - 1
+        nu = column("nu")
+        n = nu * column("bow")
+        curved = np.where(leaf, 0.0, t / 3 / column("radius_or_length_um"))
+        self.target = column("strain_per_rad") / (column("bending") * column("Kt"))
+        self.inside = (x < 1.2501) & (h < 10.001 * t) & (x > (0.1499 if crystal else 0.0999))
+        self.slack = np.zeros(len(x))
+        self.floor = 1 + margin
+        self.at, self.by = [], []
+        if not crystal:
+            self.at, self.by = [(z, p, nu, n, np.sqrt(20 * curved), z, z)], [1 + curved]
+            return
+        axis = np.radians(column("axis_from_100_deg"))
+        for side in (1, -1):
+            self.at.append((z, p, nu, n, 0 * z, np.cos(4 * axis), side * np.sin(4 * axis)))
+            self.by.append(np.ones(len(z)))
+
+    def between(self, many=500):
+        """rows that no solid is of, at random in the range, a third of them at its ends: what the process makes of them is asked for"""
+        rng = np.random.RandomState(88)
+
+        def in_range(low, high):
+            end = rng.rand(many)
+            return np.where(end < 1 / 6, low, np.where(end > 5 / 6, high, rng.uniform(low, high, many)))
+
+        z, p = in_range(-1, 1), in_range(-1, 1)
+        out = object.__new__(Narrow)
+        out.material, out.slack, out.inside, out.floor = self.material, np.zeros(many), np.ones(many, bool), self.floor
+        if self.material == "isotropic":
+            nu, curved = in_range(0.05, 0.4), np.where(rng.rand(many) < 0.3, 0, in_range(0, 0.05))
+            flat = FLAT + (p + 1) / 2 * (DEEP - FLAT)
+            free = np.array([bow(4 * f / (1 - f) * math.sqrt(3 * w), v) for f, w, v in zip(flat, curved, nu)])
+            out.at, out.by = [(z, p, nu, nu * free, np.sqrt(20 * curved), z, z)], [1 + curved]
+        else:
+            psi = in_range(0, math.pi / 4)
+            out.at, out.by = [(z, p, 0 * z, 0 * z, 0 * z, np.cos(4 * psi), k * np.sin(4 * psi)) for k in (1, -1)], [np.ones(many)] * 2
+        lengths, noise = self.KRIGING[self.material]
+        seen, places = self.places()[self.inside], out.places()
+        value = (self.target / self.by[0])[self.inside]
+
+        def kernel(a, b):
+            return np.exp(-0.5 * (((a[:, None] - b[None]) / np.array(lengths))**2).sum(-1))
+
+        inverse = np.linalg.inv(kernel(seen, seen) + noise * np.eye(len(seen)))
+        weights = inverse @ (value - value.mean())
+        missed = weights / np.diag(inverse)
+        print(f"  kriging, each solid by the others: {100 * math.sqrt(np.mean(missed**2)):.2f} % (rms), {100 * np.abs(missed).max():.2f} % at most")
+        out.target = (value.mean() + kernel(places, seen) @ weights) * out.by[0]
+        return self.with_more(out)
+
+    def places(self):
+        z, p, nu, n, u, c, s = self.at[0]
+        return np.array([z, p, nu, n, u] if self.material == "isotropic" else [z, p, c, np.abs(s)]).T
+
+    def with_more(self, other):
+        """those of self within the range, and other's"""
+        out, mine = object.__new__(Narrow), self.inside
+        out.material, out.floor = self.material, self.floor
+        for name in ("target", "slack", "inside"):
+            setattr(out, name, np.r_[getattr(self, name)[mine], getattr(other, name)])
+        out.at = [tuple(np.r_[a[mine], b] for a, b in zip(one, two)) for one, two in zip(self.at, other.at)]
+        out.by = [np.r_[a[mine], b] for a, b in zip(self.by, other.by)]
+        return out
+
+    def columns(self, powers):
+        """of every fillet: rows by terms, over what is asked for"""
+        out = []
+        for values, by in zip(self.at, self.by):
+            table = [[v**k for k in range(max(p[i] for p in powers) + 1)] for i, v in enumerate(values)]
+            products = [np.prod([table[i][k] for i, k in enumerate(p) if k] or [np.ones(len(by))], axis=0) for p in powers]
+            out.append(np.array(products).T * (by / self.target)[:, None])
+        return out
+
+    def over(self, powers, constants):
+        """1 + how far the bound is above the rows, and which fillet it is of"""
+        value = np.array([c @ constants for c in self.columns(powers)])
+        return value.max(0) - 1, value.argmax(0)
+
+    def solve(self, powers, worst=None):
+        """Chebyshev's fit. Of every row one fillet, the worst by least squares, is to be above it, and all of them are not to be too far above
+        it: a linear program, repeated with the worst of its own answer as long as that helps"""
+        all_of, rows = np.array(self.columns(powers)), np.arange(len(self.target))
+        upper = np.vstack([np.c_[a, -np.ones(len(a))] for a in all_of])
+        worst, best = self.squares(powers) if worst is None else worst, None
+        for _ in range(6):
+            low = np.c_[-all_of[worst, rows], np.zeros(len(rows))]
+            found = linprog(np.r_[np.zeros(len(powers)), 1], A_ub=np.vstack([upper, low]),
+                            b_ub=np.r_[np.tile(self.slack, len(all_of)), np.full(len(rows), -self.floor)], bounds=(None, None), method="highs").x
+            if best is not None and found[-1] > best[-1] - 1e-6:
+                break
+            best, worst = found, (all_of @ found[:-1]).argmax(0)
+        return best[:-1]
+
+    def squares(self, powers):
+        """the worst fillets of a fit of least squares"""
+        all_of, rows = np.array(self.columns(powers)), np.arange(len(self.target))
+        weight, worst = np.ones((len(self.target), 1)), np.zeros(len(self.target), int)
+        for _ in range(8 if len(all_of) > 1 else 0):
+            constants = np.linalg.lstsq(all_of[worst, rows] * weight, weight[:, 0], rcond=None)[0]
+            worst = (all_of @ constants).argmax(0)
+        return worst
+
+    def choice(self):
+        """terms of at most the powers of CAPS, one after the other: the one that helps most with rows that are left out one at a time (least
+        squares)"""
+        caps, degree, many = self.CAPS[self.material]
+        powers = [p for p in itertools.product(*(range(c + 1) for c in caps)) if sum(p) <= degree and p[5] + p[6] <= 2]
+        weight, rows = np.ones(len(self.target)), np.arange(len(self.target))
+        every, worst = np.array(self.columns(powers)), np.zeros(len(self.target), int)
+        for _ in range(3 if len(self.at) > 1 else 1):
+            columns = every[worst, rows] * weight[:, None]
+            left, hat, found = weight.copy(), np.zeros(len(rows)), []
+            columns = columns / np.linalg.norm(columns, axis=0)
+            for _ in range(many):
+                size = np.sqrt((columns**2).sum(0))
+                free = size > 3e-4
+                helps = np.where(free, np.abs(columns.T @ left) / np.where(free, size, 1), 0)
+
+                def left_out(j):
+                    q = columns[:, j] / size[j]
+                    return np.mean(((left - q * (q @ left)) / (1 - hat - q * q))**2)
+
+                j = min((j for j in np.argsort(-helps)[:40] if free[j]), key=left_out)
+                q = columns[:, j] / size[j]
+                left, hat, columns = left - q * (q @ left), hat + q * q, columns - np.outer(q, q @ columns)
+                found.append(j)
+            constants = np.linalg.lstsq(every[worst, rows][:, found] * weight[:, None], weight, rcond=None)[0]
+            worst = np.array([a[:, found] @ constants for a in every]).argmax(0)
+        return [powers[j] for j in found]
+
+
+def table(name, powers_of, constants):
     """a table as src/flexure/flexure_section.c has it"""
-    rows = [f"    {{{c:.5g}, {{{', '.join(str(k) for k in powers(t))}}}}}," for t, c in zip(texts, constants)]
-    return [f"static const root_term {name}[] = {{"] + rows + ["};"]
+    kind, digits = ("root_term", 5) if len(powers_of[0]) == len(NAMES) else ("strip_term", 6)
+    rows = [f"    {{{c:.{digits}g}, {{{', '.join(str(k) for k in p)}}}}}," for p, c in zip(powers_of, constants)]
+    return [f"static const {kind} {name}[] = {{"] + rows + ["};"]

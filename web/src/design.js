@@ -90,6 +90,9 @@ export function request() {
     return { text: state.text, set: { ...state.set }, options, ...lab() };
 }
 
+/** With the velocities of a motion, where they are looked at: the rest of the answer is the same with and without them. */
+export const previewRequest = () => ({ ...request(), ...(state.rates ? { rates: true } : {}) });
+
 /** Laboratory packs that are in use, as requests have them. */
 export const lab = () => (Object.keys(state.lab).length ? { lab: { ...state.lab } } : {});
 
@@ -151,7 +154,7 @@ export function startPreviews() {
         clearTimeout(timer);
         timer = 0;
         state.cancelled = null;
-        preview.ask({ body: request(), key: inputKey(), since: performance.now() });
+        preview.ask({ body: previewRequest(), key: inputKey(), since: performance.now() });
     });
     on("text", () => {
         clearTimeout(timer); // somebody may be typing

@@ -93,6 +93,17 @@ export function setOptions(box, options, value) {
     if (box.selectedIndex < 0 && options.length) box.selectedIndex = 0;
 }
 
+/** The same with groups: options are [group, value, text], those of a group behind each other. */
+export function setGroups(box, options, value) {
+    const key = JSON.stringify(options);
+    if (box.dataset.key !== key) {
+        box.dataset.key = key;
+        const groups = [...new Set(options.map(([group]) => group))];
+        box.replaceChildren(...groups.map((label) => h("optgroup", { label }, options.filter(([group]) => group === label).map(([, v, text]) => h("option", { value: v }, text)))));
+    }
+    box.value = value;
+}
+
 /** Puts text into a live region of the page, so that it is read aloud once. */
 export function announce(text) {
     $("announce").textContent = text;

@@ -18,6 +18,7 @@ const SENTENCES = {
     effects: "Which forces are computed: auto leaves out what provably changes less than the accuracy, all computes all that the scene calls for, none only stiffness, springs and loads.",
     accuracy: "Relative error of the largest deflection of a hinge that is good enough. What is cheaper and within it is taken.",
     "Time of the scene": "The instant that the picture shows, and the cursors of the plots.",
+    "What is plotted": "The third plot: a probe with its bounds, how fast it changes, where points of the bodies are and how fast, how bodies turn, or what the motion was computed without.",
     Speed: "How fast the scene plays; at 1× it takes four seconds, however long it is.",
     Grid: "The steps on which points come to rest while they are drawn. With Alt they rest on nothing.",
     Part: "All that can be chosen in the drawing, for who does not point.",

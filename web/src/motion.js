@@ -3,12 +3,13 @@
 // computed, with what that costs.
 import { Shown } from "./belong.js";
 import { curve, dash } from "./colours.js";
+import { coursesOf, ENERGIES, pointAt, pointsOf } from "./courses.js";
 import { setOption } from "./design.js";
-import { button, h, s, select, setOptions } from "./dom.js";
+import { button, h, s, select, setGroups, setOptions } from "./dom.js";
 import { deviceName, FRAMES_A_SECOND, filmMenu, record } from "./film.js";
 import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js";
+import { leftOutCsv, leftOutList, leftOutOf, leftOutSvg } from "./leftout.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
-import { moved } from "./outline.js";
 import { Plot } from "./plots.js";
 import { emit, lookAt, on, state } from "./store.js";
 
@@ -48,16 +49,12 @@ export class Motion {
         this.showing = [this.stage, this.player, this.plots, this.stats].map((element) => new Shown(element));
         this.#player();
         const seek = (t) => this.seek(t / 1e3, true);
-        const onwindow = (window) => [this.angles, this.energy, this.norm, this.probes].forEach((plot) => plot.setWindow(window)); // one time for all
+        const onwindow = (window) => [this.angles, this.energy, this.course].forEach((plot) => plot.setWindow(window)); // one time for all
         this.angles = new Plot(this.plots, { title: "Share of the limit", unit: "%, over ms", onseek: seek, onwindow });
         this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek, onwindow });
-        this.norm = new Plot(this.plots, { title: "Gap of the joints", unit: "norm, over ms", log: true, onseek: seek, onwindow });
-        this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek, onwindow });
-        this.whichProbe = select("Probe", [], "", () => {
-            this.#plotProbe(state.preview);
-            this.paint();
-        });
-        this.probes.heading.firstChild.replaceWith(this.whichProbe);
+        this.course = new Plot(this.plots, { title: "What is plotted", unit: "", onseek: seek, onwindow });
+        this.whichCourse = select("What is plotted", [], "", () => this.#choose(this.whichCourse.value));
+        this.course.heading.firstChild.replaceWith(this.whichCourse);
         this.inDegrees = button("degrees", { class: "small toggle", "aria-pressed": "false" }, () => {
             this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
             this.#plotAll();
@@ -158,11 +155,7 @@ export class Motion {
         const p = state.preview;
         const shown = this.showPaths.getAttribute("aria-pressed") === "true" && p?.motion;
         if (!shown) return this.paths.replaceChildren();
-        const points = [...p.bodies.flatMap((b, i) => (b.fixed ? [] : [[i, [0, 0]]])),
-            ...(p.loads ?? []).flatMap((x) => (x.eyelets ?? [x]).filter((e) => e.body >= 0 && e.at_um).map((e) => [e.body, e.at_um]))].filter(([i]) => p.bodies[i] && !p.bodies[i].fixed);
-        this.paths.replaceChildren(...points.map(([i, at]) => s("path", {
-            d: `M${p.motion.q.map((row) => moved([row[3 * i] * 1e6, row[3 * i + 1] * 1e6, row[3 * i + 2]], at).map((v) => v.toFixed(3)).join(" ")).join("L")}`,
-        })));
+        this.paths.replaceChildren(...pointsOf(p).map((x) => s("path", { d: `M${p.motion.q.map((row) => pointAt(row, x).map((v) => v.toFixed(3)).join(" ")).join("L")}` })));
     }
 
     #stats() {
@@ -195,17 +188,15 @@ export class Motion {
         this.angles.heading.firstChild.textContent = inDegrees ? "Hinge angle" : "Share of the limit";
         this.angles.heading.children[1].textContent = inDegrees ? "degrees, over ms" : "%, over ms";
         this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
-        const energies = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work", "work_J"]].filter(([, k]) => m.energy?.[k]);
+        const energies = ENERGIES.filter(([, k]) => m.energy?.[k]);
         const largest = Math.max(0, ...energies.flatMap(([, k]) => m.energy[k].map((x) => Math.abs(x ?? 0))));
         const [prefix, size] = prefixOf(largest);
         this.energy.heading.children[1].textContent = `${prefix}J, over ms`;
         this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x / size)) })));
-        if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, solid: true, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
         this.gap = m.constraint_norm ? Math.max(0, ...m.constraint_norm.map((x) => x ?? 0)) : null;
-        this.norm.root.hidden = !(this.gap > CLOSED) || m.probes?.length > 0; // there is room for three, and none for rounding
-        this.plots.classList.toggle("two", this.norm.root.hidden && !m.probes?.length);
+        this.plots.classList.toggle("two", energies.length === 0);
         this.energy.root.hidden = energies.length === 0; // a row of equilibria has none
-        this.#plotProbe(p);
+        this.#plotCourse(p);
         this.#legend(p, energies);
     }
 
@@ -221,29 +212,60 @@ export class Motion {
         });
     }
 
-    /** One of the probes, with the bounds of what is required of it; the first that something is required of. */
-    #plotProbe(p) {
-        const list = p?.motion?.probes ?? [];
-        this.plots.classList.toggle("probed", list.length > 0);
-        this.probes.root.hidden = list.length === 0;
-        if (!list.length) return;
+    /** Somebody wants to see another course; velocities are asked for when they are wanted. */
+    #choose(id) {
+        this.chosenCourse = id;
+        const one = coursesOf(state.preview).find((x) => x.id === id);
+        const asked = state.rates;
+        state.rates = Boolean(one?.rates);
+        if (state.rates && !asked && !state.preview.motion.v) emit("change");
+        this.#plotCourse(state.preview);
+        this.paint();
+    }
+
+    /** One of the courses: a probe with the bounds of what is required of it, velocities, where points are. What nobody has chosen is the
+     *  first probe that something is required of; without probes how far points come, or the joints' gap where that is more than rounding. */
+    #plotCourse(p) {
+        const list = coursesOf(p);
         const required = (id) => (p.verdict?.requirements ?? []).filter((r) => r.probe === id && r.scene === p.motion.scene && (r.flow ?? null) === (p.motion.flow ?? null));
-        const wanted = list.some((x) => x.id === this.whichProbe.value) ? this.whichProbe.value : (list.find((x) => required(x.id).length) ?? list[0]).id;
-        setOptions(this.whichProbe, list.map((x) => [x.id, x.id]), wanted);
-        const probe = list.find((x) => x.id === wanted);
-        const [prefix, size] = prefixOf(Math.max(0, ...probe.value.map((x) => Math.abs(x ?? 0))));
-        const levels = required(wanted).filter((r) => ["peak", "maximum", "minimum", "final"].includes(r.measure));
+        const usual = this.gap > CLOSED ? list.find((x) => x.id === ":gap") : list.find((x) => x.probe && required(x.id).length) ?? list[0];
+        const one = list.find((x) => x.id === this.chosenCourse) ?? usual;
+        this.course.root.hidden = !one;
+        this.courseShown = one ?? null;
+        this.courseUnit = 1; // of the plotted numbers, in SI
+        if (!one) return;
+        setGroups(this.whichCourse, list.map((x) => [x.group, x.id, x.label]), one.id);
+        if (one.id === ":left") return this.#leftOut(p);
+        const ms = p.motion.t_s.map((t) => t * 1e3);
+        const curves = one.rates && !p.motion.v ? [] : one.curves();
+        const [prefix, size] = one.log ? ["", 1] : prefixOf(Math.max(0, ...curves.flatMap((x) => x.values.map((v) => Math.abs(v ?? 0)))));
+        this.courseUnit = size;
+        const levels = one.probe ? required(one.id).filter((r) => ["peak", "maximum", "minimum", "final"].includes(r.measure)) : [];
         const marks = levels.flatMap((r) => [[r.min, "at least"], [r.max, "at most"]].filter(([y]) => y !== null).map(([y, text]) => ({ y: y / size, text: `${r.measure}: ${text}` })));
-        this.probes.heading.querySelector(".plot-unit").textContent = `${probe.kind}, ${prefix}${probe.unit}`;
-        const values = probe.value.map((x) => (x === null ? null : x / size));
-        const ends = [...values.filter((x) => x !== null), ...marks.map((x) => x.y)];
-        const [low, high] = [Math.min(...ends), Math.max(...ends)];
+        this.course.heading.querySelector(".plot-unit").textContent = [one.kind, one.log ? "norm" : `${prefix}${one.unit}`].filter(Boolean).join(", ");
+        const key = (i) => (one.probe ? 2 : i);
+        const series = curves.map((x, i) => ({ name: x.name, key: key(i), solid: curves.length === 1, values: x.values.map((v) => (v === null ? null : v / size)) }));
+        const old = state.pinned?.preview;
+        const other = old?.motion && !(one.rates && !old.motion.v) ? coursesOf(old).find((x) => x.id === one.id && x.unit === one.unit)?.curves() ?? [] : [];
+        const then = curves.flatMap((x, i) => {
+            const was = other.find((y) => y.name === x.name);
+            return was ? [{ name: `${x.name}, then`, then: x.name, key: key(i), values: alike(p.motion.t_s, old.motion.t_s, (k) => was.values[k] / size) }] : [];
+        });
+        const ends = [...series.flatMap((x) => x.values.filter((v) => v !== null)), ...marks.map((x) => x.y)];
+        const [low, high] = ends.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
         const pad = 0.08 * (high - low || 1);
-        const old = state.pinned?.preview?.motion;
-        const other = old?.probes?.find((x) => x.id === wanted && x.unit === probe.unit);
-        const then = other ? [{ name: `${wanted}, then`, then: wanted, key: 2, values: alike(p.motion.t_s, old.t_s, (i) => other.value[i] / size) }] : [];
-        this.probes.show(p.motion.t_s.map((t) => t * 1e3), [{ name: wanted, key: 2, solid: true, values }, ...then], { marks, range: [low - pad, high + pad] });
-        this.probe = probe;
+        this.course.log = Boolean(one.log);
+        this.course.instead(null);
+        this.course.show(ms, [...series, ...then], { marks, range: one.log || !ends.length ? undefined : [low - pad, high + pad] });
+        legend(this.course, curves.length > 1 ? curves.map((x, i) => [x.name, key(i)]) : []);
+    }
+
+    /** What the motion was computed without. */
+    #leftOut(p) {
+        const left = leftOutOf(p, p.verdict?.accuracy?.wanted ?? Number(state.options.accuracy ?? 1e-3));
+        this.course.heading.querySelector(".plot-unit").textContent = "of the peak, at most";
+        this.course.instead(leftOutList(left), { csv: () => leftOutCsv(left), svg: () => leftOutSvg(left, `${deviceName()}, ${p.motion.scene}: what was left out`) });
+        legend(this.course, []);
     }
 
     #legend(p, energies) {
@@ -325,8 +347,8 @@ export class Motion {
         this.angles.at(ms, k >= 0 ? `${p.pins[k].id}: ${degrees(angles[k])}` : worst ? `${worst[0]}: ${percent(worst[1])}` : "");
         const energy = (key) => (m.energy?.[key] ? m.energy[key][i] : 0);
         this.energy.at(ms, si(energy("kinetic_J") + energy("potential_J"), "J"));
-        if (m.probes?.length && this.probe) this.probes.at(ms, si(this.probe.value[i], this.probe.unit));
-        this.norm.at(ms, m.constraint_norm ? number(m.constraint_norm[i], 2) : "");
+        const one = this.courseShown;
+        if (one) this.course.at(ms, one.probe ? si(one.probe.value[i], one.unit) : one.log ? number(m.constraint_norm[i], 2) : "");
     }
 
     /** The pinned version at the same time of its scene; without a motion at rest. */

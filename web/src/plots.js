@@ -15,8 +15,9 @@ export class Plot {
         Object.assign(this, { title, unit, log, onseek, onwindow, window: null });
         this.heading = h("div", { class: "plot-title" }, h("span", {}, title), h("span", { class: "plot-unit" }, unit), h("span", { class: "plot-value" }));
         this.box = h("div", { class: "plot-box", role: "img", "aria-label": title });
+        this.other = h("div", { class: "plot-other", hidden: true });
         this.look = h("div", { class: "plot-look", hidden: true, "aria-hidden": "true" });
-        this.root = h("figure", { class: "plot" }, this.heading, this.#menu(), this.box, this.look);
+        this.root = h("figure", { class: "plot" }, this.heading, this.#menu(), this.box, this.other, this.look);
         holder.append(this.root);
         new ResizeObserver(() => this.#resize()).observe(this.box);
         on("theme", () => (this.shape = null)); // whoever shows it shows it again
@@ -47,6 +48,10 @@ export class Plot {
         const menu = h("details", { class: "plot-menu" }, h("summary", { "aria-label": `${this.title}: zoom, save` }, "⋯"), h("div", { class: "plot-menu-list" },
             act("Zoom in", () => this.zoom(0.5)), act("Zoom out", () => this.zoom(2)), act("Whole scene", () => this.onwindow?.(null)),
             act("Save as CSV", () => saveAs(`${name()}.csv`, this.csv(), "text/csv")), act("Save as SVG", () => saveAs(`${name()}.svg`, this.svg(), "image/svg+xml"))));
+        menu.addEventListener("toggle", () => { // in a low window it opens upwards
+            menu.classList.remove("up");
+            if (menu.open && menu.lastChild.getBoundingClientRect().bottom > innerHeight) menu.classList.add("up");
+        });
         menu.addEventListener("keydown", (e) => {
             if (e.key !== "Escape" || !menu.open) return;
             menu.open = false;
@@ -60,16 +65,26 @@ export class Plot {
     /** What the heading says: the title may have changed, or be a choice. */
     get words() {
         const first = this.heading.firstChild;
-        return first.tagName === "SELECT" ? first.value : first.textContent;
+        return first.tagName === "SELECT" ? first.selectedOptions[0]?.textContent ?? "" : first.textContent;
     }
     get unitWords() {
         return this.heading.querySelector(".plot-unit").textContent;
     }
 
+    /** In place of curves something else, with files = {csv(), svg()} of its own; null: curves. */
+    instead(element, files = null) {
+        this.files = files;
+        this.other.hidden = element === null;
+        this.box.hidden = element !== null;
+        this.other.replaceChildren(...(element ? [element] : []));
+    }
+
     csv() {
+        if (this.files) return this.files.csv();
         return csvOf(this.data, this.unitWords.replace(", over ms", ""));
     }
     svg() {
+        if (this.files) return this.files.svg();
         const { x, y } = this.plot.scales;
         return svgOf(this.data, { title: `${state.preview?.name ?? ""}: ${this.words}`, unit: this.unitWords, x: [x.min, x.max], y: [y.min, y.max], log: this.log });
     }
@@ -135,7 +150,7 @@ export class Plot {
 
     /** t: times in ms; series: [{name, values, key (colour), limit, then: the series of whose pinned version it is}], marks: [{y, text, curve}] */
     show(t, series, { marks = [], chosen = null, range } = {}) {
-        const shape = JSON.stringify([series.map((x) => x.name), chosen, marks.length, Boolean(range)]);
+        const shape = JSON.stringify([series.map((x) => x.name), chosen, marks.length, Boolean(range), this.log]);
         this.data = { t, series, marks, chosen, range };
         if (this.plot && shape === this.shape) {
             this.plot.setData([t, ...series.map((x) => x.values)]);

@@ -12,6 +12,7 @@ export const state = {
     lab: {}, // laboratory packs that are in use: name -> text
     labRows: {}, // what is entered of them: flow -> id -> {value, u, status}
     options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
+    rates: false, // velocities of the motion are looked at, and asked for
     preview: null, // last good flexwright.preview/1
     previewOf: null, // its input (belong.js)
     answered: null, // input of the last answer, good or not: that of the diagnostics

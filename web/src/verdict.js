@@ -16,6 +16,8 @@ const WORDS = {
     accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
 };
 
+const ROUNDING_RAD = 1e-12; // a turn below it is none
+
 export class Verdict {
     constructor(holder) {
         this.banner = h("div", { class: "banner", id: "banner" });
@@ -171,7 +173,7 @@ export class Verdict {
         this.required.replaceChildren(this.required.firstChild, h("dl", { class: "facts-list purpose" },
             asked.flatMap((r) => [h("dt", { title: r.why ?? "" }, `${r.probe} (${r.measure ?? r.kind}, ${where(r)})`),
                 h("dd", { class: r.verdict }, r.why ? "not known" : `${si(r.value, r.unit)} \u2013 ${bound(r)}: ${WORDS[r.verdict][0].toLowerCase()}`)]),
-            probes.flatMap((x) => [h("dt", {}, `${x.id} (peak, ${where(x)})`), h("dd", {}, si(x.peak, x.unit))])));
+            probes.flatMap((x) => [h("dt", {}, `${x.id} (peak, ${where(x)})`), h("dd", {}, si(x.unit === "rad" && Math.abs(x.peak) < ROUNDING_RAD ? 0 : x.peak, x.unit))])));
     }
 
     /** The same for those who compare. */

@@ -3,7 +3,7 @@
 // computed with the present options, so that picture and numbers can be compared with the present ones.
 import { newest, post } from "./api.js";
 import { mayChange } from "./belong.js";
-import { request } from "./design.js";
+import { previewRequest } from "./design.js";
 import { announce, button, h } from "./dom.js";
 import { openDialog } from "./dialog.js";
 import { emit, on, state } from "./store.js";
@@ -58,7 +58,7 @@ const ask = newest(
     }, { words: "Computing the pinned version" });
 mayChange(() => ask.busy);
 
-const compute = (version, made) => ask.ask({ body: { ...request(), text: version.text, set: {} }, version, made });
+const compute = (version, made) => ask.ask({ body: { ...previewRequest(), text: version.text, set: {} }, version, made });
 
 /** made: the full judgement of this very text, where it is known; null: nothing is pinned any more. */
 export function pin(version, made = null) {

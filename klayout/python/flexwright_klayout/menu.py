@@ -34,7 +34,7 @@ def plan(path, settings=None, out=None, window=None):
     arguments = [program.program(), "plan", str(path), "-o", str(out), "--force", "--color", "never", "--no-progress", "-q"]
     for name, value in sorted(settings.items()):
         arguments += ["--set", "%s=%s" % (name, value)]
-    status, said = program.wait(arguments)
+    status, _, said = program.wait(arguments)
     masks = [p for p in sorted((out / "masks").glob("*.gds")) if not re.search(r"-coupons|-wafer|-plate|\.violations", p.name)]
     drawn = {p.stem for p in masks}
     # a flow whose mask is not made has the outlines with their markers all the same

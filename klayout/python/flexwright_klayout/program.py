@@ -6,15 +6,14 @@ import pathlib
 import re
 import shutil
 import subprocess
-import tempfile
 import xml.etree.ElementTree as ET
 
 HERE = pathlib.Path(__file__).resolve().parents[2]  # the package: share/flexwright/klayout, or klayout/ of the source
 SPACE = "{urn:flexwright:device:1}"
 LARGEST = 8 << 20  # bytes of a device file, as the program has it
 # A mask is drawn while somebody waits: its geometry does not depend on how closely the motion is judged.
-FAST = ["--force", "--corners", "none", "--advice", "none", "--measurements", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--mask-format",
-        "gds", "--color", "never", "--no-progress"]
+FAST = ["--force", "--corners", "none", "--advice", "none", "--measurements", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--color",
+        "never", "-q", "--gds", "-"]
 
 
 class Failure(Exception):
@@ -91,13 +90,13 @@ def flows(root):
 
 
 def wait(arguments):
-    """status and messages of a run. No events of the window are handled meanwhile: KLayout would ask at once whether to reload the files
+    """status, standard output and messages of a run. No events of the window are handled meanwhile: KLayout would ask at once whether to reload the files
     that the run writes."""
     try:
-        done = subprocess.run(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
+        done = subprocess.run(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
     except OSError as error:
         raise Failure(["%s cannot be run: %s" % (arguments[0], error.strerror)]) from error
-    return done.returncode, done.stderr.decode("utf-8", "replace")
+    return done.returncode, done.stdout, done.stderr.decode("utf-8", "replace")
 
 
 def errors(text, status):
@@ -113,6 +112,9 @@ def mask(path, flow, settings):
     """bytes of the flow's GDSII, and is the design rejected? settings: {parameter: "250 um"}. Failure: there is no mask."""
     tool = program()
     arguments = [tool, "mask", str(path), *FAST]
+    if not flow:
+        root = read(path)
+        flow = next(iter(flows(root)), "") if root is not None else ""
     if flow:
         arguments += ["--flow", flow]
     for name, value in sorted(settings.items()):
@@ -123,15 +125,11 @@ def mask(path, flow, settings):
         raise Failure(["%s cannot be read: %s" % (path, error.strerror)]) from error
     key = (content, os.stat(tool).st_mtime_ns, os.environ.get("FLEXWRIGHT_DATA"), tuple(arguments))
     if key not in known:
-        with tempfile.TemporaryDirectory(prefix="flexwright-") as where:
-            out = pathlib.Path(where, "out")
-            status, said = wait([*arguments, "-q", "-o", str(out)])
-            drawn = [p for p in sorted((out / "masks").glob("*.gds")) if not re.search(r"-coupons|-wafer|-plate|\.violations", p.name)]
-            drawn = [p for p in drawn if not flow or p.stem == flow]
-            if not drawn:
-                raise Failure(errors(said, status))
-            while len(known) >= 32:
-                known.pop(next(iter(known)))
-            broken = [s for s in errors(said, status) if "error: " in s]
-            known[key] = drawn[0].read_bytes(), status == 1, broken
+        status, drawn, said = wait(arguments)
+        if not drawn:
+            raise Failure(errors(said, status))
+        while len(known) >= 32:
+            known.pop(next(iter(known)))
+        broken = [s for s in errors(said, status) if "error: " in s]
+        known[key] = drawn, status == 1, broken
     return known[key]

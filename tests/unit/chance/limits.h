@@ -169,7 +169,7 @@ static inline fw_status limit_call(void *context, size_t first, size_t count, co
 }
 
 static inline fw_chance_estimate limit_estimate(limit_state *l, fw_chance_options options) {
-    fw_chance_limit limit = {l->dimensions, limit_call, l};
+    fw_chance_limit limit = {.dimensions = l->dimensions, .g = limit_call, .context = l};
     fw_chance_estimate out;
     const char *why;
     l->next = 0;

@@ -138,9 +138,61 @@ static void points(void **state) {
     assert_near(e.point[1].alpha[0], 1, 1e-3);
 }
 
+typedef struct shared { /* a machine that has a share of what chooses nothing */
+    const limit_state *l;
+    int share, of;
+    size_t asked, judged;
+    double places; /* of all points that were asked for, in their order */
+} shared;
+
+static fw_status judge(shared *s, size_t first, size_t count, const double *u, double *value,
+                       int share) {
+    for (size_t i = 0; i < count; i++) {
+        const double *at = u + i * s->l->dimensions;
+        bool own = share < 0 || (first + i) % (size_t)s->of == (size_t)share;
+        value[i] = own ? s->l->g(s->l, at) : 1;
+        s->judged += own;
+        for (size_t d = 0; d < s->l->dimensions; d++)
+            s->places = 0.5 * s->places + at[d] * (double)(1 + (first + i + d) % 7);
+    }
+    s->asked += count;
+    return FW_OK;
+}
+
+static fw_status chooses(void *context, size_t first, size_t n, const double *u, double *value) {
+    return judge(context, first, n, u, value, -1);
+}
+
+static fw_status shares(void *context, size_t first, size_t n, const double *u, double *value) {
+    return judge(context, first, n, u, value, ((shared *)context)->share);
+}
+
+/* whoever judges only a share of the points that choose nothing asks for the same points in the same order */
+static void apart(void **state) {
+    (void)state;
+    static const size_t which[] = {0, 1, 9};
+    for (size_t k = 0; k < 3; k++) {
+        const limit_state *l = &limit_states[which[k]];
+        fw_chance_options o = {.method = FW_CHANCE_AUTO, .seed = 2, .budget = 20000};
+        fw_chance_estimate e;
+        const char *why;
+        shared whole = {.l = l, .of = 1}, half = {.l = l, .share = 1, .of = 2};
+        fw_chance_limit one = {.dimensions = l->dimensions, .g = chooses, .context = &whole};
+        fw_chance_limit part = {
+            .dimensions = l->dimensions, .g = chooses, .context = &half, .apart = shares};
+        assert_int_equal(fw_chance_estimate_run(arena, &one, &o, &e, &why), FW_OK);
+        fw_status status = fw_chance_estimate_run(arena, &part, &o, &e, &why);
+        assert_int_equal(status, k == 2 ? FW_LIMIT : FW_OK);
+        if (k == 2) continue; /* subset simulation */
+        assert_int_equal(half.asked, whole.asked);
+        assert_true(half.places == whole.places);
+        assert_true(half.judged < (k == 1 ? 0.6 : 0.8) * (double)whole.judged);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(closed_forms), cmocka_unit_test(correlated),
-                                       cmocka_unit_test(lognormal), cmocka_unit_test(reasons),
-                                       cmocka_unit_test(points)};
+                                       cmocka_unit_test(lognormal),    cmocka_unit_test(reasons),
+                                       cmocka_unit_test(points),       cmocka_unit_test(apart)};
     return cmocka_run_group_tests(tests, open_arena, close_arena);
 }

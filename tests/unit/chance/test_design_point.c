@@ -4,7 +4,7 @@
 #include "limits.h"
 
 static fw_chance_points find(limit_state *l, size_t budget, size_t starts, const double *start) {
-    fw_chance_limit limit = {l->dimensions, limit_call, l};
+    fw_chance_limit limit = {.dimensions = l->dimensions, .g = limit_call, .context = l};
     fw_chance_run run = {
         .arena = arena, .limit = &limit, .batch = 64, .budget = 20000, .level = 0.95};
     fw_chance_points out;

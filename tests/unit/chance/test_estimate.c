@@ -158,7 +158,7 @@ static fw_status broken(void *context, size_t first, size_t count, const double 
 static void refused(void **state) {
     (void)state;
     fw_status says = FW_OK;
-    fw_chance_limit limit = {2, broken, &says};
+    fw_chance_limit limit = {.dimensions = 2, .g = broken, .context = &says};
     fw_chance_options o = {.budget = 199};
     fw_chance_estimate out;
     const char *why;
@@ -202,7 +202,7 @@ static void short_of_memory(void **state) {
     for (int method = FW_CHANCE_AUTO; method <= FW_CHANCE_SUBSET; method++) {
         limit_state *l = &limit_states[5];
         fw_chance_options o = {.method = (fw_chance_method)method, .seed = 3, .budget = 3000};
-        fw_chance_limit limit = {l->dimensions, limit_call, l};
+        fw_chance_limit limit = {.dimensions = l->dimensions, .g = limit_call, .context = l};
         fw_chance_estimate want = limit_estimate(l, o), out;
         const char *why;
         fw_status status = FW_NOMEM;

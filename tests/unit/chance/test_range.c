@@ -24,7 +24,7 @@ static void set(void *context, const double *unknown) {
 
 static fw_chance_range run(unknown_limit *l, fw_chance_search search) {
     static const double low[] = {0, 0}, high[] = {1, 1};
-    fw_chance_limit limit = {2, call, l};
+    fw_chance_limit limit = {.dimensions = 2, .g = call, .context = l};
     fw_chance_unknowns unknowns = {2, low, high, set, search};
     fw_chance_options options = {.method = FW_CHANCE_IMPORTANCE, .seed = 4, .budget = 4000};
     fw_chance_range out;
@@ -65,7 +65,7 @@ static void refused(void **state) {
     (void)state;
     static const double low[11] = {0}, high[11] = {0, -1};
     unknown_limit l = {.humped = 0};
-    fw_chance_limit limit = {2, call, &l};
+    fw_chance_limit limit = {.dimensions = 2, .g = call, .context = &l};
     fw_chance_unknowns unknowns = {2, low, high, set, FW_CHANCE_ENDS};
     fw_chance_options options = {.budget = 4000};
     fw_chance_range out;

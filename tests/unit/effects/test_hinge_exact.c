@@ -174,11 +174,36 @@ static void no_equilibrium(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* room for lattices of a six-bar whose hinges from `equal` on have a width of their own each */
+static size_t followed_bytes(int equal) {
+    rig r;
+    rig_six_bar(&r, false);
+    for (int i = 0; i < 6; i++) {
+        rig_strip(&r.hinge[i], E);
+        if (i >= equal) r.hinge[i].input.width_m *= 1 + 0.01 * i;
+    }
+    (void)exact(&r);
+    size_t before = fw_arena_peak(r.arena);
+    assert_int_equal(fw_effects_hinges_follow(r.arena, &r.loads), FW_OK);
+    size_t room = fw_arena_peak(r.arena) - before;
+    assert_int_equal(fw_effects_hinges_follow(NULL, &r.loads), FW_OK);
+    fw_arena_free(r.arena);
+    return room;
+}
+
+/* hinges that are the same beam share one lattice of its solutions, others do not */
+static void one_lattice_of_one_beam(void **state) {
+    (void)state;
+    double all = (double)followed_bytes(0), one = (double)followed_bytes(6);
+    assert_true(one > 0 && one < 0.4 * all);
+    assert_true(followed_bytes(3) > (size_t)(2 * one));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(element_laws),   cmocka_unit_test(the_pose_alone),
         cmocka_unit_test(hardly_bent),    cmocka_unit_test(at_rest_as_closed),
-        cmocka_unit_test(no_equilibrium),
+        cmocka_unit_test(no_equilibrium), cmocka_unit_test(one_lattice_of_one_beam),
     };
     return cmocka_run_group_tests_name("hinge-exact", tests, NULL, NULL);
 }

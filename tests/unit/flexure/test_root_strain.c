@@ -51,14 +51,19 @@ static int rows_of(row *rows) {
     return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain.csv", rows);
 }
 
-/* random shapes within the range of the narrow band; nothing was fitted to them */
+/* random shapes within the range of the narrow band, with their stiffness */
 static int held_out(row *rows) {
     return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_held_out.csv", rows);
 }
 
-/* others, solved when the bound was fitted to all of the former that are of silicon */
+/* others; of arcs of silicon no fit has seen them */
 static int unseen(row *rows) {
     return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_unseen.csv", rows);
+}
+
+/* drawn and solved when all fits were made */
+static int after(row *rows) {
+    return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_after.csv", rows);
 }
 
 static fw_flexure_input input_of(const row *r) {
@@ -79,9 +84,16 @@ static double above(const row *r, const fw_flexure_result *o) {
     return o->strain_per_rad / r->strain - 1;
 }
 
-/* never below a solid; at most 2 % above, of silicon 2.2 %, beyond the range of the narrow band 4 %
-   and 5.2 %; the own estimate holds all of it. One figure in ten thousand is what the table is
-   rounded to */
+/* at most this far above a solid: isotropic, leaves and arcs of silicon, within the range of the narrow
+   band and beyond it */
+static double most_above(const row *r) {
+    if (!r->silicon) return inside(r) ? 0.009 : 0.05;
+    if (r->shape.angle == 0) return inside(r) ? 0.011 : 0.06;
+    return inside(r) ? 0.022 : 0.052;
+}
+
+/* never below a solid, and not far above; the own estimate holds all of it. One figure in ten thousand
+   is what the table is rounded to */
 static void never_below_a_solid(void **state) {
     (void)state;
     static row rows[MOST];
@@ -93,7 +105,7 @@ static void never_below_a_solid(void **state) {
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
         double over = above(r, &o);
-        double top = inside(r) ? (r->silicon ? 0.022 : 0.02) : r->silicon ? 0.052 : 0.04;
+        double top = most_above(r);
         if (!(over >= -1e-4 && over <= top))
             fail_msg("row %d: %.4f above the solid, allowed 0 to %.4f", i + 2, over, top);
         assert_true(fabs(1 / (1 + over) - 1) < o.error.strain);
@@ -101,12 +113,11 @@ static void never_below_a_solid(void **state) {
         if (inside(r)) most[r->silicon] = fmax(most[r->silicon], over), counted[r->silicon]++;
     }
     assert_true(counted[0] > 250 && counted[1] > 230 && outside > 100);
-    assert_true(most[0] > 0.015 && most[1] > 0.015); /* the bounds above say something */
+    assert_true(most[0] > 0.007 && most[1] > 0.015); /* the bounds above say something */
 }
 
-/* the same of solids that nothing was fitted to, and the stiffness with what the ends lose (13a),
-   to which no number was fitted */
-static void solids_that_were_not_fitted(void **state) {
+/* the same of others, and the stiffness with what the ends lose (13a), to which no number was fitted */
+static void stiffness_was_not_fitted(void **state) {
     (void)state;
     static row rows[MOST];
     int n = held_out(rows);
@@ -118,7 +129,7 @@ static void solids_that_were_not_fitted(void **state) {
         in.ends = true;
         fw_flexure_closed_form(&in, &o);
         double over = above(r, &o), off = o.stiffness_Nm_per_rad / r->stiffness - 1;
-        double top = inside(r) ? (r->silicon ? 0.0235 : 0.02) : 0.052;
+        double top = inside(r) && r->silicon ? 0.0235 : most_above(r);
         if (!(over >= (inside(r) ? -2e-4 : -o.error.above) && over <= top))
             fail_msg("row %d: %.4f above the solid", i + 2, over);
         if (!(fabs(off) < o.error.stiffness))
@@ -129,13 +140,9 @@ static void solids_that_were_not_fitted(void **state) {
     assert_true(n > 120 && sqrt(square / n) < 0.002);
 }
 
-/* 15 isotropic and 44 of silicon that no fit has seen: none is above the bound, and none further
-   below it than stated; of silicon one in range of h > t is 2.5 % below, two shallower 3.6 and 4.1 %
- */
-static void solids_that_no_fit_has_seen(void **state) {
-    (void)state;
-    static row rows[MOST];
-    int n = unseen(rows), silicon = 0, shallow = 0;
+/* none is above the bound, and none further below it than stated */
+static int beside_the_bound(const row *rows, int n) {
+    int shallow = 0;
     for (int i = 0; i < n; i++) {
         const row *r = &rows[i];
         const fw_flexure_input in = input_of(r);
@@ -145,11 +152,23 @@ static void solids_that_no_fit_has_seen(void **state) {
         double solid = r->strain / o.strain_per_rad - 1;
         if (!(solid < 0 && solid > -o.error.strain))
             fail_msg("row %d: %.4f beside the bound, stated %.4f", i + 2, solid, o.error.strain);
-        assert_true(o.error.strain < (r->silicon ? 0.0256 : 0.0211) ||
-                    (r->silicon && r->shape.depth < r->shape.width));
-        silicon += r->silicon, shallow += r->silicon && r->shape.depth < r->shape.width;
+        bool leaf = r->shape.angle == 0, flat = r->silicon && !leaf && in.depth_m < in.width_m;
+        assert_true(flat || o.error.strain < (!r->silicon ? 0.0136 : leaf ? 0.0171 : 0.0256));
+        shallow += flat;
     }
-    assert_true(n > 50 && silicon > 40 && shallow > 3);
+    return shallow;
+}
+
+/* of 29 arcs of silicon that no fit has seen one in range of h > t is 2.5 % below, a shallower one 4.1 %;
+   and solids of all kinds that were drawn and solved when the fits were made */
+static void solids_that_no_fit_has_seen(void **state) {
+    (void)state;
+    static row rows[MOST];
+    int n = unseen(rows), shallow = beside_the_bound(rows, n);
+    assert_true(n > 50 && shallow > 1);
+    n = after(rows);
+    beside_the_bound(rows, n);
+    assert_true(n > 20);
 }
 
 /* what a solid's own mesh is off by: two of them */
@@ -230,7 +249,7 @@ static void mirrored(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(never_below_a_solid),
-                                       cmocka_unit_test(solids_that_were_not_fitted),
+                                       cmocka_unit_test(stiffness_was_not_fitted),
                                        cmocka_unit_test(solids_that_no_fit_has_seen),
                                        cmocka_unit_test(solids_agree_with_themselves),
                                        cmocka_unit_test(never_below_the_reference),

@@ -35,9 +35,9 @@ static drawn draw(const char *mechanism, const char *rest) {
     fw_status status =
         fw_device_read(d.arena, "t.xml", xml, strlen(xml), NULL, 0, &d.diags, &d.device);
     if (status == FW_OK) status = fw_layout_build(d.arena, d.device, &d.diags, &d.layout);
-    size_t holes = 0; /* release holes for which there is no room are no fault */
+    size_t holes = 0; /* release holes without room, and plates that begin in a hinge's round place, are no fault */
     for (size_t i = 0; i < d.diags.count; i++)
-        holes += d.diags.item[i].number == 189;
+        holes += d.diags.item[i].number == 189 || d.diags.item[i].number == 537;
     if (status != FW_OK || !d.layout->drawn || d.diags.count > holes)
         fail_msg("%s: %s", fw_status_text(status),
                  d.diags.count ? d.diags.item[0].message : "not drawn");
@@ -255,6 +255,23 @@ static void between_hinges(void **state) {
     fw_arena_free(alone.arena);
 }
 
+/* a plate that begins within its hinge's round place loses a segment of the circle, of which the head and the neck give
+   some back: that is said once */
+static void what_hinges_take_is_said(void **state) {
+    (void)state;
+    double um2 = 0;
+    drawn d = draw(BODY(PLATE), NO_TETHER);
+    assert_int_equal(d.diags.count, 1);
+    assert_int_equal(d.diags.item[0].number, 537);
+    const char *said = strstr(d.diags.item[0].message, "um, and ");
+    if (!said || sscanf(said, "um, and %lf um^2", &um2) != 1)
+        fail_msg("%s", d.diags.item[0].message);
+    const double r = d.layout->hinge[0].keep_out_m / UM, from = 200;
+    const double segment = r * r * acos(from / r) - from * sqrt(r * r - from * from);
+    assert_true(um2 < segment && um2 > 0.2 * segment);
+    fw_arena_free(d.arena);
+}
+
 static void memory_runs_out(void **state) {
     (void)state;
     static char xml[16384];
@@ -281,7 +298,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(areas_follow),       cmocka_unit_test(pieces_are_the_body),
         cmocka_unit_test(mirrored_and_moved), cmocka_unit_test(what_stands_on_it),
-        cmocka_unit_test(between_hinges),     cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(between_hinges),
+        cmocka_unit_test(what_hinges_take_is_said),
+        cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -220,6 +220,38 @@ static void shapes_are_in_place(void **state) {
     }
 }
 
+/* rates: velocities of bodies, and of probes that are lengths or angles, which the values follow: between two samples a
+   value changes by the mean of both rates, but for a twelfth of dt^3 times the third derivative; where the bead is
+   met more, so squares are summed */
+static void rates_are_those_of_the_values(void **state) {
+    (void)state;
+    json_t *plain = ask_file(live, fw_plan_live_preview, "tests/data/probes/gripper.xml", NULL),
+           *root = ask_file(live, fw_plan_live_preview, "tests/data/probes/gripper.xml",
+                            "\"rates\":true,\"options\":{\"samples\":2001}"),
+           *motion = json_object_get(root, "motion"), *t = json_object_get(motion, "t_s"), *probe;
+    assert_null(json_object_get(json_object_get(plain, "motion"), "v"));
+    assert_int_equal(json_array_size(json_object_get(motion, "v")), json_array_size(t));
+    size_t i;
+    int compared = 0;
+    json_array_foreach(json_object_get(motion, "probes"), i, probe) {
+        const json_t *value = json_object_get(probe, "value"), *rate = json_object_get(probe, "rate");
+        const bool has = strcmp(text_at(probe, "unit"), "m") == 0 || strcmp(text_at(probe, "unit"), "rad") == 0;
+        assert_true(has ? json_is_array(rate) : json_is_null(rate));
+        double most = 0, off = 0;
+        for (int k = 0; has && k + 1 < (int)json_array_size(t); k++) {
+            double dt = item(t, k + 1) - item(t, k), by = (item(rate, k) + item(rate, k + 1)) / 2 * dt;
+            most += by * by;
+            off += pow(item(value, k + 1) - item(value, k) - by, 2);
+        }
+        if (has && !(off <= 1e-4 * most))
+            fail_msg("%s: off by %g", text_at(probe, "id"), sqrt(off / most));
+        compared += has;
+    }
+    assert_int_equal(compared, 3); /* opening, swing and tip */
+    json_decref(plain);
+    json_decref(root);
+}
+
 /* T + V + D - W stays what it is, and what is in the document is a motion: dT/dt is bounded */
 static void energies_balance(void **state) {
     (void)state;
@@ -464,6 +496,7 @@ int main(void) {
         cmocka_unit_test(a_quick_answer_says_what_it_is_without),
         cmocka_unit_test(joints_stay_closed_and_angles_are_those_of_the_bodies),
         cmocka_unit_test(shapes_are_in_place),
+        cmocka_unit_test(rates_are_those_of_the_values),
         cmocka_unit_test(energies_balance),
         cmocka_unit_test(energies_cost_no_digit),
         cmocka_unit_test(options_are_followed),

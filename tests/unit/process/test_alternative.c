@@ -135,6 +135,17 @@ static void without_what_the_device_lacks(void **state) {
     assert_int_equal(without->nleft_out, 2);
     assert_string_equal(without->left_out[1].before, "");
     assert_int_equal(chosen("silicon-on-glass", "only-with=\"tethers\"", "only-with=\"fingers\"", NULL, 0, &without), FW_INPUT);
+    /* what every device needs is not for some: seen before anybody draws one without, and the other way round */
+    static const struct {
+        const char *lacks, *says;
+    } asked[] = {{NULL, "for a device without 'tethers'"}, {"tethers", NULL}};
+    for (size_t i = 0; i < 2; i++) {
+        lacks = asked[i].lacks;
+        assert_int_equal(chosen("silicon-on-glass", "<step id=\"G46\"", "<step only-with=\"tethers\" id=\"G46\"", NULL, 0,
+                                &without),
+                         FW_INPUT);
+        if (asked[i].says) expect(338, asked[i].says);
+    }
     /* what is measured, too */
     assert_int_equal(chosen(SILICON, NULL, NULL, NULL, 0, &without), FW_OK);
     lacks = NULL;

@@ -469,6 +469,13 @@ static void lithography_cannot_open_what_is_left(void **state) {
     assert_int_equal(f->manufacturable, 0);
     assert_true(reason(f, "Nearest change: openings at least"));
     a_proposal_is_accepted_and_least(f, facts);
+    /* nor do the rules of the mask refuse what is proposed */
+    facts.least_space_m = 9e-6;
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    const double gap = f->nearest_gap_m;
+    facts.narrowest_slot_m = gap;
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_true(gap - 2.0 * f->bias_m >= facts.least_space_m && gap - 2.0 * f->bias_m < facts.least_space_m + 0.2e-6);
 }
 
 /* a laboratory that plans for wide openings: a narrow slot is not through, which a measured lag

@@ -313,7 +313,7 @@ static void sites_and_settings(void **state) {
         with(begun(),
              entry("wafer=A-7; instrument=profilometer 2; thickness=9.1 9.0 9.2 9.15 8.9 um; "
                    "thickness below the mould's top=left:0.0068 centre:0.0069 mm; "
-                   "set current density=0.0204 A/cm2; set bath temperature=24.5 Cel; "
+                   "set current density=0.0204 A/cm2; set bath temperature=24.5 Cel; set efficiency=96 %; "
                    "coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 9.1 9.1 um, u=0.05 um, "
                    "at=25 C/cm2, u-at=0.2 C/cm2"),
              0);
@@ -330,9 +330,10 @@ static void sites_and_settings(void **state) {
     assert_near(e->measured[1].site[0], 6.9, 1e-12);
     assert_near(e->measured[1].site[2], 6.8, 1e-12);
     assert_true(isnan(e->measured[1].site[1]));
-    assert_int_equal(e->nset, 2);
+    assert_int_equal(e->nset, 3);
     assert_near(e->set[0].value, 20.4, 1e-12);
     assert_near(e->set[1].value, 24.5, 1e-12);
+    assert_string_equal(e->set[2].q->id, "cu.eta"); /* no setting, but the sheet has a cell for it */
     assert_int_equal(e->ncoupon, 1);
     const fw_process_measurement *m = &e->coupon[0].row;
     assert_near(m->drawn_m, 1e-3, 1e-18);
@@ -367,19 +368,23 @@ static void readings(void **state) {
         begun(), entry(fw_arena_printf(arena, "wafer=1; thickness=9 um; %s; %s", one, two)), 0);
     log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s", one)), 0);
     log = with(log, entry(fw_arena_printf(arena, "wafer=1; %s; %s", other, again)), 0);
+    for (int at = 49; at <= 51; at += 2) /* what was written under at is corrected: all are of one run */
+        log = with(log, entry(fw_arena_printf(arena, "wafer=2; coupon=undercut-ladder, width, drawn=16 um, value=13.1 um, "
+                                                     "u=0.08 um, at=%d um", at)), 0);
     diags = fw_diags_new(arena);
     assert_int_equal(
         fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_readings(arena, &run, &r), FW_OK);
-    assert_int_equal(r.n, 4); /* of six, one is superseded and one is of another run */
+    assert_int_equal(r.n, 4); /* of eight, one is read again and three are of a run that a later entry took the place of */
+    assert_near(r.item[3].row.at, 51e-6, 1e-12);
     assert_string_equal(r.lot, "lot 7");
-    assert_string_equal(r.item[1].wafer, "2");
-    assert_near(r.item[1].row.value, 9.2e-6, 1e-18);
-    assert_near(r.item[1].squares, 0.08e-12, 1e-24);
-    assert_int_equal(r.item[1].nsite, 3);
-    assert_string_equal(r.item[1].date, "2026-11-20");
-    assert_string_equal(r.item[1].step, "C22");
-    assert_near(r.item[3].row.value, 9.55e-6, 1e-18);
+    assert_string_equal(r.item[0].wafer, "2");
+    assert_near(r.item[0].row.value, 9.2e-6, 1e-18);
+    assert_near(r.item[0].squares, 0.08e-12, 1e-24);
+    assert_int_equal(r.item[0].nsite, 3);
+    assert_string_equal(r.item[0].date, "2026-11-20");
+    assert_string_equal(r.item[0].step, "C22");
+    assert_near(r.item[2].row.value, 9.55e-6, 1e-18);
 }
 
 /* what the plan does not know is refused with what there is */

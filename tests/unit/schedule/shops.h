@@ -108,7 +108,7 @@ static inline void check_schedule(const fw_schedule *s) {
         assert_true(r->count >= 1 && r->first + r->count <= shop->wafers);
         assert_true(r->count <= t->load && (!t->lot || r->count == shop->wafers));
         assert_near(r->end_s - r->start_s, t->duration_s, 1e-6);
-        double there = t->by_day ? t->duration_s : t->attended_s;
+        double there = fw_schedule_task_there_s(t);
         if (there > 0.0)
             assert_near(fw_schedule_calendar_fit(&shop->calendar, r->start_s, there), r->start_s,
                         1e-6);

@@ -201,8 +201,55 @@ static void hairpin_turned_far(void **state) {
         load.apart_m[0] += 5e-6;
         fw_verdict_hinge_strain(&h, beam, &load, &elsewhere);
         assert_true(fabs(elsewhere.peak / truth.peak - 1) > 0.02);
+        assert_true(now.known && !elsewhere.known);
     }
     assert_true(pressed > 0);
+    fw_arena_free(arena);
+}
+
+/* A shallow arc whose ends are pressed together along its chord, up to six tenths of it: past the buckling
+   load neither its force nor its closed form leads to the beam, but its place does. Of a force that is not
+   the beam's the strain is not known. */
+static void arc_pressed_until_it_bows(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double angle = 40 * M_PI / 180, r = 500e-6;
+    fw_mechanism_hinge h = {.first_is_a = true};
+    h.input = (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
+                                 .length_m = r * angle,
+                                 .angle_rad = angle,
+                                 .radius_m = r,
+                                 .width_m = 4e-6,
+                                 .fillet_m = 2e-6,
+                                 .depth_m = 40e-6,
+                                 .youngs_Pa = 160e9,
+                                 .poisson = 0.22,
+                                 .strength_Pa = 1e9,
+                                 .safety_factor = 1};
+    fw_flexure_closed_form(&h.input, &h.closed_form);
+    fw_flexure_hinge_law_of(&h.input, &h.closed_form, &h.law);
+    assert_int_equal(fw_flexure_path_strain_new(arena, &h.input, &h.closed_form, &h.section),
+                     FW_OK);
+    fw_flexure_elastica *beam, *followed;
+    assert_int_equal(fw_verdict_hinge_beam(arena, &h, &beam), FW_OK);
+    assert_int_equal(fw_verdict_hinge_beam(arena, &h, &followed), FW_OK);
+    for (int i = 1; i <= 24; i++) {
+        const double twist[3] = {0, 0, -i * 0.025 * 2 * r * sin(0.5 * angle)};
+        fw_flexure_elastica_result at;
+        fw_flexure_strip_strains truth;
+        fw_flexure_elastica_of_twist(followed, twist, 1e-9, i > 1, &at);
+        assert_int_equal(at.code, FW_ELASTICA_OK);
+        fw_flexure_strip_strain_exact(&h.section, followed, &truth);
+        fw_verdict_hinge_load load = {
+            .fx_N = -at.wrench[1], .fy_N = -at.wrench[2], .apart_m = {0, twist[2]}};
+        fw_verdict_hinge_strains now;
+        fw_verdict_hinge_strain(&h, beam, &load, &now);
+        assert_true(now.known);
+        assert_relative(now.peak, truth.peak, 1e-5);
+        load.fy_N *= 1.2;
+        fw_verdict_hinge_strain(&h, beam, &load, &now);
+        if (i > 12) assert_false(now.known);
+    }
     fw_arena_free(arena);
 }
 
@@ -237,12 +284,49 @@ static void band_of_a_step(void **state) {
     fw_arena_free(s.r.arena);
 }
 
+/* an instant at which no beam bears the force in its place is said to be lost, and is in no peak; the next
+   run starts without it */
+static void instants_without_a_beam(void **state) {
+    (void)state;
+    scenery s;
+    six_bar(&s, &cases[2], 1);
+    const fw_statics *x = rest(&s.r, FW_HINGE_ELASTICA);
+    double force[12];
+    fw_verdict_strain_monitor w;
+    assert_int_equal(fw_verdict_strain_monitor_new(s.r.arena, &s.r.m, false, &w), FW_OK);
+    fw_dynamics_instant now = {.t_s = 1,
+                               .q = x->q,
+                               .angle_rad = x->angle_rad,
+                               .reaction_N = x->reaction_N,
+                               .hinge = FW_HINGE_ELASTICA};
+    fw_verdict_strain_monitor_record(&w, &now);
+    double before = w.hinge[0].strain.value;
+    assert_true(before > 0 && !w.hinge[0].lost);
+    const fw_mechanism_hinge *h = &s.r.hinge[0];
+    const fw_verdict_hinge_load at = load_of(&s.r, x, 0);
+    const double axis = h->axis_rad + at.frame_rad;
+    const double press = 300 * h->closed_form.stiffness_Nm_per_rad / h->input.length_m;
+    memcpy(force, x->reaction_N, sizeof force);
+    force[0] = -sin(axis) * press, force[1] = cos(axis) * press;
+    if (!h->first_is_a) force[0] = -force[0], force[1] = -force[1];
+    now.reaction_N = force, now.t_s = 2;
+    fw_verdict_strain_monitor_record(&w, &now);
+    assert_true(w.hinge[0].lost && !w.hinge[1].lost);
+    assert_near(w.hinge[0].lost_s, 2, 0);
+    assert_near(w.hinge[0].strain.value, before, 0);
+    fw_verdict_strain_monitor_record(&w, NULL);
+    assert_false(w.hinge[0].lost);
+    fw_arena_free(s.r.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moments_of_the_six_bar),
         cmocka_unit_test(closed_form_to_second_order),
         cmocka_unit_test(hairpin_turned_far),
+        cmocka_unit_test(arc_pressed_until_it_bows),
         cmocka_unit_test(band_of_a_step),
+        cmocka_unit_test(instants_without_a_beam),
     };
     return cmocka_run_group_tests_name("strain-exact", tests, NULL, NULL);
 }

@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The ways in which a flow may be run, and the flow of one device: alternatives that a laboratory chose are put in their
+   places, what the device does not need is taken out, and every other way is asked the same questions, so that whoever
+   needs it next finds it sound. */
+#include "base/text.h"
+#include "process/calibrate.h"
+#include "process/pack.h"
+#include <string.h>
+
+/* ---- other ways of doing a step ----
+   <alternative> holds a whole <step> with the id of the one whose place it takes when a laboratory pack says
+   <choose alternative="...">. It is put there before anything is read from the steps, so that every check, time and picture
+   is of the flow as it is run. */
+
+static fw_xml_record *step_of(const fw_xml_record *root, const char *id, fw_xml_record **before) {
+    *before = NULL;
+    for (const fw_xml_record *e = root->first_child; e; e = e->next) {
+        if (fw_xml_is(e, "step") && strcmp(fw_process_pack_text(e, "id"), id) == 0)
+            return (fw_xml_record *)e;
+        *before = (fw_xml_record *)e;
+    }
+    return NULL;
+}
+
+static const fw_xml_record *inner_step(const fw_xml_record *alternative) {
+    for (const fw_xml_record *e = alternative->first_child; e; e = e->next)
+        if (fw_xml_is(e, "step")) return e;
+    return NULL;
+}
+
+static void put(const fw_xml_record *root, fw_xml_record *step, fw_xml_record *old,
+                fw_xml_record *before) {
+    step->next = old->next;
+    if (before)
+        before->next = step;
+    else
+        ((fw_xml_record *)root)->first_child = step;
+}
+
+/* <alternative>s of the flow, each with its step; mistakes are FW-D375 */
+static fw_status list(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    size_t most = (size_t)fw_xml_children(pack->root, "alternative");
+    FW_NEED(f->alternative = fw_arena_array(pack->arena, fw_process_alternative, most));
+    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next) {
+        if (!fw_xml_is(e, "alternative")) continue;
+        const fw_xml_record *step = inner_step(e);
+        fw_xml_record *before;
+        fw_process_alternative a = {.id = fw_process_pack_text(e, "id"),
+                                    .title = fw_process_pack_text(e, "title"),
+                                    .step = step ? fw_process_pack_text(step, "id") : "",
+                                    .place = e->element->place};
+        for (int i = 0; i < f->nalternative; i++)
+            if (strcmp(f->alternative[i].id, a.id) == 0)
+                fw_diag_error(pack->diags, 375, a.place,
+                              "alternative '%s' is there twice; rename "
+                              "one",
+                              a.id);
+        if (fw_xml_children(e, "step") != 1)
+            fw_diag_error(pack->diags, 375, a.place,
+                          "<alternative> holds one <step>, the one that takes another's place");
+        else if (!step_of(pack->root, a.step, &before))
+            fw_diag_error(pack->diags, 375, step->element->place,
+                          "there is no step '%s' whose place this one could take; give it the id "
+                          "of a step of the flow",
+                          a.step);
+        else
+            f->alternative[f->nalternative++] = a;
+    }
+    return FW_OK;
+}
+
+static fw_status no_such(const fw_process_pack *pack, const fw_process_choice *c) {
+    const fw_process_flow *f = pack->flow;
+    const char **name = fw_arena_array(pack->arena, const char *, (size_t)f->nalternative);
+    FW_NEED(name);
+    for (int i = 0; i < f->nalternative; i++)
+        name[i] = f->alternative[i].id;
+    const char *best = fw_did_you_mean(c->alternative, name, (size_t)f->nalternative);
+    fw_diag_error(pack->diags, 375, c->place, "flow '%s' has no alternative '%s'%s%s%s", f->id,
+                  c->alternative, best ? "; did you mean '" : "", best ? best : "",
+                  best ? "'?" : "");
+    return FW_OK;
+}
+
+static fw_status choose(fw_process_pack *pack, const fw_process_choice *c) {
+    fw_process_flow *f = pack->flow;
+    fw_process_alternative *a = NULL;
+    for (int i = 0; i < f->nalternative; i++)
+        if (strcmp(f->alternative[i].id, c->alternative) == 0) a = &f->alternative[i];
+    if (!a) return no_such(pack, c);
+    for (int i = 0; i < f->nalternative; i++)
+        if (f->alternative[i].chosen && strcmp(f->alternative[i].step, a->step) == 0) {
+            fw_diag_error(pack->diags, 375, c->place,
+                          "'%s' and '%s' are both for step %s; use one of them",
+                          f->alternative[i].id, a->id, a->step);
+            return FW_OK;
+        }
+    a->chosen = true;
+    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next) {
+        fw_xml_record *before, *old = step_of(pack->root, a->step, &before);
+        if (!fw_xml_is(e, "alternative") || strcmp(fw_process_pack_text(e, "id"), a->id) != 0)
+            continue;
+        a->instead_of = fw_process_pack_text(old, "title");
+        put(pack->root, (fw_xml_record *)inner_step(e), old, before);
+        break;
+    }
+    return FW_OK;
+}
+
+/* lists the alternatives, and puts the chosen ones in the places of their steps */
+static fw_status choose_alternatives(fw_process_pack *pack, const fw_process_choice *choice,
+                                     int n) {
+    pack->flow->id = fw_process_pack_text(pack->root, "id");
+    FW_TRY(list(pack));
+    for (int i = 0; i < n; i++)
+        FW_TRY(choose(pack, &choice[i]));
+    return FW_OK;
+}
+
+/* ---- what this device does not need ----
+   A step with only-with="tethers" is there for devices that have some. For one that has none it is taken out before
+   anything is read from the steps, as an alternative is put in: sheet, tables, schedule, log and cost know nothing of it,
+   and the sheet says so where it stood. Test: test_alternative.c. */
+
+static bool is_needed(const fw_process_pack *pack, const fw_xml_record *e) {
+    return !pack->lacks || strcmp(fw_process_pack_text(e, "only-with"), pack->lacks) != 0;
+}
+
+static const char *next_needed(const fw_process_pack *pack, const fw_xml_record *e) {
+    while ((e = e->next))
+        if (fw_xml_is(e, "step") && is_needed(pack, e)) return fw_process_pack_text(e, "id");
+    return "";
+}
+
+static fw_status leave_out(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    fw_xml_record *root = (fw_xml_record *)pack->root, *before = NULL, *e;
+    if (!pack->lacks) return FW_OK;
+    FW_NEED(f->left_out = fw_arena_array(pack->arena, fw_process_left_out,
+                                         (size_t)fw_xml_children(root, "step")));
+    for (e = (fw_xml_record *)root->first_child; e; e = (fw_xml_record *)e->next) {
+        if (!fw_xml_is(e, "step") || is_needed(pack, e)) {
+            before = e;
+            continue;
+        }
+        fw_process_left_out *l = &f->left_out[f->nleft_out++];
+        *l = (fw_process_left_out){.id = fw_process_pack_text(e, "id"),
+                                   .title = fw_process_pack_text(e, "title"),
+                                   .before = next_needed(pack, e)};
+        FW_NEED(l->why = fw_arena_printf(pack->arena, "the device has no %s", pack->lacks));
+        if (before)
+            before->next = e->next;
+        else
+            root->first_child = e->next;
+    }
+    if (f->nleft_out > 0 && fw_xml_children(root, "step") == 0)
+        fw_diag_error(pack->diags, 590, root->element->place,
+                      "every step of flow '%s' is for devices with %s only, and this one has none; "
+                      "take only-with off those that every device needs",
+                      f->id, pack->lacks);
+    return FW_OK;
+}
+
+/* ---- alternatives that nobody chose: a laboratory finds them as sound as the flow itself ---- */
+
+static bool is_said(const fw_diags *diags, const fw_diag *d) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == d->number && strcmp(diags->item[i].message, d->message) == 0)
+            return true;
+    return false;
+}
+
+/* what is said of another flow of the pack, and not of the flow as it is */
+static fw_status tell(fw_process_pack *pack, const fw_diags *of, const char *which,
+                      const char *name) {
+    for (size_t i = 0; i < of->count; i++) {
+        fw_diag d = of->item[i];
+        if (d.severity == FW_NOTE || is_said(pack->diags, &d)) continue;
+        FW_NEED(d.message = fw_arena_printf(pack->arena, "%s '%s': %s", which, name, d.message));
+        fw_diags_add(pack->diags, &d, d.severity);
+    }
+    return of->failed ? FW_NOMEM : FW_OK;
+}
+
+/* in the place of its step, chosen or not, and out again */
+static fw_status lint_alternative(fw_process_pack *pack, const fw_xml_record *e,
+                                  fw_process_alternative *a) {
+    fw_diags diags = fw_diags_new(pack->arena);
+    fw_process_pack other = {.arena = pack->arena,
+                             .diags = &diags,
+                             .base = pack->base,
+                             .root = pack->root,
+                             .lacks = pack->lacks};
+    fw_xml_record *before, *old = step_of(pack->root, a->step, &before),
+                           *inner = (fw_xml_record *)inner_step(e);
+    if (!old) return FW_OK; /* this device does not need the step, whichever way it is done */
+    const fw_xml_record *next = inner->next;
+    FW_NEED(other.flow = fw_arena_one(pack->arena, fw_process_flow));
+    other.flow->left_out = pack->flow->left_out, other.flow->nleft_out = pack->flow->nleft_out;
+    put(pack->root, inner, old, before);
+    fw_status status = fw_process_pack_flow(&other);
+    if (before)
+        before->next = old;
+    else
+        ((fw_xml_record *)pack->root)->first_child = old;
+    inner->next = next;
+    FW_TRY(status);
+    if (diags.errors == 0) a->drying = fw_process_flow_drying(other.flow);
+    return tell(pack, &diags, "with the alternative", a->id);
+}
+
+static fw_status lint_alternatives(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next)
+        for (int i = 0; fw_xml_is(e, "alternative") && i < f->nalternative; i++)
+            if (!f->alternative[i].chosen &&
+                strcmp(f->alternative[i].id, fw_process_pack_text(e, "id")) == 0)
+                FW_TRY(lint_alternative(pack, e, &f->alternative[i]));
+    return FW_OK;
+}
+
+/* ---- devices that need other steps: whoever draws one finds the flow as sound as for this one ---- */
+
+typedef struct records { /* of the flow's root, as they followed each other */
+    fw_xml_record **item;
+    int n;
+} records;
+
+static fw_status remember(fw_process_pack *pack, records *list) {
+    fw_xml_record *root = (fw_xml_record *)pack->root;
+    *list = (records){0};
+    for (const fw_xml_record *e = root->first_child; e; e = e->next)
+        list->n++;
+    FW_NEED(list->item = fw_arena_array(pack->arena, fw_xml_record *, (size_t)list->n));
+    list->n = 0;
+    for (fw_xml_record *e = (fw_xml_record *)root->first_child; e; e = (fw_xml_record *)e->next)
+        list->item[list->n++] = e;
+    return FW_OK;
+}
+
+static void restore(fw_process_pack *pack, const records *list) {
+    ((fw_xml_record *)pack->root)->first_child = list->n > 0 ? list->item[0] : NULL;
+    for (int i = 0; i < list->n; i++)
+        list->item[i]->next = i + 1 < list->n ? list->item[i + 1] : NULL;
+}
+
+/* the flow for a device that lacks `lacks` (NULL: nothing), with the alternatives that were chosen, and each of the others
+   in its place */
+static fw_status lint_other(fw_process_pack *pack, const char *lacks, const char *which,
+                            const char *name) {
+    fw_diags diags = fw_diags_new(pack->arena);
+    const size_t n = (size_t)pack->flow->nalternative;
+    fw_process_pack other = {.arena = pack->arena,
+                             .diags = &diags,
+                             .base = pack->base,
+                             .root = pack->root,
+                             .lacks = lacks};
+    FW_NEED(other.flow = fw_arena_one(pack->arena, fw_process_flow));
+    FW_NEED(other.flow->alternative = fw_arena_array(pack->arena, fw_process_alternative, n));
+    for (size_t i = 0; i < n; i++)
+        other.flow->alternative[other.flow->nalternative++] = pack->flow->alternative[i];
+    FW_TRY(leave_out(&other));
+    if (diags.errors == 0) FW_TRY(fw_process_pack_flow(&other));
+    if (diags.errors == 0) FW_TRY(lint_alternatives(&other));
+    return tell(pack, &diags, which, name);
+}
+
+/* of a step; "": every device needs it */
+static const char *held_by(const fw_xml_record *e) {
+    return fw_xml_is(e, "step") ? fw_process_pack_text(e, "only-with") : "";
+}
+
+/* whole: the records before anything was left out of them */
+static fw_status lint_others(fw_process_pack *pack, const records *whole) {
+    records own;
+    FW_TRY(remember(pack, &own));
+    for (int i = 0; i < whole->n; i++) {
+        const char *with = held_by(whole->item[i]);
+        bool asked = !with[0];
+        for (int k = 0; k < i && !asked; k++)
+            asked = strcmp(held_by(whole->item[k]), with) == 0;
+        if (asked) continue;
+        const bool lacks = pack->lacks && strcmp(pack->lacks, with) == 0;
+        restore(pack, whole);
+        FW_TRY(lint_other(pack, lacks ? NULL : with,
+                          lacks ? "for a device with" : "for a device without", with));
+    }
+    restore(pack, &own);
+    return FW_OK;
+}
+
+fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
+                               size_t base_n, const char *file, const char *xml, size_t n,
+                               fw_diags *diags, fw_process_flow **flow) {
+    return fw_process_flow_read_chosen(arena, base_file, base_xml, base_n, file, xml, n, NULL, 0,
+                                       NULL, diags, flow);
+}
+
+fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, const char *base_xml,
+                                      size_t base_n, const char *file, const char *xml, size_t n,
+                                      const fw_process_choice *choice, int nchoice,
+                                      const char *lacks, fw_diags *diags, fw_process_flow **flow) {
+    fw_xml_reader base = {.arena = arena, .diags = diags, .table = &fw_process_pack_table};
+    fw_xml_reader own = base;
+    fw_process_pack pack = {.arena = arena, .diags = diags, .lacks = lacks};
+    size_t errors = diags->errors;
+    *flow = NULL;
+    FW_TRY(fw_process_pack_files(&base, base_file, base_xml, base_n, &own, file, xml, n));
+    FW_TRY(fw_process_pack_records(&base, true, &pack.base));
+    FW_TRY(fw_process_pack_records(&own, false, &pack.root));
+    FW_NEED(pack.flow = fw_arena_one(arena, fw_process_flow));
+    char hash[65];
+    fw_sha256(xml, n, hash);
+    FW_NEED(pack.flow->sha256 = fw_arena_strdup(arena, hash));
+    pack.flow->file = file;
+    FW_TRY(choose_alternatives(&pack, choice, nchoice));
+    records whole;
+    FW_TRY(remember(&pack, &whole));
+    FW_TRY(leave_out(&pack));
+    FW_TRY(fw_process_pack_flow(&pack));
+    if (diags->errors == errors) FW_TRY(lint_alternatives(&pack));
+    if (diags->errors == errors) FW_TRY(lint_others(&pack, &whole));
+    if (diags->failed) return FW_NOMEM;
+    if (diags->errors > errors) return FW_INPUT;
+    *flow = pack.flow;
+    return FW_OK;
+}

@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Devices that a flow may make of a description, as a limit state of independent standard normal numbers: each judged as
+   made, once for its values, in threads, and kept in the store under its number. A shard judges what chooses later points
+   and its share of the rest. Test: tests/cli/test_study.py */
+#include "maths/functions.h"
+#include "plan/stages.h"
+#include "study/study_parts.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- one batch of devices, in threads ---- */
+
+typedef struct batch {
+    fw_study_yielding *y;
+    size_t n;
+    const double *x;       /* (n x npoint) */
+    const long *number;    /* (n) of their samples */
+    fw_verdict_made *made; /* (n) */
+    bool *wanted;          /* (n) not known from before */
+} batch;
+
+/* with settings of its own: the description read again and judged as drawn, then as made */
+static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, const double *x,
+                                fw_verdict_made *made) {
+    const fw_study *study = y->study;
+    const fw_plan *plan = study->plan;
+    int n = study->nsetting, before = y->nbase;
+    fw_device_set *set = fw_arena_array(arena, fw_device_set, (size_t)(n + before));
+    fw_verdict_variant_verdict *variant =
+        fw_arena_array(arena, fw_verdict_variant_verdict, (size_t)plan->nflow);
+    const fw_device *device;
+    const fw_layout *layout = NULL;
+    fw_diags diags = fw_diags_new(arena);
+    FW_NEED(set && variant ? set : NULL);
+    for (int k = 0; k < before; k++)
+        set[k] = y->base[k];
+    for (int k = 0; k < n; k++) {
+        char *text = fw_arena_array(arena, char, FW_STUDY_TEXT);
+        double shown;
+        FW_NEED(text);
+        FW_TRY(fw_study_input_write(&study->input[study->nvary + k], x[y->ninput + k], 12, text,
+                                    &shown));
+        set[before + k] = (fw_device_set){study->input[study->nvary + k].what, text};
+    }
+    *made = (fw_verdict_made){.ln = (double)NAN, .hinge = FW_NONE};
+    fw_status status = fw_plan_restated(plan, arena, set, before + n, &device, variant);
+    fw_verdict verdict = {.nvariant = plan->nflow, .variant = variant};
+    fw_verdict_options options = plan->options.verdict;
+    options.corners = FW_CORNERS_NONE;
+    options.with_advice = false;
+    options.at_a_glance = true;
+    if (status == FW_OK)
+        status = fw_verdict_run(arena, device, &options, &diags, &verdict, &layout);
+    if (status == FW_OK)
+        status = fw_verdict_made_at(arena, device, layout, &options, &variant[y->flow], x, made);
+    if (status == FW_NOMEM || status == FW_CANCELLED || status == FW_OK) return status;
+    made->ln = (double)NAN;
+    return FW_OK;
+}
+
+fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
+                                  fw_verdict_made *made) {
+    const fw_plan *plan = y->study->plan;
+    fw_arena *arena = fw_arena_part(plan->arena, 0);
+    FW_NEED(arena);
+    fw_arena_stop_with(arena, y->study->options.cancel);
+    fw_status status;
+    if (y->study->nsetting + y->nbase > 0)
+        status = judge_restated(y, arena, x, made);
+    else
+        status = fw_verdict_made_at(arena, plan->device, plan->layout, &plan->options.verdict,
+                                    &plan->verdict.variant[y->flow], x, made);
+    made->why = NULL; /* of this arena */
+    fw_arena_free(arena);
+    return status;
+}
+
+static fw_status judge_kth(void *context, long k) {
+    batch *b = context;
+    return b->wanted[k] ? fw_study_yielding_judge(
+                              b->y, b->x + (size_t)k * (size_t)b->y->scatter.npoint, &b->made[k])
+                        : FW_OK;
+}
+
+/* ---- devices that were judged before ---- */
+
+static size_t slot_of(const fw_study_yielding *y, const double *x) {
+    size_t values = (size_t)y->scatter.npoint, n = values * sizeof *x, at = 0;
+    uint64_t hash = 14695981039346656037u; /* FNV-1a */
+    for (const unsigned char *byte = (const unsigned char *)x; at < n; at++)
+        hash = (hash ^ byte[at]) * 1099511628211u;
+    size_t k = (size_t)(hash ^ (hash >> 29)) & (y->room - 1);
+    while (y->value[k].i >= 0 && memcmp(y->key + k * values, x, n) != 0)
+        k = (k + 1) & (y->room - 1);
+    return k;
+}
+
+static fw_status make_room(fw_study_yielding *y, size_t more) {
+    if (2 * (y->filled + more) < y->room) return FW_OK;
+    fw_study_yielding was = *y;
+    size_t values = (size_t)y->scatter.npoint;
+    y->room = y->room ? y->room : 256;
+    while (2 * (y->filled + more) >= y->room)
+        y->room *= 2;
+    FW_NEED(y->key = fw_arena_array(y->study->arena, double, y->room *values));
+    FW_NEED(y->value = fw_arena_array(y->study->arena, fw_study_cached, y->room));
+    for (size_t k = 0; k < y->room; k++)
+        y->value[k].i = -1;
+    for (size_t k = 0; k < was.room; k++) {
+        if (was.value[k].i < 0) continue;
+        size_t to = slot_of(y, was.key + k * values);
+        memcpy(y->key + to * values, was.key + k * values, values * sizeof *y->key);
+        y->value[to] = was.value[k];
+    }
+    return FW_OK;
+}
+
+/* ---- the limit state ---- */
+
+static void fill_sample(const fw_study_yielding *y, const double *x, const fw_study_cached *c,
+                        fw_study_sample *sample) {
+    const fw_study *study = y->study;
+    for (int k = 0; k < study->ninput; k++)
+        sample->value[k] = (double)NAN, sample->text[k][0] = '\0';
+    for (int k = 0; k < y->ninput; k++)
+        sample->value[y->first_input + k] = x[k];
+    for (int k = 0; k < study->nsetting; k++)
+        sample->value[study->nvary + k] = x[y->ninput + k];
+    for (int k = 0; k < study->nresponse; k++)
+        sample->response[k] = (double)NAN;
+    sample->i = c->i;
+    sample->run = !isnan(c->ln);
+    sample->used = exp(c->ln);
+    sample->decision = !sample->run ? -1 : c->ln > 0 ? 1 : 0;
+    if (!sample->run)
+        memcpy(sample->why, "it could not be judged", sizeof "it could not be judged");
+}
+
+/* what the store has of these devices is not judged again */
+static fw_status from_store(fw_study_yielding *y, batch *b, fw_study_sample *sample) {
+    const fw_study *study = y->study;
+    for (size_t k = 0; study->store && k < b->n; k++) {
+        bool there;
+        FW_TRY(fw_study_store_get(study->store, b->number[k], sample, &there));
+        if (!there && study->stored_only)
+            return fw_diag_error(&y->study->diags, 497, (fw_place){.file = study->options.file},
+                                 "sample %ld is in none of the shards; run the shard that has it "
+                                 "to its end with --resume",
+                                 b->number[k]);
+        if (!there) continue;
+        b->wanted[k] = false;
+        b->made[k] = (fw_verdict_made){.ln = sample->run ? log(sample->used) : (double)NAN,
+                                       .hinge = FW_NONE};
+    }
+    return FW_OK;
+}
+
+static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b, double *ln) {
+    fw_study_sample sample;
+    bool *stored = fw_arena_array(scratch, bool, b->n);
+    b->made = fw_arena_array(scratch, fw_verdict_made, b->n);
+    b->wanted = fw_arena_array(scratch, bool, b->n);
+    FW_NEED(stored && b->made && b->wanted ? stored : NULL);
+    FW_TRY(fw_study_sample_new(scratch, y->study, &sample));
+    for (size_t k = 0; k < b->n; k++)
+        b->wanted[k] = true;
+    FW_TRY(from_store(y, b, &sample));
+    for (size_t k = 0; k < b->n; k++)
+        stored[k] = !b->wanted[k];
+    FW_TRY(fw_study_each(y->study, (long)b->n, judge_kth, b));
+    for (size_t k = 0; k < b->n; k++) {
+        ln[k] = log(exp(b->made[k].ln)); /* as a store that is read again says it */
+        if (stored[k]) continue;
+        const fw_study_cached c = {.i = b->number[k], .ln = ln[k]};
+        fill_sample(y, b->x + k * (size_t)y->scatter.npoint, &c, &sample);
+        FW_TRY(fw_study_keep(y->study, &sample));
+    }
+    return FW_OK;
+}
+
+/* n points under their numbers, into the store as well */
+static fw_status judge_numbered(fw_study_yielding *y, size_t n, const long *number, const double *x,
+                                double *ln) {
+    fw_arena *scratch = fw_arena_part(y->study->arena, 0);
+    FW_NEED(scratch);
+    batch b = {.y = y, .n = n, .x = x, .number = number};
+    fw_status status = judge_batch(y, scratch, &b, ln);
+    fw_arena_free(scratch);
+    FW_TRY(status);
+    y->told += (long)n;
+    const fw_study_options *o = &y->study->options;
+    if (o->progress) o->progress(o->progress_context, y->told, 0, 0);
+    return FW_OK;
+}
+
+fw_status fw_study_yielding_points(void *context, long first, size_t n, const double *x,
+                                   double *ln) {
+    fw_study_yielding *y = context;
+    fw_arena *scratch = fw_arena_part(y->study->arena, 0);
+    FW_NEED(scratch);
+    size_t values = (size_t)y->scatter.npoint, due = 0;
+    long *number = fw_arena_array(scratch, long, n);
+    size_t *at = fw_arena_array(scratch, size_t, n);
+    double *of = fw_arena_array(scratch, double, n *values),
+           *own = fw_arena_array(scratch, double, n);
+    fw_status status = number && at && of && own ? FW_OK : FW_NOMEM;
+    for (size_t k = 0; status == FW_OK && k < n; k++) {
+        ln[k] = -1; /* of another shard: nothing comes of it here */
+        if (!fw_study_is_due(y->study, first + (long)k)) continue;
+        memcpy(of + due * values, x + k * values, values * sizeof *x);
+        at[due] = k;
+        number[due++] = first + (long)k;
+    }
+    if (status == FW_OK) status = judge_numbered(y, due, number, of, own);
+    for (size_t k = 0; status == FW_OK && k < due; k++)
+        ln[at[k]] = own[k];
+    fw_arena_free(scratch);
+    return status;
+}
+
+/* the last number of a point says at which place of the wafer it is, where that matters */
+const fw_chance_place *fw_study_yielding_place(const fw_study_yielding *y, const double *u) {
+    const fw_study_scatter *s = &y->scatter;
+    if (s->dimensions == s->joint.dimensions) return NULL;
+    const fw_study_place *p =
+        fw_study_scatter_place(s, fw_maths_normal_cdf(u[s->joint.dimensions]));
+    return p ? &p->at : NULL;
+}
+
+/* Points (count x npoint) that were not asked for before get the next numbers. steers: their values choose later points,
+   so that every shard needs them; otherwise a shard judges its own. */
+static fw_status know(fw_study_yielding *y, fw_arena *scratch, size_t count, const double *x,
+                      bool steers) {
+    size_t values = (size_t)y->scatter.npoint, n = 0;
+    size_t *slot = fw_arena_array(scratch, size_t, count);
+    long *number = fw_arena_array(scratch, long, count);
+    double *fresh = fw_arena_array(scratch, double, count *values),
+           *ln = fw_arena_array(scratch, double, count);
+    FW_NEED(slot && number && fresh && ln ? ln : NULL);
+    for (size_t k = 0; k < count; k++) {
+        size_t at = slot_of(y, x + k * values);
+        fw_study_cached *c = &y->value[at];
+        if (c->i < 0) {
+            memcpy(y->key + at * values, x + k * values, values * sizeof *x);
+            *c = (fw_study_cached){.i = y->base_number + y->evaluated++, .elsewhere = true};
+            y->filled++;
+        }
+        if (!c->elsewhere || (!steers && !fw_study_is_due(y->study, c->i))) continue;
+        c->elsewhere = false;
+        memcpy(fresh + n * values, x + k * values, values * sizeof *x);
+        slot[n] = at;
+        number[n++] = c->i;
+    }
+    if (n > 0) FW_TRY(judge_numbered(y, n, number, fresh, ln));
+    for (size_t k = 0; k < n; k++)
+        y->value[slot[k]].ln = ln[k];
+    return FW_OK;
+}
+
+static fw_status limit_with(fw_study_yielding *y, fw_arena *scratch, size_t count, const double *u,
+                            bool steers, double *value) {
+    const fw_study_scatter *s = &y->scatter;
+    size_t values = (size_t)s->npoint;
+    double *x = fw_arena_array(scratch, double, count *values),
+           *drawn = fw_arena_array(scratch, double, s->joint.values + 1);
+    FW_NEED(x && drawn ? x : NULL);
+    FW_TRY(make_room(y, count));
+    for (size_t k = 0; k < count; k++) {
+        const double *at = u + k * s->dimensions;
+        fw_study_scatter_point(s, at, y->unknown, fw_study_yielding_place(y, at), drawn,
+                               x + k * values);
+    }
+    FW_TRY(know(y, scratch, count, x, steers));
+    for (size_t k = 0; k < count; k++) {
+        const fw_study_cached *c = &y->value[slot_of(y, x + k * values)];
+        value[k] = c->elsewhere ? 1 : -(c->ln + y->shift);
+    }
+    return FW_OK;
+}
+
+static fw_status limit_of(fw_study_yielding *y, size_t count, const double *u, bool steers,
+                          double *value) {
+    fw_arena *scratch = fw_arena_part(y->study->arena, 0);
+    FW_NEED(scratch);
+    fw_status status = fw_cancel_requested(y->study->options.cancel)
+                           ? FW_CANCELLED
+                           : limit_with(y, scratch, count, u, steers, value);
+    fw_arena_free(scratch);
+    return status;
+}
+
+fw_status fw_study_yielding_limit(void *context, size_t first, size_t count, const double *u,
+                                  double *value) {
+    (void)first;
+    return limit_of(context, count, u, true, value);
+}
+
+fw_status fw_study_yielding_apart(void *context, size_t first, size_t count, const double *u,
+                                  double *value) {
+    (void)first;
+    return limit_of(context, count, u, false, value);
+}
+
+/* of a flow; y->chance is freed by the caller */
+fw_status fw_study_yielding_begin(fw_study *study, int flow, int first_input,
+                                  fw_study_yielding *y) {
+    const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[flow];
+    *y = (fw_study_yielding){.study = study,
+                             .flow = flow,
+                             .ninput = v->ninput,
+                             .first_input = first_input,
+                             .base_number = (long)flow * FW_STUDY_FLOW_PART};
+    FW_TRY(fw_study_scatter_of(study, v, &y->scatter));
+    if (y->scatter.dimensions == 0)
+        return fw_diag_error(&study->diags, 491, study->asked->place,
+                             "study '%s': nothing differs from device to device%s%s; add an "
+                             "<uncertain>",
+                             study->asked->name, v->variant->flow ? " in flow " : "",
+                             v->variant->flow ? v->variant->flow : "");
+    FW_NEED(y->chance = fw_arena_part(study->arena, 0));
+    return FW_OK;
+}
