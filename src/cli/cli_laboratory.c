@@ -106,7 +106,7 @@ static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, 
     fw_process_readings readings;
     FW_TRY(fw_recipe_asrun_read(w->arena, flow, NULL, file, text, w->n, &w->diags, &run));
     FW_TRY(check_head(w->arena, &w->diags, file, true, &run));
-    FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &readings));
+    FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &w->diags, &readings));
     readings.file = slash ? slash + 1 : file;
     readings.sha256 = hash;
     return fw_process_calibrate_wafers(w->arena, flow, &readings, &w->diags, found);

@@ -374,14 +374,72 @@ static void lint_taken_up(fw_process_pack *pack, const fw_process_step *s, int f
                   s->id, h ? h->name : "water");
 }
 
+/* A dryer brings carbon dioxide under pressure, which no open bench does. */
+static void lint_dryer(fw_process_pack *pack, const fw_process_step *s,
+                       const fw_process_finish *dry) {
+    if (!s->equipment || strcmp(dry->by, "critical-point") != 0) return;
+    for (int i = 0; i < pack->flow->nhazard; i++)
+        if (fw_words_hold(pack->flow->hazard[i].ghs, " ", "GHS04") &&
+            fw_words_hold(s->equipment->brings, " ", pack->flow->hazard[i].id))
+            return;
+    fw_diag_error(pack->diags, 612, dry->place,
+                  "step %s dries at the critical point at '%s' (%s), which brings no gas under "
+                  "pressure (GHS04): carbon dioxide gets there in a closed chamber at 74 bar only; "
+                  "name the dryer, or say what it brings (brings=\"h.pressure\")",
+                  s->id, s->equipment->id, s->equipment->class_);
+}
+
+/* What an anodising step has turned a material into is full of pores, and each is a capillary. */
+static bool is_anodised(const fw_process_flow *f, int upto, const char *material) {
+    for (int i = 0; i <= upto; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            if (fw_process_step_is_op(&f->step[i], "anodise") &&
+                strcmp(f->step[i].change[k].kind, "convert") == 0 &&
+                strcmp(f->step[i].change[k].material, material) == 0)
+                return true;
+    return false;
+}
+
+static fw_status lint_pores(fw_process_pack *pack, int at, const fw_process_finish *dry,
+                            const fw_process_hazard *from) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_stack stack;
+    if (!fw_process_drying_pulls(dry->by)) return FW_OK;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, at, &stack, NULL));
+    for (int column = 0; column < stack.columns; column++) {
+        const fw_process_cell *top = fw_process_stack_top(&stack, column, false);
+        if (!top || !is_anodised(f, at, top->material)) continue;
+        const bool mild = from && (fw_words_hold(from->reacts_as, " ", "alcohol") ||
+                                   fw_words_hold(from->reacts_as, " ", "ketone"));
+        const char *why = fw_arena_printf(
+            pack->arena,
+            "step %s dries '%s' by %s out of %s while it lies open: menisci in its pores crack "
+            "it%s; keep it wet, cover it before, or dry it by=\"critical-point\"",
+            f->step[at].id, top->material, dry->by, from ? from->name : "water",
+            mild ? " where it is thick or very porous" : "");
+        FW_NEED(why);
+        if (mild)
+            fw_diag_warning(pack->diags, 613, dry->place, "%s", why);
+        else
+            fw_diag_error(pack->diags, 613, dry->place, "%s", why);
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
 fw_status fw_process_lint_critical(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
     fw_process_wafer *after;
     FW_TRY(fw_process_flow_wafers(pack->arena, f, &after));
     for (int i = 0; i < f->nstep; i++)
-        for (int k = 0; k < f->step[i].nfinish; k++)
-            if (f->step[i].finish[k].kind == FW_FINISH_DRY)
-                lint_taken_up(pack, &f->step[i], k, i > 0 ? &after[i - 1] : NULL);
+        for (int k = 0; k < f->step[i].nfinish; k++) {
+            const fw_process_step *s = &f->step[i];
+            const fw_process_wafer *came = i > 0 ? &after[i - 1] : NULL;
+            if (s->finish[k].kind != FW_FINISH_DRY) continue;
+            lint_taken_up(pack, s, k, came);
+            lint_dryer(pack, s, &s->finish[k]);
+            FW_TRY(lint_pores(pack, i, &s->finish[k], liquid_before(s, k, came)));
+        }
     return FW_OK;
 }
 

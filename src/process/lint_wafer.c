@@ -302,6 +302,198 @@ fw_status fw_process_lint_through(fw_process_pack *pack) {
     return FW_OK;
 }
 
+/* ---- what is put on a face that was cleaned ----
+   Test: test_lint.c */
+
+static const struct {
+    const char *op;
+    double most_s;
+    const char *why;
+} fresh[] = {
+    {"plate", 2 * 3600.0, "metal oxidises and takes up grease, and what is plated on it peels"},
+    {"bond", 8 * 3600.0, "a cleaned face gathers water and particles, and the bond has voids"},
+};
+
+/* The longest that the flow lets pass from the end of step `from` to the start of step `to`, times of steps between aside:
+   by its holds and by what the wafer's states bear. INFINITY: nothing limits it. */
+static fw_status longest_between(fw_process_pack *pack, int from, int to, double *longest) {
+    const fw_process_flow *f = pack->flow;
+    double *s = fw_arena_array(pack->arena, double, (size_t)(to - from + 1));
+    FW_NEED(s);
+    for (int i = from + 1; i <= to; i++) {
+        s[i - from] = (double)INFINITY;
+        for (int j = from; j < i; j++)
+            for (int k = 0; k < f->step[i].nlag; k++)
+                if (strcmp(f->step[i].lag[k].from, f->step[j].id) == 0)
+                    s[i - from] = fmin(s[i - from], s[j - from] + f->step[i].lag[k].max_s);
+        for (int k = 0; k < f->nwait; k++)
+            if (f->wait[k].to == i && f->wait[k].from >= from)
+                s[i - from] = fmin(s[i - from], s[f->wait[k].from - from] + f->wait[k].max_s);
+    }
+    *longest = s[to - from];
+    return FW_OK;
+}
+
+fw_status fw_process_lint_fresh(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    FW_TRY(fw_process_flow_waits(pack->arena, pack->flow));
+    for (int i = 0; i < f->nstep; i++)
+        for (size_t r = 0; r < sizeof fresh / sizeof *fresh; r++) {
+            int from = i - 1;
+            if (!fw_process_step_is_op(&f->step[i], fresh[r].op)) continue;
+            while (from >= 0 && !fw_process_step_is_op(&f->step[from], "clean"))
+                from--;
+            if (from < 0) continue; /* never cleaned: FW-D346 */
+            double longest;
+            char is[32], most[32];
+            FW_TRY(longest_between(pack, from, i, &longest));
+            if (longest <= fresh[r].most_s) continue;
+            fw_diag_warning(
+                pack->diags, 614, f->step[i].place,
+                "step %s (%s) may come %s%s after step %s, which cleans what it "
+                "works on: %s; add <lag from=\"%s\" max=\"...\"/> of %s h at most",
+                f->step[i].id, f->step[i].op,
+                isinf(longest) ? "at any time" : fw_number_text(is, sizeof is, longest / 3600.0, 3),
+                isinf(longest) ? "" : " h", f->step[from].id, fresh[r].why, f->step[from].id,
+                fw_number_text(most, sizeof most, fresh[r].most_s / 3600.0, 3));
+        }
+    return FW_OK;
+}
+
+/* ---- where a wafer goes that is done again ---- */
+
+/* does the text on the sheet take something off first? */
+static bool takes_off_first(const char *text) {
+    static const char *const words[] = {"strip", "remove", "take off", "etch off"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strstr(text, words[i])) return true;
+    return false;
+}
+
+/* A rework that goes back to an earlier bath brings what has come on since: what that bath attacks, and is not meant to. */
+static fw_status lint_back_into(fw_process_pack *pack, int at, int again,
+                                const fw_process_on_fail *rework) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[again];
+    for (int h = 0; works_on_wafer(s) && h < s->nhazard; h++)
+        for (int m = 0; m < s->hazard[h]->nattacks; m++) {
+            const char *material = s->hazard[h]->attacks[m];
+            bool open;
+            if (is_target(s, material) || spoken_of(s, material)) continue;
+            FW_TRY(lies_open(pack, s, at, material, &open));
+            if (!open) continue;
+            fw_diag_error(pack->diags, 615, f->step[at].place,
+                          "<on-fail if=\"%s\"> of step %s sends a wafer with open '%s' back to "
+                          "step %s, whose '%s' attacks that; say in its text how it is taken off "
+                          "before (\"strip ...\"), or go back to a step that does not harm it",
+                          rework->condition, f->step[at].id, material, s->id, s->hazard[h]->id);
+            return FW_OK;
+        }
+    return FW_OK;
+}
+
+fw_status fw_process_lint_reworked(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    for (int at = 0; at < f->nstep; at++)
+        for (int k = 0; k < f->step[at].non_fail; k++)
+            for (int j = 0; j < at; j++)
+                if (strcmp(f->step[at].on_fail[k].go_to, f->step[j].id) == 0 &&
+                    !takes_off_first(f->step[at].on_fail[k].text))
+                    FW_TRY(lint_back_into(pack, at, j, &f->step[at].on_fail[k]));
+    return FW_OK;
+}
+
+/* ---- is what is accepted what was made? ---- */
+
+/* is it the thickness of a layer that is measured? Not a difference, a spread or a width */
+static bool is_thickness(const fw_process_accept *a) {
+    static const char *const other[] = {"against", "below", "spread", "left", "lost", "width"};
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        if (strstr(a->measure, other[i])) return false;
+    return strstr(a->measure, "thickness") || strstr(a->measure, "step height");
+}
+
+static bool accepted(const fw_process_accept *a, const fw_quantity_unit *unit, double thickness_m) {
+    double low, high, value = fw_quantity_unit_from_si(unit, thickness_m);
+    if (a->low[0] && fw_number_parse(a->low, strlen(a->low), &low) && value < low) return false;
+    if (a->high[0] && fw_number_parse(a->high, strlen(a->high), &high) && value > high)
+        return false;
+    return true;
+}
+
+/* Some layer that the step puts on, or where it puts none one that lies there or comes on, is accepted as it is meant. *meant: the first
+   that was asked for, m; NaN: none has a known thickness. */
+static fw_status some_accepted(fw_process_pack *pack, int at, const fw_process_accept *a,
+                               const fw_quantity_unit *unit, double *meant, bool *some) {
+    const fw_process_step *s = &pack->flow->step[at];
+    double all_m = 0.0;
+    bool adds = false, unknown = false;
+    fw_process_stack stack;
+    *meant = (double)NAN;
+    *some = false;
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k];
+        if (strcmp(c->kind, "add") != 0) continue;
+        adds = true;
+        unknown = unknown || !c->thickness || c->thickness->unknown;
+        if (unknown) continue;
+        all_m += c->thickness->value;
+        *some = *some || accepted(a, unit, c->thickness->value) || accepted(a, unit, all_m);
+        if (isnan(*meant)) *meant = c->thickness->value;
+    }
+    *some = *some || unknown;
+    for (int i = 0; i < pack->flow->nstep && !adds; i++) /* a wafer that is bonded on later, too */
+        for (int k = 0; k < pack->flow->step[i].nchange; k++) {
+            const fw_process_change *c = &pack->flow->step[i].change[k];
+            const bool known = c->thickness && !c->thickness->unknown;
+            *some = *some || (strcmp(c->kind, "add") == 0 && known &&
+                              accepted(a, unit, c->thickness->value));
+        }
+    FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, at, &stack, NULL));
+    for (int column = 0; column < stack.columns && !*some; column++)
+        for (int i = 0; i < stack.n[column]; i++) {
+            const fw_process_cell *c = &stack.cell[column][i];
+            double lies_m = 0.0;
+            bool own = !adds;
+            for (int k = 0; k < s->nchange; k++)
+                own = own || strcmp(s->change[k].material, c->material) == 0;
+            for (int j = 0; j < stack.n[column]; j++)
+                if (strcmp(stack.cell[column][j].material, c->material) == 0)
+                    lies_m += stack.cell[column][j].thickness_m;
+            *some = *some || (own && (isnan(lies_m) || accepted(a, unit, lies_m)));
+            if (own && isnan(*meant)) *meant = lies_m;
+        }
+    return FW_OK;
+}
+
+fw_status fw_process_lint_accepted(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    const fw_quantity_dimension length = FW_DIM_LENGTH;
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].naccept; k++) {
+            const fw_process_accept *a = &f->step[i].accept[k];
+            fw_quantity_unit unit;
+            double meant;
+            bool some;
+            char is[32];
+            if (!is_thickness(a) ||
+                !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
+                !fw_quantity_dimension_equal(unit.dimension, length))
+                continue;
+            FW_TRY(some_accepted(pack, i, a, &unit, &meant, &some));
+            if (some || isnan(meant)) continue;
+            fw_diag_error(
+                pack->diags, 616, a->place,
+                "step %s accepts a %s of %s to %s %s, but the layer is meant to be %s %s thick: "
+                "every wafer that comes out right is refused; write the limits from the quantity "
+                "of the layer ({=...*0.95})",
+                f->step[i].id, a->measure, a->low[0] ? a->low : "any", a->high[0] ? a->high : "any",
+                a->unit, fw_number_text(is, sizeof is, fw_quantity_unit_from_si(&unit, meant), 4),
+                a->unit);
+        }
+    return FW_OK;
+}
+
 /* ---- how well masks lie on each other ---- */
 
 fw_status fw_process_lint_overlay(fw_process_pack *pack) {

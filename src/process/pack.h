@@ -130,6 +130,10 @@ fw_status fw_process_lint_through(fw_process_pack *pack);
 fw_status fw_process_lint_plates(fw_process_pack *pack);
 fw_status fw_process_lint_shrink(fw_process_pack *pack);
 fw_status fw_process_lint_overlay(fw_process_pack *pack);
+/* what is put on, sent back and accepted (FW-D614 to FW-D616) */
+fw_status fw_process_lint_fresh(fw_process_pack *pack);
+fw_status fw_process_lint_reworked(fw_process_pack *pack);
+fw_status fw_process_lint_accepted(fw_process_pack *pack);
 /* hazards of what a step uses up (FW-D374) */
 fw_status fw_process_lint_uses(fw_process_pack *pack);
 /* after fw_process_flow_judge: does the flow reach every die of the wafer? */

@@ -111,8 +111,20 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
 fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out);
 
-/* asrun_values.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers */
-fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
+/* asrun_values.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers. FW-D610: a reading that a later
+   one took the place of; FW-D611: readings of one run under something else */
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
                                    fw_process_readings *readings);
+typedef struct fw_recipe_read_again {
+    const fw_recipe_asrun_entry *entry, *by;
+    const fw_recipe_coupon *coupon, *by_coupon; /* of theirs; by_coupon counts */
+} fw_recipe_read_again;
+/* The next reading, from coupon *coupon of entry *entry on, in whose place a later one stands; false: there is none. Begin
+   with 0 and 0 */
+bool fw_recipe_asrun_read_again(const fw_recipe_asrun *run, int *entry, int *coupon,
+                                fw_recipe_read_again *again);
+/* what to do where both shall count */
+#define FW_RECIPE_KEEP_BOTH                                                                        \
+    "Where both shall count, write them into one entry as sites of one value (value=9.1 9.2 um)"
 
 #endif

@@ -327,6 +327,16 @@ static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
     if (e) details(run, e, out);
 }
 
+static void put_read_again(const fw_recipe_asrun *run, fw_text *out) {
+    int i = 0, k = 0, n = 0;
+    for (fw_recipe_read_again a; fw_recipe_asrun_read_again(run, &i, &k, &a); n++)
+        fw_text_printf(
+            out, "%s      line %d, %s: %s; line %d: %s\n",
+            n ? "" : "\ncoupons that do not count, since a later line reads them again:\n",
+            a.entry->line, a.entry->step->id, a.coupon->text, a.by->line, a.by_coupon->text);
+    if (n) fw_text_add(out, FW_RECIPE_KEEP_BOTH "\n");
+}
+
 fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out) {
     fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n\n", flow->id, run->lot ? ", lot " : "",
@@ -354,6 +364,7 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
     fw_text_add(out, " for them, actual ");
     fw_schedule_put_duration(out, t.actual_s);
     fw_text_add(out, "\n");
+    put_read_again(run, out);
     return fw_text_end(out);
 }
 
@@ -495,6 +506,22 @@ static fw_status deviations_json(const fw_process_flow *flow, const fw_recipe_as
     return FW_OK;
 }
 
+static void read_again_json(const fw_recipe_asrun *run, fw_json *out) {
+    int i = 0, k = 0;
+    fw_json_list(out, "read_again");
+    for (fw_recipe_read_again a; fw_recipe_asrun_read_again(run, &i, &k, &a);) {
+        fw_json_object(out, NULL);
+        fw_json_text(out, "step", a.entry->step->id);
+        put_text(out, "wafer", a.entry->wafer);
+        fw_json_whole(out, "line", a.entry->line);
+        fw_json_text(out, "coupon", a.coupon->text);
+        fw_json_whole(out, "by_line", a.by->line);
+        fw_json_text(out, "by_coupon", a.by_coupon->text);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
 static void set_json(const char *name, const fw_quantity *q, fw_json *out) {
     fw_json_object(out, NULL);
     fw_json_text(out, "name", name);
@@ -567,6 +594,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     put_number(out, "at_machine_s", t.planned_s);
     put_number(out, "actual_s", t.actual_s);
     FW_TRY(deviations_json(flow, run, out, text->arena));
+    read_again_json(run, out);
     fw_json_end(out);
     return fw_json_finish(out, "\n");
 }

@@ -274,31 +274,78 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
 
 /* ---- the coupons of a log, as calibrate takes them ---- */
 
-/* Is b, which comes later, in the place of a? A rate is read off several times of one wafer; where all readings of a coupon
-   are of one run, a later entry under another `at` is of the run that counts, or corrects what was mistyped. */
+/* Is b, which comes later, in the place of a? It reads the same feature of the same drawn size again. A rate is read off
+   several times of one wafer, which are readings of their own; where all readings of a coupon are of one run, another `at` is
+   that of the run that counts, or corrects what was mistyped. Other drawn sizes are other readings, and stay. */
 static bool same_reading(const fw_recipe_asrun_entry *a, const fw_recipe_coupon *ca,
                          const fw_recipe_asrun_entry *b, const fw_recipe_coupon *cb) {
     const char *wa = a->wafer ? a->wafer : "", *wb = b->wafer ? b->wafer : "";
     bool drawn = isnan(ca->row.drawn_m) ? isnan(cb->row.drawn_m)
                                         : fabs(ca->row.drawn_m - cb->row.drawn_m) < 1e-12;
     bool under = isnan(ca->row.at) ? isnan(cb->row.at) : ca->row.at == cb->row.at;
-    if (a->step != b->step || strcmp(wa, wb) != 0 || strcmp(ca->row.coupon, cb->row.coupon) != 0)
+    if (a->step != b->step || strcmp(wa, wb) != 0 || !drawn ||
+        strcmp(ca->row.coupon, cb->row.coupon) != 0 ||
+        strcmp(ca->row.feature, cb->row.feature) != 0)
         return false;
-    if (!under) return a != b && fw_process_coupon_of_one_run(ca->row.coupon);
-    return drawn && strcmp(ca->row.feature, cb->row.feature) == 0;
+    return under || (a != b && fw_process_coupon_of_one_run(ca->row.coupon));
 }
 
-/* read again, in a later entry or further on in this one: the later reading counts */
-static bool superseded(const fw_recipe_asrun *run, int entry, int coupon) {
+/* in a later entry or further on in this one; the last such reading counts */
+static bool read_again(const fw_recipe_asrun *run, int entry, int coupon,
+                       fw_recipe_read_again *again) {
     const fw_recipe_asrun_entry *e = &run->entry[entry];
+    *again = (fw_recipe_read_again){.entry = e, .coupon = &e->coupon[coupon]};
     for (int i = entry; i < run->nentry; i++)
         for (int k = i == entry ? coupon + 1 : 0; k < run->entry[i].ncoupon; k++)
-            if (same_reading(e, &e->coupon[coupon], &run->entry[i], &run->entry[i].coupon[k]))
-                return true;
+            if (same_reading(e, again->coupon, &run->entry[i], &run->entry[i].coupon[k])) {
+                again->by = &run->entry[i];
+                again->by_coupon = &run->entry[i].coupon[k];
+            }
+    return again->by;
+}
+
+bool fw_recipe_asrun_read_again(const fw_recipe_asrun *run, int *entry, int *coupon,
+                                fw_recipe_read_again *again) {
+    for (; *entry < run->nentry; ++*entry, *coupon = 0)
+        while (*coupon < run->entry[*entry].ncoupon)
+            if (read_again(run, *entry, (*coupon)++, again)) return true;
     return false;
 }
 
-fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
+static void warn_again(const fw_recipe_read_again *again, fw_diags *diags) {
+    const char *wafer = again->entry->wafer;
+    fw_diag_warning(diags, 610, again->coupon->row.place,
+                    "'%s' of step %s%s%s does not count: line %d reads it again ('%s'). %s",
+                    again->coupon->text, again->entry->step->id, wafer ? ", wafer " : "",
+                    wafer ? wafer : "", again->by->line, again->by_coupon->text,
+                    FW_RECIPE_KEEP_BOTH);
+}
+
+/* All readings of the coupon are of one run, but what stands under `at` is not the same: both count, and one may be
+   mistyped. Told once of a coupon, wafer and step. */
+static void warn_apart(const fw_process_readings *r, fw_diags *diags) {
+    const fw_process_reading *last = &r->item[r->n - 1];
+    const fw_process_measurement *b = &last->row;
+    if (isnan(b->at) || !fw_process_coupon_of_one_run(b->coupon)) return;
+    for (int i = 0; i < r->n - 1; i++) {
+        const fw_process_measurement *a = &r->item[i].row;
+        if (strcmp(r->item[i].step, last->step) != 0 ||
+            strcmp(r->item[i].wafer, last->wafer) != 0 || strcmp(a->coupon, b->coupon) != 0)
+            continue;
+        const double u = hypot(fmax(a->at_uncertainty, 0.0), fmax(b->at_uncertainty, 0.0));
+        if (fabs(a->at - b->at) <= 2.0 * u + 1e-12 * fabs(a->at)) continue;
+        fw_diag_warning(diags, 611, b->place,
+                        "coupon %s of step %s%s%s is of one run, but lines %d and %d say that it "
+                        "was under something else (at=); each reading counts with its own. Where "
+                        "one is mistyped, log its readings again; where both were measured, say "
+                        "by u-at= how exactly",
+                        b->coupon, last->step, last->wafer[0] ? ", wafer " : "", last->wafer,
+                        (int)a->place.line, (int)b->place.line);
+        return;
+    }
+}
+
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
                                    fw_process_readings *readings) {
     int most = 0;
     for (int i = 0; i < run->nentry; i++)
@@ -309,7 +356,11 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
         const fw_recipe_asrun_entry *e = &run->entry[i];
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
-            if (superseded(run, i, k)) continue;
+            fw_recipe_read_again again;
+            if (read_again(run, i, k, &again)) {
+                warn_again(&again, diags);
+                continue;
+            }
             fw_process_reading *r = &readings->item[readings->n++];
             *r = (fw_process_reading){.row = c->row,
                                       .wafer = e->wafer ? e->wafer : "",
@@ -320,6 +371,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
                 double off = c->site[s] - c->row.value;
                 if (!isnan(c->site[s])) r->squares += off * off;
             }
+            warn_apart(readings, diags);
         }
     }
     return FW_OK;

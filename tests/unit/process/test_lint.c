@@ -103,6 +103,20 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "date=\"2025-01-01\">typical", "date=\"2025-02-30\">typical", 171, "date=\"2025-02-30\" is no day"},
         {SILICON, "<q id=\"hard.T\" value=\"115\" u=\"3\" unit=\"Cel\" status=\"typical\"", "<q id=\"hard.T\" value=\"115\" u=\"3\" unit=\"Cel\" status=\"measured\"",
          173, "'hard.T' has status measured, but its source is of kind handbook"},
+        /* dryers, pores, reworks, what is accepted */
+        {SILICON, "equipment=\"cpd\"", "equipment=\"solvent-bench\"", 612,
+         "step S22 dries at the critical point at 'solvent-bench'"},
+        {GLASS, "brings=\"h.pressure\"", "brings=\"h.solvent\"", 612, "dries at the critical point at 'cpd'"},
+        {COPPER, "<finish kind=\"rinse\" q=\"seed.t-off\"/>",
+         "<finish kind=\"rinse\" q=\"seed.t-off\"/><finish kind=\"dry\" by=\"nitrogen\"/>", 613,
+         "step C25 dries 'porous-silicon' by nitrogen out of water"},
+        {SILICON, "goto=\"S02\">strip the aluminium, deposit at lower stress, or mount on a carrier first",
+         "goto=\"S02\">clean and deposit at lower stress", 615, "step S04 sends a wafer with open 'aluminium' back to step S02"},
+        {SILICON, "<accept measure=\"step height on the witness chip\" lo=\"{=al.d*0.95}\" hi=\"{=al.d*1.05}\"",
+         "<accept measure=\"step height on the witness chip\" lo=\"2.85\" hi=\"3.15\"", 616, "is meant to be 1 um thick"},
+        {COPPER, "<accept measure=\"thickness\" lo=\"{=cu.d*0.9}\" hi=\"{=cu.d*1.1}\" unit=\"um\" sites=\"5\" every=\"1\"/>",
+         "<accept measure=\"thickness\" lo=\"11\" hi=\"13\" unit=\"um\" sites=\"5\" every=\"1\"/>", 616,
+         "step C22 accepts a thickness of 11 to 13 um"},
         /* the plate or the resist of the other tone */
         {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>",
          "<change kind=\"pattern\" material=\"resist\" where=\"structure\"/>", 559,
@@ -669,6 +683,26 @@ static void mould(void **state) {
     assert_int_equal(reasons(f, "plates up to 18 um"), 1); /* twice the mean */
 }
 
+/* copper that was descummed half a day before, or whenever; and a porous layer out of alcohol is only told */
+static void what_is_told(void **state) {
+    (void)state;
+    static const char flow_lag[] = "<lag from=\"C20\" max=\"15\" unit=\"min\"/>";
+    static const change told[] = {
+        {COPPER, flow_lag, "<lag from=\"C20\" max=\"15\" unit=\"h\"/>", 614, "step C22 (plate) may come 15 h after step C20"},
+        {COPPER, flow_lag, "", 614, "step C22 (plate) may come at any time after step C20"},
+        {GLASS, "<lag from=\"G18\" max=\"1\" unit=\"h\"/>", "", 614, "(bond) may come at any time after step G18"},
+        {COPPER, "<finish kind=\"rinse\" q=\"seed.t-off\"/>",
+         "<finish kind=\"rinse\" q=\"seed.t-off\"/><finish kind=\"rinse\" with=\"h.solvent\">alcohol</finish>"
+         "<finish kind=\"dry\" by=\"nitrogen\"/><!-- -->", 613, "where it is thick or very porous"},
+    };
+    for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
+        diags = fw_diags_new(arena);
+        read_pack(arena, told[i].flow, told[i].from, told[i].to, &diags);
+        expect(told[i].number, told[i].says);
+        assert_int_equal(said_of(told[i].number, told[i].says)->severity, FW_WARNING);
+    }
+}
+
 /* n = rho d A/M against c V: docs/theory/process.md, knowledge of Faraday's law: 1.269 mmol for 9
    um on 10 cm2 */
 static void bath(void **state) {
@@ -710,6 +744,7 @@ static void bath(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(what_is_told, setup, teardown),
         cmocka_unit_test_setup_teardown(bath, setup, teardown),
         cmocka_unit_test_setup_teardown(mistakes_of_a_flow, setup, teardown),
         cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),

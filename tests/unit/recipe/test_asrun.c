@@ -368,15 +368,33 @@ static void readings(void **state) {
         begun(), entry(fw_arena_printf(arena, "wafer=1; thickness=9 um; %s; %s", one, two)), 0);
     log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s", one)), 0);
     log = with(log, entry(fw_arena_printf(arena, "wafer=1; %s; %s", other, again)), 0);
-    for (int at = 49; at <= 51; at += 2) /* what was written under at is corrected: all are of one run */
-        log = with(log, entry(fw_arena_printf(arena, "wafer=2; coupon=undercut-ladder, width, drawn=16 um, value=13.1 um, "
-                                                     "u=0.08 um, at=%d um", at)), 0);
+    /* of one run: what was written under at is corrected where a size is read again; a size that is not read again stays */
+    static const char ladder[] = "coupon=undercut-ladder, width, drawn=%d um, value=%s um, u=0.08 um, at=%d um";
+    const char *narrow = fw_arena_printf(arena, ladder, 8, "5.1", 49), *wrong = fw_arena_printf(arena, ladder, 16, "13.1", 49),
+               *right = fw_arena_printf(arena, ladder, 16, "13.1", 51);
+    log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s; %s", narrow, wrong)), 0);
+    log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s", right)), 0);
     diags = fw_diags_new(arena);
     assert_int_equal(
         fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &r), FW_OK);
-    assert_int_equal(r.n, 4); /* of eight, one is read again and three are of a run that a later entry took the place of */
-    assert_near(r.item[3].row.at, 51e-6, 1e-12);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(r.n, 5); /* of eight, three are read again */
+    assert_near(r.item[3].row.at, 49e-6, 1e-12);
+    assert_near(r.item[3].row.drawn_m, 8e-6, 1e-12);
+    assert_near(r.item[4].row.at, 51e-6, 1e-12);
+    /* which ones, by which line, and what to do where both shall count; and that what is left says two things of one run */
+    int said[2] = {0};
+    for (size_t i = 0; i < diags.count; i++)
+        if (diags.item[i].number == 610 || diags.item[i].number == 611) said[diags.item[i].number - 610]++;
+    assert_int_equal(said[0], 3);
+    assert_int_equal(said[1], 2); /* pads of wafer 1, ladder of wafer 2 */
+    fw_text text = fw_text_new(arena), json = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_non_null(strstr(text.data, fw_arena_printf(arena, "line 5, C22: %s; line 6: %s", wrong + 7, right + 7)));
+    assert_non_null(strstr(text.data, "as sites of one value"));
+    assert_non_null(strstr(json.data, fw_arena_printf(arena, "\"line\":5,\"coupon\":\"%s\",\"by_line\":6", wrong + 7)));
+    assert_null(strstr(text.data, fw_arena_printf(arena, "C22: %s", narrow + 7)));
     assert_string_equal(r.lot, "lot 7");
     assert_string_equal(r.item[0].wafer, "2");
     assert_near(r.item[0].row.value, 9.2e-6, 1e-18);

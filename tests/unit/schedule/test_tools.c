@@ -115,6 +115,47 @@ static void every_run(void **state) {
         }
 }
 
+/* looked at between its parts: while people are there, though their hands are taken for a quarter of an hour only */
+static int runs_into_the_night(const fw_schedule *s, const char *step) {
+    int n = 0;
+    for (int k = 0; k < s->nrun; k++) {
+        const fw_schedule_task *t = &s->shop->task[s->run[k].task];
+        double opens = DAY * floor(s->run[k].start_s / DAY) + 8.0 * HOUR;
+        if (strcmp(t->id, step) == 0) n += s->run[k].start_s < opens - 1.0 || s->run[k].end_s > opens + 10.0 * HOUR + 1.0;
+    }
+    return n;
+}
+
+static void in_parts(void **state) {
+    (void)state;
+    fw_process_flow *f = with("", FW_OK);
+    fw_schedule_options options = {.wafers = 4, .day = "08:00-18:00 from 2026-11-23"};
+    const fw_schedule *s;
+    fw_schedule free_of_it;
+    assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+    assert_true(s->feasible);
+    assert_int_equal(runs_into_the_night(s, "S18"), 0);
+    fw_schedule_shop shop = *s->shop;
+    fw_schedule_task *task = fw_arena_array(arena, fw_schedule_task, (size_t)shop.ntask);
+    memcpy(task, shop.task, (size_t)shop.ntask * sizeof *task);
+    int parted = 0;
+    for (int i = 0; i < shop.ntask; i++) {
+        parted += task[i].in_parts;
+        task[i].in_parts = false;
+    }
+    assert_int_equal(parted, 1);
+    shop.task = task;
+    assert_int_equal(fw_schedule_solve(arena, &shop, 10, &free_of_it), FW_OK);
+    assert_true(runs_into_the_night(&free_of_it, "S18") > 0); /* so that the case asks something */
+    assert_true(s->bound.best_s >= free_of_it.bound.best_s - 1e-6);
+    /* where no day is so long it is run all the same */
+    options.day = "08:00-09:30 from 2026-11-23";
+    options.wafers = 1;
+    assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+    for (int i = 0; i < s->shop->ntask; i++)
+        assert_false(s->shop->task[i].in_parts);
+}
+
 /* the open time of a machine, quarter by quarter */
 static void worked(void **state) {
     (void)state;
@@ -186,6 +227,7 @@ static void refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(earliest_fit, setup, teardown),
+        cmocka_unit_test_setup_teardown(in_parts, setup, teardown),
         cmocka_unit_test_setup_teardown(every_run, setup, teardown),
         cmocka_unit_test_setup_teardown(worked, setup, teardown),
         cmocka_unit_test_setup_teardown(hours_that_never_meet, setup, teardown),
