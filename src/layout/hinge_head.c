@@ -87,9 +87,20 @@ typedef struct far_path {
     bool arc, turns;
 } far_path;
 
+/* Does the straight edge from `from` along `along` leave too little beside the corner where the ring begins at
+   the root's face, or cut it off? The whole block hangs on what is between the two. */
+static bool thins_ring(const fw_layout_hinge_shape *s, const fw_layout_side *side,
+                       fw_geometry_vec2 from, fw_geometry_vec2 along, double long_m) {
+    const double least = fw_layout_rule.solid_ring_share * (side->ring_out_m - side->ring_in_m);
+    const fw_geometry_vec2 foot = fw_layout_ring_foot(s, side->ring_in_m);
+    const double past = fw_dot(fw_sub(foot, from), along);
+    return past > 0.0 && past < long_m && fw_dot(fw_sub(from, foot), fw_left(along)) < least;
+}
+
 /* The neck's edge runs on into the block, usually 4.5 t behind the root; where it would come too
    near to the other block it gives way to the block's far side. A block that stands out beside the
-   neck keeps its fin; where the neck lies beyond the block the ring runs on to carry it. */
+   neck keeps its fin; where the neck lies beyond the block, or its edge would leave of the ring a
+   strip that hardly carries the block, the ring runs on to carry it. */
 static far_path choose_far_path(const fw_layout_hinge_shape *s, fw_layout_side *side) {
     const fw_layout_rules *rule = &fw_layout_rule;
     far_side far = choose_far_side(s, side->ring_in_m);
@@ -104,8 +115,9 @@ static far_path choose_far_path(const fw_layout_hinge_shape *s, fw_layout_side *
     double t2 = fw_dot(fw_sub(from, i), out) / fw_dot(s->into, out);
     fw_geometry_vec2 meet = fw_add(far.turn, t, far.out), fin = on_circle(far.turn, far.out, q1);
     bool ahead = fw_dot(far.out, out) > 0.0 && t > rule->far_side_ahead_m;
+    bool thin = ahead && thins_ring(s, side, from, along, fw_norm(fw_sub(end, from)));
     double beside = rule->neck_beside_block_m;
-    if (ahead && fw_dot(meet, u) < side->neck_end_m + beside) {
+    if (ahead && !thin && fw_dot(meet, u) < side->neck_end_m + beside) {
         side->neck_end_m = fmax(side->neck_end_m, fw_dot(meet, u) + beside);
         return (far_path){meet, meet, false, far.turns};
     }
@@ -113,7 +125,7 @@ static far_path choose_far_path(const fw_layout_hinge_shape *s, fw_layout_side *
         fw_geometry_vec2 at = fw_add(i, t2, s->into);
         return (far_path){at, at, false, false};
     }
-    double q = fw_dot(fw_sub(fin, from), out) > 0.0 ? q1 : q0;
+    double q = thin || fw_dot(fw_sub(fin, from), out) > 0.0 ? q1 : q0;
     if (fabs(cross(from, along)) > rule->neck_ring_share * q) { /* too wide to end on the ring */
         from = fw_add(w, rule->neck_ring_share * side->neck_m, v);
         along = u;

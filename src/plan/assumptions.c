@@ -239,5 +239,7 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
                   "on held-out shapes are within %.1f %%.",
                   100.0 * e->strain));
     FW_TRY(of_workspace(plan));
+    for (int i = 0; i < plan->noutside; i++)
+        FW_TRY(assume(plan, "From outside: %s.", plan->outside[i]));
     return as_fabricated(plan);
 }

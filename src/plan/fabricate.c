@@ -268,10 +268,14 @@ static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options
         fw_arena_printf(plan->arena, "material=%s", pf->variant.material.id),
         fw_arena_printf(plan->arena, "thickness_um=%s", thickness),
     };
-    options->nnote = sizeof line / sizeof line[0];
+    const int own = sizeof line / sizeof line[0];
+    options->nnote = own + plan->noutside;
     FW_NEED(options->note = fw_arena_alloc(plan->arena, (size_t)options->nnote, sizeof *line));
-    for (int i = 0; i < options->nnote; i++)
+    for (int i = 0; i < own; i++)
         FW_NEED(options->note[i] = line[i]);
+    for (int i = 0; i < plan->noutside; i++)
+        FW_NEED(options->note[own + i] =
+                    fw_arena_printf(plan->arena, "from_outside=%s", plan->outside[i]));
     return FW_OK;
 }
 

@@ -120,6 +120,8 @@ typedef struct fw_plan {
     fw_verdict verdict;
     const char **because; /* (nbecause) why it is rejected */
     int nbecause;
+    const char **outside; /* (noutside) what moves it and is not of the chip */
+    int noutside;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;
     int files_written; /* by the last fw_plan_write, the manifest not counted; 0: no directory made

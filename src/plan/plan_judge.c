@@ -56,6 +56,15 @@ static fw_status check_cells(fw_plan *plan) {
     return fw_layout_cells_check(layout, &plan->diags);
 }
 
+/* drivers: said once, and kept for certificate and report */
+static fw_status say_outside(fw_plan *plan) {
+    FW_TRY(fw_verdict_outside(plan->arena, plan->device, &plan->verdict, &plan->outside,
+                              &plan->noutside));
+    for (int i = 0; i < plan->noutside; i++)
+        fw_diag_note(&plan->diags, 598, plan->device->driver[i].place, "%s", plan->outside[i]);
+    return FW_OK;
+}
+
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
     FW_TRY(fw_plan_need_material(plan));
@@ -71,6 +80,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
     FW_TRY(
         fw_verdict_run(plan->arena, plan->device, &options, &plan->diags, verdict, &plan->layout));
     FW_TRY(fw_verdict_advise(plan->arena, plan->device, &options, verdict));
+    FW_TRY(say_outside(plan));
     if (verdict->decision == FW_REJECT)
         FW_TRY(fw_verdict_rejections(plan->arena, verdict, &plan->because, &plan->nbecause));
     FW_TRY(fw_plan_compute_flows(plan));

@@ -269,9 +269,20 @@ static fw_status layout_faults(fw_arena *arena, const fw_layout *layout, fw_repo
     return add(s, "cannot be made", text);
 }
 
+/* beside what is not guaranteed: what the verdict takes for granted, and the chip does not have */
+static fw_status outside(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
+    const char **text;
+    int n;
+    FW_TRY(fw_verdict_outside(arena, in->device, in->verdict, &text, &n));
+    if (n == 0) return FW_OK;
+    const char *more = n > 1 ? fw_arena_printf(arena, "; and %d more drivers", n - 1) : "";
+    FW_NEED(more);
+    return add(s, "from outside", fw_arena_printf(arena, "%s [FW-D598]%s", text[0], more));
+}
+
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     const fw_verdict *v = in->verdict;
-    size_t most = 6 + 2 * (size_t)in->nflow;
+    size_t most = 7 + 2 * (size_t)in->nflow;
     for (int i = 0; i < v->nvariant; i++)
         most += (size_t)v->variant[i].nreason;
     const int all = FW_CHECK_HINGES | FW_CHECK_REQUIREMENTS;
@@ -294,5 +305,6 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     if (rejected) FW_TRY(undecided(arena, v, s));
     FW_TRY(required(arena, v, s));
     FW_TRY(nearest(arena, v, s));
+    FW_TRY(outside(arena, in, s));
     return rejected ? FW_OK : guarantees(arena, in, s);
 }

@@ -10,9 +10,9 @@
 #include <string.h>
 
 enum { ROUNDS = 14 };
-/* Evaluations of hinges, of some microseconds each: of a search for several values, or for one kind of
+/* Evaluations of hinges, of about half a microsecond each: of a search for several values, or for one kind of
    change; of all. Where a single look takes more than that the searches behind it are not begun. */
-static const double most_work_together = 1.5e6, most_work_in_all = 7.5e6;
+static const double most_work_together = 2e6, most_work_in_all = 1e7;
 /* a change that is smaller is not worth looking for a smaller one of several values */
 static const double small_enough = 0.1;
 /* an advice nobody could follow is none: twelve times as long, four times as wide */
@@ -518,16 +518,16 @@ static const char *left_out(const advice *a) {
     return a->ended ? "the search was ended where it would have taken too long" : "";
 }
 
-/* a joint or a spring that no drawing has: no change of a number draws it */
+/* a joint, a spring or a stop that no drawing has: no change of a number draws it */
 static bool lacks_joint(const fw_verdict *verdict) {
     for (int i = 0; verdict->layout && i < verdict->layout->nmissing; i++)
         if (verdict->layout->missing[i].number == 130) return true;
     return false;
 }
 
-static const char never_drawn[] =
-    "a joint or a spring that is never drawn is in the motion, and no change of a number makes the "
-    "design accepted with it: draw what does its work";
+static const char never_drawn[] = "a joint, a spring or a stop that is never drawn is in the "
+                                  "motion, and no change of a number makes "
+                                  "the design accepted with it: draw what does its work";
 
 static fw_status conclude(advice *a, const char *why) {
     fw_verdict *v = a->out;

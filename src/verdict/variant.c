@@ -226,10 +226,15 @@ static const double fw_hinges_good_enough = 0.03, fw_hinges_good = 0.01;
 /* and exact beams only where they take seconds; who wants to wait longer asks for them */
 static const long fw_most_beams = 100000;
 
-/* an exact beam counts for as many closed forms as it costs */
-static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
-    double each = motion->ledger.hinge.used == FW_HINGE_ELASTICA ? 30 : 1;
-    return each * (double)motion->stats.rhs * m->nhinge;
+/* In evaluations of hinges. An exact beam counts for as many closed forms as it costs, an evaluation of all
+   else for one (a single arm on one hinge: half of its time), and so does each comb. All runs count that were
+   made for a motion: one that touches something stiff is run up to seven times. */
+static double work_of(const fw_mechanism *m, const fw_device_scene *scene,
+                      const fw_dynamics_motion *motion) {
+    const fw_dynamics_motion_stats *s = &motion->stats;
+    const double each = motion->ledger.hinge.used == FW_HINGE_ELASTICA ? 30 : 1;
+    const double evaluations = (double)(s->all_rhs > s->rhs ? s->all_rhs : s->rhs);
+    return evaluations * (each * m->nhinge + 1 + scene->ncomb);
 }
 
 /* of a trial, or a corner, only whether it is accepted is of account */
@@ -296,7 +301,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.effects.like = motion.like ? &motion.like->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
-        if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
+        if (options->work && v->motion[i]) *options->work += work_of(m, scene, v->motion[i]);
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
         FW_TRY(fw_verdict_bending_judge(arena, (int)i, v->motion[i], v));

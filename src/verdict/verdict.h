@@ -503,6 +503,9 @@ fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int k
 /* why it is rejected, sentences, each once; none where it is not */
 fw_status fw_verdict_rejections(fw_arena *arena, const fw_verdict *verdict, const char ***text,
                                 int *n);
+/* what moves a drawn device and is not of the chip (FW-D598): a sentence for each driver */
+fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_verdict *verdict,
+                             const char ***text, int *n);
 /* advice_note where no advice was asked for */
 extern const char fw_verdict_not_searched[];
 /* of what is not accepted, where advice is asked for: proposals, each one run, the value of each

@@ -278,7 +278,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    drawing rejects it, in the flows whose scenes have it. Test: tests/unit/plan/test_not_drawn.c */
 
 int fw_verdict_missing_most(const fw_device *device) {
-    int n = device->nbody + device->njoint + device->nspring;
+    int n = device->nbody + device->njoint + device->nspring + device->nrevolute;
     for (int i = 0; i < device->nscene; i++) {
         n += device->scene[i].ncomb;
         for (int t = 0; t < device->scene[i].ntendon; t++)
@@ -319,6 +319,28 @@ fw_status fw_verdict_missing(fw_arena *arena, const fw_device *device, const fw_
                                                       .not_by_loads = true,
                                                       .not_by_width = true,
                                                       .text = text};
+    }
+    return FW_OK;
+}
+
+/* ---- what moves it from outside ----
+   A driver is an actuator that nothing on the chip is, as a force of a scene is: a probe, a hand. Other than a
+   force it also holds what it moves. That it is not of the chip is said (FW-D598). */
+
+fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_verdict *verdict,
+                             const char ***text, int *n) {
+    const int most = verdict->layout && verdict->layout->drawn ? device->ndriver : 0;
+    FW_NEED(*text = fw_arena_alloc(arena, (size_t)most + 1, sizeof **text));
+    for (*n = 0; *n < most; (*n)++) {
+        const fw_device_driver *d = &device->driver[*n];
+        const bool turns = d->revolute != FW_NONE;
+        const char *id = turns ? device->revolute[d->revolute].id : device->joint[d->joint].id;
+        FW_NEED((*text)[*n] = fw_arena_printf(
+                    arena,
+                    "driver %s moves and holds %s %s, whatever that takes, and nothing on the chip "
+                    "does: the verdict is of a device beside which something else does so; "
+                    "`simulate` says with what force",
+                    fw_text_name(d->id), turns ? "hinge" : "joint", fw_text_name(id)));
     }
     return FW_OK;
 }

@@ -3,6 +3,7 @@
    same; the flow without that scene is not; advice says which parameter makes room. */
 #include "plan/plan.h"
 #include "plan/stages.h"
+#include "report/report_page.h"
 #include "test.h"
 #include <stdio.h>
 #include <string.h>
@@ -139,6 +140,84 @@ static void what_is_never_drawn_is_rejected(void **unused) {
     }
 }
 
+/* The stops of a hinge are angles: a hinge that only its stop keeps within its limit was accepted. What
+   has no stiffness is no stop. */
+static void a_stop_is_not_drawn(void **unused) {
+    (void)unused;
+    static const char hinge[] =
+        "<body id=\"r\" x=\"0.8 mm\" y=\"-2 mm\" plate-width=\"0.8 mm\" plate-height=\"0.5 mm\"/>"
+        "<revolute id=\"R\" a=\"ground\" a-x=\"0 mm\" a-y=\"-2 mm\" b=\"r\" b-x=\"-0.8 mm\" "
+        "b-y=\"0 mm\" hinge=\"f\" stop-max=\"2 deg\" stop-stiffness=\"1e-5 N m/rad\"/>";
+    fw_plan *plan = with_joint("", hinge);
+    const fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
+    assert_int_equal(plan->verdict.decision, FW_REJECT);
+    assert_int_equal(plan->layout->nmissing, 1);
+    assert_int_equal(v->nreason, 1);
+    assert_int_equal(v->reason[0].number, 130);
+    assert_non_null(strstr(v->reason[0].text, "stop of hinge R at (0, -2000) um"));
+    assert_non_null(strstr(v->reason[0].text, "between the ground and body r there"));
+    assert_non_null(strstr(v->reason[0].text, "<contact>"));
+    assert_non_null(strstr(plan->verdict.advice_note, "never drawn"));
+    fw_plan_free(plan);
+}
+
+/* A driver is of the world outside: accepted, and said where the decision stands, among
+   the messages, and in the certificate. */
+static void a_driver_is_from_outside(void **unused) {
+    (void)unused;
+    fw_plan *plan = with_joint("", "<driver id=\"hand\" joint=\"P\" value=\"0.1 deg*t/(1 ms)\"/>");
+    const fw_diags *said = &plan->diags;
+    int notes = 0;
+    assert_int_equal(plan->verdict.decision, FW_ACCEPT);
+    assert_int_equal(plan->noutside, 1);
+    assert_non_null(strstr(plan->outside[0], "driver hand moves and holds hinge P, "));
+    for (size_t i = 0; i < said->count; i++)
+        notes += said->item[i].number == 598;
+    assert_int_equal(notes, 1);
+    fw_report_summary top;
+    const fw_report_input in = fw_plan_report_input(plan);
+    assert_int_equal(fw_report_summarise(plan->arena, &in, &top), FW_OK);
+    notes = 0;
+    for (int i = 0; i < top.nline; i++)
+        notes += strcmp(top.line[i].label, "from outside") == 0;
+    assert_int_equal(notes, 1);
+    assert_int_equal(fw_plan_masks(plan), FW_OK);
+    const fw_mask *mask = plan->flow[0].mask;
+    assert_non_null(strstr(mask->note[mask->nnote - 1], "from_outside=driver hand"));
+    fw_plan_free(plan);
+}
+
+/* ---- what a hinge hangs on ---- */
+
+/* An arm straight up on one hinge whose base goes straight down: the root block beside the ring hung on a strip of
+   3.6 um between the ring's inner surface and the edge of the neck (FW-D138); the ring runs on to carry it. */
+static void an_upright_arm_hangs_on_a_whole_ring(void **unused) {
+    (void)unused;
+    static const char upright[] =
+        "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"silicon-100\" "
+        "thickness=\"50 um\"/><flow ref=\"al-masked-rie\"/><flexure id=\"f\" kind=\"csfh\" "
+        "radius=\"%d um\" angle=\"240 deg\" width=\"8 um\"/><mechanism><body id=\"arm\" x=\"0 mm\" "
+        "y=\"0.5 mm\" width=\"%d um\"/><revolute id=\"A\" a=\"ground\" b=\"arm\" b-y=\"-0.5 mm\" "
+        "hinge=\"f\"/></mechanism><scene name=\"s\" duration=\"1 ms\"/></device>";
+    for (int r = 70; r <= 100; r += 10)
+        for (int width = 80; width <= 120; width += 20) {
+            static char xml[2000];
+            fw_plan_options o = fw_plan_options_default();
+            o.data_directory = FW_TEST_SOURCE_DIR;
+            fw_plan *plan = fw_plan_new(&o);
+            assert_non_null(plan);
+            snprintf(xml, sizeof xml, upright, r, width);
+            assert_int_equal(fw_plan_load_memory(plan, "d.xml", xml, strlen(xml)), FW_OK);
+            fw_diags said = fw_diags_new(plan->arena);
+            const fw_layout *l;
+            assert_int_equal(fw_layout_build(plan->arena, plan->device, &said, &l), FW_OK);
+            for (size_t i = 0; i < said.count; i++)
+                if (said.item[i].number == 138)
+                    fail_msg("radius %d, width %d: %s", r, width, said.item[i].message);
+            fw_plan_free(plan);
+        }
+}
+
 /* a spring to the ground is a load from outside; nor is a device without joints rejected */
 static void loads_from_outside_stay(void **unused) {
     (void)unused;
@@ -159,6 +238,9 @@ int main(void) {
         cmocka_unit_test(a_drive_without_room_is_rejected),
         cmocka_unit_test(advice_finds_room),
         cmocka_unit_test(what_is_never_drawn_is_rejected),
+        cmocka_unit_test(an_upright_arm_hangs_on_a_whole_ring),
+        cmocka_unit_test(a_stop_is_not_drawn),
+        cmocka_unit_test(a_driver_is_from_outside),
         cmocka_unit_test(loads_from_outside_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
