@@ -108,8 +108,29 @@ describe("probes", () => {
         assert.match(await page.locator(".purpose").innerText(), /at least 40 µm: rejected/);
     });
 
+    test("in a window of another size plots have its layout, their lower end is reached, and each menu opens where it is seen", async () => {
+        for (const size of [SMALL, { width: 1240, height: 600 }, SMALL]) {
+            await page.setViewportSize(size);
+            await page.locator(".plots").evaluate((e) => e.parentElement.scrollTo(0, 1e4));
+            const plots = page.locator(".plots > .plot:visible");
+            assert.equal(await plots.count(), size.width > 1200 ? 3 : 2);
+            for (const plot of await plots.all()) {
+                await plot.locator("summary").click();
+                await page.waitForFunction((e) => {
+                    const seen = (x) => {
+                        const r = x.getBoundingClientRect();
+                        return x.contains(document.elementFromPoint(r.left + r.width / 2, r.top + r.height / 2));
+                    };
+                    const end = e.getBoundingClientRect().bottom;
+                    return end <= document.querySelector("#centre").getBoundingClientRect().bottom && [...e.querySelectorAll(".plot-menu button")].every(seen);
+                }, await plot.elementHandle());
+                await page.keyboard.press("Escape");
+            }
+        }
+    });
+
     test("velocities of probes and points are the program's, and what was left out has its bounds; each is saved", async () => {
-        await page.setViewportSize({ width: 1440, height: 900 });
+        await page.setViewportSize(SMALL);
         const box = page.locator('.plots select[aria-label="What is plotted"]');
         const chosen = async (id, rates) => {
             await box.selectOption(id);

@@ -17,7 +17,7 @@ export class Plot {
         this.box = h("div", { class: "plot-box", role: "img", "aria-label": title });
         this.other = h("div", { class: "plot-other", hidden: true });
         this.look = h("div", { class: "plot-look", hidden: true, "aria-hidden": "true" });
-        this.root = h("figure", { class: "plot" }, this.heading, this.#menu(), this.box, this.other, this.look);
+        this.root = h("figure", { class: "plot" }, this.heading, this.#menu(holder), this.box, this.other, this.look);
         holder.append(this.root);
         new ResizeObserver(() => this.#resize()).observe(this.box);
         on("theme", () => (this.shape = null)); // whoever shows it shows it again
@@ -39,7 +39,7 @@ export class Plot {
 
     // ---- zoom, and values under the pointer ----
 
-    #menu() {
+    #menu(holder) {
         const act = (label, f) => button(label, { class: "small" }, () => {
             menu.open = false;
             f();
@@ -48,9 +48,10 @@ export class Plot {
         const menu = h("details", { class: "plot-menu" }, h("summary", { "aria-label": `${this.title}: zoom, save` }, "⋯"), h("div", { class: "plot-menu-list" },
             act("Zoom in", () => this.zoom(0.5)), act("Zoom out", () => this.zoom(2)), act("Whole scene", () => this.onwindow?.(null)),
             act("Save as CSV", () => saveAs(`${name()}.csv`, this.csv(), "text/csv")), act("Save as SVG", () => saveAs(`${name()}.svg`, this.svg(), "image/svg+xml"))));
-        menu.addEventListener("toggle", () => { // in a low window it opens upwards
+        menu.addEventListener("toggle", () => { // where little is left below of the view it opens upwards
             menu.classList.remove("up");
-            if (menu.open && menu.lastChild.getBoundingClientRect().bottom > innerHeight) menu.classList.add("up");
+            const end = Math.min(innerHeight, holder.parentNode.getBoundingClientRect().bottom);
+            if (menu.open && menu.lastChild.getBoundingClientRect().bottom > end) menu.classList.add("up");
         });
         menu.addEventListener("keydown", (e) => {
             if (e.key !== "Escape" || !menu.open) return;
