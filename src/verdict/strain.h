@@ -28,6 +28,9 @@ typedef struct fw_verdict_arm {
        which a moment and a force are multiplied to be stress times thickness; where the latter is, and how the way
        runs there */
     double edge_m2, edge_m;
+    /* 6 |y|/w^2 + 1/w and 6 |x|/w^2 + 1/w at most, with (x, y) from the pin as drawn: by which a force along x and one
+       along y are multiplied. One along the way bends nothing, however far away the pin is */
+    double edge_x_m, edge_y_m;
     double edge_wide_m; /* how wide it is there */
     fw_geometry_vec2 edge, along;
     /* a straight cut there, square to the way, that parts this hinge from the body's others: a point of
@@ -48,10 +51,11 @@ typedef struct fw_verdict_load_end {
 fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
                                fw_verdict_load_end **end, int *n);
 /* stress at most over what is allowed of a hinge's material, of the strip along a way that bears a moment and a force
-   at its end alone. Three times (Kirsch) that of a beam, for what holes and corners do to it; walls that the flow puts
+   at its end alone. along_N: the largest of the force along x and along y as the body is drawn, NULL where that is not
+   known. Three times (Kirsch) that of a beam, for what holes and corners do to it; walls that the flow puts
    farther in leave less, and of the narrowest place most */
 double fw_verdict_arm_bears(const fw_mechanism *mechanism, int hinge, const fw_verdict_arm *arm,
-                            double moment_Nm, double force_N);
+                            double moment_Nm, double force_N, const double *along_N);
 
 /* arm: (2 nhinge) of hinge k in body a, in body b, then of each load end. In: outlines of the layout in the drawn pose. Range:
    any outline; unknown where nothing is drawn or the way is narrower than a cell of the grid, a 400th of the body.
@@ -155,10 +159,13 @@ typedef struct fw_verdict_bending {
         worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
     double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
     double beside;     /* by how much they are larger beside it: at least 1 */
-    fw_verdict_largest *peak; /* (1 + 2 nhinge) of that sum, of each force squared and moment */
+    fw_verdict_largest
+        *peak; /* (1 + 6 nhinge) of that sum, of each force squared and moment, and as `along_N` */
     double *
         hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
                                   force squared, and moment */
+    double *
+        along_N; /* (4 nhinge) the largest force of each flexure on body a, on body b, along x and y as that is drawn */
     double *
         cut_N_per_m; /* (2 nhinge) the most that stress is at least across the cut of an arm, times thickness;
                             NULL: no holes */

@@ -262,6 +262,7 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
 /* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
 typedef struct brought {
     double moment_Nm, force_N, cut_N_per_m;
+    const double *along_N; /* as fw_verdict_arm_bears takes it */
 } brought;
 
 /* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
@@ -275,13 +276,14 @@ static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_arm *arm,
     const double walls = m->layout ? 2 * m->layout->edge_m : 0;
     const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
     const double low = by->cut_N_per_m / (fmax(made, 1) * fmax(made, 1));
-    return (fw_verdict_band){low / allowed_N_per_m,
-                             fw_verdict_arm_bears(m, i / 2, arm, by->moment_Nm, by->force_N)};
+    return (fw_verdict_band){
+        low / allowed_N_per_m,
+        fw_verdict_arm_bears(m, i / 2, arm, by->moment_Nm, by->force_N, by->along_N)};
 }
 
 static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
     const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
-    return (brought){most[1], sqrt(most[0]), b->cut_N_per_m[i]};
+    return (brought){most[1], sqrt(most[0]), b->cut_N_per_m[i], b->along_N + 2 * i};
 }
 
 fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
@@ -394,7 +396,9 @@ static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
     for (int i = 0; !b->cut_N_per_m && i < 2 * m->nhinge; i++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
         const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
-        take_weak(worst, fw_verdict_arm_bears(m, i / 2, &b->arm[i], most[1], sqrt(most[0])),
+        take_weak(worst,
+                  fw_verdict_arm_bears(m, i / 2, &b->arm[i], most[1], sqrt(most[0]),
+                                       b->along_N ? b->along_N + 2 * i : NULL),
                   &b->arm[i], i % 2 ? pin->body_b : pin->body_a, "hinge", pin->id);
     }
     FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
@@ -403,8 +407,9 @@ static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
             const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
             const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
             if ((i % 2 ? pin->body_b : pin->body_a) != end[k].body) continue;
-            take_weak(worst, fw_verdict_arm_bears(m, i / 2, arm, 0, load_of(end, n, k, b->rest_N)),
-                      arm, end[k].body, end[k].what, end[k].id);
+            const double load_N = load_of(end, n, k, b->rest_N);
+            take_weak(worst, fw_verdict_arm_bears(m, i / 2, arm, 0, load_N, NULL), arm, end[k].body,
+                      end[k].what, end[k].id);
         }
     return FW_OK;
 }

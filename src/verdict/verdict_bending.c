@@ -55,9 +55,9 @@ static double gone(const fw_verdict_bending *b, const fw_mechanism_hinge *h,
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                           const fw_dynamics_instant *now) {
     double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
-    fw_verdict_largest *peak = b->peak + 1;
+    fw_verdict_largest *peak = b->peak + 1, *along = peak + 2 * m->nhinge;
     if (now->begins) /* no parabola across a jump */
-        for (int i = 0; i <= 2 * m->nhinge; i++)
+        for (int i = 0; i <= 6 * m->nhinge; i++)
             b->peak[i].samples = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const int j = m->hinge[k].pin;
@@ -69,6 +69,18 @@ static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
         fw_verdict_largest_add(&peak[2 * k + 1], now->t_s, moment);
         most[2 * k] = peak[2 * k].value;
         most[2 * k + 1] = peak[2 * k + 1].value;
+        for (int side = 0; side < 2; side++) {
+            const int body = side ? m->pin[j].body_b : m->pin[j].body_a;
+            if (body == FW_GROUND) continue;
+            const fw_verdict_turn *turn = &b->turn[body];
+            const double x = turn->cosine * force[0] + turn->sine * force[1],
+                         y = turn->cosine * force[1] - turn->sine * force[0];
+            const int end = 2 * (2 * k + side);
+            fw_verdict_largest_add(&along[end], now->t_s, x * x);
+            fw_verdict_largest_add(&along[end + 1], now->t_s, y * y);
+            b->along_N[end] = sqrt(along[end].value);
+            b->along_N[end + 1] = sqrt(along[end + 1].value);
+        }
     }
     const double before = b->peak->value;
     fw_verdict_largest_add(b->peak, now->t_s, sum);
@@ -204,8 +216,10 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         b->hinges_J = b->bodies_J = b->moving_J = b->gone = b->hardest_N2 = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->hardest_N[k] = 0;
-        for (int k = 0; k <= 2 * m->nhinge; k++)
+        for (int k = 0; k <= 6 * m->nhinge; k++)
             b->peak[k] = (fw_verdict_largest){0};
+        for (int k = 0; k < 4 * m->nhinge; k++)
+            b->along_N[k] = 0;
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         for (int i = 0; b->rest_N && i < m->nbody; i++)
@@ -272,7 +286,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
     FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
-    FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 2 * (size_t)m->nhinge + 1));
+    FW_NEED(bending->along_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
+    FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 6 * (size_t)m->nhinge + 1));
     if (straight) return worst_of(arena, m, arm, &bending->worst);
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;

@@ -39,6 +39,8 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     if (edge > arm->edge_m)
         arm->edge_m = edge, arm->edge_wide_m = w, arm->edge = at, arm->along = along;
     arm->edge_m2 = fmax(arm->edge_m2, 6 / (w * w));
+    arm->edge_x_m = fmax(arm->edge_x_m, 6 * fabs(r.y) / (w * w) + 1 / w);
+    arm->edge_y_m = fmax(arm->edge_y_m, 6 * fabs(r.x) / (w * w) + 1 / w);
 }
 
 /* The median of what the cut leaves is the place about which its integral of distances is least */
@@ -139,7 +141,7 @@ fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *m, fw_verdic
 }
 
 double fw_verdict_arm_bears(const fw_mechanism *m, int hinge, const fw_verdict_arm *arm,
-                            double moment_Nm, double force_N) {
+                            double moment_Nm, double force_N, const double *along_N) {
     const double corner = 3;
     const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[hinge].limits);
     if (!arm->known || !limit) return 0;
@@ -147,8 +149,10 @@ double fw_verdict_arm_bears(const fw_mechanism *m, int hinge, const fw_verdict_a
         limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
     const double walls = m->layout ? 2 * m->layout->edge_m : 0;
     const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
-    return corner * (moment_Nm * arm->edge_m2 + force_N * arm->edge_m) /
-           (fmin(made, 1) * fmin(made, 1)) / allowed_N_per_m;
+    double by_force = force_N * arm->edge_m;
+    if (along_N) by_force = fmin(by_force, along_N[0] * arm->edge_x_m + along_N[1] * arm->edge_y_m);
+    return corner * (moment_Nm * arm->edge_m2 + by_force) / (fmin(made, 1) * fmin(made, 1)) /
+           allowed_N_per_m;
 }
 
 /* ---- and what such a way gives ---- */

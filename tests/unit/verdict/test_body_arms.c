@@ -290,7 +290,10 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
                 posed.workspace.peak[k].angle_rad = -angle[k];
                 posed.workspace.load[k] = (fw_workspace_load){.known = true, .most_N = force};
             }
-            assert_relative(fw_verdict_bending_rims_required(&posed, at), band.high, 1e-9);
+            /* whatever the direction of the force, which poses do not tell */
+            const double share = fw_verdict_bending_rims_required(&posed, at);
+            assert_relative(share, fw_verdict_arm_bears(&s.m, at[0] / 2, &s.arm[at[0]], 1e-6 * fabs(angle[at[0] / 2]), force, NULL), 1e-9);
+            assert_true(share >= band.high);
             assert_int_equal(fw_verdict_bending_judge_required(s.arena, &posed), FW_OK);
             assert_int_equal(posed.nreason, 1);
             assert_int_equal(reason[0].decision, FW_INCONCLUSIVE);
@@ -340,7 +343,11 @@ static void a_neck_before_a_load_is_seen(void **state) {
     assert_relative(arm->edge_wide_m, 8e-6, 0.02);
     assert_relative(arm->edge_m, 6 * 0.45e-3 / (8e-6 * 8e-6), 0.1);
     const double share = 3 * force.fy_N * arm->edge_m / (1e9 / 2 * 10e-6);
-    assert_relative(fw_verdict_arm_bears(&s.m, 0, arm, 0, force.fy_N), share, 1e-12);
+    assert_relative(fw_verdict_arm_bears(&s.m, 0, arm, 0, force.fy_N, NULL), share, 1e-12);
+    /* the way runs along x, through the neck: a force along x bends it by what the way is aside, one along y as before */
+    const double along_x[2] = {force.fy_N, 0}, along_y[2] = {0, force.fy_N};
+    assert_true(fw_verdict_arm_bears(&s.m, 0, arm, 0, force.fy_N, along_x) < 0.1 * share);
+    assert_relative(fw_verdict_arm_bears(&s.m, 0, arm, 0, force.fy_N, along_y), share, 0.02);
     fw_verdict_strain_monitor seen = {.mechanism = &s.m, .arena = s.arena};
     const fw_dynamics_motion motion = {.observed = &seen, .ledger.hinge.used = FW_HINGE_ELASTICA};
     const double q[3] = {0, 0, 0}, angle[2] = {0, 0}, reaction[4] = {0, -1e-4, 0, 0};
