@@ -485,7 +485,12 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         if (fw_xml_is(c, "respond")) FW_TRY(build_respond(r, c, s));
     }
     check_inputs(r, s);
-    if (r->diags->errors == before && !fw_xml_failed(record, "kind")) check_kind(r, record, s);
+    /* of a row that was refused nothing can be said: it may be what the kind needs */
+    const bool whole = (size_t)s->nvary == varied && (size_t)s->nuncertain == uncertain &&
+                       (size_t)s->ntrend == trends && (size_t)s->ncorrelation == correlations &&
+                       (size_t)s->nrespond == responses;
+    if (whole && r->diags->errors == before && !fw_xml_failed(record, "kind"))
+        check_kind(r, record, s);
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }
 

@@ -257,7 +257,7 @@ fw_status fw_study_dies_asked(fw_arena *arena, const fw_study *of, const fw_stud
     asked->judge = FW_JUDGE_MADE;
     asked->nvary = asked->nrespond = 0;
     /* thirty that fail; 3000 are the least with which rare failures are not merely counted */
-    asked->samples = (int)fmin(fmax(30 / (1 - asked->yield), 400), 3000);
+    asked->samples = (int)lround(fmin(fmax(30 / (1 - asked->yield), 400), 3000));
     FW_NEED(asked->uncertain = fw_arena_array(arena, fw_device_uncertain, n));
     bool *met = fw_arena_array(arena, bool, (size_t)of->nvary);
     FW_NEED(met);

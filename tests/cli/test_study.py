@@ -283,6 +283,14 @@ class Study(unittest.TestCase):
             self.assertRegex(done.stderr, r"study\.xml:\d+:\d+: error")
             self.assertFalse((self.place / "bad").exists(), rows)
 
+    def test_of_a_row_that_is_refused_nothing_else_is_said(self):
+        """it may be what the kind needs"""
+        rows = '<vary what="arc" from="200 deg" to="260 deg"/><respond name="a b" value="governing.utilisation"{}/>'
+        for kind, goal in (("sweep", ""), ("size", ' goal="minimise"')):
+            done = run("study", self.write(study("s", kind, rows.format(goal))), "--plan", *FLOW)
+            self.assertEqual(done.returncode, 3)
+            self.assertEqual(re.findall("FW-D[0-9]+", done.stderr), ["FW-D044"], done.stderr)
+
     def test_what_looks_back_has_no_shards(self):
         rows = '<vary what="arc" from="200 deg" to="260 deg"/><respond name="U" value="governing.utilisation" goal="minimise"/>'
         done = run("study", self.write(study("s", "size", rows)), *FLOW, "--shard", "1/2", "-o", self.place / "o")
