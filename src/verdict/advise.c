@@ -12,7 +12,7 @@
 enum { ROUNDS = 14 };
 /* Evaluations of hinges, of about half a microsecond each: of a search for several values, or for one kind of
    change; of all. Where a single look takes more than that the searches behind it are not begun. */
-static const double most_work_together = 2e6, most_work_in_all = 1e7;
+static const double most_work_together = 5e6, most_work_in_all = 2.5e7;
 /* a change that is smaller is not worth looking for a smaller one of several values */
 static const double small_enough = 0.1;
 /* an advice nobody could follow is none: twelve times as long, four times as wide */

@@ -43,7 +43,7 @@
 #include <string.h>
 
 /* evaluations of hinges of all looks: some seconds. A scene of many periods takes more for one */
-static const double most_work = 6e6;
+static const double most_work = 1.5e7;
 static const double at_first =
     0.5; /* of what is left: for the values beside all, for one parameter */
 enum { MOST_TRIALS = 40, MOST_PARAMETERS = 30, FEWEST_RINGS = 4, MOST_RINGS = 9 };
