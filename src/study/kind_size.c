@@ -54,7 +54,9 @@ typedef struct sizing {
     fw_study_die *die; /* (ndie) that a device has to hold as well */
     int ndie;
     double beta; /* how far they lie */
-    long left;   /* devices that searches may still judge */
+    double
+        allowed; /* the share that may fail by a first estimate; less after a whole one was not enough */
+    long left; /* devices that searches may still judge */
 } sizing;
 
 /* ---- what is small, and what must not be above 0 ---- */
@@ -361,7 +363,7 @@ typedef struct confirmed { /* the best device that is enough by a first estimate
 
 /* sample b, whose dies at beta hold: by how many fail other dies are looked at, or it is the answer */
 static fw_status estimate_of(sizing *s, fw_study *dies, const aim *a, int b, confirmed *c) {
-    const double allowed = 1 - s->study->asked->yield;
+    const double allowed = s->allowed;
     double fail;
     FW_TRY(failing(dies, &fail));
     c->estimated++;
@@ -431,6 +433,7 @@ static fw_status at_yield(sizing *s, int most, long *first) {
     double missed = constraint_of(s->study, &s->kept[b]), low;
     if (!(missed <= 0)) return keep_found(s->study, &s->kept[b], missed, &r->nearest);
     s->beta = fw_maths_normal_quantile(wanted);
+    s->allowed = 1 - wanted;
     s->left = (long)USUAL_ROUNDS * most;
     FW_NEED(s->die = fw_arena_array(s->study->arena, fw_study_die,
                                     (size_t)(DIES * (s->study->plan->nflow + 1))));
@@ -443,7 +446,9 @@ static fw_status at_yield(sizing *s, int most, long *first) {
             r->nfound = 1;
             return keep_found(s->study, &s->kept[b], missed, r->found);
         }
-        move_dies(s, s->beta + fmax(farther(1 - low, 1 - wanted), 0) + near_enough);
+        const double more = fmax(farther(1 - low, 1 - wanted), 0) + near_enough;
+        move_dies(s, s->beta + more);
+        s->allowed = fw_maths_normal_cdf(fw_maths_normal_quantile(s->allowed) - more);
     }
     return keep_found(s->study, &s->kept[b], fmax(missed, still), &r->nearest);
 }
