@@ -269,7 +269,8 @@ class Plan(InTemporary):
         # pushed aside it falls, and the motion itself is judged: nothing but the frame is in its way
         aside = '<force on="arm" x="0.5 mm" fx="-1.5 mN" fy="0.02 mN"/>'
         verdict = self.judged(pressed(aside), 1)
-        self.assertEqual({r["code"] for r in verdict["reasons"]}, {"FW-D294"})
+        # (and then the force bends the root block, 17 um wide, by a lever of 0.15 mm)
+        self.assertEqual({r["code"] for r in verdict["reasons"]}, {"FW-D294", "FW-D538"})
         self.assertGreater(verdict["hinges"][0]["peak_angle_rad"], 1)
 
     def test_another_start_than_the_stated_one_is_not_accepted(self):
