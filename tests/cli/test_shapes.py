@@ -204,13 +204,13 @@ class Bases(unittest.TestCase):
             with tempfile.TemporaryDirectory() as here:
                 path = pathlib.Path(here) / "guide.xml"
                 path.write_text(text.replace("WIDE", str(wide)))
-                done = run("mask", path, "--corners", "none", "-q", "-o", here)
+                done = run("mask", path, "--corners", "none", "-q", "-o", pathlib.Path(here) / "out")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertNotIn("error", done.stderr)
         # with the shuttle elsewhere the drawing fails for that, and it is said of each hinge, where it stands
         with tempfile.TemporaryDirectory() as here:
             path = pathlib.Path(here) / "guide.xml"
-            path.write_text(text.replace('id="shuttle" x="0 mm"', 'id="shuttle" x="9 mm"'))
+            path.write_text(text.replace("WIDE", "1970").replace('id="shuttle" x="0 mm"', 'id="shuttle" x="9 mm"'))
             said = run("check", path, "--corners", "none", "--advice", "none").stderr
         apart = re.findall(r"guide\.xml:(\d+):1: error: joint (\w) does not close .* put it ([\d.]+) um apart.*FW-D206", said)
         self.assertEqual(apart, [(str(n), i, "9000") for n, i in enumerate("ABCD", 4)], said)
