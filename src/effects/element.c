@@ -272,6 +272,68 @@ int fw_effects_comb_count(const fw_effect_case *c) {
     return combs;
 }
 
+/* ---- fields at the edges of electrodes ---- */
+
+/* The fringe at both edges of one gap, over eps0 and length: how much longer the straight field would have to be, over
+   the gap. Of fingers of width w, gap m on either side, deep against m, alternately at two potentials,
+
+     F(x) = (2 ln(1 + 2x) - 2 ln x + ln(1 + 2x)/x)/pi,   x = m/w
+
+   exactly: the cell from the middle of a finger to that of a gap is mapped onto a half plane (Schwarz and Christoffel),
+   where the field is that of a strip. F' and F'' by m. Derivation: docs/theory/effects/fringe-field.md. */
+double fw_effects_comb_edge(double gap_m, double width_m, double slope[2]) {
+    const double x = gap_m / width_m, ln = log1p(2 * x), per = 1 / (FW_PI * x * x);
+    if (slope) {
+        slope[0] = -ln * per / width_m;
+        slope[1] = (2 * ln / x - 2 / (1 + 2 * x)) * per / (width_m * width_m);
+    }
+    return (2 * (ln - log(x)) + ln / x) / FW_PI;
+}
+
+/* Two bars of width w and depth h, gap g, at +-V/2: the quarter of the section about one of them is mapped onto a half
+   plane (Schwarz and Christoffel), its sides found by Newton's method; C/eps0 = K'/K of that map. With x = g/h, y = w/h
+
+     F = (2/pi) ln(B + D/x^(1/2) + A/x),  A = a0 + a1 y^(1/2) + a2 y,  B = b0 + b1 y^(1/2)/(1 + y^(1/2)),
+     D = d0/(1 + d1 y^(1/4))
+
+   is within 0.3 % of C and 1.8 % of the pull for x from 0.035 to 4, y from 0.05 to 12; for small x it is the exact
+   (2/pi) ln(A/x). */
+double fw_effects_plate_edge(double gap_m, double width_m, double depth_m, double slope[2]) {
+    const double y = width_m / depth_m, u = 1 / gap_m, root = sqrt(y), deep = sqrt(depth_m * u);
+    const double a = fmax(0, -0.049 + 3.028 * root + 8.066 * y) * depth_m * u,
+                 b = 1.993 + 1.472 * root / (1 + root), d = 4.084 / (1 + 0.449 * sqrt(root)) * deep,
+                 all = a + b + d;
+    if (slope) {
+        const double by = -(a + 0.5 * d) * u / all;
+        slope[0] = 2 / FW_PI * by;
+        slope[1] = 2 / FW_PI * ((2 * a + 0.75 * d) * u * u / all - by * by);
+    }
+    return 2 / FW_PI * log(all);
+}
+
+/* One end of a plate, in the plane of the wafer: between that of two equal bars (half of F) and that before a wall
+   without end, which is a bar and its image (F at twice the gap). Plates are drawn with a stator that is longer by the
+   gap and 10 um at either end: within 0.7 % of C and 1 % of the pull of boundary elements where they are 40 gaps long, 3 % where they are 10. */
+double fw_effects_plate_end(double gap_m, double width_m, double length_m, double slope[2]) {
+    double equal[2], wall[2];
+    const double one = fw_effects_plate_edge(gap_m, width_m, length_m, equal),
+                 two = fw_effects_plate_edge(2 * gap_m, width_m, length_m, wall);
+    for (int k = 0; slope && k < 2; k++)
+        slope[k] = 0.21 * equal[k] + (k + 1) * 2 * 0.58 * wall[k];
+    return 0.21 * one + 0.58 * two;
+}
+
+/* along: fingers gain what they gain in C, plates what their edges lose as the gap opens */
+double fw_effects_comb_fringe(const fw_effects_comb_element *c) {
+    const double left = c->edge ? 0 : 1, g = c->gap_m;
+    double by[2], end[2];
+    if (c->kind == FW_ELECTRODES_COMB)
+        return (left + 0.5) * fw_effects_comb_edge(g, c->width_m, NULL) * g / c->depth_m;
+    fw_effects_plate_edge(g, c->width_m, c->depth_m, by);
+    fw_effects_plate_end(g, c->width_m, c->length_m, end);
+    return -g * g * ((left + 0.5) * by[0] / c->depth_m + left * 2 * end[0] / c->length_m);
+}
+
 /* ---- what a drive may do within the envelope ---- */
 
 /* its direction as drawn, in the world */
