@@ -58,6 +58,10 @@ describe("rules and looks", () => {
         });
         assert.ok(Math.hypot(place[0] - middle[0], place[1] - middle[1]) < 0.01 && k > 3, `${place} is not in the middle, ${middle}`);
         assert.equal(await entry.getAttribute("aria-current"), "true");
+        // it bears its motion, and no flow can make it: no green, and the words of the terminal
+        await page.waitForFunction(() => /cannot be made:/.test(document.querySelector("#banner").textContent), null, { timeout: 60000 });
+        assert.match(await page.locator("#banner strong").innerText(), /Accepted, but cannot be made$/);
+        assert.deepEqual(await page.evaluate(() => [document.querySelector("#banner").className.split(" ").includes("accept"), document.querySelector("#banner").dataset.verdict]), [false, "accept"]);
     });
 
     test("at 1024 pixels nothing is cut off or hidden behind another", async () => {

@@ -69,8 +69,7 @@ export class Verdict {
     }
 
     /** Colour of the banner, and its word for programs; null: there is no decision. */
-    #decided(decision) {
-        const colour = decision === "failed" ? "reject" : decision;
+    #decided(decision, colour = decision === "failed" ? "reject" : decision) {
         for (const name of Object.keys(WORDS)) this.banner.classList.toggle(name, name === colour);
         if (decision) this.banner.dataset.verdict = decision;
         else delete this.banner.dataset.verdict;
@@ -133,11 +132,14 @@ export class Verdict {
             return this.#cost();
         }
         const top = full ?? v; // the same document: as it will be made, or a first look at the drawing
-        const [word, sign] = WORDS[top.verdict] ?? WORDS.inconclusive;
         const lines = (state.summary = top.summary ?? []);
-        const changed = this.last !== top.verdict;
-        this.last = top.verdict;
-        this.#decided(top.verdict);
+        // nothing is good about a device that bears its motion and that no flow can make: no green
+        const unmade = top.verdict === "accept" && lines.some((line) => line.label === "cannot be made");
+        const [bears, fine] = WORDS[top.verdict] ?? WORDS.inconclusive;
+        const [word, sign] = unmade ? [`${bears}, but cannot be made`, "cross"] : [bears, fine];
+        const changed = this.last !== word;
+        this.last = word;
+        this.#decided(top.verdict, unmade ? "reject" : top.verdict);
         this.banner.replaceChildren(
             h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", "data-of": full ? "check" : "preview", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),

@@ -186,7 +186,7 @@ static void apart(void **state) {
         if (k == 2) continue; /* subset simulation */
         assert_int_equal(half.asked, whole.asked);
         assert_true(half.places == whole.places);
-        assert_true(half.judged < (k == 1 ? 0.6 : 0.8) * (double)whole.judged);
+        assert_true((double)half.judged < (k == 1 ? 0.6 : 0.8) * (double)whole.judged);
     }
 }
 
