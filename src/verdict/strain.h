@@ -28,11 +28,11 @@ typedef struct fw_verdict_arm {
        which a moment and a force are multiplied to be stress times thickness; where the latter is, and how the way
        runs there */
     double edge_m2, edge_m;
+    double edge_wide_m; /* how wide it is there */
+    fw_geometry_vec2 edge, along;
     /* 6 |y|/w^2 + 1/w and 6 |x|/w^2 + 1/w at most, with (x, y) from the pin as drawn: by which a force along x and one
        along y are multiplied. One along the way bends nothing, however far away the pin is */
     double edge_x_m, edge_y_m;
-    double edge_wide_m; /* how wide it is there */
-    fw_geometry_vec2 edge, along;
     /* a straight cut there, square to the way, that parts this hinge from the body's others: a point of
        it, what it leaves of the body (0: there is none), and the integral over that of the distance from the point */
     fw_geometry_vec2 cut;
