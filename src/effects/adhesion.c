@@ -70,16 +70,10 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-/* it is judged, and not moved with, active or not */
-static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
-    (void)c, (void)loads;
-    return FW_OK;
-}
-
 const fw_effect_row fw_effect_adhesion = {
     .id = "adhesion",
     .summary = "conjugate surfaces that have met hold each other; judged beside the motion",
     .called_for = called_for,
     .bound = bound,
-    .add = add,
+    .add = fw_effects_add_nothing,
     .solid = FW_EFFECTS_SOLID_NO_PART};

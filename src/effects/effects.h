@@ -358,6 +358,8 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     void (*values)(const fw_device_scene *scene, fw_effects_load_values *values);
     fw_effects_solid solid;
 } fw_effect_row;
+/* `add` of an effect that moves nothing in the plane, active or not: it is judged, or bounded, beside the motion */
+fw_status fw_effects_add_nothing(const fw_effect_case *c, fw_effects_loads *loads);
 const fw_effect_row *const *fw_effect_rows(size_t *count);
 /* what all rows say of a scene: words, loads, and scaled loads (false: there is nothing to
    scale) */

@@ -412,6 +412,11 @@ void fw_effects_comb_push(const fw_effect_case *c, const fw_device_comb *from, d
     push(c, from->body_b, at, ahead, along_N, across_N, couple_Nm, force);
 }
 
+fw_status fw_effects_add_nothing(const fw_effect_case *c, fw_effects_loads *loads) {
+    (void)c, (void)loads;
+    return FW_OK;
+}
+
 fw_status fw_effects_element_ended(const fw_effects_force_element *e, const char *scene,
                                    const char *at, const char *why, fw_diags *diags) {
     fw_status status = fw_diag_formula_ended(

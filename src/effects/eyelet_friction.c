@@ -117,39 +117,29 @@ static void pulls(rubbing *r, const fw_device_tendon *t, double coefficient) {
     }
 }
 
-static fw_status room(rubbing *r, int eyelets) {
-    const fw_effects_envelope *e = r->c->envelope;
-    const size_t n = (size_t)eyelets;
-    FW_NEED(r->mode = fw_arena_array(r->c->arena, double, (size_t)e->modes));
-    FW_NEED(r->force = fw_arena_array(r->c->arena, double, (size_t)e->n));
-    FW_NEED(r->bend = fw_arena_array(r->c->arena, double, n));
-    FW_NEED(r->share = fw_arena_array(r->c->arena, double, n));
-    FW_NEED(r->p = fw_arena_array(r->c->arena, double, 3 * n));
-    return FW_OK;
-}
-
-/* the largest share of a tension as drawn; without an envelope, too */
-static fw_status largest(const fw_effect_case *c, int eyelets, double *share) {
-    rubbing r = {.c = c};
-    const double coefficient = fw_effects_eyelet_friction_of(c->scene);
-    FW_NEED(r.bend = fw_arena_array(c->arena, double, (size_t)eyelets));
-    FW_NEED(r.share = fw_arena_array(c->arena, double, (size_t)eyelets));
-    FW_NEED(r.p = fw_arena_array(c->arena, double, 3 * (size_t)eyelets));
-    *share = 0;
-    for (int i = 0; i < c->scene->ntendon; i++) {
-        const fw_device_tendon *t = &c->scene->tendon[i];
-        bends_of(&r, t, false);
-        shares_of(r.bend, t->neyelet - 1, coefficient, !isnan(t->pull_N), r.share);
-        *share = fmax(*share, r.share[0]);
-    }
-    return FW_OK;
-}
-
 static int most_eyelets(const fw_device_scene *s) {
     int most = 0;
     for (int i = 0; i < s->ntendon; i++)
         most = s->tendon[i].neyelet > most ? s->tendon[i].neyelet : most;
     return most;
+}
+
+/* room for any cable of the scene, and the largest share of a tension as drawn; without an envelope, too */
+static fw_status largest(rubbing *r, double *share) {
+    const fw_effect_case *c = r->c;
+    const size_t n = (size_t)most_eyelets(c->scene);
+    const double coefficient = fw_effects_eyelet_friction_of(c->scene);
+    FW_NEED(r->bend = fw_arena_array(c->arena, double, n));
+    FW_NEED(r->share = fw_arena_array(c->arena, double, n));
+    FW_NEED(r->p = fw_arena_array(c->arena, double, 3 * n));
+    *share = 0;
+    for (int i = 0; i < c->scene->ntendon; i++) {
+        const fw_device_tendon *t = &c->scene->tendon[i];
+        bends_of(r, t, false);
+        shares_of(r->bend, t->neyelet - 1, coefficient, !isnan(t->pull_N), r->share);
+        *share = fmax(*share, r->share[0]);
+    }
+    return FW_OK;
 }
 
 /* Slipping follows the motion, and so does what it takes: of any course */
@@ -160,10 +150,11 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     double share;
     *value = (double)INFINITY;
     fw_mark mark = fw_arena_mark(c->arena);
-    FW_TRY(largest(c, most_eyelets(c->scene), &share));
+    FW_TRY(largest(&r, &share));
     if (e && e->valid && !(e->loose_pull > 0)) {
         double rings = 1;
-        FW_TRY(room(&r, most_eyelets(c->scene)));
+        FW_NEED(r.mode = fw_arena_array(c->arena, double, (size_t)e->modes));
+        FW_NEED(r.force = fw_arena_array(c->arena, double, (size_t)e->n));
         for (int i = 0; i < c->scene->ntendon; i++)
             pulls(&r, &c->scene->tendon[i], coefficient);
         for (int l = 0; l < e->modes; l++)
@@ -183,15 +174,9 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 
 static fw_status beside(const fw_effect_case *c, double *share) {
     fw_mark mark = fw_arena_mark(c->arena);
-    const fw_status status = largest(c, most_eyelets(c->scene), share);
+    const fw_status status = largest(&(rubbing){.c = c}, share);
     fw_arena_rewind(c->arena, mark);
     return status;
-}
-
-/* no motion has it */
-static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
-    (void)c, (void)loads;
-    return FW_OK;
 }
 
 const fw_effect_row fw_effect_eyelet_friction = {
@@ -199,6 +184,6 @@ const fw_effect_row fw_effect_eyelet_friction = {
     .summary = "cables that rub on the eyelets they bend around; in the error of the motion",
     .called_for = called_for,
     .bound = bound,
-    .add = add,
+    .add = fw_effects_add_nothing,
     .count = count,
     .beside = beside};

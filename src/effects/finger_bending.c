@@ -138,17 +138,11 @@ static fw_status beside(const fw_effect_case *c, double *share) {
     return FW_OK;
 }
 
-/* no motion has it */
-static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
-    (void)c, (void)loads;
-    return FW_OK;
-}
-
 const fw_effect_row fw_effect_finger_bending = {
     .id = "finger-bending",
     .summary = "fingers of combs that bend towards each other; in the error of the motion",
     .called_for = called_for,
     .bound = bound,
-    .add = add,
+    .add = fw_effects_add_nothing,
     .count = count,
     .beside = beside};

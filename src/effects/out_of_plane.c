@@ -78,17 +78,11 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-/* it moves nothing in the plane, active or not */
-static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
-    (void)c, (void)loads;
-    return FW_OK;
-}
-
 const fw_effect_row fw_effect_out_of_plane = {.id = "out-of-plane",
                                               .summary =
                                                   "weight, shocks and stress gradients across the "
                                                   "plane: sag and tilt, judged beside the motion",
                                               .called_for = called_for,
                                               .bound = bound,
-                                              .add = add,
+                                              .add = fw_effects_add_nothing,
                                               .solid = FW_EFFECTS_SOLID_NO_PART};

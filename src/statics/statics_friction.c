@@ -61,6 +61,18 @@ static void slide_row(const rub *r, const fw_effects_friction *f, const fw_multi
     if (b != FW_NONE) h[b] += e[0], h[b + 1] += e[1], h[b + 2] += e[1] * rb[0] - e[0] * rb[1];
 }
 
+/* by how much the mechanism gives way to a push of 1 along a row h (n): += */
+static void give_way(const fw_statics_reduced *d, const double *h, double *give) {
+    const size_t n = (size_t)d->n;
+    for (size_t k = 0; k < (size_t)d->dof; k++) {
+        double along = 0;
+        for (size_t i = 0; i < n; i++)
+            along += d->shape[k * n + i] * h[i];
+        for (size_t i = 0; i < n; i++)
+            give[i] += d->shape[k * n + i] * along / d->value[k];
+    }
+}
+
 static void rows_and_gives(rub *r) {
     const fw_statics_equilibrium *w = r->w;
     const fw_statics_reduced *d = &w->reduced;
@@ -72,13 +84,7 @@ static void rows_and_gives(rub *r) {
             slide_row(r, &r->item[j], pose, h);
         else
             turn_row(r, &r->item[j], h);
-        for (size_t k = 0; k < (size_t)d->dof; k++) {
-            double along = 0;
-            for (size_t i = 0; i < n; i++)
-                along += d->shape[k * n + i] * h[i];
-            for (size_t i = 0; i < n; i++)
-                s[i] += d->shape[k * n + i] * along / d->value[k];
-        }
+        give_way(d, h, s);
     }
 }
 
@@ -216,13 +222,7 @@ static void go_by(const fw_statics_equilibrium *w, const double *h, double most_
     const size_t n = (size_t)d->n;
     const double by = most_N / fw_multibody_newton(w->model);
     memset(give, 0, n * sizeof *give);
-    for (size_t k = 0; k < (size_t)d->dof; k++) {
-        double along = 0;
-        for (size_t i = 0; i < n; i++)
-            along += d->shape[k * n + i] * h[i];
-        for (size_t i = 0; i < n; i++)
-            give[i] += d->shape[k * n + i] * along / d->value[k];
-    }
+    give_way(d, h, give);
     for (size_t i = 0; i < n; i++)
         out->q[i] += fabs(give[i]) * by * (i % 3 == 2 ? 1 : w->model->scale.length_m);
     for (int k = 0; k < w->mechanism->npin; k++) {
