@@ -93,7 +93,7 @@ static const char style_sheet[] =
     "header{color:#000!important;background:none!important;border-bottom:3px solid #000;padding:0 "
     "0 8px}"
     "main,header .in,footer{max-width:none;padding:0}"
-    "section{padding:12px 0 0}h2,h3,caption{break-after:avoid}"
+    "section{padding:12px 0 0}h2,h3,summary,caption{break-after:avoid}"
     "tr,figure,svg,.advice{break-inside:avoid}thead{display:table-header-group}"
     ".wide{overflow:visible}"
     "table,.tight table{font-size:8pt}th,td,.tight th,.tight td{padding:3px 6px 3px 0}"
