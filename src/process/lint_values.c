@@ -172,6 +172,11 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
         if (own) too_uncertain(&u, q, pack->diags);
         if (own && !q->replaced) fw_process_warn_exact(q, NULL, pack->diags);
     }
+    for (int i = 0; i < f->nprocess_material; i++) {
+        const fw_process_material *m = &f->process_material[i];
+        if (m->highest_K && m == fw_process_flow_material(f, m->id))
+            in_range(&u, m->highest_K, pack->diags);
+    }
     return FW_OK;
 }
 

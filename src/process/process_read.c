@@ -81,8 +81,6 @@ static fw_status read_material(fw_process_pack *pack, const fw_xml_record *e,
         if (!fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1}))
             fw_diag_error(pack->diags, 169, c->element->place,
                           "highest-temperature is not a temperature; write it in Cel or K");
-        else
-            fw_process_quantity_in_range(q, pack->diags); /* as quantities of the flow */
         m->highest_K = q;
     }
     return FW_OK;

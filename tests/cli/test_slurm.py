@@ -198,13 +198,13 @@ class Slurm(unittest.TestCase):
 
     def test_what_is_refused_before_anything_is_written(self):
         path, out = self.write(sweep(4)), self.place / "out"
-        worst = self.write(sweep(4, "worst-case"), "worst.xml")
+        size = self.write(sweep(4, "size").replace('max="1"', 'goal="minimise"'), "size.xml")
         self.write('#!/bin/sh\necho no such partition >&2\nexit 1\n', "sbatch").chmod(0o755)
         for words, status, says in (
                 ((path,), 2, "needs --shards"), ((path, path, "--shards", 2), 2, "takes one FILE"),
                 (("-", "--shards", 2), 2, "standard input"), ((path, "--shards", 2, "--shard", "1/2"), 2, "--shard I/N"),
                 ((path, "--shards", 1001), 2, "MaxArraySize"), ((path, "--shards", 2, "--sbatch", "long"), 2, "--partition"),
-                ((worst, "--shards", 2), 3, "FW-D490"),
+                ((size, "--shards", 2), 3, "run it in one piece"),
                 ((path, "--shards", 2, "--set", "link=120\num"), 3, "FW-D554")):
             done = run("study", "slurm", *words, "-o", out, *FLOW)
             self.assertEqual(done.returncode, status, (words, done.stderr))
