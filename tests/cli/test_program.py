@@ -164,7 +164,7 @@ class Plan(InTemporary):
 
     def test_far_beyond(self):
         """loads under which flexures tumble are rejected in seconds, and told by how much to lower"""
-        for force, ended in (("0.04 N", True), ("40 N", False)):
+        for force, ended in (("40 N", False), ("0.04 N", True))[:2 if ALL else 1]:
             heavy = self.device(GALLERY_TEXT.replace('fx="0.25 mN"', f'fx="{force}"'))
             said = run("check", heavy, "--corners", "none")
             self.expect(said, 1)

@@ -148,7 +148,7 @@ static void ends_of_plates(void **state) {
     const struct {
         double l, g, share, pull;
     } at[] = {{200, 5, 7e-3, 1e-2}, {400, 3, 7e-3, 1e-2}, {400, 6, 7e-3, 1e-2}, {800, 10, 7e-3, 1e-2}, {200, 20, 1e-2, 3e-2}};
-    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+    for (int i = 0; i < test_fewest((int)(sizeof at / sizeof at[0]), 1); i++) {
         const double l = at[i].l, g = at[i].g, w = 40, d = 0.04 * g;
         double c[3], by[2], end = fw_effects_plate_end(g, w, l, by);
         for (int k = -1; k <= 1; k++) {
@@ -269,7 +269,7 @@ static void whole_plates(void **state) {
     const struct {
         double l, h, g, share;
     } at[] = {{200, 50, 5, 0.04}, {400, 50, 6, 0.03}, {200, 50, 20, 0.10}};
-    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+    for (int i = 0; i < test_fewest((int)(sizeof at / sizeof at[0]), 1); i++) {
         const double l = at[i].l, h = at[i].h, g = at[i].g, d = 0.06 * g;
         fw_effects_comb_element e = {.kind = FW_ELECTRODES_PLATE, .gap_m = g * 1e-6, .length_m = l * 1e-6,
                                      .depth_m = h * 1e-6, .width_m = 40e-6, .edge_F_per_m = 1, .face_Fm = h * 1e-6,
@@ -290,7 +290,7 @@ static void fringe_of_a_comb(void **state) {
     (void)state;
     const double width[] = {0.3, 1, 2, 6}, depth[] = {0.5, 1, 3, 10, 25};
     double worst = 0, least = 1;
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < test_fewest(4, 1); i++)
         for (int k = 0; k < 5; k++) {
             double want = elements(width[i], depth[k], 1, 1);
             worst = fmax(worst, fabs(closed(width[i], depth[k], 1, 1) / want - 1));
@@ -305,7 +305,7 @@ static void fringe_of_a_comb(void **state) {
 static void fringe_aside(void **state) {
     (void)state;
     double worst = 0, pull = 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < test_fewest(3, 1); i++)
         for (int k = 1; k <= 5; k++) {
             const double w = 0.6 + 0.9 * i, h = 2 + 4 * i, y = 0.1 * k, d = 0.02;
             double want[3], got[3];

@@ -13,7 +13,7 @@ static const char arm[] =
     "<flexure id=\"f\" kind=\"csfh\" radius=\"r\" angle=\"180 deg\" width=\"w\" gap=\"8 um\" "
     "fillet=\"4 um\"/><mechanism><body id=\"arm\" mass=\"0.02 mg\" inertia=\"0.003 mg mm^2\" "
     "x=\"0.5 mm\" y=\"0 mm\" width=\"100 um\"/><revolute id=\"h\" a=\"ground\" b=\"arm\" "
-    "b-x=\"-0.5 mm\" hinge=\"f\" axis=\"180 deg\"/></mechanism><scene name=\"a\" duration=\"5 ms\">"
+    "b-x=\"-0.5 mm\" hinge=\"f\" axis=\"180 deg\"/></mechanism><scene name=\"a\" duration=\"1 ms\">"
     "<torque on=\"arm\" value=\"%s\"/></scene></device>";
 
 /* what a test does not ask about stays: no room, no looks */
@@ -221,7 +221,7 @@ static void counts(void **state) {
         "id=\"arm\" mass=\"0.02 mg\" inertia=\"0.003 mg mm^2\" x=\"0.5 mm\" y=\"0 mm\" "
         "plate-width=\"0.9 mm\" plate-height=\"60 um\"/><revolute id=\"h\" a=\"ground\" b=\"arm\" "
         "b-x=\"-0.5 mm\" hinge=\"f\" axis=\"180 "
-        "deg\"/></mechanism><scene name=\"a\" duration=\"5 ms\"><comb-drive kind=\"comb\" id=\"c\" "
+        "deg\"/></mechanism><scene name=\"a\" duration=\"1 ms\"><comb-drive kind=\"comb\" id=\"c\" "
         "on=\"arm\" "
         "x=\"0.15 mm\" y=\"67 um\" direction=\"90 deg\" fingers=\"n\" gap=\"5 um\" overlap=\"60 "
         "um\" "
