@@ -382,7 +382,8 @@ static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
     double height = top_layer(flow, &stack, field, mould, false),
            grown = c->thickness->value * spread;
     if (isnan(height) || grown <= height) return FW_OK;
-    char up[32], high[32];
+    char up[32], high[32], layer[32];
+    const bool thinner = flow->nearest_known && !isnan(flow->nearest_layer_m);
     fw_number_text(up, sizeof up, grown * 1e6, 4);
     fw_number_text(high, sizeof high, height * 1e6, 4);
     fw_diag_warning(diags, 273, c->place,
@@ -391,12 +392,14 @@ static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
                     flow->step[index].id, up, high);
     return fw_process_flow_add_reason(
         arena, flow, 0,
-        fw_arena_printf(arena,
-                        "step %s plates up to %s um where the mould of %s is %s um high: "
-                        "the metal grows over it and closes the gaps. Nearest change: a "
-                        "mould above %s um, or thinner plating",
-                        flow->step[index].id, up, fw_process_flow_material_name(flow, mould), high,
-                        up));
+        fw_arena_printf(
+            arena,
+            "step %s plates up to %s um where the mould of %s is %s um high: "
+            "the metal grows over it and closes the gaps. Nearest change: %s%s%s",
+            flow->step[index].id, up, fw_process_flow_material_name(flow, mould), high,
+            thinner ? "a device layer of " : "a higher mould, or thinner plating",
+            thinner ? fw_number_text(layer, sizeof layer, 1e6 * flow->nearest_layer_m, 4) : "",
+            thinner ? " um, or a higher mould" : ""));
 }
 
 static const fw_quantity *derived_named(const fw_process_step *s, const char *name) {
