@@ -252,11 +252,9 @@ static fw_status come_through(fw_process_judge *j, const char **text) {
     const bool over = f->nearest_known && !isnan(f->nearest_overetch),
                gap = f->nearest_known && !isnan(f->nearest_gap_m);
     FW_NEED(*text = fw_arena_printf(
-                j->arena, "%s%s%s%s%s",
-                over ? "an over-etch of " : "no over-etch alone is enough, since a longer etch ",
-                over ? fw_process_judge_number(&t, f->nearest_overetch, 3)
-                     : "takes too much of something else;",
-                over ? ", or " : " ",
+                j->arena, "%s%s%s%s%s", over ? "an over-etch of " : "no over-etch alone is enough",
+                over ? fw_process_judge_number(&t, f->nearest_overetch, 3) : "",
+                over ? ", or " : "; ",
                 gap ? "openings at least " : "openings as wide as those that come through",
                 gap ? fw_process_judge_um(&t, f->nearest_gap_m) : ""));
     if (gap) FW_NEED(*text = fw_arena_printf(j->arena, "%s um wide", *text));
