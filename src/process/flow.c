@@ -433,3 +433,13 @@ fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
     FW_TRY(tell(arena, flow, diags));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
+
+fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
+                                  const fw_process_mask_facts *facts, fw_diags *diags) {
+    flow->nearest_known = false;
+    FW_TRY(fw_process_flow_compute_once(arena, flow, facts, diags));
+    bool drawn = facts && facts->structure_area_m2 > 0.0;
+    return drawn && (flow->manufacturable == 0 || flow->behind >= 0)
+               ? fw_process_judge_changes(arena, flow, facts, fw_process_flow_compute_once)
+               : FW_OK;
+}

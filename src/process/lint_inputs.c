@@ -231,23 +231,38 @@ fw_status fw_process_lint_places(fw_process_pack *pack) {
 
 /* ---- its plate ---- */
 
-/* a plate prints the parts that it is there for, and the device's plate structure and field */
+/* does another step print a part of the device's plate (0) or of another one through this mask? */
+static bool prints(const fw_process_flow *f, const char *mask, int plate) {
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            fw_process_side side;
+            if (strcmp(c->kind, "pattern") == 0 && strcmp(f->step[i].mask, mask) == 0 &&
+                fw_process_where_side(f, c->where, &side) && side.plate == plate)
+                return true;
+        }
+    return false;
+}
+
+/* A plate prints the parts that it is there for, and the device's plate structure and field. A mask that is no plate of the
+   pack at all is told where the plates of the table are (FW-D412, FW-D421). */
 static void lint_printed(fw_process_pack *pack, const fw_process_step *s) {
     const fw_process_flow *f = pack->flow;
     for (int k = 0; k < s->nchange && s->mask[0]; k++) {
         const fw_process_change *c = &s->change[k];
         fw_process_side side;
-        const char *draws = NULL, *named = NULL;
+        int named = -1;
         if (strcmp(c->kind, "pattern") != 0 || !fw_process_where_side(f, c->where, &side)) continue;
         for (int p = 0; p < f->nplate; p++)
-            if (strcmp(f->plate[p].id, s->mask) == 0) named = f->plate[p].id;
-        if (side.plate > 0) draws = f->plate[side.plate - 1].id;
-        if ((draws == NULL) == (named == NULL) && (!draws || strcmp(draws, named) == 0)) continue;
+            if (strcmp(f->plate[p].id, s->mask) == 0) named = p + 1;
+        if (named < 0 && side.plate > 0 && prints(f, s->mask, 0)) named = 0;
+        if (named < 0 || named == side.plate) continue;
         fw_diag_error(pack->diags, 559, c->place,
                       "step %s exposes the part '%s', which %s%s%s draws, through mask %s; name "
                       "the mask that draws it",
-                      s->id, c->where, draws ? "plate '" : "the device's plate", draws ? draws : "",
-                      draws ? "'" : "", s->mask);
+                      s->id, c->where, side.plate > 0 ? "plate '" : "the device's plate",
+                      side.plate > 0 ? f->plate[side.plate - 1].id : "", side.plate > 0 ? "'" : "",
+                      s->mask);
     }
 }
 

@@ -352,6 +352,7 @@ fw_status fw_process_flow_judge_drives(fw_arena *arena, fw_process_flow *flow,
    again and refuses nothing. What a closed form says of one reason alone may fail by the next one. */
 
 typedef struct trial {
+    fw_process_compute *compute;
     fw_arena *arena;
     fw_process_flow *flow;
     const fw_process_mask_facts *facts;
@@ -373,7 +374,7 @@ static fw_status with_gap(trial *t, double gap_m, bool *made) {
     }
     facts.gap = t->gap;
     facts.narrowest_slot_m = fmax(facts.narrowest_slot_m, gap_m);
-    fw_status status = fw_process_flow_compute_once(t->arena, t->flow, &facts, &quiet);
+    fw_status status = t->compute(t->arena, t->flow, &facts, &quiet);
     *made = status == FW_OK && t->flow->manufacturable != 0 && !t->flow->tight &&
             facts.narrowest_slot_m - 2.0 * t->flow->bias_m >= facts.least_space_m + 2e-9;
     return status == FW_INPUT ? FW_OK : status;
@@ -408,7 +409,7 @@ static fw_status least_gap(trial *t, double *gap_m) {
 static fw_status with_value(trial *t, fw_quantity *q, double value, bool *made) {
     fw_diags quiet = fw_diags_new(t->arena);
     q->value = value;
-    fw_status status = fw_process_flow_compute_once(t->arena, t->flow, t->facts, &quiet);
+    fw_status status = t->compute(t->arena, t->flow, t->facts, &quiet);
     *made = status == FW_OK && t->flow->manufacturable != 0;
     return status == FW_INPUT ? FW_OK : status;
 }
@@ -482,7 +483,7 @@ static fw_status thinner_layer(trial *t, double *layer_m) {
     fw_process_mask_facts facts = *t->facts;
     fw_diags quiet = fw_diags_new(t->arena);
     facts.device_thickness_m = thin;
-    fw_status status = fw_process_flow_compute_once(t->arena, t->flow, &facts, &quiet);
+    fw_status status = t->compute(t->arena, t->flow, &facts, &quiet);
     if (status == FW_OK && t->flow->manufacturable != 0) *layer_m = thin;
     *q = was;
     return status == FW_INPUT ? FW_OK : status;
@@ -508,9 +509,11 @@ static fw_status farther_reach(trial *t, double *reach_m) {
     return FW_OK;
 }
 
-static fw_status nearest(fw_arena *arena, fw_process_flow *flow,
-                         const fw_process_mask_facts *facts) {
-    trial t = {.arena = arena,
+fw_status fw_process_judge_changes(fw_arena *arena, fw_process_flow *flow,
+                                   const fw_process_mask_facts *facts,
+                                   fw_process_compute *compute) {
+    trial t = {.compute = compute,
+               .arena = arena,
                .flow = flow,
                .facts = facts,
                .fold_gap_m = flow->edges.least_gap_m,
@@ -535,14 +538,5 @@ static fw_status nearest(fw_arena *arena, fw_process_flow *flow,
     flow->nearest_reach_m = reach;
     flow->nearest_known = true;
     fw_diags quiet = fw_diags_new(arena); /* all was said already */
-    return fw_process_flow_compute_once(arena, flow, facts, &quiet);
-}
-
-fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
-                                  const fw_process_mask_facts *facts, fw_diags *diags) {
-    flow->nearest_known = false;
-    FW_TRY(fw_process_flow_compute_once(arena, flow, facts, diags));
-    bool drawn = facts && facts->structure_area_m2 > 0.0;
-    return drawn && (flow->manufacturable == 0 || flow->behind >= 0) ? nearest(arena, flow, facts)
-                                                                     : FW_OK;
+    return compute(arena, flow, facts, &quiet);
 }
