@@ -278,16 +278,27 @@ static size_t wafer_in(const char *words, size_t *n) {
     return 0;
 }
 
-static bool is_of_lot(const fw_recipe_asrun *run, const char *id, size_t n) {
+static int index_of(const fw_recipe_asrun *run, const char *id, size_t n) {
     for (int i = 0; i < run->nwafer; i++)
-        if (strlen(run->wafer[i]) == n && strncmp(run->wafer[i], id, n) == 0) return true;
-    return false;
+        if (strlen(run->wafer[i]) == n && memcmp(run->wafer[i], id, n) == 0) return i;
+    return -1;
 }
 
-/* "2-4": numbers of wafers; what is the name of a wafer itself is that wafer */
-static bool is_range(const fw_recipe_asrun *run, const char *id, size_t n, int *from, int *to) {
+/* "2-4": numbers of wafers, or "W2-W4": names of two, in the order of the lot (*named: from and to are places in it). What
+   is the name of a wafer itself is that wafer */
+static bool is_range(const fw_recipe_asrun *run, const char *id, size_t n, int *from, int *to,
+                     bool *named) {
     int used = 0;
-    if (is_of_lot(run, id, n) || sscanf(id, "%3d-%3d%n", from, to, &used) != 2) return false;
+    *named = true;
+    if (index_of(run, id, n) >= 0) return false;
+    for (size_t k = 1; k + 1 < n; k++) {
+        if (id[k] != '-') continue;
+        *from = index_of(run, id, k);
+        *to = index_of(run, id + k + 1, n - k - 1);
+        if (*from >= 0 && *from < *to) return true;
+    }
+    *named = false;
+    if (sscanf(id, "%3d-%3d%n", from, to, &used) != 2) return false;
     return (size_t)used == n && *from > 0 && *from < *to && *to <= FW_RECIPE_WAFERS;
 }
 
@@ -299,7 +310,8 @@ static fw_status add_load(fw_plan *plan, const fw_recipe_asrun *run, entries *li
     const size_t at = wafer_in(words, &n);
     const char *id = words + at, *end = id + n;
     int from, to;
-    if (!at || (!memchr(id, ',', n) && !is_range(run, id, n, &from, &to)))
+    bool named;
+    if (!at || (!memchr(id, ',', n) && !is_range(run, id, n, &from, &to, &named)))
         return add_words(plan->arena, list, words, place);
     if (measured || strstr(words, "coupon="))
         return fw_diag_error(&plan->diags, 282, place,
@@ -309,10 +321,11 @@ static fw_status add_load(fw_plan *plan, const fw_recipe_asrun *run, entries *li
     for (const char *part = id; part < end;) {
         const char *comma = memchr(part, ',', (size_t)(end - part));
         const size_t length = (size_t)((comma ? comma : end) - part);
-        const bool range = is_range(run, part, length, &from, &to);
+        const bool range = is_range(run, part, length, &from, &to, &named);
         for (int i = range ? from : 0; i <= (range ? to : 0); i++) {
-            const char *one = range ? fw_arena_printf(plan->arena, "%d", i)
-                                    : fw_arena_strndup(plan->arena, part, length);
+            const char *one = range && named ? run->wafer[i]
+                              : range        ? fw_arena_printf(plan->arena, "%d", i)
+                                             : fw_arena_strndup(plan->arena, part, length);
             FW_NEED(one);
             FW_NEED(one = fw_arena_printf(plan->arena, "%.*s%s%s", (int)at, words, one, end));
             FW_TRY(add_words(plan->arena, list, one, place));

@@ -210,10 +210,10 @@ static fw_status apply_packs(fw_plan *plan, fw_process_flow *flow) {
     if (!plan->lab) FW_TRY(read_packs(plan));
     for (int i = 0; i < plan->nlab; i++) {
         fw_plan_lab_pack *pack = &plan->lab[i];
-        int before = flow->noverride;
+        int before = flow->noverride + flow->ntool_time;
         FW_TRY(
             fw_process_lab_apply(plan->arena, pack->file, pack->xml, pack->n, flow, &plan->diags));
-        pack->used = pack->used || flow->noverride > before;
+        pack->used = pack->used || flow->noverride + flow->ntool_time > before;
     }
     return FW_OK;
 }

@@ -46,6 +46,9 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
                                fw_process_calibration *calibration);
 /* how each coupon that `words` name is written into a log: "cd-lines, line|space, drawn=__ um, value=__ ... um, u=__ um" */
 fw_status fw_process_coupon_forms(const char *words, fw_text *out);
+/* the name of the kind that is called so: its name, or a word of that alone, as test die and run sheet have it ("slots" of
+   "arde-slots"); what is none comes back as it is */
+const char *fw_process_coupon_called(const char *name);
 /* FW_INPUT and FW-D211 where a row lacks what its coupon needs */
 fw_status fw_process_measurement_check(const fw_process_measurement *row, fw_diags *diags);
 /* are all rows of the coupon of one run, so that what stands under `at` is the same in all? */

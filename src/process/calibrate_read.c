@@ -121,12 +121,13 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
     FW_TRY(fields(t, line, name, &n));
     for (int k = 0; k < COLUMNS; k++)
         cell[k] = t->where[k] >= 0 && t->where[k] < n ? name[t->where[k]] : "";
-    *r = (fw_process_measurement){
-        .coupon = cell[COUPON], .feature = cell[FEATURE], .place = t->place};
+    *r = (fw_process_measurement){.coupon = fw_process_coupon_called(cell[COUPON]),
+                                  .feature = cell[FEATURE],
+                                  .place = t->place};
     /* a line of the ladder that is gone or stands was looked at, not measured */
     bool counted = strcmp(cell[FEATURE], "gone") == 0 || strcmp(cell[FEATURE], "stands") == 0;
     if (counted && !*cell[MEASURED])
-        *r = (fw_process_measurement){.coupon = cell[COUPON],
+        *r = (fw_process_measurement){.coupon = fw_process_coupon_called(cell[COUPON]),
                                       .feature = cell[FEATURE],
                                       .place = t->place,
                                       .uncertainty = 1.0,

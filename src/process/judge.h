@@ -60,4 +60,11 @@ double fw_process_print_limit(double wavelength_m, double gap_m, double resist_m
 /* what change the whole flow was judged with and does not refuse, in words */
 fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text);
 
+/* one pass of a flow for the facts of a mask: fw_process_flow_compute_once, given by who calls */
+typedef fw_status fw_process_compute(fw_arena *arena, fw_process_flow *flow,
+                                     const fw_process_mask_facts *facts, fw_diags *diags);
+/* the changes with which the whole flow refuses nothing (flow->nearest_...), and the flow computed once more with them known */
+fw_status fw_process_judge_changes(fw_arena *arena, fw_process_flow *flow,
+                                   const fw_process_mask_facts *facts, fw_process_compute *compute);
+
 #endif

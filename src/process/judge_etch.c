@@ -244,13 +244,32 @@ static double depth_in_wide_time(const fw_process_cut *c, double w_m) {
     return low;
 }
 
+/* An over-etch with which the whole flow refuses nothing, and openings: of a flow that is refused those that are enough,
+   else as wide as those that come through by what was computed */
+static fw_status come_through(fw_process_judge *j, const char **text) {
+    const fw_process_flow *f = j->flow;
+    fw_process_numbers t = {0};
+    const bool over = f->nearest_known && !isnan(f->nearest_overetch),
+               gap = f->nearest_known && !isnan(f->nearest_gap_m);
+    FW_NEED(*text = fw_arena_printf(
+                j->arena, "%s%s%s%s%s", over ? "an over-etch of " : "no over-etch alone is enough",
+                over ? fw_process_judge_number(&t, f->nearest_overetch, 3) : "",
+                over ? ", or " : "; ",
+                gap ? "openings at least " : "openings as wide as those that come through",
+                gap ? fw_process_judge_um(&t, f->nearest_gap_m) : ""));
+    if (gap) FW_NEED(*text = fw_arena_printf(j->arena, "%s um wide", *text));
+    return FW_OK;
+}
+
 /* too short a time for an opening: no by a measured lag, open by an assumed one */
 static fw_status not_through(fw_process_judge *j, const fw_process_cut *c,
                              const fw_process_edge_class *k, bool firm) {
     fw_process_numbers t = {0};
     double times = k->reach_m / c->planned_m;
+    const char *change;
+    j->flow->behind = (int)(c->step - j->flow->step);
     /* in hundredths, upwards: the mask follows the time, and the opening with it, by less than that */
-    double proposed = ceil(100 * (times - 1) + 0.1) / 100;
+    j->flow->behind_overetch = ceil(100 * (times - 1) + 0.1) / 100;
     fw_diag_warning(j->diags, 183, c->step->place,
                     "in flow %s the %s (%s um drawn, %s um in the masking layer) is not etched "
                     "through within the time of step %s, over-etch included: it needs %s times "
@@ -258,14 +277,13 @@ static fw_status not_through(fw_process_judge *j, const fw_process_cut *c,
                     j->flow->id, k->name, fw_process_judge_um(&t, k->drawn_m),
                     fw_process_judge_um(&t, k->opening_m), c->step->id,
                     fw_process_judge_number(&t, times, 4));
+    FW_TRY(come_through(j, &change));
     FW_TRY(fw_process_judge_reason(
         j, firm ? FW_ANSWER_NO : FW_ANSWER_OPEN,
         "the %s does not come through in step %s: it needs %s times the planned time, over-etch "
-        "included %s. Nearest change: an over-etch of %s, or openings as wide as those that come "
-        "through",
+        "included %s. Nearest change: %s",
         k->name, c->step->id, fw_process_judge_number(&t, times, 4),
-        fw_process_judge_number(&t, 1.0 + c->overrun, 4),
-        fw_process_judge_number(&t, proposed, 3)));
+        fw_process_judge_number(&t, 1.0 + c->overrun, 4), change));
     if (j->verdict != FW_ANSWER_NO) j->flow->fails = j->flow->reason[j->flow->nreason - 1];
     return FW_OK;
 }

@@ -119,14 +119,16 @@ static fw_status window(fw_process_judge *j, const fw_process_step *s, double re
         *needs = fw_process_judge_um(&t, needed), *loses = fw_process_judge_um(&t, lost),
         *runs = fw_process_judge_um(&t, run), *most = fw_process_judge_um(&t, reach_m);
     const char *share = fw_process_judge_number(&t, 100.0 * r->share, 3);
+    const bool enough = j->flow->nearest_known && !isnan(j->flow->nearest_reach_m);
     FW_NEED(slow = place_of(j, &r->part[r->slowest]));
     if (needed > reach_m * (1.0 + 1e-9))
         FW_TRY(fw_process_judge_reason(
             j, FW_ANSWER_NO,
             "step %s does not free the device: it reaches %s um from every opening, and the middle "
-            "of %s is %s um from the nearest one. Nearest change: a reach of %s um, or holes "
-            "(release-pitch)",
-            s->id, most, slow, needs, needs));
+            "of %s is %s um from the nearest one. Nearest change: %s%s%sholes (release-pitch)",
+            s->id, most, slow, needs, enough ? "a reach of " : "",
+            enough ? fw_process_judge_um(&t, j->flow->nearest_reach_m) : "",
+            enough ? " um, or " : ""));
     if (r->weakest < 0) return FW_OK;
     FW_NEED(weak = place_of(j, &r->part[r->weakest]));
     if (run < lost) return FW_OK;

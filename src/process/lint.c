@@ -91,6 +91,16 @@ static fw_status lint_order(fw_process_pack *pack) {
                               f->step[i].on_fail[k].condition, f->step[i].id, f->step[i].id);
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; k < f->step[i].non_fail; k++)
+            if (f->step[i].on_fail[k].go_to[0] &&
+                fw_words_hold("continue scrap", " ", f->step[i].on_fail[k].then))
+                fw_diag_error(
+                    pack->diags, 276, f->step[i].place,
+                    "<on-fail if=\"%s\"> of step %s says %s, and goes on with step %s all "
+                    "the same; write then=\"rework\", or leave goto out",
+                    f->step[i].on_fail[k].condition, f->step[i].id, f->step[i].on_fail[k].then,
+                    f->step[i].on_fail[k].go_to);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].non_fail; k++)
             for (int j = i + 1; j < f->nstep; j++)
                 if (strcmp(f->step[i].on_fail[k].go_to, f->step[j].id) == 0)
                     fw_diag_error(pack->diags, 276, f->step[i].place,
@@ -185,6 +195,11 @@ static const struct {
      false},
     {"is nothing done again that comes once?", fw_process_lint_again, false},
     {"is a step what it says that it is, and timed for what it does?", fw_process_lint_kind, true},
+    {"does a step take numbers and times of its own?", fw_process_lint_inputs, true},
+    {"is it done at a tool that treats wafers, in a bath that is enough?", fw_process_lint_places,
+     true},
+    {"does no wafer drip with what etches on its way to another bench?", fw_process_lint_carried,
+     false},
     {"is resist as thick as bakes and doses are computed for?", fw_process_lint_coats, true},
     {"is no resist baked once more before it is developed?", fw_process_lint_baked, false},
     {"is what is prepared used, and what is wet said to be?", fw_process_lint_prepared, false},
@@ -268,15 +283,18 @@ fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw
 
 /* What the computed times do to the layers: known only with the mask and the device's thickness. */
 
-/* thickness of what lies outermost on a face of a column and is all of one material; NaN: a part is unknown */
-static double top_layer(const fw_process_stack *stack, int column, const char *material,
-                        bool back) {
+/* thickness of what lies outermost on a face of a column and is all of one material, or below films that have holes; NaN: a
+   part is unknown */
+static double top_layer(const fw_process_flow *flow, const fw_process_stack *stack, int column,
+                        const char *material, bool back) {
     double sum = 0.0;
     const int n = stack->n[column];
     for (int i = 0; i < n; i++) {
         const fw_process_cell *c = &stack->cell[column][back ? i : n - 1 - i];
-        if (strcmp(c->material, material) != 0) break;
-        sum += c->thickness_m;
+        const fw_process_material *m = fw_process_flow_material(flow, c->material);
+        const bool same = strcmp(c->material, material) == 0;
+        if (!same && !(sum == 0.0 && m && m->holes)) break;
+        if (same) sum += c->thickness_m;
     }
     return sum;
 }
@@ -316,7 +334,7 @@ static fw_status lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
         for (int column = 0; column < 2 * stack.columns; column++) {
             const bool back = column >= stack.columns;
             double there = fw_process_step_meets(s, back)
-                               ? top_layer(&stack, column % stack.columns, x->material, back)
+                               ? top_layer(flow, &stack, column % stack.columns, x->material, back)
                                : 0.0;
             if (there > 0.0) least = fmin(least, there);
         }
@@ -361,9 +379,11 @@ static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
     int field = strcmp(c->where, "field") == 0 ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
     if (stack.n[field] == 0) return FW_OK;
     const char *mould = stack.cell[field][stack.n[field] - 1].material;
-    double height = top_layer(&stack, field, mould, false), grown = c->thickness->value * spread;
+    double height = top_layer(flow, &stack, field, mould, false),
+           grown = c->thickness->value * spread;
     if (isnan(height) || grown <= height) return FW_OK;
-    char up[32], high[32];
+    char up[32], high[32], layer[32];
+    const bool thinner = flow->nearest_known && !isnan(flow->nearest_layer_m);
     fw_number_text(up, sizeof up, grown * 1e6, 4);
     fw_number_text(high, sizeof high, height * 1e6, 4);
     fw_diag_warning(diags, 273, c->place,
@@ -372,12 +392,14 @@ static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
                     flow->step[index].id, up, high);
     return fw_process_flow_add_reason(
         arena, flow, 0,
-        fw_arena_printf(arena,
-                        "step %s plates up to %s um where the mould of %s is %s um high: "
-                        "the metal grows over it and closes the gaps. Nearest change: a "
-                        "mould above %s um, or thinner plating",
-                        flow->step[index].id, up, fw_process_flow_material_name(flow, mould), high,
-                        up));
+        fw_arena_printf(
+            arena,
+            "step %s plates up to %s um where the mould of %s is %s um high: "
+            "the metal grows over it and closes the gaps. Nearest change: %s%s%s",
+            flow->step[index].id, up, fw_process_flow_material_name(flow, mould), high,
+            thinner ? "a device layer of " : "a higher mould, or thinner plating",
+            thinner ? fw_number_text(layer, sizeof layer, 1e6 * flow->nearest_layer_m, 4) : "",
+            thinner ? " um, or a higher mould" : ""));
 }
 
 static const fw_quantity *derived_named(const fw_process_step *s, const char *name) {
@@ -405,6 +427,26 @@ static fw_status lint_most(fw_arena *arena, fw_process_flow *flow, const fw_proc
         arena, "step %s: %s is %s%s%s, above the limit of %s%s%s (%s; %s)", s->id, d->name, is, gap,
         unit, most, gap, unit, d->most->id, fw_quantity_value_status_text(d->most->status));
     return fw_process_flow_add_reason(arena, flow, -1, why);
+}
+
+/* the circle that a step works in lies on the wafer */
+static fw_status lint_circle(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
+                             const fw_process_change *c, fw_diags *diags) {
+    const fw_quantity *wafer = fw_process_flow_quantity(flow, "wafer.D");
+    char is[32], most[32];
+    if (!c->across || c->across->unknown || !wafer || wafer->unknown ||
+        (c->across->value > 0.0 && c->across->value <= wafer->value))
+        return FW_OK;
+    const char *why = fw_arena_printf(
+        arena,
+        "step %s works inside a circle of %s mm (%s) on a wafer of %s mm. Nearest change: %s",
+        s->id, fw_number_text(is, sizeof is, 1e3 * c->across->value, 4),
+        c->across->id ? c->across->id : "across",
+        fw_number_text(most, sizeof most, 1e3 * wafer->value, 4),
+        c->across->value > 0.0 ? "a tool for this wafer" : "a larger wafer, or a narrower rim");
+    FW_NEED(why);
+    fw_diag_warning(diags, 608, c->place, "%s", why);
+    return fw_process_flow_add_reason(arena, flow, 0, why);
 }
 
 /* a time so uncertain that its first look would be before the start */
@@ -463,6 +505,8 @@ fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_di
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
         for (int k = 0; k < s->nderive; k++)
             FW_TRY(lint_most(arena, flow, s, &s->derive[k], diags));
+        for (int k = 0; k < s->nchange; k++)
+            FW_TRY(lint_circle(arena, flow, s, &s->change[k], diags));
         for (int k = 0; k < s->nchange && strcmp(s->op, "plate") == 0; k++)
             if (strcmp(s->change[k].kind, "add") == 0 && strcmp(s->change[k].where, "all") != 0)
                 FW_TRY(lint_mould(arena, flow, i, &s->change[k], diags));

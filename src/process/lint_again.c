@@ -322,36 +322,6 @@ static void lint_timed(fw_process_pack *pack, const fw_process_step *s) {
         fw_number_text(by, sizeof by, 1e6 * stated->value, 4), stated->id);
 }
 
-/* the one material that a step adds or takes away; NULL: several, none, or only what is exposed */
-static const char *material_of(const fw_process_step *s) {
-    const char *material = NULL;
-    for (int k = 0; k < s->nchange; k++) {
-        if (material && strcmp(material, s->change[k].material) != 0) return NULL;
-        material = s->change[k].material;
-    }
-    return material;
-}
-
-/* a rate is one of one material: an etch timed by that of another step's material is timed for that */
-static void lint_rate(fw_process_pack *pack, int at) {
-    const fw_process_step *s = &pack->flow->step[at];
-    const fw_quantity *rate = fw_process_step_argument(s, "rate");
-    const char *material = material_of(s);
-    for (int i = 0; rate && material && i < at; i++) {
-        const fw_process_step *before = &pack->flow->step[i];
-        const char *other = material_of(before);
-        if (fw_process_step_argument(before, "rate") != rate || !other ||
-            strcmp(other, material) == 0)
-            continue;
-        fw_diag_error(
-            pack->diags, 561, s->place,
-            "the time of step %s is computed with the rate '%s', by which step %s is timed "
-            "for '%s', but the step is of '%s'; name the rate of that",
-            s->id, rate->id, before->id, other, material);
-        return;
-    }
-}
-
 static bool on_the_wafer(const fw_process_stack *stack, const char *material) {
     bool there = false;
     for (int column = 0; column < stack->columns; column++)
@@ -568,7 +538,6 @@ fw_status fw_process_lint_kind(fw_process_pack *pack) {
         lint_timed(pack, s);
         lint_op(pack, s);
         lint_spin(pack, s);
-        lint_rate(pack, i);
         lint_profile(pack, s);
         lint_clock(pack, s);
         lint_plasma(pack, s);

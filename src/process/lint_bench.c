@@ -238,17 +238,8 @@ static const fw_process_hazard *hazard_of(const fw_process_flow *f, const char *
 
 /* what etches goes on etching; water and solvents only dry */
 static double longest_wet_s(const fw_process_flow *f, const char *id, size_t n) {
-    static const char only_dries[] = "alcohol ketone none";
     const fw_process_hazard *h = hazard_of(f, id, n);
-    const char *words = h ? h->reacts_as : "";
-    for (fw_word word; fw_word_next(&words, " ", &word);) {
-        char group[32];
-        if (word.length >= sizeof group) return 600.0;
-        memcpy(group, word.at, word.length);
-        group[word.length] = '\0';
-        if (!fw_words_hold(only_dries, " ", group)) return 600.0;
-    }
-    return 86400.0;
+    return !h || fw_process_only_dries(h) ? 86400.0 : 600.0;
 }
 
 /* "h.pan.wet-longest": of what and of which state; false: of none */
@@ -320,7 +311,7 @@ fw_status fw_process_lint_lags(fw_process_pack *pack) {
 /* ---- what a rinse takes off ---- */
 
 static fw_status takes_off(fw_process_pack *pack, int step, const fw_process_finish *r,
-                           const char *material) {
+                           const fw_process_hazard *with, const char *material) {
     const fw_process_flow *f = pack->flow;
     const fw_process_step *s = &f->step[step];
     fw_process_stack stack;
@@ -330,21 +321,33 @@ static fw_status takes_off(fw_process_pack *pack, int step, const fw_process_fin
     for (int back = 0; back < 2; back++)
         if (fw_process_stack_open(f, &stack, material, back)) {
             fw_diag_error(pack->diags, 539, r->place,
-                          "step %s rinses in '%s', which attacks '%s', and that lies open then; "
-                          "rinse in water, or take it off before",
-                          s->id, r->with->id, material);
+                          "step %s %s '%s', which attacks '%s', and that lies open then; "
+                          "%s, or take it off before",
+                          s->id, r->kind == FW_FINISH_DRY ? "dries in vapour of" : "rinses in",
+                          with->id, material,
+                          r->kind == FW_FINISH_DRY ? "spin it dry" : "rinse in water");
             return FW_OK;
         }
     return FW_OK;
+}
+
+/* vapour of alcohol wets what is dried by it: what takes resist off as a liquid does so then */
+static const fw_process_hazard *rinsed_with(const fw_process_flow *f, const fw_process_finish *r) {
+    if (r->kind == FW_FINISH_RINSE) return r->with;
+    for (int i = f->nhazard - 1; i >= 0 && strcmp(r->by, "vapour") == 0; i--)
+        if (f->hazard[i].wets && fw_process_only_dries(&f->hazard[i]) &&
+            fw_words_hold(f->hazard[i].reacts_as, " ", "alcohol"))
+            return &f->hazard[i];
+    return NULL;
 }
 
 fw_status fw_process_lint_rinses(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++)
         for (int k = 0; k < pack->flow->step[i].nfinish; k++) {
             const fw_process_finish *r = &pack->flow->step[i].finish[k];
-            if (r->kind != FW_FINISH_RINSE || !r->with) continue;
-            for (int m = 0; m < r->with->nattacks; m++)
-                FW_TRY(takes_off(pack, i, r, r->with->attacks[m]));
+            const fw_process_hazard *with = rinsed_with(pack->flow, r);
+            for (int m = 0; with && m < with->nattacks; m++)
+                FW_TRY(takes_off(pack, i, r, with, with->attacks[m]));
         }
     return FW_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the values make sense, wherever they come from: a pack, a laboratory, calibrate? Read once with the pack and again
    when a laboratory has replaced some (fw_process_flow_lint_values). Are their uncertainties ones? Can the prices be
-   added? Does a filling serve a wafer? Is every mask but the first aligned to one before it? */
+   added? Does a filling serve a wafer? */
 #include "process/films.h"
 #include "process/pack.h"
 #include "xml/xml_reader.h"
@@ -554,47 +554,5 @@ fw_status fw_process_lint_uses(fw_process_pack *pack) {
         brought(pack, s);
         beside(pack, s);
     }
-    return FW_OK;
-}
-
-/* ---- masks ---- */
-
-static const fw_process_step *exposed_before(const fw_process_flow *f, int end, const char *mask) {
-    for (int i = 0; i < end; i++)
-        if (f->step[i].mask[0] && (!mask || strcmp(f->step[i].mask, mask) == 0)) return &f->step[i];
-    return NULL;
-}
-
-static void aligned(fw_process_pack *pack, const fw_process_flow *f, int at) {
-    const fw_process_step *s = &f->step[at], *first = exposed_before(f, at, NULL);
-    if (!s->align.to) {
-        if (s->mask[0] && first && strcmp(first->mask, s->mask) != 0)
-            fw_diag_error(
-                pack->diags, 373, s->place,
-                "step %s exposes mask %s after %s did mask %s, and does not say how it is "
-                "aligned; add <align to=\"%s\" overlay=\"...\"/>",
-                s->id, s->mask, first->id, first->mask, first->mask);
-        return;
-    }
-    if (!s->mask[0])
-        fw_diag_error(pack->diags, 373, s->align.place,
-                      "step %s exposes no mask, so that there is nothing to align", s->id);
-    else if (!exposed_before(f, at, s->align.to))
-        fw_diag_error(pack->diags, 373, s->align.place,
-                      "step %s aligns mask %s to '%s', which no earlier step has exposed; name a "
-                      "mask that is on the wafer by then",
-                      s->id, s->mask, s->align.to);
-    for (int k = 0; k < s->nchange; k++)
-        if (strcmp(s->change[k].kind, "pattern") == 0 && s->change[k].back != s->align.back)
-            fw_diag_error(pack->diags, 373, s->align.place,
-                          "step %s exposes the %s (its <change>), and aligns a plate of the %s; "
-                          "write the same side in both",
-                          s->id, s->change[k].back ? "back" : "front",
-                          s->align.back ? "back" : "front");
-}
-
-fw_status fw_process_lint_plates(fw_process_pack *pack) {
-    for (int i = 0; i < pack->flow->nstep; i++)
-        aligned(pack, pack->flow, i);
     return FW_OK;
 }

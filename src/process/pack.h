@@ -127,6 +127,10 @@ fw_status fw_process_lint_exposure(fw_process_pack *pack);
 fw_status fw_process_lint_masking(fw_process_pack *pack);
 fw_status fw_process_lint_through(fw_process_pack *pack);
 /* masks one after the other (FW-D373) */
+/* numbers, plate, tool and bath of its own: lint_inputs.c (FW-D373, FW-D559, FW-D561, FW-D606, FW-D608, FW-D609) */
+fw_status fw_process_lint_inputs(fw_process_pack *pack);
+fw_status fw_process_lint_places(fw_process_pack *pack);
+fw_status fw_process_lint_carried(fw_process_pack *pack);
 fw_status fw_process_lint_plates(fw_process_pack *pack);
 fw_status fw_process_lint_shrink(fw_process_pack *pack);
 fw_status fw_process_lint_overlay(fw_process_pack *pack);
@@ -163,6 +167,7 @@ unsigned fw_process_reacts_as(const char *words); /* a bit for each group that i
 /* what happens where the two meet, in words; NULL: nothing that is known, or one is NULL */
 const char *fw_process_reaction(const fw_process_hazard *a, const fw_process_hazard *b);
 fw_status fw_process_lint_reactivity(fw_process_pack *pack);
+bool fw_process_only_dries(const fw_process_hazard *h);
 fw_status fw_process_lint_warmth(fw_process_pack *pack);
 
 /* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN

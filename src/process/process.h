@@ -381,10 +381,15 @@ typedef struct fw_process_flow {
     int unknown;                   /* ... and that are unknown */
     fw_process_override *override; /* (noverride) */
     int noverride;
-    /* of what is refused: an opening, and an anisotropy of the device's cut, with which the whole flow refuses nothing;
-       NaN: there is none. Known after fw_process_flow_compute. */
-    double nearest_gap_m, nearest_anisotropy;
+    /* of what is refused, or not etched through: an opening, an anisotropy of the device's cut, an over-etch of it, a
+       layer and a reach with which the whole flow refuses nothing; NaN: there is none. Known after
+       fw_process_flow_compute. */
+    double nearest_gap_m, nearest_anisotropy, nearest_overetch, nearest_layer_m, nearest_reach_m;
     bool nearest_known;
+    /* the step in whose planned time an opening is not etched through, and the over-etch that this alone would take, in
+       hundredths; -1: none */
+    int behind;
+    double behind_overetch;
     /* of the mask's facts; NULL: nothing is drawn, or no step frees anything */
     const fw_release *release;
     const fw_release_hold *hold; /* what holds each body meanwhile; NULL likewise */

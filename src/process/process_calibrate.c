@@ -55,6 +55,25 @@ static void put_form(const fw_process_coupon *kind, fw_text *out) {
                            : unit_of(kind->under[0]));
 }
 
+/* is it one of the words of the name, which have - between them? */
+static bool is_word_of(const char *name, const char *word) {
+    const size_t n = strlen(word);
+    for (const char *at = name; n > 0 && (at = strstr(at, word)); at++)
+        if ((at == name || at[-1] == '-') && (at[n] == '-' || at[n] == '\0')) return true;
+    return false;
+}
+
+const char *fw_process_coupon_called(const char *name) {
+    const char *called = NULL;
+    if (kind_named(name)) return name;
+    for (int i = 0; i < KINDS; i++) {
+        if (!is_word_of(table[i]->name, name)) continue;
+        if (called) return name; /* of two */
+        called = table[i]->name;
+    }
+    return called ? called : name;
+}
+
 fw_status fw_process_coupon_forms(const char *words, fw_text *out) {
     for (int i = 0; i < KINDS; i++) {
         if (!strstr(words, table[i]->name)) continue;

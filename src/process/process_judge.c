@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Can the flow make the device? What it can print and plate, and the nearest change where it cannot. */
 #include "process/judge.h"
+#include "process/pack.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- what the flow can print and plate ---- */
 
 static const char LINE[] = "narrowest line";
 
@@ -77,14 +81,15 @@ static fw_status mould(fw_process_judge *j) {
     fw_process_numbers t = {0};
     double wall = fw_process_judge_known(fw_process_flow_quantity(j->flow, "mould.height")),
            d = fw_process_judge_known(j->flow->thickness);
+    const bool known = j->flow->nearest_known && !isnan(j->flow->nearest_layer_m);
     if (isnan(wall) || isnan(d)) return FW_OK;
     if (d >= wall)
         return fw_process_judge_reason(
-            j, FW_ANSWER_NO,
-            "%s um do not fit into a mould of %s um. Nearest change: a device layer of %s um "
-            "or a thicker resist",
+            j, FW_ANSWER_NO, "%s um do not fit into a mould of %s um. Nearest change: %s%s%s",
             fw_process_judge_um(&t, d), fw_process_judge_um(&t, wall),
-            fw_process_judge_um(&t, wall / 1.3));
+            known ? "a device layer of " : "a thicker resist",
+            known ? fw_process_judge_um(&t, j->flow->nearest_layer_m) : "",
+            known ? " um, or a thicker resist" : "");
     if (wall / d < 1.3)
         return fw_process_judge_reason(
             j, FW_ANSWER_OPEN,
@@ -123,6 +128,7 @@ fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
     flow->nreason = 0;
     flow->fails = NULL;
     flow->tight = false;
+    flow->behind = -1;
     FW_TRY(fw_process_judge_etching(&j));
     FW_TRY(lithography(&j));
     FW_TRY(mould(&j));
@@ -244,4 +250,198 @@ fw_status fw_process_flow_judge_drives(fw_arena *arena, fw_process_flow *flow,
     fw_process_judge_to_front(flow, before); /* what refuses comes first */
     flow->manufacturable = j.verdict == FW_ANSWER_NO ? 0 : j.verdict == FW_ANSWER_OPEN ? -1 : 1;
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- the nearest change of what a flow cannot make ----
+   A width of the narrowest openings, an anisotropy, an over-etch, a layer or a reach, with which the whole flow is judged
+   again and refuses nothing. What a closed form says of one reason alone may fail by the next one. */
+
+typedef struct trial {
+    fw_process_compute *compute;
+    fw_arena *arena;
+    fw_process_flow *flow;
+    const fw_process_mask_facts *facts;
+    fw_process_mask_gap *gap; /* (facts->ngap) */
+    /* where bias, time and gap begin to have a solution (fixed_point.c): below it nothing is made; NaN: they have one */
+    double fold_gap_m, fold_anisotropy;
+} trial;
+
+/* every opening at least so wide: made, printed with the gap of the flow, not in perfect contact only, and as wide on the
+   mask as its rules ask for, with a grid of 1 nm at either edge */
+static fw_status with_gap(trial *t, double gap_m, bool *made) {
+    fw_process_mask_facts facts = *t->facts;
+    *made = false;
+    if (gap_m < t->fold_gap_m) return FW_OK;
+    fw_diags quiet = fw_diags_new(t->arena);
+    for (int i = 0; i < facts.ngap; i++) {
+        t->gap[i] = t->facts->gap[i];
+        t->gap[i].gap_m = fmax(t->gap[i].gap_m, gap_m);
+    }
+    facts.gap = t->gap;
+    facts.narrowest_slot_m = fmax(facts.narrowest_slot_m, gap_m);
+    fw_status status = t->compute(t->arena, t->flow, &facts, &quiet);
+    *made = status == FW_OK && t->flow->manufacturable != 0 && !t->flow->tight &&
+            facts.narrowest_slot_m - 2.0 * t->flow->bias_m >= facts.least_space_m + 2e-9;
+    return status == FW_INPUT ? FW_OK : status;
+}
+
+static double rounded_up(double x_m) { /* what a person draws */
+    return 1e-7 * ceil(x_m / 1e-7 - 1e-9);
+}
+
+/* Bisection in the logarithm between what is drawn and twenty times that, then up to the next 0.1 um, and judged once
+   more. NaN: no width that far is enough, another reason refuses. Error: 0.1 um above the least. Cost: some 12 times
+   fw_process_flow_compute, only for what is refused. Test: test_fixed_point.c, a_proposal_is_accepted_and_least. */
+static fw_status least_gap(trial *t, double *gap_m) {
+    double low = t->facts->narrowest_slot_m, high = 20.0 * low;
+    bool made;
+    *gap_m = (double)NAN;
+    if (!(low > 0.0) || !isfinite(low)) return FW_OK;
+    FW_TRY(with_gap(t, high, &made));
+    if (!made) return FW_OK;
+    while (high - low > 0.05e-6) {
+        double middle = sqrt(low * high);
+        FW_TRY(with_gap(t, middle, &made));
+        *(made ? &high : &low) = middle;
+    }
+    high = rounded_up(high);
+    FW_TRY(with_gap(t, high, &made));
+    if (made) *gap_m = high;
+    return FW_OK;
+}
+
+/* with another value of a quantity; *made: the flow refuses nothing */
+static fw_status with_value(trial *t, fw_quantity *q, double value, bool *made) {
+    fw_diags quiet = fw_diags_new(t->arena);
+    q->value = value;
+    fw_status status = t->compute(t->arena, t->flow, t->facts, &quiet);
+    *made = status == FW_OK && t->flow->manufacturable != 0;
+    return status == FW_INPUT ? FW_OK : status;
+}
+
+static fw_status with_anisotropy(trial *t, fw_quantity *q, double value, bool *made) {
+    *made = false;
+    return value < t->fold_anisotropy ? FW_OK : with_value(t, q, value, made);
+}
+
+/* of the cut of the device, where it is known; to 1e-4 */
+static fw_status least_anisotropy(trial *t, double *least) {
+    fw_quantity *q = NULL;
+    *least = (double)NAN;
+    for (int i = 0; i < t->flow->edges.ncut; i++)
+        if (t->flow->edges.cut[i].device) q = (fw_quantity *)t->flow->edges.cut[i].quantity;
+    if (!q || q->unknown) return FW_OK;
+    const fw_quantity was = *q;
+    double low = was.value, high = 1.0;
+    bool made;
+    q->interval = false;
+    fw_status status = with_anisotropy(t, q, high, &made);
+    while (status == FW_OK && made && high - low > 1e-4) {
+        bool enough;
+        double middle = 0.5 * (low + high);
+        status = with_anisotropy(t, q, middle, &enough);
+        *(enough ? &high : &low) = middle;
+    }
+    if (status == FW_OK && made) {
+        double value = 1e-4 * ceil(high / 1e-4 - 1e-9);
+        status = with_anisotropy(t, q, value, &made);
+        if (made) *least = value;
+    }
+    *q = was;
+    return status;
+}
+
+/* In hundredths, upwards from what the opening that stays closed needs with everything else as it is. A longer etch opens
+   the mask in another way than it was computed for, and takes more of what masks it: a few hundredths more may be needed,
+   and many more may do harm. At most as long again as the etch itself: a share, which its range bounds. */
+static fw_status least_overetch(trial *t, double *least) {
+    enum { TRIES = 20 };
+    fw_process_flow *f = t->flow;
+    fw_process_step *s = &f->step[f->behind];
+    fw_quantity *q = (fw_quantity *)s->overrun_from;
+    const double was = q ? q->value : s->overrun, from = f->behind_overetch;
+    bool made = false, tight = f->tight;
+    fw_status status = FW_OK;
+    *least = (double)NAN;
+    for (int i = 0; i < TRIES && status == FW_OK && !made && from + 0.01 * i <= 1.0; i++) {
+        fw_quantity none = {0};
+        if (!q) s->overrun = from + 0.01 * i;
+        status = with_value(t, q ? q : &none, from + 0.01 * i, &made);
+        made = made && f->behind < 0 && (tight || !f->tight);
+        if (made) *least = from + 0.01 * i;
+    }
+    if (q)
+        q->value = was;
+    else
+        s->overrun = was;
+    return status;
+}
+
+/* of a deposit in a mould: three quarters of what stands around it, rounded down to a tenth of a micrometre */
+static fw_status thinner_layer(trial *t, double *layer_m) {
+    fw_quantity *q = fw_process_flow_own_quantity(t->flow, t->flow->thickness->id);
+    const double wall = fw_process_judge_known(fw_process_flow_quantity(t->flow, "mould.height"));
+    *layer_m = (double)NAN;
+    if (!q || !(q->value >= wall)) return FW_OK;
+    const fw_quantity was = *q;
+    const double thin = 1e-7 * floor(wall / 1.3 / 1e-7 + 1e-9);
+    fw_process_mask_facts facts = *t->facts;
+    fw_diags quiet = fw_diags_new(t->arena);
+    facts.device_thickness_m = thin;
+    fw_status status = t->compute(t->arena, t->flow, &facts, &quiet);
+    if (status == FW_OK && t->flow->manufacturable != 0) *layer_m = thin;
+    *q = was;
+    return status == FW_INPUT ? FW_OK : status;
+}
+
+/* of a release that does not reach the middle of the widest body, rounded up to a tenth of a micrometre */
+static fw_status farther_reach(trial *t, double *reach_m) {
+    double is;
+    const fw_process_step *s = fw_process_flow_release_step(t->flow, &is);
+    fw_quantity *q = NULL;
+    bool made;
+    *reach_m = (double)NAN;
+    for (int k = 0; s && k < s->nchange; k++)
+        if (s->change[k].reach && s->change[k].reach->id)
+            q = fw_process_flow_own_quantity(t->flow, s->change[k].reach->id);
+    if (!q || !t->facts->release || q->status == FW_DERIVED) return FW_OK;
+    const double was = q->value;
+    const double needs = rounded_up(t->facts->release->needed_m + t->flow->release_foot_m);
+    if (!(needs > is)) return FW_OK;
+    FW_TRY(with_value(t, q, needs, &made));
+    if (made) *reach_m = needs;
+    q->value = was;
+    return FW_OK;
+}
+
+fw_status fw_process_judge_changes(fw_arena *arena, fw_process_flow *flow,
+                                   const fw_process_mask_facts *facts,
+                                   fw_process_compute *compute) {
+    trial t = {.compute = compute,
+               .arena = arena,
+               .flow = flow,
+               .facts = facts,
+               .fold_gap_m = flow->edges.least_gap_m,
+               .fold_anisotropy = flow->edges.least_anisotropy};
+    double gap = (double)NAN, A = (double)NAN, over = (double)NAN, layer = (double)NAN,
+           reach = (double)NAN;
+    const bool refused = flow->manufacturable == 0;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(t.gap = fw_arena_array(arena, fw_process_mask_gap, (size_t)facts->ngap + 1));
+    if (flow->behind >= 0) FW_TRY(least_overetch(&t, &over));
+    if (refused) {
+        FW_TRY(least_gap(&t, &gap));
+        FW_TRY(least_anisotropy(&t, &A));
+        FW_TRY(thinner_layer(&t, &layer));
+        FW_TRY(farther_reach(&t, &reach));
+    }
+    fw_arena_rewind(arena, mark);
+    flow->nearest_gap_m = gap;
+    flow->nearest_anisotropy = A;
+    flow->nearest_overetch = over;
+    flow->nearest_layer_m = layer;
+    flow->nearest_reach_m = reach;
+    flow->nearest_known = true;
+    fw_diags quiet = fw_diags_new(arena); /* all was said already */
+    return compute(arena, flow, facts, &quiet);
 }

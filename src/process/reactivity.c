@@ -198,3 +198,17 @@ fw_status fw_process_lint_warmth(fw_process_pack *pack) {
     }
     return FW_OK;
 }
+
+/* does it leave a wafer as it is, but for stains? Liquids of unknown kind do not */
+bool fw_process_only_dries(const fw_process_hazard *h) {
+    static const char mild[] = "alcohol ketone none";
+    const char *words = h->reacts_as;
+    for (fw_word word; fw_word_next(&words, " ", &word);) {
+        char of[32];
+        if (word.length >= sizeof of) return false;
+        memcpy(of, word.at, word.length);
+        of[word.length] = '\0';
+        if (!fw_words_hold(mild, " ", of)) return false;
+    }
+    return true;
+}

@@ -151,7 +151,7 @@ static fw_status read_entry(fw_recipe_asrun_reader *r, const char *line, size_t 
 fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
                                const char *plan_sha256, const char *file, const char *text,
                                size_t n, fw_diags *diags, fw_recipe_asrun *run) {
-    fw_recipe_asrun_reader r = {arena, flow, run, plan_sha256 != NULL, diags, {file, 1, 1}};
+    fw_recipe_asrun_reader r = {arena, flow, run, plan_sha256 != NULL, false, diags, {file, 1, 1}};
     size_t lines = 1;
     *run = (fw_recipe_asrun){0};
     for (size_t i = 0; i < n; i++)
@@ -174,7 +174,7 @@ fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
 
 fw_status fw_recipe_asrun_read_next(fw_arena *arena, const fw_process_flow *flow, const char *file,
                                     const char *line, fw_diags *diags, fw_recipe_asrun *run) {
-    fw_recipe_asrun_reader r = {arena, flow, run, true, diags, {file, run->nentry + 2, 1}};
+    fw_recipe_asrun_reader r = {arena, flow, run, true, false, diags, {file, run->nentry + 2, 1}};
     return read_entry(&r, line, strcspn(line, "\n"), run);
 }
 
@@ -324,7 +324,7 @@ static fw_status check_clock(const fw_recipe_asrun_reader *r, const fw_recipe_as
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               const fw_recipe_asrun *run, const char *words, fw_place place,
                               double now_s, fw_diags *diags, const char **line) {
-    fw_recipe_asrun_reader r = {arena, flow, run, true, diags, place};
+    fw_recipe_asrun_reader r = {arena, flow, run, true, true, diags, place};
     fw_recipe_asrun_entry e;
     char chain[65];
     size_t n = strlen(words);

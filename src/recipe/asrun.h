@@ -44,6 +44,7 @@ typedef struct fw_recipe_asrun_entry {
     fw_recipe_set *set;
     fw_recipe_coupon *coupon;
     int nmeasured, nset, ncoupon, line;
+    int loads; /* of the step that the entry is of: of the whole lot several, one after the other */
     char chain[65]; /* of its line */
 } fw_recipe_asrun_entry;
 

@@ -29,7 +29,7 @@ static const char *in_time(const fw_recipe_asrun_entry *e) {
     const double actual_s = e->end_s - e->start_s, read_s = to_the_second ? 0.0 : 60.0;
     if (!e->step->time.computable) return "no plan";
     if (actual_s + read_s < e->step->time.first_look_s) return "short";
-    return actual_s - read_s > e->step->booked_stop_s ? "long" : "in window";
+    return actual_s - read_s > e->step->booked_stop_s * e->loads ? "long" : "in window";
 }
 
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
@@ -96,19 +96,17 @@ static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *wha
     return FW_OK;
 }
 
-/* "48 to 52", "any to 52" */
+/* "48 to 52", "at most 52" */
 static void put_span(fw_text *out, const char *low, const char *high) {
-    fw_text_printf(out, "%s to %s", low[0] ? low : "any", high[0] ? high : "any");
+    const char *between = low[0] && high[0] ? " to " : low[0] ? " or more" : "at most ";
+    fw_text_printf(out, "%s%s%s", low, between, high);
 }
 
 /* the limits of a wait */
 static void put_wait(fw_text *out, const fw_process_lag *lag) {
     fw_schedule_put_duration(out, isnan(lag->min_s) ? 0.0 : lag->min_s);
-    fw_text_add(out, " to ");
-    if (isnan(lag->max_s))
-        fw_text_add(out, "any");
-    else
-        fw_schedule_put_duration(out, lag->max_s);
+    fw_text_add(out, isnan(lag->max_s) ? " or more" : " to ");
+    if (!isnan(lag->max_s)) fw_schedule_put_duration(out, lag->max_s);
 }
 
 static void put_unit(fw_text *out, const char *unit) {
@@ -120,11 +118,11 @@ static fw_status durations_of(builder *b, const fw_recipe_asrun_entry *e) {
     const char *judged = in_time(e);
     if (strcmp(judged, "short") != 0 && strcmp(judged, "long") != 0) return FW_OK;
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
-    fw_schedule_put_duration(&planned, e->step->booked_s);
+    fw_schedule_put_duration(&planned, e->step->booked_s * e->loads);
     fw_text_add(&planned, " at the machine; from the first look at ");
     fw_schedule_put_duration(&planned, e->step->time.first_look_s);
     fw_text_add(&planned, " to ");
-    fw_schedule_put_duration(&planned, e->step->booked_stop_s);
+    fw_schedule_put_duration(&planned, e->step->booked_stop_s * e->loads);
     fw_text_add(&planned, ", with the stop time");
     fw_schedule_put_duration(&is, actual);
     return add(b, e, "duration", &planned, &is);

@@ -66,10 +66,26 @@ static int answers_of(const char *value) {
     return n;
 }
 
+/* as the step calls it, or as the sheet prints it: "aluminium left on coupon al-step" */
+static const fw_process_accept *measure_named(const fw_process_step *step, const char *name) {
+    static const char on[] = " on coupon ";
+    const fw_process_accept *a = fw_recipe_asrun_accept(step, name);
+    for (int i = 0; i < step->naccept && !a; i++) {
+        const fw_process_accept *b = &step->accept[i];
+        const size_t n = strlen(b->measure);
+        if (b->coupon[0] && strncmp(name, b->measure, n) == 0 &&
+            strncmp(name + n, on, sizeof on - 1) == 0 &&
+            strcmp(name + n + sizeof on - 1, b->coupon) == 0)
+            a = b;
+    }
+    return a;
+}
+
 static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                               const char *name, const char *value) {
-    const fw_process_accept *a = fw_recipe_asrun_accept(e->step, name);
-    fw_recipe_measured m = {.measure = name, .value = value, .number = (double)NAN};
+    const fw_process_accept *a = measure_named(e->step, name);
+    fw_recipe_measured m = {
+        .measure = a ? a->measure : name, .value = value, .number = (double)NAN};
     /* without its plan, whose values may stand in the name of a measure, only coupons are wanted */
     if (!r->bound) return FW_OK;
     if (!a) {
@@ -86,6 +102,10 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
         m.site[i] = (double)NAN;
     int answers = answers_of(value);
     bool word = answers == 1 || (answers > 0 && answers == a->sites);
+    if (r->fresh && word && (a->low[0] || a->high[0])) /* "no" grass is 0, and "yes" is no number */
+        return fw_diag_error(r->diags, 282, r->place,
+                             "%s=%s: its limits are numbers; give one, 0 where there is none", name,
+                             value);
     if (!word && (answers > 0 || strcmp(a->unit, "yes/no") == 0)) {
         if (a->sites == 1)
             return fw_diag_error(r->diags, 282, r->place, "%s=%s: say yes or no", name, value);
@@ -104,7 +124,7 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
         m.number = fw_recipe_asrun_mean(m.site);
     }
     for (int i = 0; i < e->nmeasured; i++)
-        if (strcmp(e->measured[i].measure, name) == 0)
+        if (strcmp(e->measured[i].measure, m.measure) == 0)
             return fw_diag_error(r->diags, 282, r->place, "%s is given twice", name);
     e->measured[e->nmeasured++] = m;
     return FW_OK;
@@ -263,5 +283,9 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     if (!e->step)
         return fw_diag_error(r->diags, 282, r->place,
                              "the entry names no step; add step= with its id");
+    e->loads = e->wafer || fw_process_step_is_of_lot(e->step)
+                   ? 1
+                   : (r->run->nwafer + e->step->batch - 1) / e->step->batch;
+    if (e->loads < 1) e->loads = 1; /* a log of before there were wafers */
     return check_entry(r, e);
 }

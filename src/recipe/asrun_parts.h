@@ -12,6 +12,7 @@ typedef struct fw_recipe_asrun_reader {
     const fw_recipe_asrun *run; /* whose wafers there are */
     /* the flow is the computed one of the log's own plan: what a step sets is all known */
     bool bound;
+    bool fresh; /* somebody writes it now; lines of a log that stand are read as they are */
     fw_diags *diags;
     fw_place place;
 } fw_recipe_asrun_reader;

@@ -252,7 +252,7 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
     for (char *at = copy; at;) {
         char *word = fw_recipe_asrun_word(&at, ',');
         if (!c->row.coupon)
-            c->row.coupon = word;
+            c->row.coupon = fw_process_coupon_called(word);
         else if (word[0])
             FW_TRY(read_word(r, word, c, &g));
     }

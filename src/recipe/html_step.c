@@ -91,11 +91,12 @@ static void tagged(fw_text *out, const char *text) {
 }
 
 /* "[3]": number of the source in the list at the end; other text as it is */
-static void source_of(const fw_process_flow *flow, const char *source, fw_text *out) {
+static void source_of(const fw_process_flow *flow, const char *source, const int *number,
+                      fw_text *out) {
     if (!source || !source[0]) return;
     for (int i = 0; i < flow->nsource; i++)
         if (strcmp(flow->source[i].text, source) == 0) {
-            fw_text_printf(out, "[%d]", i + 1);
+            fw_text_printf(out, "[%d]", number[i]);
             return;
         }
     fw_text_escaped(out, source);
@@ -274,7 +275,8 @@ static void value_cell(const fw_quantity *q, bool derived, fw_text *out) {
     fw_recipe_put_unit(out, q->unit);
 }
 
-static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, fw_text *out) {
+static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, const int *number,
+                         fw_text *out) {
     const fw_quantity *q = row->q;
     fw_text_add(out, "<tr><td>");
     fw_text_escaped(out, row->name);
@@ -289,7 +291,7 @@ static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, 
         tagged(out, fw_quantity_value_status_text(q->u_status));
     }
     fw_text_add(out, " ");
-    source_of(flow, q->source, out);
+    source_of(flow, q->source, number, out);
     if (q->note) {
         fw_text_add(out, " <span class=\"muted\">");
         fw_text_escaped(out, q->note);
@@ -304,7 +306,34 @@ static bool only_the_time(const fw_process_step *s, const fw_recipe_row *row, in
     return n == 1 && law && law->stated && row[0].q == s->argument[0].q && !row[0].q->unknown;
 }
 
-static fw_status quantities(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
+/* in the order in which the sheet names them; of two sources with one text the first */
+static void number_sources(const fw_process_flow *flow, const fw_recipe_row *row, int n,
+                           int *number, int *last) {
+    for (int k = 0; k < n; k++) {
+        int i = 0;
+        while (i < flow->nsource &&
+               (!row[k].q->source || strcmp(flow->source[i].text, row[k].q->source) != 0))
+            i++;
+        if (i < flow->nsource && number[i] == 0) number[i] = ++*last;
+    }
+}
+
+fw_status fw_recipe_source_numbers(fw_arena *arena, const fw_process_flow *flow, int **number) {
+    int last = 0;
+    FW_NEED(*number = fw_arena_array(arena, int, (size_t)flow->nsource + 1));
+    for (int i = 0; i <= flow->nsource; i++)
+        (*number)[i] = 0;
+    for (int i = 0; i < flow->nstep; i++) {
+        fw_recipe_row *row = NULL;
+        int n = 0;
+        FW_TRY(fw_recipe_step_rows(arena, &flow->step[i], &row, &n));
+        if (!only_the_time(&flow->step[i], row, n)) number_sources(flow, row, n, *number, &last);
+    }
+    return FW_OK;
+}
+
+static fw_status quantities(const fw_process_flow *flow, const fw_process_step *s,
+                            const int *number, fw_text *out) {
     fw_recipe_row *row = NULL;
     int n = 0, derived = 0;
     FW_TRY(fw_recipe_step_rows(out->arena, s, &row, &n));
@@ -317,7 +346,7 @@ static fw_status quantities(const fw_process_flow *flow, const fw_process_step *
     for (int i = 0; i < n; i++) {
         if (row[i].derived && derived++ == 0)
             fw_text_add(out, "<tr><th colspan=\"5\">Computed for this step</th></tr>\n");
-        quantity_row(flow, &row[i], out);
+        quantity_row(flow, &row[i], number, out);
     }
     fw_text_add(out, "</tbody></table>\n");
     return FW_OK;
@@ -499,7 +528,7 @@ static fw_status section_notes(const fw_process_flow *flow, int index, fw_text *
 
 void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe_header *header,
                          fw_recipe_slicer *slicer, const fw_recipe_section_scale *scale,
-                         fw_text *out) {
+                         const int *number, fw_text *out) {
     const fw_process_step *s = &flow->step[index];
     bool changes = fw_process_step_changes(s); /* else the wafer looks as before */
     fw_text_add(out, "<section class=\"step\" id=\"");
@@ -519,7 +548,7 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
                                : fw_recipe_section_svg(flow, index, out);
     if (drawn != FW_OK) out->failed = 1;
     fw_text_add(out, changes ? "</div></div>\n" : "");
-    if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
+    if (quantities(flow, s, number, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
     if (!changes && endpoints(s, out) != FW_OK) out->failed = 1;
     fw_recipe_html_wafers(s, fw_process_step_is_of_dies(flow, index), header, out);
     fw_recipe_html_outcome(s, fw_process_step_is_of_dies(flow, index), header, out);

@@ -143,6 +143,7 @@ static const char style[] =
     "-webkit-box-decoration-break:clone}\n"
     ".step>header{display:flex;justify-content:space-between;align-items:flex-start;gap:4mm;"
     "border-bottom:0.5pt solid #888;padding-bottom:0.8mm;margin-bottom:0.8mm;break-after:avoid}\n"
+    ".step>header+p,.step>.tool{break-after:avoid}\n"
     ".pair,.window,.hazard,.note,.nc{break-inside:avoid}\n"
     ".meta{font-size:8pt;text-align:right;white-space:nowrap;padding-top:0.8mm}\n"
     ".pair{display:flex;gap:4mm;align-items:flex-start}\n.pair>div:first-child{flex:1}\n"
@@ -437,32 +438,18 @@ static void summary(const fw_process_flow *flow, fw_text *out) {
                 "</p>\n");
 }
 
-/* does a value of some step name it? Others stand in the pack, and in the report */
-static fw_status is_cited(const fw_process_flow *flow, const fw_process_source *source,
-                          fw_arena *arena, bool *cited) {
-    *cited = false;
-    for (int i = 0; i < flow->nstep && !*cited; i++) {
-        fw_recipe_row *row;
-        int n;
-        FW_TRY(fw_recipe_step_rows(arena, &flow->step[i], &row, &n));
-        for (int k = 0; k < n && !*cited; k++)
-            *cited = row[k].q->source && strcmp(row[k].q->source, source->text) == 0;
-    }
-    return FW_OK;
-}
-
-static void sources(const fw_process_flow *flow, fw_text *out) {
-    bool cited;
+/* those that a value of some step names, in that order; others stand in the pack, and in the report */
+static void sources(const fw_process_flow *flow, const int *number, fw_text *out) {
     fw_text_add(out, "<h3>Sources of the values above</h3>\n<ol class=\"small sources\">\n");
-    for (int i = 0; i < flow->nsource; i++) {
-        if (is_cited(flow, &flow->source[i], out->arena, &cited) != FW_OK) out->failed = 1;
-        if (out->failed || !cited) continue;
-        fw_text_printf(out, "<li value=\"%d\">", i + 1);
-        fw_text_escaped(out, flow->source[i].text);
-        fw_text_add(out, " <span class=\"muted\">(");
-        fw_text_escaped(out, flow->source[i].kind);
-        fw_text_add(out, ")</span></li>\n");
-    }
+    for (int k = 1; k <= flow->nsource; k++)
+        for (int i = 0; i < flow->nsource; i++) {
+            if (number[i] != k) continue;
+            fw_text_add(out, "<li>");
+            fw_text_escaped(out, flow->source[i].text);
+            fw_text_add(out, " <span class=\"muted\">(");
+            fw_text_escaped(out, flow->source[i].kind);
+            fw_text_add(out, ")</span></li>\n");
+        }
     fw_text_add(out, "</ol>\n");
 }
 
@@ -515,6 +502,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     fw_recipe_slicer slicer;
     fw_recipe_section_scale scale;
     bool cut = header->mask && header->cut;
+    int *number;
     if (cut) {
         FW_TRY(fw_recipe_slicer_start(out->arena, header->mask, header->cut, &slicer));
         FW_TRY(fw_recipe_section_scale_of(out->arena, flow, header->cut, &scale));
@@ -523,14 +511,15 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     fw_recipe_html_hazards(flow, out);
     FW_TRY(fw_recipe_html_bill(flow, header, out));
     fw_text_add(out, "<h3>Step by step</h3>\n");
+    FW_TRY(fw_recipe_source_numbers(out->arena, flow, &number));
     for (int i = 0; i < flow->nstep; i++) {
         left_out_note(flow, flow->step[i].id, out);
-        fw_recipe_html_step(flow, i, header, cut ? &slicer : NULL, &scale, out);
+        fw_recipe_html_step(flow, i, header, cut ? &slicer : NULL, &scale, number, out);
     }
     left_out_note(flow, "", out);
     FW_TRY(tethers(header, out));
     fw_recipe_html_deviations(out);
-    sources(flow, out);
+    sources(flow, number, out);
     fw_text_add(out, "</body>\n</html>\n");
     return fw_text_end(out);
 }

@@ -51,7 +51,10 @@ fw_status fw_recipe_html_pictures(const fw_process_flow *flow, const fw_recipe_h
                                   const struct fw_recipe_section_scale *scale, fw_text *out);
 void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe_header *header,
                          struct fw_recipe_slicer *slicer,
-                         const struct fw_recipe_section_scale *scale, fw_text *out);
+                         const struct fw_recipe_section_scale *scale, const int *number,
+                         fw_text *out);
+/* the numbers by which the steps' rows name their sources, one for each source of the flow; 0: none names it */
+fw_status fw_recipe_source_numbers(fw_arena *arena, const fw_process_flow *flow, int **number);
 
 /* "48 to 52", ">= 48", "<= 52", or nothing; escaped */
 void fw_recipe_put_limits(fw_text *out, const char *low, const char *high);

@@ -155,6 +155,26 @@ class Flowback(unittest.TestCase):
         late = run("recipe", self.here / "none.xml", "--planned", "G50=20 min", "-o", self.here / "late")
         self.assertIn("no flow of this device has such a step", self.expect(late, 2).stderr)
 
+    def test_words_as_they_are_printed(self):
+        """ids of wafers with - between two, measures with the coupon that they are read on, coupons by the name that the sheet
+        has; "no" where a number is limited is refused, since "yes" would be one as well; a step of all wafers, one after the
+        other, takes as many times as long as there are loads"""
+        day = self.here / "day.txt"
+        day.write_text("S02; start=2025-06-02T08:00; end=2025-06-02T08:35; by=AB; wafer=A1-A3\n"
+                       "S05; start=2025-06-02T09:00; end=2025-06-02T10:00; by=AB\n"
+                       "S18; start=2025-06-02T11:00; end=2025-06-02T13:05; by=AB; wafer=A2; aluminium left on coupon al-step=0.4 um; "
+                       "coupon=slots, drawn=10 um, value=45.4 um, u=0.1 um, at=90 min\n")
+        self.expect(self.command("--lot", "L", "--wafers", "A1,A2,A3,B4", "--entries", day))
+        lines = [line.split("\t") for line in self.log.read_text().splitlines()]
+        self.assertEqual([word for line in lines for word in line if "S02" in line[0] and word.startswith("wafer=")],
+                         ["wafer=A1", "wafer=A2", "wafer=A3"])
+        steps = {s["id"]: s for s in json.loads(self.expect(self.command("--json")).stdout)["steps"]}
+        self.assertEqual(steps["S05"]["judged"], "in window")
+        self.assertEqual(steps["S18"]["measured"][0]["measure"], "aluminium left")
+        for words, says in (("S18; wafer=A1; grass on the floor=no", "its limits are numbers"), ("S02; wafer=A3-A1", "no wafer 'A3-A1'")):
+            result = self.expect(self.command("--entry", words + "; start=2025-06-02T14:00; end=2025-06-02T16:05; by=AB"), 3)
+            self.assertIn(says, result.stderr)
+
     def test_a_load_is_an_entry_of_each_of_its_wafers(self):
         """as the schedule of the sheet writes it; the log is that of single entries, byte for byte"""
         clean = "S02; start=2026-11-02T08:48; end=2026-11-02T09:23; by=AB; particles in bright light=0"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """orders.py LINT_PACKS [--update]: the packs with every step left out once, every pair of neighbouring steps exchanged
-once, every rinse, drying, cooling, venting and hazard left out once, every step done twice, and what the program says
+once, every rinse, drying, cooling, venting and hazard left out once, every step done twice, every rinse elsewhere, and what the program says
 of each: docs/process-orders.md, kept as a golden file that a process engineer can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
 import os
 import pathlib
@@ -16,7 +16,8 @@ HEAD = """# What is said of a flow with a step or a rinse too few or too many, o
 
 Every step of the packs left out once, every pair of neighbouring steps exchanged once, every rinse, drying, cooling
 and venting at the end of a step and every hazard of a step left out once, every step done once more right behind itself
-and at the end of its phase, which is the next strip (`tests/process/orders.py`).
+and at the end of its phase, which is the next strip, and every rinse done at a bench of its own
+(`tests/process/orders.py`).
 *refused*: an error, no plan is made. *warned*: the plan is made, and says so. *accepted*: nothing is said; the last
 column has the reason why that is right. A message is the first of its case.
 """
@@ -59,6 +60,8 @@ FINE = {
     **{f"h.sharp of {name}": SHARP for name in "S20 S21 D13 B21 B24 G19 G44 G45 G50".split()},
     "h.hydrogen of C05": GAS, "h.hydrogen of C22": GAS,
     "h.drive of G51": "the prober brings no voltage by itself: on it other steps push and look, and only the pack says what drives",
+    **{f"{name} rinsed at another bench": "solvents may be carried within the minute that they may stay" for name in "G13 G20 G27".split()},
+    "G38 rinsed at another bench": "it is the saw's water",
     "G50 G49": "the device may be looked at without its tethers as well",
 }
 
@@ -174,6 +177,27 @@ def harmless(steps):
                 steps[:k] + [(name, title, s[:hazard.start()] + s[hazard.end():])] + steps[k + 1:]
 
 
+def rinsed_elsewhere(head, steps):
+    """what is rinsed and dried at the end of a step that is done in a liquid is so at a bench of its own: the wafer is carried there wet"""
+    takes = " ".join(sorted({word for some in re.findall(r'takes="([^"]*)"', head) for word in some.split()}))
+    bench = '  <equipment id="rinse-bench" class="rinse bench" capacity="99"' + (f' takes="{takes}"' if takes else "") + ">x</equipment>\n"
+    place = head.rindex("</source>\n") + len("</source>\n")
+    finish = re.compile(r' *<finish [^>]*?(?:/>|>[^<]*</finish>)\n?')
+    for k, (name, title, s) in enumerate(steps):
+        if not re.search(r'<finish kind="rinse"', s):
+            continue
+        own = s.split("<alternative")[0]  # another way of a later step may stand behind it
+        rest = s[len(own):]
+        time = re.search(r'<arg name="time" q="([^"]*)"', "".join(x for _, _, x in steps))[1]
+        carried = f'''  <step id="{name}R" op="clean" title="rinse" equipment="rinse-bench" in-source="no" batch="1" attended="5">
+    <purpose>x</purpose><time law="const" overrun="0" k="2"><arg name="time" q="{time}"/></time>
+    <endpoint>x</endpoint><accept measure="x" lo="" hi="" unit="1" sites="1" every="1"/><on-fail if="x" then="hold">x</on-fail>
+{"".join(finish.findall(own))}  </step>
+'''
+        yield f"{name} rinsed at another bench", title, head[:place] + bench + head[place:] + text_of(
+            steps[:k] + [(name, title, finish.sub("", own) + rest), (name + "R", "rinse", carried)] + steps[k + 1:])
+
+
 def copied(step):
     """the step a second time: under an id of its own, without holds, and without ids of what it derives"""
     name, title, s = step
@@ -204,6 +228,8 @@ def cases(text):
         yield case, title, whole(left)
     for case, title, left in harmless(steps):
         yield case, title, whole(left)
+    for case, title, text_ in rinsed_elsewhere(head, steps):
+        yield case, title, text_ + tail
     for case, title, more in repeated(steps):
         yield case, title, whole(more)
 

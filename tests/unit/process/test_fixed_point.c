@@ -478,6 +478,52 @@ static void lithography_cannot_open_what_is_left(void **state) {
     assert_true(gap - 2.0 * f->bias_m >= facts.least_space_m && gap - 2.0 * f->bias_m < facts.least_space_m + 0.2e-6);
 }
 
+/* The over-etch that is proposed where a slot stays closed is one with which the whole flow refuses nothing, and a hundredth
+   less is not enough; where a longer etch is through the aluminium before, there is none, and that is said. */
+static void an_over_etch_is_proposed_that_is_enough(void **state) {
+    (void)state;
+    for (int harm = 0; harm < 2; harm++) {
+        fw_process_flow *f = flow_of(SILICON);
+        fw_process_mask_facts facts = plain_facts;
+        facts.narrowest_slot_m = 6e-6;
+        ((fw_quantity *)fw_process_flow_quantity(f, "rie.S"))->status = FW_ASSUMED;
+        set(f, "rie.A", 1.0);
+        set(f, "rie.selectivity", harm ? 56.0 : 1000.0);
+        assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+        assert_true(reason(f, "does not come through in step S18"));
+        assert_int_equal(f->manufacturable, -1);
+        assert_near(fw_process_flow_quantity(f, "rie.overetch")->value, 0.1, 1e-15);
+        const double proposed = f->nearest_overetch;
+        assert_int_equal(isnan(proposed), harm);
+        assert_int_equal(reason(f, "no over-etch alone is enough"), harm);
+        for (int enough = 0; enough < 2 && !harm; enough++) {
+            set(f, "rie.overetch", enough ? proposed : proposed - 0.02);
+            assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+            assert_int_equal(reason(f, "does not come through"), !enough);
+            assert_int_equal(f->manufacturable, -1);
+        }
+    }
+}
+
+/* a device layer that is proposed for a mould fits into it, and the flow refuses nothing then */
+static void a_layer_is_proposed_that_fits(void **state) {
+    (void)state;
+    for (int narrow = 0; narrow < 2; narrow++) {
+        fw_process_flow *f = flow_of(COPPER);
+        fw_process_mask_facts facts = plain_facts;
+        facts.device_thickness_m = 20e-6;
+        if (narrow) facts.narrowest_slot_m = 0.5e-6; /* which no layer makes printable */
+        assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+        assert_int_equal(f->manufacturable, 0);
+        assert_int_equal(reason(f, "Nearest change: a device layer of 12.3 um, or a thicker resist"), !narrow);
+        assert_int_equal(reason(f, "do not fit into a mould of 16 um. Nearest change: a thicker resist"), narrow);
+        facts.device_thickness_m = f->nearest_layer_m;
+        if (narrow) continue;
+        assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+        assert_true(f->manufacturable != 0);
+    }
+}
+
 /* a laboratory that plans for wide openings: a narrow slot is not through, which a measured lag
    makes a no */
 static void a_time_for_wide_openings_leaves_slots_closed(void **state) {
@@ -633,6 +679,8 @@ int main(void) {
                                        TEST(widths_that_are_said),
                                        TEST(no_solution_names_the_gap_and_a_change),
                                        TEST(lithography_cannot_open_what_is_left),
+                                       TEST(an_over_etch_is_proposed_that_is_enough),
+                                       TEST(a_layer_is_proposed_that_fits),
                                        TEST(a_time_for_wide_openings_leaves_slots_closed),
                                        TEST(a_guessed_lag_is_not_planned_with),
                                        TEST(a_flexure_that_the_etch_takes_is_said),

@@ -117,6 +117,25 @@ static void mistakes_of_a_flow(void **state) {
         {COPPER, "<accept measure=\"thickness\" lo=\"{=cu.d*0.9}\" hi=\"{=cu.d*1.1}\" unit=\"um\" sites=\"5\" every=\"1\"/>",
          "<accept measure=\"thickness\" lo=\"11\" hi=\"13\" unit=\"um\" sites=\"5\" every=\"1\"/>", 616,
          "step C22 accepts a thickness of 11 to 13 um"},
+        /* numbers, plates, times and benches that are those of others */
+        {SILICON, "<arg name=\"width\" q=\"mask.narrowest-opening\"/>", "<arg name=\"width\" q=\"mask.narrowest-line\"/>", 561,
+         "an opening as wide as 'mask.narrowest-line'"},
+        {COPPER, "<arg name=\"molar_mass\" q=\"cu.M\"/>", "<arg name=\"molar_mass\" q=\"si.M\"/>", 561,
+         "with 'si.M' as its molar_mass, by which step C05 is timed for 'porous-silicon'"},
+        {COPPER, "<arg name=\"density\" q=\"cu.rho\"/>", "<arg name=\"density\" q=\"si.rho\"/>", 561, "with 'si.rho' as its density"},
+        {COPPER, "overrun=\"0\" k=\"2\">\n      <arg name=\"thickness\" q=\"cu.d\"/>",
+         "overrun=\"0.5\" k=\"2\">\n      <arg name=\"thickness\" q=\"cu.d\"/>", 609, "goes on for 50 % longer than its layer takes"},
+        {COPPER, "id=\"descum.t\" value=\"10\" u=\"1\"", "id=\"descum.t\" value=\"1\" u=\"0.1\"", 609,
+         "step C20 takes 1 min (descum.t), but the times that are set in it are 2 min together"},
+        {SILICON, "title=\"Hard bake\" equipment=\"hotplate\" in-source=\"no\" batch=\"1\" attended=\"1\"",
+         "title=\"Hard bake\" equipment=\"hotplate\" in-source=\"no\" batch=\"1\" attended=\"66\"", 609, "at step S13 for 66 min"},
+        {DOUBLE, "mask=\"window\"", "mask=\"device\"", 559, "step B17 exposes the part 'window', which plate 'window' draws, through mask device"},
+        {COPPER, "<finish kind=\"rinse\" q=\"seed.t-off\"/>", "", 606,
+         "step C26 is at 'base-bench', and the wafer comes there wet with 'h.oxidiser' from 'copper-bench'"},
+        {SILICON, "<finish kind=\"rinse\" q=\"al-rinse.t\"/>\n    <finish kind=\"dry\" by=\"spin\"/>",
+         "<finish kind=\"rinse\" q=\"al-rinse.t\"/>\n    <finish kind=\"dry\" by=\"vapour\"/>", 539,
+         "step S14 dries in vapour of 'h.solvent', which attacks 'resist'"},
+        {SILICON, "then=\"scrap\">stop; new", "then=\"scrap\" goto=\"S14\">stop; new", 276, "says scrap, and goes on with step S14"},
         /* the plate or the resist of the other tone */
         {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>",
          "<change kind=\"pattern\" material=\"resist\" where=\"structure\"/>", 559,
@@ -131,9 +150,9 @@ static void mistakes_of_a_flow(void **state) {
          "step S07 is computed for 1 um"},
         /* timed by the rate of another material: whichever comes second is told */
         {SILICON, "<arg name=\"rate\" q=\"pan.R\"/>", "<arg name=\"rate\" q=\"rie.R\"/>", 561,
-         "with the rate 'rie.R'"},
+         "with 'rie.R' as its rate"},
         {SILICON, "<arg name=\"depth\" q=\"si.d\"/><arg name=\"rate\" q=\"rie.R\"/>",
-         "<arg name=\"depth\" q=\"si.d\"/><arg name=\"rate\" q=\"pan.R\"/>", 561, "with the rate 'pan.R'"},
+         "<arg name=\"depth\" q=\"si.d\"/><arg name=\"rate\" q=\"pan.R\"/>", 561, "with 'pan.R' as its rate"},
         /* limits in another unit than what they are computed from */
         {SILICON, "hi=\"{=al.d*1.05}\" unit=\"um\"", "hi=\"{=al.d*1.05}\" unit=\"nm\"", 342,
          "is a number in um"},
@@ -694,6 +713,13 @@ static void what_is_told(void **state) {
         {COPPER, "<finish kind=\"rinse\" q=\"seed.t-off\"/>",
          "<finish kind=\"rinse\" q=\"seed.t-off\"/><finish kind=\"rinse\" with=\"h.solvent\">alcohol</finish>"
          "<finish kind=\"dry\" by=\"nitrogen\"/><!-- -->", 613, "where it is thick or very porous"},
+        {COPPER, "<arg name=\"current_density\" q=\"cu.J\"/>", "<arg name=\"current_density\" q=\"ps.J\"/>", 561,
+         "with 'ps.J' as its current_density"},
+        {COPPER, "<arg name=\"area\" q=\"mask.plated-area\"/></time>", "<arg name=\"area\" q=\"cell.area\"/></time>", 561,
+         "step C22 takes 'cell.area' for the area that it plates"},
+        {SILICON, "equipment=\"aligner\"", "equipment=\"metrology\"", 608, "step S09 (expose) is done at 'metrology'"},
+        {COPPER, "id=\"bath.volume\" value=\"100\" u=\"2\"", "id=\"bath.volume\" value=\"1\" u=\"0.1\"", 608,
+         "step C05 uses a filling of 1 mL of bath 'anodising'"},
     };
     for (size_t i = 0; i < sizeof told / sizeof told[0]; i++) {
         diags = fw_diags_new(arena);
