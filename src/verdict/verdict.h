@@ -181,7 +181,8 @@ typedef struct fw_verdict_requirement {
     /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
     double all_low, all_high;
     fw_verdict_decision decision;
-    const char *why; /* it has no value; NULL */
+    const char *why;  /* it has no value; NULL */
+    const char *open; /* why its band has no ends; NULL: it has, or there is no value */
 } fw_verdict_requirement;
 
 /* one device that the flow may make, judged like the drawn one */
