@@ -131,9 +131,16 @@ static fw_status pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_event
     return FW_OK;
 }
 
-static bool turned_too_far(const fw_dynamics_problem *problem, const fw_dynamics_peaks *peaks) {
-    for (int i = 0; i < peaks->npin; i++)
-        if (fabs(peaks->peak[i].angle_rad) > problem->most_angle) return true;
+/* A run that is hopeless ends only where it takes long: what tumbles far beyond what hinges bear rings with all it has
+   got, and is followed for millions of steps. Test: test_program.py, test_far_beyond_without_an_end */
+static bool turned_too_far(const fw_dynamics_problem *problem, const fw_maths_stepper *s,
+                           const fw_dynamics_peaks *peaks) {
+    const fw_dynamics_motion_options *o = problem->options;
+    const double *hopeless = s->rhs > o->hopeless_rhs ? o->hopeless_rad : NULL;
+    for (int i = 0; i < peaks->npin; i++) {
+        const double turned = fabs(peaks->peak[i].angle_rad);
+        if (turned > problem->most_angle || (hopeless && turned > hopeless[i])) return true;
+    }
     return false;
 }
 
@@ -175,7 +182,7 @@ fw_status fw_dynamics_run_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynam
             const double before = s->t;
             FW_TRY(advance(r, s, peaks, problem->end[piece]));
             tell(r, before, s->t);
-            ended = turned_too_far(problem, peaks);
+            ended = turned_too_far(problem, s, peaks);
         }
     }
     fw_dynamics_record_end(&r->record, ended && s->t < fw_dynamics_end(problem), s->t);

@@ -125,6 +125,11 @@ static fw_status put_problem(fw_dynamics_tapes *t, const fw_dynamics_problem *p)
                          p->system->projecting,
                          p->system->baumgarte};
     FW_TRY(put(t, of, sizeof of / sizeof of[0]));
+    if (p->options->hopeless_rad) {
+        const double most = (double)p->options->hopeless_rhs;
+        FW_TRY(put(t, &most, 1));
+        FW_TRY(put(t, p->options->hopeless_rad, (size_t)m->npin));
+    }
     FW_TRY(put(t, p->q0, (size_t)p->model->nq));
     FW_TRY(put(t, p->start, (size_t)p->model->ny));
     for (int i = 0; i < m->npin; i++) {

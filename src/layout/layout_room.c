@@ -5,9 +5,9 @@
    Tried are places around the stated one, in the axes in which the file states it: 16 directions at
    distances that grow from 5 um to 2 mm by a factor of 1.4; then, along each direction that has room at
    the least such distance, halves of the step before it, to 1 um. And sizes: for a comb fewer fingers,
-   for plates a shorter face, for fingers that end too near their partners' root longer ones, wider ones for those too narrow, for an
-   eyelet a smaller ring. In: a layout with missing parts. Out: a clause for each. What is proposed was
-   drawn. That nothing nearer has room is not proved: a room less wide than a step may be passed over.
+   for plates a shorter face, for fingers that end too near their partners' root longer ones, wider ones for those too
+   narrow, with which places and other sizes are looked for where the width alone does not do; for an eyelet a smaller
+   ring. In: a layout with missing parts. Out: a clause for each. What is proposed was drawn. That nothing nearer has room is not proved: a room less wide than a step may be passed over.
    Cost: at most MOST_TRIES drawings for a part, and MOST_ALL for
    a device. Test: tests/unit/layout/test_missing.c */
 #include "base/constants.h"
@@ -25,6 +25,8 @@ typedef struct search {
     const fw_layout *layout;
     const fw_layout_missing *missing;
     int left; /* drawings that may still be made */
+    double
+        wider_m; /* of fingers that no mask shows as they are: in every try; 0: they are wide enough */
 } search;
 
 typedef struct change { /* of the part, beside what is stated */
@@ -37,9 +39,10 @@ typedef struct change { /* of the part, beside what is stated */
 
 /* ---- a changed copy, drawn ---- */
 
-static void change_comb(const change *c, fw_device_comb *comb) {
+static void change_comb(const search *s, const change *c, fw_device_comb *comb) {
     comb->bx_m += c->x_m;
     comb->by_m += c->y_m;
+    if (s->wider_m > 0.0) comb->width_m = s->wider_m;
     if (c->fingers > 0) comb->fingers = c->fingers;
     if (c->length_m > 0.0) comb->length_m = c->length_m;
     if (c->width_m > 0.0) comb->width_m = c->width_m;
@@ -70,7 +73,7 @@ static fw_status changed_scene(fw_arena *arena, const search *s, const change *c
         FW_NEED(scene->comb = fw_arena_grow(arena, scene->comb, n, n, sizeof *scene->comb));
         for (size_t i = 0; i < n; i++)
             if (fw_layout_same_comb(&scene->comb[i], s->missing->comb))
-                change_comb(c, &scene->comb[i]);
+                change_comb(s, c, &scene->comb[i]);
     }
     n = (size_t)scene->ntendon;
     if (s->missing->eyelet && n > 0) {
@@ -285,17 +288,28 @@ static fw_status room_of_eyelet(search *s, fw_text *text) {
     return FW_OK;
 }
 
-/* *out NULL: they are wide enough */
+static void say_width(const search *s, double width_m, fw_text *text) {
+    char um[2][32];
+    fw_text_printf(text, "width=\"%s um\" instead of %s um", fw_layout_um(um[0], width_m),
+                   fw_layout_um(um[1], fw_device_comb_width_m(s->missing->comb)));
+}
+
+/* *out NULL: they are wide enough, or it is not their width alone. Where no mask shows them as they are, what else
+   they lack is looked for with the width that every mask shows. */
 static fw_status width_of_fingers(search *s, const char **out) {
     const fw_device_comb *c = s->missing->comb;
-    char um[2][32];
     double width = 0.0;
     *out = NULL;
-    if (c && c->kind == FW_ELECTRODES_COMB) FW_TRY(find_width(s, &width));
-    if (width > 0.0)
-        FW_NEED(*out = fw_arena_printf(s->arena, "width=\"%s um\" instead of %s um",
-                                       fw_layout_um(um[0], width),
-                                       fw_layout_um(um[1], fw_device_comb_width_m(c))));
+    if (!c || c->kind != FW_ELECTRODES_COMB) return FW_OK;
+    FW_TRY(find_width(s, &width));
+    if (width > 0.0) {
+        fw_text text = fw_text_new(s->arena);
+        say_width(s, width, &text);
+        FW_TRY(fw_text_end(&text));
+        *out = text.data;
+    } else if (fw_device_comb_width_m(c) < fw_layout_comb_width_shown()) {
+        s->wider_m = fw_layout_comb_width_shown();
+    }
     return FW_OK;
 }
 
@@ -313,9 +327,15 @@ static fw_status room_of(search *s, const char **out, bool *narrow) {
     fw_text sizes = text;
     text = fw_text_new(s->arena);
     FW_TRY(find_place(s, &place, &far));
+    const bool any = far > 0.0 || sizes.length;
+    if (any && s->wider_m > 0.0) {
+        fw_text_add(&text, "with ");
+        say_width(s, s->wider_m, &text);
+        fw_text_add(&text, ": ");
+    }
     if (far > 0.0) say_place(s, &place, far, &text);
-    if (sizes.length) fw_text_printf(&text, "%s%s", join_of(&text), sizes.data);
-    if (!text.length)
+    if (sizes.length) fw_text_printf(&text, "%s%s", far > 0.0 ? "; or " : "", sizes.data);
+    if (!any)
         fw_text_printf(&text, "none was found within %.0f mm, nor with another size",
                        1e3 * FARTHEST_M);
     FW_TRY(fw_text_end(&text));
@@ -334,7 +354,7 @@ fw_status fw_layout_rooms_find(fw_arena *arena, const fw_device *device, const f
     FW_NEED(found->missing = fw_arena_grow(arena, layout->missing, n, n, sizeof *found->missing));
     for (size_t i = 0, left = MOST_ALL; i < n; i++) {
         int most = left < MOST_TRIES ? (int)left : MOST_TRIES;
-        search s = {arena, device, layout, &layout->missing[i], most};
+        search s = {arena, device, layout, &layout->missing[i], most, 0.0};
         if (found->missing[i].room || !(s.missing->comb || s.missing->eyelet)) continue;
         FW_TRY(room_of(&s, &found->missing[i].room, &found->missing[i].narrow));
         left -= (size_t)(most - (s.left > 0 ? s.left : 0));

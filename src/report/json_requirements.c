@@ -154,6 +154,7 @@ static void across(fw_json *json, const fw_verdict_across *s) {
         fw_json_text(json, "body", s->body);
     }
     fw_json_real(json, "tips_at", isfinite(s->tips) ? s->tips : (double)NAN);
+    fw_json_real(json, "tips_error", isfinite(s->tips) ? s->tips_error : (double)NAN);
     fw_json_real(json, "lift_m", s->lift_m);
     fw_json_text(json, "verdict", fw_verdict_decision_text(s->decision));
     fw_json_end(json);

@@ -309,6 +309,19 @@ static double hopeless_rad(const fw_mechanism *m) {
     return m->nhinge == m->npin && most > 0 ? most : HUGE_VAL;
 }
 
+/* A motion that takes many evaluations needs to be followed no further than to half beyond what a hinge bears: by its
+   rotation alone it is rejected. Joints without a flexure turn freely. */
+static fw_status hopeless_each(fw_arena *arena, const fw_mechanism *m, const double **out) {
+    double *to;
+    FW_NEED(to = fw_arena_array(arena, double, (size_t)m->npin));
+    for (int i = 0; i < m->npin; i++)
+        to[i] = HUGE_VAL;
+    for (int k = 0; k < m->nhinge; k++)
+        to[m->hinge[k].pin] = 1.5 * m->hinge[k].closed_form.limit_angle_rad;
+    *out = to;
+    return FW_OK;
+}
+
 /* the level is looked at in the row nearest the largest of these */
 static void rows_of_peaks(const fw_mechanism *m, const fw_dynamics_motion *x) {
     for (int k = 0; x->late && k < m->nhinge; k++)
@@ -375,6 +388,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     double stated = fw_statics_level_stated * accuracy;
     if (options->hinge_accuracy > 0) accuracy = stated = options->hinge_accuracy;
+    if (options->hopeless_rhs > 0) FW_TRY(hopeless_each(arena, mechanism, &o.hopeless_rad));
     *motion = NULL;
     FW_TRY(fw_dynamics_check_request(mechanism, scene, options, diags));
     bool tried;

@@ -157,8 +157,9 @@ typedef struct fw_verdict_bending {
     fw_verdict_turn *turn; /* (nbody) of the instant */
     double *
         worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
-    double hardest_N2; /* largest so far of the sum of all joint forces squared; at that instant */
-    double beside;     /* by how much they are larger beside it: at least 1 */
+    double hardest_N2; /* of hardest_N, the sum of all squared */
+    double beside;     /* by how much they are larger where that sum was the largest so far */
+    double before_s[2], *before_N; /* the last two instants, and (2 x 2 nhinge) their forces */
     fw_verdict_largest
         *peak; /* (1 + 6 nhinge) of that sum, of each force squared and moment, and as `along_N` */
     double *

@@ -225,6 +225,9 @@ static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *m
 static const double fw_hinges_good_enough = 0.03, fw_hinges_good = 0.01;
 /* and exact beams only where they take seconds; who wants to wait longer asks for them */
 static const long fw_most_beams = 100000;
+/* Evaluations after which a motion far beyond what hinges bear is followed no further, some seconds; of a trial some
+   tenths of one. A scene of a device that works takes some thousand. */
+static const long fw_hopeless_rhs = 300000, fw_hopeless_trial_rhs = 20000;
 
 /* In evaluations of hinges. An exact beam counts for as many closed forms as it costs, an evaluation of all
    else for one (a single arm on one hinge: half of its time), and so does each comb. All runs count that were
@@ -262,6 +265,9 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     motion.within_limits = true;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
     motion.most_beams = fw_most_beams;
+    motion.hopeless_rhs = is_brief(options, v) || options->at_a_glance || v->corner
+                              ? fw_hopeless_trial_rhs
+                              : fw_hopeless_rhs;
     if (motion.hinge_accuracy <= 0)
         motion.hinge_accuracy =
             fmax(motion.accuracy, is_brief(options, v) || options->at_a_glance || v->corner

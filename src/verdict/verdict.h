@@ -84,6 +84,8 @@ typedef struct fw_verdict_across {
     const char *body;           /* that comes lowest; NULL: none is below where it was drawn */
     double
         tips; /* factor on the scene's forces below which nothing tips; HUGE_VAL: none does, NaN: not looked at */
+    double
+        tips_error; /* relative: what its forces may be off by, as two runs of the motion differ */
     const char *hinge; /* that tips most easily by itself; NULL */
     double
         lift_m; /* what electrodes may lift at most (levitation); 0: there are none, or nothing that conducts is below them */
@@ -181,7 +183,8 @@ typedef struct fw_verdict_requirement {
     /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
     double all_low, all_high;
     fw_verdict_decision decision;
-    const char *why; /* it has no value; NULL */
+    const char *why;  /* it has no value; NULL */
+    const char *open; /* why its band has no ends; NULL: it has, or there is no value */
 } fw_verdict_requirement;
 
 /* one device that the flow may make, judged like the drawn one */

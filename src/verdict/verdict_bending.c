@@ -49,9 +49,38 @@ static double gone(const fw_verdict_bending *b, const fw_mechanism_hinge *h,
            b->stiff_N;
 }
 
+/* Forces of all hinges where the sum of their squares is largest so far: at this instant, or between the last three, each
+   part by the parabola through them, of which `beside` makes the sum what its own parabola says. The forces of the nearest
+   instant would do for the sum, which is flat there; parts of them go up and down, and what tips a device goes with them. */
+static void take_hardest(fw_verdict_bending *b, const fw_mechanism *m,
+                         const fw_dynamics_instant *now) {
+    const int n = 2 * m->nhinge;
+    const double at = b->peak->t_s, t0 = b->before_s[0], t1 = b->before_s[1], t2 = now->t_s;
+    const bool between = at != t2;
+    const double w0 = between ? (at - t1) * (at - t2) / ((t0 - t1) * (t0 - t2)) : 0,
+                 w1 = between ? (at - t0) * (at - t2) / ((t1 - t0) * (t1 - t2)) : 0,
+                 w2 = between ? (at - t0) * (at - t1) / ((t2 - t0) * (t2 - t1)) : 1;
+    b->hardest_N2 = 0;
+    for (int i = 0; i < n; i++) {
+        const double f = now->reaction_N[2 * m->hinge[i / 2].pin + i % 2];
+        b->hardest_N[i] = w0 * b->before_N[i] + w1 * b->before_N[n + i] + w2 * f;
+        b->hardest_N2 += b->hardest_N[i] * b->hardest_N[i];
+    }
+    b->beside = b->hardest_N2 > 0 ? sqrt(b->peak->value / b->hardest_N2) : 1;
+}
+
+/* the last two instants */
+static void remember_forces(fw_verdict_bending *b, const fw_mechanism *m,
+                            const fw_dynamics_instant *now) {
+    const int n = 2 * m->nhinge;
+    memcpy(b->before_N, b->before_N + n, (size_t)n * sizeof *b->before_N);
+    for (int i = 0; i < n; i++)
+        b->before_N[n + i] = now->reaction_N[2 * m->hinge[i / 2].pin + i % 2];
+    b->before_s[0] = b->before_s[1], b->before_s[1] = now->t_s;
+}
+
 /* What may tip the device out of its plane (verdict_out_of_plane.c), and strain rims. Largest between instants, too: by
-   the parabola through three of them. The forces are those of the hardest instant, as large as the sum of their squares
-   comes to be beside it. */
+   the parabola through three of them. */
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                           const fw_dynamics_instant *now) {
     double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
@@ -84,13 +113,8 @@ static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
     }
     const double before = b->peak->value;
     fw_verdict_largest_add(b->peak, now->t_s, sum);
-    if (sum > b->hardest_N2) {
-        b->hardest_N2 = sum;
-        for (int k = 0; k < m->nhinge; k++)
-            for (int i = 0; i < 2; i++)
-                b->hardest_N[2 * k + i] = now->reaction_N[2 * m->hinge[k].pin + i];
-    }
-    if (b->peak->value > before) b->beside = sqrt(b->peak->value / b->hardest_N2);
+    if (b->peak->value > before) take_hardest(b, m, now);
+    remember_forces(b, m, now);
 }
 
 /* what a hinge puts on its body at a side, in the axes in which that was drawn */
@@ -285,7 +309,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
         (fw_verdict_bending){.arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m};
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
-    FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
+    FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 8 * (size_t)m->nhinge));
+    bending->before_N = bending->hardest_N + 4 * m->nhinge;
     FW_NEED(bending->along_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
     FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 6 * (size_t)m->nhinge + 1));
     if (straight) return worst_of(arena, m, arm, &bending->worst);

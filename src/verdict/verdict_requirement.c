@@ -240,6 +240,33 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
     r->t_s = p->across_t_s;
 }
 
+static const char scene_ended[] =
+    "the scene was ended where its hinges were far beyond what they bear";
+
+/* A scene that was ended has no end: only what is beyond its bound by then stays beyond it */
+static void judge_ended(fw_device_measure measure, fw_verdict_requirement *r) {
+    bool stays = false;
+    switch (measure) {
+    case FW_MEASURE_PEAK:
+    case FW_MEASURE_MAXIMUM:
+    case FW_MEASURE_PEAK_TO_PEAK:
+    case FW_MEASURE_PARASITIC:
+        stays = r->low > r->max;
+        break;
+    case FW_MEASURE_MINIMUM:
+        stays = r->high < r->min;
+        break;
+    case FW_MEASURE_FINAL:
+    case FW_MEASURE_SETTLING:
+        break;
+    }
+    if (stays) return;
+    r->value = r->low = r->high = r->margin = (double)NAN;
+    r->utilisation = r->utilisation_low = r->utilisation_high = (double)NAN;
+    r->decision = FW_INCONCLUSIVE;
+    r->why = scene_ended;
+}
+
 fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
                                            const fw_probe_monitor *monitor,
                                            const fw_probe_monitor *looser,
@@ -253,6 +280,8 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         if (r->scene_index != scene || !r->measure) continue;
         const fw_probe_result *p = &v->probed[scene * n + m->device->requirement[r->asked].probe];
         if (p->known) judge(m, v->motion[scene], monitor, p, r);
+        if (p->known && v->motion[scene]->ended)
+            judge_ended(m->device->requirement[r->asked].measure, r);
         if (!p->known && monitor->within)
             r->why =
                 "nothing is drawn of its bodies, or all of it lies within a hinge between them";
@@ -294,6 +323,17 @@ static bool put_across(const fw_verdict_variant_verdict *v, const fw_device_prob
     return true;
 }
 
+/* why a band has no ends, and what would give it some */
+static const char *open_band(fw_arena *arena, const fw_mechanism *m,
+                             const fw_statics_modes *modes) {
+    bool turned = false; /* which way is not known */
+    for (int k = 0; k < m->nhinge; k++)
+        turned = turned || !isfinite(m->hinge[k].axis_rad);
+    return fw_arena_printf(arena, "%s%s",
+                           modes->ledger.hinge.why ? modes->ledger.hinge.why : "nothing bounds it",
+                           turned ? ": state its `axis`, or draw the bodies that it joins" : "");
+}
+
 static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
                              const fw_dynamics_motion_options *options,
                              fw_verdict_variant_verdict *v, int scene) {
@@ -327,6 +367,7 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         double model = fw_probe_small_error(p, modes) + rigid,
                lasting = modes->stiffness_error + rigid;
         put(r, value, 0, model, lasting, value, true);
+        if (isinf(model)) FW_NEED(r->open = open_band(arena, m, modes));
     }
     return FW_OK;
 }
@@ -350,6 +391,12 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                r->probe, of, isnan(r->min) ? "most" : "least",
                                fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
                                r->why);
+    if (r->open)
+        return fw_arena_printf(arena,
+                               "%s (%s) is %s, and at %s %s is required, but by how much the model "
+                               "of the hinges is off there is not known: %s",
+                               r->probe, of, fw_probe_text(value, r->value, r->unit),
+                               below ? "least" : "most", bound, r->open);
     fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
     const char *all = "";
     if (below ? r->all_low < r->low : r->all_high > r->high) { /* on the side that is asked for */
@@ -365,13 +412,14 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                            below ? "least" : "most", bound);
 }
 
-/* A min of a motion wants more of it: neither less load nor stiffer flexures help. What is of an
-   equilibrium does not go with loads; of a compliance a min wants thinner flexures. */
+/* A min of a motion wants more of it: neither less load nor stiffer flexures help, unless its scene was ended. What is
+   of an equilibrium does not go with loads; of a compliance a min wants thinner flexures. */
 static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_verdict_requirement *r,
                             fw_verdict_variant_verdict *v) {
     const fw_device_probe *p = &m->device->probe[m->device->requirement[r->asked].probe];
     bool min = is_below(r);
     bool softer = r->measure ? min : (p->row == FW_PROBE_IS_compliance) == min;
+    const bool ended = r->why == scene_ended;
     double used = r->utilisation_high > 0 ? r->utilisation_high : 2;
     const char *text = fw_verdict_requirement_text(arena, r);
     FW_NEED(text);
@@ -380,8 +428,8 @@ static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_ver
                                                   .number = r->why ? 331 : 330,
                                                   .decision = r->decision,
                                                   .keep = fmin(fmax(0.98 / used, 1e-3), 0.99),
-                                                  .not_by_loads = min || !r->measure,
-                                                  .not_by_width = softer,
+                                                  .not_by_loads = !ended && (min || !r->measure),
+                                                  .not_by_width = !ended && softer,
                                                   .text = text};
     return FW_OK;
 }

@@ -86,7 +86,7 @@ class Frames(unittest.TestCase):
         self.kept = tempfile.TemporaryDirectory()
         self.addCleanup(self.kept.cleanup)
 
-    tips = 0.01
+    tips = 2e-3
 
     def file(self, text):
         path = pathlib.Path(self.kept.name) / "device.xml"
@@ -106,11 +106,12 @@ class Frames(unittest.TestCase):
             sizes[kind_of(path)] = max(sizes.get(kind_of(path), least(path)), abs(value))
         for path, value in a.items():
             if not re.search(skip, path):
-                # what rides on stiff axes is known to some per cent in 0.1 ms only
-                bound = self.tips * abs(value) if path.endswith("tips_at") else within * sizes[kind_of(path)]
+                bound = within * sizes[kind_of(path)]
+                if path.endswith("tips_at"):  # its forces are known as well as it says
+                    bound = self.tips * abs(value) + abs(value) * max(d[path.replace("tips_at", "tips_error")] for d in (a, b))
                 self.assertLessEqual(abs(value - b[path]), bound, path)
 
-    SKIP = r"band_parts|cpu_s|steps|rhs|residual|constraint|velocity_norm|energy_error|assembly_moved|estimated|error|iterations|looser|utilisation_band|cycles$|boxes|out_of_rest|velocity_moved"
+    SKIP = r"band_parts|tips_error|cpu_s|steps|rhs|residual|constraint|velocity_norm|energy_error|assembly_moved|estimated|error|iterations|looser|utilisation_band|cycles$|boxes|out_of_rest|velocity_moved"
 
     def unmoved(self, text, shift):
         """statics, modes and verdict of both; the verdict has hinges, corners, clearances, requirements, probes and gaps"""
@@ -152,7 +153,6 @@ class Frames(unittest.TestCase):
     def test_of_random_devices(self):
         """legs, comb stages, chains and free forms of every kind of hinge"""
         draw, done = random.Random(20), 0
-        self.tips = 0.1
         for seed in range(1, 400):
             text, _ = random_devices.device(seed)
             if "<body " not in text or re.search(r'symmetry=|plate-|phi=', text):

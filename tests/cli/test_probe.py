@@ -56,6 +56,22 @@ class Probe(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
         return path
 
+    def test_a_hinge_without_an_axis_is_named(self):
+        """where nothing bounds what the model of a hinge is off by there is no band, and the sentence says whose axis is missing"""
+        text = """<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie"/>
+<flexure id="p" kind="csfh" radius="90 um" angle="220 deg" width="8 um" gap="10 um"/><mechanism>
+<body id="arm" x="0 mm" y="0.9 mm" mass="0.035 mg" inertia="0.003 mg mm^2"/><revolute id="A" a="ground" b="arm" b-y="-0.9 mm" hinge="p"%s/>
+</mechanism><probe id="k" kind="stiffness" on="arm" direction="0 deg"/><require probe="k" min="10 mN/m"/><require frequency="1" min="10 Hz"/>
+<scene name="go" duration="5 ms"><force on="arm" fx="2 uN" law="ramp" rise="2 ms"/></scene></device>"""
+        look = ("check", "--corners", "none", "--advice", "none")
+        said = run(look[0], self.file(text % ""), *look[1:])
+        self.assertEqual(said.returncode, 4, said.stderr)
+        for what in ("k .stiffness.", "frequency-1 .frequency."):
+            self.assertRegex(said.stdout, f"inconclusive because: {what} is .* is required, but by how much the model of the hinges is off there is "
+                             r"not known: .*A stays a pin.*: state its `axis`, .* \[FW-D330\]")
+        self.assertNotIn("inf ", said.stdout.split("required   ")[0])
+        self.assertEqual(run(look[0], self.file(text % ' axis="90 deg"'), *look[1:]).returncode, 0)
+
     def answer(self, text, *command, statuses=(0, 1, 4)):
         result = run(command[0], self.file(text), *command[1:], "--json", "-q")
         self.assertIn(result.returncode, statuses, result.stderr)

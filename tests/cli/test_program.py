@@ -174,6 +174,29 @@ class Plan(InTemporary):
             sets = proposals(said.stdout)[0]
             self.expect(run("check", heavy, "--corners", "none", *[a for s in sets for a in ("--set", s)]), 0)
 
+    def test_far_beyond_without_an_end(self):
+        """what rings far beyond its hinges for millions of steps is ended: rejected, and nothing said of the end of its scene"""
+        device = ROOT / "tests/data/advice/tendon-six-bar.xml"
+        for pull in ("40 mN", "4 N"):
+            said = run("check", device, "--set", f"pull={pull}", "--corners", "none", *QUIET, "--time-limit", "60")
+            self.expect(said, 1)
+            self.assertIn("FW-D205", said.stderr)
+            self.assertRegex(said.stdout.splitlines()[1], "^as drawn: hinge [A-F] uses [0-9]{3,}")
+            self.assertRegex(said.stdout, r"inconclusive because: what is required of tip \(final, at least 3 um\) is not known: the scene was ended")
+        # what is beyond its bound by then stays beyond it
+        text = device.read_text().replace('measure="final" min="3 um"', 'measure="maximum" max="3 um"')
+        said = run("check", self.device(text), "--set", "pull=40 mN", "--corners", "none", *QUIET)
+        self.assertRegex(self.expect(said, 1).stdout, r"rejected because: tip \(maximum\) is .* and at most 3 um is required")
+
+    def test_less_load_of_a_scene_that_was_ended(self):
+        """a requirement of at least, of which nothing is known there, does not keep loads from being lowered"""
+        text = (ROOT / "tests/data/advice/tendon-six-bar.xml").read_text()
+        device = self.device(re.sub(r'(<parameter name="(?:up|r)" value=("[^"]*")) min="[^"]*" max="[^"]*"', r"\1 min=\2 max=\2", text))
+        said = run("check", device, "--set", "pull=1 N", "--corners", "none")
+        sets = proposals(self.expect(said, 1).stdout)[0]
+        self.assertTrue(sets[0].startswith("scene[lift]/tendon[t]/@pull="), sets)
+        self.expect(run("check", device, "--corners", "none", *[a for s in ["pull=1 N"] + sets for a in ("--set", s)]), 0)
+
     def test_advice_of_many_kinds_is_followed(self):
         def lengths(factor, names="ABCDEF"):
             return re.sub(r'(id="([A-F])"[^>]*length=)"([0-9.]+) um"', lambda m: m.group(0) if m.group(2)

@@ -156,6 +156,27 @@ static void narrow_fingers_are_wider(void **unused) {
     fw_arena_free(d.arena);
 }
 
+/* where neither another place nor another width does alone both are named, and what is named is drawn */
+static void narrow_fingers_without_room_get_both(void **unused) {
+    (void)unused;
+    fixture f;
+    double um = 0;
+    paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.3e-3, 0.0); /* inside its own body */
+    comb.width_m = 2e-6;
+    drawn d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    if (sscanf(m->room, "with width=\"%lf um\"", &um) != 1) fail_msg("%s", m->room);
+    const double x = comb.bx_m, y = comb.by_m;
+    comb.width_m = 1e-6 * um;
+    drawn wide = draw(&f.device);
+    assert_int_equal(wide.layout->nmissing, 1); /* the width alone does not do */
+    fw_arena_free(wide.arena);
+    if (!take_place(m->room, &comb.bx_m, &comb.by_m)) fail_msg("%s", m->room);
+    assert_true(comb.bx_m != x || comb.by_m != y);
+    nothing_missing(&f.device);
+    fw_arena_free(d.arena);
+}
+
 /* of a width that the file does not state the default is what may be too little */
 static void unstated_width_is_the_default(void **unused) {
     (void)unused;
@@ -417,6 +438,7 @@ int main(void) {
         cmocka_unit_test(too_many_fingers_are_fewer),
         cmocka_unit_test(short_fingers_are_longer),
         cmocka_unit_test(narrow_fingers_are_wider),
+        cmocka_unit_test(narrow_fingers_without_room_get_both),
         cmocka_unit_test(unstated_width_is_the_default),
         cmocka_unit_test(a_plate_names_a_place_that_has_room),
         cmocka_unit_test(no_insulation_has_no_room),
