@@ -11,10 +11,12 @@
 static const double SAME_M = 1e-12;
 static const fw_place nowhere;
 
+/* to a picometre: what rounding leaves of 0 is no place */
 const char *fw_mask_place_text(char *text, size_t n, fw_geometry_vec2 at) {
     char x[32], y[32];
-    snprintf(text, n, "(%s, %s) um", fw_number_text(x, sizeof x, at.x * 1e6, 7),
-             fw_number_text(y, sizeof y, at.y * 1e6, 7));
+    snprintf(text, n, "(%s, %s) um",
+             fw_number_text(x, sizeof x, round(at.x * 1e12) * 1e-6 + 0.0, 7),
+             fw_number_text(y, sizeof y, round(at.y * 1e12) * 1e-6 + 0.0, 7));
     return text;
 }
 

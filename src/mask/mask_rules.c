@@ -248,12 +248,21 @@ static const char *pieces(fw_arena *arena, const fw_mask_finding *f) {
 }
 
 /* two edges that follow each other, or the arc between them, may be a sharp corner, which no room helps */
+static bool may_be_a_corner(const fw_mask_finding *f) {
+    bool of_one = f->label[0] && f->label[1] && strcmp(f->label[0], f->label[1]) == 0;
+    return f->rule->kind->chords != 0 && of_one && abs(f->edge[0] - f->edge[1]) <= 1;
+}
+
 static const char *advice_of(fw_arena *arena, const fw_mask_finding *f) {
     const fw_mask_rule_kind_row *kind = f->rule->kind;
-    bool of_one = f->label[0] && f->label[1] && strcmp(f->label[0], f->label[1]) == 0;
-    if (kind->chords == 0 || !of_one || abs(f->edge[0] - f->edge[1]) > 1) return kind->advice;
+    if (!may_be_a_corner(f)) return kind->advice;
     return fw_arena_printf(arena, "%s; round the corner if it is one of less than 90 degrees",
                            kind->advice);
+}
+
+/* no width or space of nothing is told of outlines that meet, but that they do */
+static bool meet(const fw_mask_finding *f) {
+    return f->rule->kind->chords != 0 && f->value == 0 && !may_be_a_corner(f);
 }
 
 static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_mask_layer *layer,
@@ -273,6 +282,11 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
         layout ? fw_mask_cause(arena, layout, vec_scale(0.5, vec_add(f->at[0], f->at[1]))) : "";
     const char *advice = advice_of(arena, f);
     if (!cause || !advice) return NULL;
+    if (meet(f))
+        return fw_arena_printf(
+            arena, "%s: outlines cross or touch at %s, where layer %s needs %s of %s %s (%s); %s%s",
+            who, at, layer->name, f->what, needed, unit, rule->source,
+            "move the two apart, or join them", cause);
     if (kind->built_in)
         return fw_arena_printf(arena, "%s meet at %s on layer %s without a shared joint; %s%s", who,
                                at, layer->name, kind->advice, cause);
@@ -550,7 +564,7 @@ static void item(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
     }
     char value[32];
     fw_number_text(value, sizeof value, fw_mask_rule_row_shown(f->rule->kind, f->value), 9);
-    text_value(out, f->what, "");
+    text_value(out, meet(f) ? "outlines cross or touch" : f->what, "");
     fw_text_printf(out, "    <value>float: %s</value>\n", value);
     for (int i = 0; i < 2 && f->label[i]; i++)
         text_value(out, "piece: ", f->label[i]);

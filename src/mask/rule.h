@@ -221,7 +221,7 @@ fw_status fw_mask_rules_tell(fw_mask_rules *rules, fw_diags *diags, int *nbroken
 
 /* all rules of a table, those that its layers state included, into rule and nrule */
 fw_status fw_mask_rules_list(fw_mask_rules *rules);
-/* rules_json.c: the same as `rules` of the certificate */
+/* table_rules.c: the same as `rules` of the certificate */
 fw_status fw_mask_rules_json(fw_json *json, const fw_mask_table *table);
 
 /* the highest layer up to 60 that the table does not use */

@@ -9,7 +9,8 @@
      - The value is the greater of the least distances from what is left of one edge to the other,
    and the other way round; without a cut both are the least distance of the two. Below the limit it
    is a finding. This is the Euclidian check of KLayout with its ignore angle of 90 degrees, which
-   asks both questions (theory: docs/theory/masks.md, with where the two differ).
+   asks both questions (theory: docs/theory/masks.md, with where the two differ). Of edges that meet it is 0, by the
+   same exact integers.
      - Two edges of the outline that meet at a corner which is exactly square, or blunter, are made
    sharper by the grid and by the first chords of an arc alone: what is written of them has to be
    7.5 degrees sharper than a right angle before it counts.
@@ -172,6 +173,18 @@ static void cut_to(const int64_t s[2], const fw_geometry_vec2 e[2], fw_geometry_
     out[1] = s[1] < 0 ? cut : e[1];
 }
 
+/* the ends of an edge lie on either side of a line, or on it */
+static bool spans(const int64_t s[2]) {
+    return (s[0] <= 0 && s[1] >= 0) || (s[0] >= 0 && s[1] <= 0);
+}
+
+/* where an edge with ends on two sides of another, or on it, meets that one */
+static apart meeting(const int64_t s[2], const fw_geometry_vec2 e[2]) {
+    const double t = (double)s[0] / ((double)s[0] - (double)s[1]);
+    const fw_geometry_vec2 at = vec_along(e[0], t, vec_sub(e[1], e[0]));
+    return (apart){0, {at, at}};
+}
+
 /* INFINITY: nothing of one is on the other one's side */
 static apart across(const fw_mask_rule_written *p, const fw_mask_rule_written *q,
                     fw_mask_rule_kind kind) {
@@ -182,6 +195,7 @@ static apart across(const fw_mask_rule_written *p, const fw_mask_rule_written *q
     if (of_p[0] <= 0 && of_p[1] <= 0) return (apart){.nm = HUGE_VAL};
     pair x = pair_of(p, q);
     if (of_q[0] >= 0 && of_q[1] >= 0 && of_p[0] >= 0 && of_p[1] >= 0) return least_of(x.p, x.q);
+    if (spans(of_q) && spans(of_p)) return meeting(of_p, x.p);
     fw_geometry_vec2 part_p[2] = {x.p[0], x.p[1]}, part_q[2] = {x.q[0], x.q[1]};
     if (of_p[0] < 0 || of_p[1] < 0) cut_to(of_p, x.p, part_p);
     if (of_q[0] < 0 || of_q[1] < 0) cut_to(of_q, x.q, part_q);

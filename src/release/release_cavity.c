@@ -314,6 +314,12 @@ static bool is_set(const cell_grid *cells, const unsigned char *set, int c, int 
            set[(size_t)r * (size_t)cells->columns + (size_t)c];
 }
 
+/* are eight cells of a row as those beside them? Then no outline runs there */
+static bool alike(const unsigned char *cell, size_t across) {
+    return !memcmp(cell, cell - 1, 8) && !memcmp(cell, cell + 1, 8) &&
+           !memcmp(cell, cell - across, 8) && !memcmp(cell, cell + across, 8);
+}
+
 /* the set is on the left of every way */
 static void find_ways(const lattice *l, const unsigned char *set) {
     const cell_grid *cells = l->cells;
@@ -321,6 +327,11 @@ static void find_ways(const lattice *l, const unsigned char *set) {
     memset(l->way, NOWHERE, across * ((size_t)cells->rows + 1));
     for (int r = 0; r < cells->rows; r++)
         for (int c = 0; c < cells->columns; c++) {
+            const bool inner = r > 0 && r + 1 < cells->rows && c > 0 && c + 8 < cells->columns;
+            if (inner && alike(set + (size_t)r * (across - 1) + c, across - 1)) {
+                c += 7;
+                continue;
+            }
             size_t low = (size_t)r * across + (size_t)c, high = low + across;
             if (!is_set(cells, set, c, r)) continue;
             if (!is_set(cells, set, c, r - 1)) l->way[low] = EAST;
@@ -417,6 +428,10 @@ static fw_status join_corners(maker *m) {
         for (int r = 0; r + 1 < m->cells.rows; r++)
             for (int c = 0; c + 1 < columns; c++) {
                 unsigned char *p = &m->hollow[(size_t)r * (size_t)columns + (size_t)c];
+                if (c + 8 < columns && !memcmp(p, p + 1, 8)) { /* nothing to either side */
+                    c += 7;
+                    continue;
+                }
                 if (p[0] == p[1] || p[columns] == p[columns + 1]) continue;
                 bool one = p[0] && p[columns + 1] && !p[1] && !p[columns];
                 bool other = p[1] && p[columns] && !p[0] && !p[columns + 1];

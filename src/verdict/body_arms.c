@@ -472,7 +472,8 @@ static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geom
 
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
    root is in its closed form: the way begins where it is a cell inside */
-static void follow(const grid *g, edges *around, fw_geometry_vec2 pin, fw_verdict_arm *arm) {
+static void follow(const grid *g, edges *around, const fw_verdict_pierced *pierced,
+                   fw_geometry_vec2 pin, fw_verdict_arm *arm) {
     const int last = g->nway - 1;
     around->wide.n = 0;
     arm->known = true;
@@ -487,10 +488,13 @@ static void follow(const grid *g, edges *around, fw_geometry_vec2 pin, fw_verdic
         double wide = widest(g, around, &next, vec_left(vec_unit(off)));
         fw_geometry_vec2 until = w > 0 ? vec_along(here, 0.5, vec_sub(next, here)) : from;
         fw_verdict_arm_add(arm, pin, here, from, until, w);
+        fw_verdict_arm_rims(pierced, pin, from, until, w, arm);
         from = until, here = next, i = to;
         w = fw_greater(wide, 1e-3 * g->cell);
-        if (i == last) fw_verdict_arm_add(arm, pin, here, from, place(g, g->way[i]), w);
     }
+    if (last < 1) return;
+    fw_verdict_arm_add(arm, pin, here, from, place(g, g->way[last]), w);
+    fw_verdict_arm_rims(pierced, pin, from, place(g, g->way[last]), w, arm);
 }
 
 /* ---- bodies ---- */
@@ -515,36 +519,24 @@ static int ends_of(const fw_mechanism *m, int body, fw_verdict_arm *arm, end *ou
     return n;
 }
 
-/* whatever the stress is, over a cut it comes to what hinges put on either side */
-static fw_status cut_at_edge(const grid *g, const end *ends, int n, int hinge) {
-    fw_verdict_arm *arm = ends[hinge].to;
-    double *at, middle = 0;
-    int count = 0;
-    const double inward = vec_dot(vec_sub(arm->edge, ends[hinge].root), arm->along) < 0 ? -1 : 1;
-    const fw_geometry_vec2 across = vec_scale(inward, arm->along), along = vec_left(across);
-    for (int k = 0; k < n; k++)
-        if ((vec_dot(vec_sub(ends[k].root, arm->edge), across) < 0) != (k == hinge)) return FW_OK;
-    FW_NEED(at = fw_arena_array(g->arena, double, (size_t)g->nline + 1));
-    for (int i = 0; i < g->nline; i++) {
-        const fw_geometry_vec2 a = vec_sub(g->line[i].a, arm->edge),
-                               b = vec_sub(g->line[i].b, arm->edge);
-        const double from = vec_dot(a, across), to = vec_dot(b, across);
-        if ((from > 0) == (to > 0)) continue;
-        at[count++] = vec_dot(vec_along(a, from / (from - to), vec_sub(b, a)), along);
-    }
-    if (count % 2 != 0) return FW_OK;
-    fw_sort_doubles(at, (size_t)count);
-    fw_verdict_arm_cut(at, count, &middle, arm);
-    arm->cut = vec_along(arm->edge, middle, along);
+/* what straight cuts need of a body; of which end they are told later */
+static fw_status pierced_of(const grid *g, const end *ends, int nhinge, fw_verdict_pierced *out) {
+    FW_NEED(out->room = fw_arena_array(g->arena, double, (size_t)g->nline + 1));
+    FW_NEED(out->hinge = fw_arena_array(g->arena, fw_geometry_vec2, (size_t)nhinge + 1));
+    for (int k = 0; k < nhinge; k++)
+        out->hinge[k] = ends[k].root;
+    out->line = g->line, out->n = g->nline, out->nhinge = nhinge;
     return FW_OK;
 }
 
 /* ends: of hinges (nhinge), then of loads, n in all */
 static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, const end *ends,
-                         int nhinge, int n) {
+                         int nhinge, int n, double hole_m) {
     grid g = {.arena = scratch};
+    fw_verdict_pierced pierced = {.hole_m = hole_m};
     FW_TRY(take_lines(layout, body, &g));
     if (g.nline == 0) return FW_OK;
+    FW_TRY(pierced_of(&g, ends, nhinge, &pierced));
     double across = vec_length((fw_geometry_vec2){g.box.x1 - g.box.x0, g.box.y1 - g.box.y0});
     double cell = fw_greater(across / ACROSS, fw_least_cell);
     fw_mark lines = fw_arena_mark(scratch);
@@ -564,13 +556,16 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
         for (int i = 0; i < n; i++) {
             fw_verdict_arm *to = ends[i].to;
             *to = (fw_verdict_arm){.known = false};
+            pierced.own = i, pierced.root = ends[i].root;
             find_way(&g, &q, cell_at(&g, ends[i].root, 0), middle);
-            if (g.nway > 0) follow(&g, &around, ends[i].pin, to);
+            if (g.nway > 0) follow(&g, &around, &pierced, ends[i].pin, to);
             if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }
-    for (int i = 0; i < nhinge; i++)
-        if (ends[i].to->known) FW_TRY(cut_at_edge(&g, ends, nhinge, i));
+    for (int i = 0; i < nhinge; i++) {
+        pierced.own = i, pierced.root = ends[i].root;
+        if (ends[i].to->known) fw_verdict_arm_cut_at_edge(&pierced, ends[i].to);
+    }
     return FW_OK;
 }
 
@@ -580,6 +575,11 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
     fw_verdict_load_end *load;
     int nload;
     FW_TRY(fw_verdict_load_ends(arena, m, &load, &nload));
+    const fw_device *d = m->device;
+    const double pitch = d ? d->release_pitch_m : 0, hole_m = !(pitch > 0) ? 0
+                                                              : d->release_hole_m > 0
+                                                                  ? d->release_hole_m
+                                                                  : 0.3 * pitch;
     FW_NEED(*arm = fw_arena_array(arena, fw_verdict_arm, n + (size_t)nload));
     for (int b = 0; layout && layout->drawn && b < m->nbody; b++) {
         fw_arena *scratch = fw_arena_part(arena, 0);
@@ -590,7 +590,7 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
             if (load[j].body == b && load[j].first == j)
                 ends[found++] = (end){*arm + n + j, load[j].at, load[j].at};
         fw_status status = ends ? FW_OK : FW_NOMEM;
-        if (nhinge > 0) status = arms_of(scratch, layout, b, ends, nhinge, found);
+        if (nhinge > 0) status = arms_of(scratch, layout, b, ends, nhinge, found, hole_m);
         fw_arena_free(scratch);
         FW_TRY(status);
     }

@@ -37,6 +37,11 @@ typedef struct fw_verdict_arm {
        it, what it leaves of the body (0: there is none), and the integral over that of the distance from the point */
     fw_geometry_vec2 cut;
     double cut_m, cut_m2;
+    /* of a body with release holes, at most, over straight cuts along the way (fw_verdict_arm_rims): by which a moment, a
+       force along x, along y, a force along any direction, and what else acts on the body, a force and a moment, are
+       multiplied to be stress times thickness of what the cut leaves; and where they are largest */
+    double rim_m2, rim_x_m, rim_y_m, rim_m, rim_rest_m, rim_rest_m2;
+    fw_geometry_vec2 rim;
 } fw_verdict_arm;
 
 /* Where something acts on a body in one of the flow's scenes. known_N: how large it becomes, where the scene says so;
@@ -57,6 +62,16 @@ fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
 double fw_verdict_arm_bears(const fw_mechanism *mechanism, int hinge, const fw_verdict_arm *arm,
                             double moment_Nm, double force_N, const double *along_N);
 
+/* What a strip between two edges, or a hole's rim, is allowed, over its stress times thickness: walls that the flow puts
+   farther in leave less of it, and of the narrowest place most. Infinite where nothing is known of it. */
+double fw_verdict_arm_allowed_N_per_m(const fw_mechanism *mechanism, int hinge,
+                                      const fw_verdict_arm *arm);
+/* the same at the rims of release holes, of what straight cuts leave of the body; rest: what else acts on the body at
+   most, N and N m about its mass centre, wherever it does; NULL: nothing */
+double fw_verdict_arm_rims_bear(const fw_mechanism *mechanism, int hinge, const fw_verdict_arm *arm,
+                                double moment_Nm, double force_N, const double *along_N,
+                                const double rest[2]);
+
 /* arm: (2 nhinge) of hinge k in body a, in body b, then of each load end. In: outlines of the layout in the drawn pose. Range:
    any outline; unknown where nothing is drawn or the way is narrower than a cell of the grid, a 400th of the body.
    Error: an upper bound as far as a strip of inscribed circles is a beam. Cost: some 1e6 operations for a body.
@@ -76,8 +91,21 @@ fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int bo
 /* a piece of the way around `at`, `from` to `until`, as a strip of width w: added to the arm of a pin (world, m) */
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);
-/* what a straight cut leaves, between places (n, ascending, along it): cut_m, cut_m2, and its middle */
-void fw_verdict_arm_cut(const double *at, int n, double *middle, fw_verdict_arm *arm);
+/* a body with holes, cut straight across: its lines (n), where its hinges are (nhinge), and the end that is asked */
+typedef struct fw_verdict_pierced {
+    const fw_verdict_line *line;
+    int n, nhinge,
+        own; /* own: number of the end among the hinges; nhinge and above: none of them */
+    fw_geometry_vec2 root, *hinge;
+    double hole_m; /* diameter; 0: there are none */
+    double *room;  /* (n + 1) */
+} fw_verdict_pierced;
+/* rim_... of a piece of the way, where there are holes, `from` to `until`, as a strip of width w between holes and as what straight cuts leave */
+void fw_verdict_arm_rims(const fw_verdict_pierced *body, fw_geometry_vec2 pin,
+                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w,
+                         fw_verdict_arm *arm);
+/* The straight cut at arm->edge, square to the way, where it parts this end from all hinges of the body: cut, cut_m, cut_m2 */
+void fw_verdict_arm_cut_at_edge(const fw_verdict_pierced *body, fw_verdict_arm *arm);
 /* c (9) += what it gives out of the plane, of (z, turns about x, y) by (Fz, Mx, My) about the pin, SI. An upper bound as
    above: of torsion 1/J <= 3/0.42 (1/(w h^3) + 1/(h w^3)) */
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
@@ -170,8 +198,10 @@ typedef struct fw_verdict_bending {
     double *
         cut_N_per_m; /* (2 nhinge) the most that stress is at least across the cut of an arm, times thickness;
                             NULL: no holes */
-    double *rest_N; /* (nbody) largest so far of the force that all hinges together put on a body */
-    double *rest;   /* (2 nbody) of the instant, N, world */
+    double
+        *rest_N; /* (nbody) largest so far of the force that all hinges together put on a body, */
+    double *rest_Nm; /* and of the moment about its mass centre; NULL: no holes */
+    double *rest;    /* (2 nbody) of the instant, N, world */
     double *
         put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
 } fw_verdict_bending;

@@ -3,6 +3,7 @@
    of what was seen there: the stress of the ways of body_arms.c under what hinges and loads bring.
    Theory: docs/theory/verdict.md, docs/theory/release.md. Test: test_body_arms.c */
 #include "base/text.h"
+#include "geometry/segment.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -262,7 +263,8 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
 /* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
 typedef struct brought {
     double moment_Nm, force_N, cut_N_per_m;
-    const double *along_N; /* as fw_verdict_arm_bears takes it */
+    const double *along_N; /* as fw_verdict_arm_rims_bear takes it */
+    double rest[2];
 } brought;
 
 /* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
@@ -278,12 +280,19 @@ static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_arm *arm,
     const double low = by->cut_N_per_m / (fmax(made, 1) * fmax(made, 1));
     return (fw_verdict_band){
         low / allowed_N_per_m,
-        fw_verdict_arm_bears(m, i / 2, arm, by->moment_Nm, by->force_N, by->along_N)};
+        fw_verdict_arm_rims_bear(m, i / 2, arm, by->moment_Nm, by->force_N, by->along_N, by->rest)};
 }
 
 static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
     const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
-    return (brought){most[1], sqrt(most[0]), b->cut_N_per_m[i], b->along_N + 2 * i};
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+    const int body = i % 2 ? pin->body_b : pin->body_a;
+    const bool moves = body != FW_GROUND;
+    return (brought){most[1],
+                     sqrt(most[0]),
+                     b->cut_N_per_m[i],
+                     b->along_N + 2 * i,
+                     {moves ? b->rest_N[body] : 0, moves ? b->rest_Nm[body] : 0}};
 }
 
 fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
@@ -304,22 +313,48 @@ fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics
 
 /* No required pose turns a hinge further, or has a larger joint force, than is proved of all of them; what drift and
    give of the hinges add to strains they are taken to add to forces. Where nothing bounds that (FW-D535) it is left
-   out: the poses are undecided. */
+   out: the poses are undecided. What else holds a body is no more than all its hinges together. */
+static brought in_poses(const fw_verdict_variant_verdict *v, int i) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_workspace_result *w = &v->workspace;
+    const int at = m->hinge[i / 2].pin;
+    const fw_workspace_load *load = &w->load[at];
+    const double more =
+        (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
+    return (brought){.moment_Nm = m->pin[at].stiffness_Nm_per_rad *
+                                  (fabs(w->peak[at].angle_rad) + w->peak[at].error_rad),
+                     .force_N = load->known ? more * load->most_N : 0};
+}
+
+/* what the hinges of a body put on it together at most */
+static void add_rest(const fw_verdict_variant_verdict *v, int body, double rest[2]) {
+    const fw_mechanism *m = v->mechanism;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if (m->hinge[i / 2].pin >= FW_SIX || (i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const brought by = in_poses(v, i);
+        const fw_geometry_vec2 middle = {m->drawn[body].x_m, m->drawn[body].y_m};
+        rest[0] += by.force_N;
+        rest[1] +=
+            by.moment_Nm + by.force_N * vec_distance(fw_mechanism_pin_place(m, pin, i % 2), middle);
+    }
+}
+
 static double required_at_most(const fw_verdict_variant_verdict *v, int *at) {
     const fw_mechanism *m = v->mechanism;
     const fw_workspace_result *w = &v->workspace;
     double worst = 0;
     if (!v->arm || !w->required || !w->reachable) return (double)NAN;
     for (int i = 0; i < 2 * m->nhinge; i++) {
-        const int pin = m->hinge[i / 2].pin;
-        if (pin >= FW_SIX) continue;
-        const fw_workspace_load *load = &w->load[pin];
-        const double more =
-            (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
-        const brought by = {.moment_Nm = m->pin[pin].stiffness_Nm_per_rad *
-                                         (fabs(w->peak[pin].angle_rad) + w->peak[pin].error_rad),
-                            .force_N = load->known ? more * load->most_N : 0};
-        const double high = rims_of(m, &v->arm[i], i, &by).high;
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        const int body = i % 2 ? pin->body_b : pin->body_a;
+        if (m->hinge[i / 2].pin >= FW_SIX || body == FW_GROUND) continue;
+        brought by = in_poses(v, i);
+        if (m->device->release_pitch_m > 0) add_rest(v, body, by.rest);
+        const double high =
+            m->device->release_pitch_m > 0
+                ? rims_of(m, &v->arm[i], i, &by).high
+                : fw_verdict_arm_bears(m, i / 2, &v->arm[i], by.moment_Nm, by.force_N, NULL);
         if (high > worst) worst = high, *at = i;
     }
     return worst * (1 + fw_verdict_motion_lasting_error(m));
@@ -349,8 +384,8 @@ static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, fw
         where, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
         breaks ? "do not bear" : "are not known to bear", pin->id, use,
         fw_number_text(high, sizeof high, 100 * band.high, 4),
-        fw_number_text(x, sizeof x, 1e6 * arm->edge.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->edge.y, 4),
+        fw_number_text(x, sizeof x, 1e6 * arm->rim.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * arm->rim.y, 4),
         posed ? "a smaller required box" : "less load");
     FW_NEED(text);
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
@@ -408,8 +443,12 @@ static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
             const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
             if ((i % 2 ? pin->body_b : pin->body_a) != end[k].body) continue;
             const double load_N = load_of(end, n, k, b->rest_N);
-            take_weak(worst, fw_verdict_arm_bears(m, i / 2, arm, 0, load_N, NULL), arm, end[k].body,
-                      end[k].what, end[k].id);
+            const double rest[2] = {b->rest_N[end[k].body],
+                                    b->rest_Nm ? b->rest_Nm[end[k].body] : 0};
+            take_weak(worst,
+                      b->rest_Nm ? fw_verdict_arm_rims_bear(m, i / 2, arm, 0, load_N, NULL, rest)
+                                 : fw_verdict_arm_bears(m, i / 2, arm, 0, load_N, NULL),
+                      arm, end[k].body, end[k].what, end[k].id);
         }
     return FW_OK;
 }

@@ -179,6 +179,8 @@ static void record_cuts(fw_verdict_bending *b, const fw_mechanism *m,
                          moment = (fabs(here) - fabs(there)) / arm->cut_m2;
             b->cut_N_per_m[i] = fmax(b->cut_N_per_m[i], fmax(force, moment));
         }
+    for (int i = 0; i < m->nbody; i++)
+        b->rest_Nm[i] = fmax(b->rest_Nm[i], fabs(b->put[3 * i + 2]));
 }
 
 /* The closed forms are taken where they are off by less than this (variant.c), and a clearance of a
@@ -248,6 +250,8 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->body_J[i] = 0;
         for (int i = 0; b->rest_N && i < m->nbody; i++)
             b->rest_N[i] = 0;
+        for (int i = 0; b->rest_Nm && i < m->nbody; i++)
+            b->rest_Nm[i] = 0;
         for (int i = 0; b->cut_N_per_m && i < 2 * m->nhinge; i++)
             b->cut_N_per_m[i] = 0;
         return;
@@ -319,6 +323,7 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
     FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
+    FW_NEED(bending->rest_Nm = fw_arena_array(arena, double, (size_t)m->nbody));
     return FW_OK;
 }
 

@@ -43,21 +43,6 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     arm->edge_y_m = fmax(arm->edge_y_m, 6 * fabs(r.x) / (w * w) + 1 / w);
 }
 
-/* The median of what the cut leaves is the place about which its integral of distances is least */
-void fw_verdict_arm_cut(const double *at, int n, double *middle, fw_verdict_arm *arm) {
-    double passed = 0;
-    for (int k = 0; k < n; k += 2)
-        arm->cut_m += at[k + 1] - at[k];
-    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
-        *middle = at[k] + 0.5 * arm->cut_m - passed;
-        passed += at[k + 1] - at[k];
-    }
-    for (int k = 0; k < n; k += 2) {
-        const double a = at[k] - *middle, b = at[k + 1] - *middle;
-        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
-    }
-}
-
 /* ---- where loads act ---- */
 
 typedef struct ends {
@@ -140,19 +125,21 @@ fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *m, fw_verdic
     return FW_OK;
 }
 
+double fw_verdict_arm_allowed_N_per_m(const fw_mechanism *m, int hinge, const fw_verdict_arm *arm) {
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[hinge].limits);
+    if (!arm->known || !limit) return HUGE_VAL;
+    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
+    const double made = fmin(fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m, 1);
+    return limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m * made * made;
+}
+
 double fw_verdict_arm_bears(const fw_mechanism *m, int hinge, const fw_verdict_arm *arm,
                             double moment_Nm, double force_N, const double *along_N) {
     const double corner = 3;
-    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[hinge].limits);
-    if (!arm->known || !limit) return 0;
-    const double allowed_N_per_m =
-        limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
-    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
-    const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
     double by_force = force_N * arm->edge_m;
     if (along_N) by_force = fmin(by_force, along_N[0] * arm->edge_x_m + along_N[1] * arm->edge_y_m);
-    return corner * (moment_Nm * arm->edge_m2 + by_force) / (fmin(made, 1) * fmin(made, 1)) /
-           allowed_N_per_m;
+    return corner * (moment_Nm * arm->edge_m2 + by_force) /
+           fw_verdict_arm_allowed_N_per_m(m, hinge, arm);
 }
 
 /* ---- and what such a way gives ---- */

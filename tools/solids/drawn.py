@@ -33,8 +33,13 @@ def arc(x0, y0, x1, y1, cx, cy, sweep):
 
 def outlines(program, device):
     """layer; bodies' names; [(body, joint, points in um)]"""
+    return outlines_in(subprocess.run([program, device], capture_output=True, text=True, check=True).stdout)
+
+
+def outlines_in(text):
+    """of what solid_whole has printed"""
     layer, bodies, pieces = None, {}, []
-    for line in subprocess.run([program, device], capture_output=True, text=True, check=True).stdout.splitlines():
+    for line in text.splitlines():
         word, *rest = line.split()
         if word == "layer":
             layer = [float(v) for v in rest]
@@ -42,7 +47,7 @@ def outlines(program, device):
             bodies[int(rest[0])] = rest[1]
         elif word == "piece":
             pieces.append((int(rest[0]), int(rest[1]), []))
-        else:
+        elif word in ("line", "arc"):
             v = [float(x) * UM for x in rest]
             points = pieces[-1][2]
             points.append((v[0], v[1]))

@@ -98,6 +98,39 @@ static void all_are_findings(void **state) {
     scene_free(s);
 }
 
+/* Bars that cross off the grid: no space of 1e-17 um is told of them, but that they cross, and the value is 0 at once. */
+static void what_crosses_has_no_space(void **state) {
+    (void)state;
+    for (int turn = 1; turn < 40; turn++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        const double c = cos(0.07 * turn), d = sin(0.07 * turn),
+                     p[4][2] = {{25 + 40 * c, 5 + 40 * d},
+                                {25 - 6 * d + 40 * c, 5 + 6 * c + 40 * d},
+                                {25 - 6 * d - 40 * c, 5 + 6 * c - 40 * d},
+                                {25 - 40 * c, 5 - 40 * d}};
+        scene_box(s, "bar", 0, 0, 51, 10);
+        scene_add(s, FW_ROLE_STRUCTURE, "beam", polygon(s->arena, p, 4));
+        const fw_mask *mask = examine(s);
+        int crossing = 0;
+        for (int i = 0; i < mask->nfinding; i++) {
+            const fw_mask_finding *f = &mask->finding[i];
+            if (strcmp(f->label[0], f->label[1]) == 0 || strcmp(f->what, "space") != 0) continue;
+            if (f->value == 0) crossing++;
+            assert_true(f->value == 0 || f->value > 1e-9); /* what nearly touches is on the grid */
+        }
+        assert_true(crossing > 0);
+        bool told = false;
+        for (size_t i = 0; i < s->diags.count; i++) {
+            const char *said = s->diags.item[i].message;
+            told = told || (strstr(said, "bar") && strstr(said, "outlines cross or touch at"));
+            assert_null(strstr(said, "space of 0 um"));
+            if (strstr(said, "e-1")) fail_msg("%s", said);
+        }
+        assert_true(told);
+        scene_free(s);
+    }
+}
+
 /* one comb, many notches: each is a place of its own, though all are of one shape */
 static void notches_of_one_shape(void **state) {
     (void)state;
@@ -247,7 +280,8 @@ static void short_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_between_layers), cmocka_unit_test(windows_cut_outlines),
-        cmocka_unit_test(all_are_findings),       cmocka_unit_test(notches_of_one_shape),
+        cmocka_unit_test(all_are_findings),       cmocka_unit_test(what_crosses_has_no_space),
+        cmocka_unit_test(notches_of_one_shape),
         cmocka_unit_test(row_and_layer_are_one),  cmocka_unit_test(two_places_of_one_pair),
         cmocka_unit_test(warnings_let_pass),      cmocka_unit_test(findings_are_written),
         cmocka_unit_test(short_memory),

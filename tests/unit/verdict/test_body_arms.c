@@ -254,6 +254,10 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
         assert_relative(left->cut_m, 20e-6, 0.05); /* square to the way, which leans in its cells */
         assert_relative(left->cut_m2, 2 * 10e-6 * 25e-6, 0.1);
         assert_true(right->cut_m > 0);
+        device.release_hole_m = 40e-6;
+        assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &s.arm), FW_OK);
+        left = &s.arm[3], right = &s.arm[1];
+        const fw_geometry_vec2 centre = {s.m.drawn->x_m, s.m.drawn->y_m};
         fw_verdict_strain_monitor seen = {.mechanism = &s.m, .arena = s.arena};
         assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, false, &seen.bending),
                          FW_OK);
@@ -292,7 +296,8 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
             }
             /* whatever the direction of the force, which poses do not tell */
             const double share = fw_verdict_bending_rims_required(&posed, at);
-            assert_relative(share, fw_verdict_arm_bears(&s.m, at[0] / 2, &s.arm[at[0]], 1e-6 * fabs(angle[at[0] / 2]), force, NULL), 1e-9);
+            const double all[2] = {2 * force, 1e-6 * (fabs(angle[0]) + fabs(angle[1])) + force * (vec_distance(fw_mechanism_pin_place(&s.m, &s.m.pin[0], 1), centre) + vec_distance(fw_mechanism_pin_place(&s.m, &s.m.pin[1], 1), centre))};
+            assert_relative(share, fw_verdict_arm_rims_bear(&s.m, at[0] / 2, &s.arm[at[0]], 1e-6 * fabs(angle[at[0] / 2]), force, NULL, all), 1e-9);
             assert_true(share >= band.high);
             assert_int_equal(fw_verdict_bending_judge_required(s.arena, &posed), FW_OK);
             assert_int_equal(posed.nreason, 1);
@@ -315,6 +320,58 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
         assert_relative(seen.bending.beside * seen.bending.hardest_N[0], 1, 1e-12);
         fw_arena_free(s.arena);
     }
+}
+
+/* A bar of 60 um with a square hole of 40 um, opened by a cut: what a straight cut there leaves is a beam of two strips of
+   10 um, which has the moment as I = (60^3 - 40^3)/12 and bears a force along itself with 20 um; a strip alone is strained
+   8.1 times as much by a moment. What else acts on the body may do so at the end's own edge. */
+static void rims_of_what_a_cut_leaves(void **state) {
+    (void)state;
+    static const double pierced[MOST][2] = {{0, 0},       {0.28, 0},     {0.28, 0.01}, {0.26, 0.01},
+                                            {0.26, 0.05}, {0.30, 0.05},  {0.30, 0.01}, {0.28, 0.01},
+                                            {0.28, 0},    {1, 0},        {1, 0.06},    {0, 0.06}};
+    for (int turn = 0; turn < 4; turn++) {
+        scene s = body(MOST, pierced, 1u << 9 | 1u << 11, 0.6 * turn);
+        fw_device device = {.release_pitch_m = 100e-6, .release_hole_m = 40e-6};
+        s.m.device = &device;
+        assert_true(s.arm[3].rim_m2 == 0); /* without holes nobody asks */
+        assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &s.arm), FW_OK);
+        const fw_verdict_arm *left = &s.arm[3];
+        const double second = (60e-6 * 60e-6 * 60e-6 - 40e-6 * 40e-6 * 40e-6) / 12,
+                     bends = 30e-6 / second, c = fabs(cos(0.6 * turn)), d = fabs(sin(0.6 * turn));
+        assert_true(left->edge_m2 > 0.95 * 6 / (10e-6 * 10e-6));
+        assert_relative(left->rim_m2, bends, 0.05);
+        /* from the hinge 300 um away, half way up: a force along the bar pulls, one across it bends */
+        const double pulls = 1 / 20e-6, across = 300e-6 * bends;
+        assert_true(left->rim_x_m > 0.95 * (d * across + c * pulls) && left->rim_x_m < 1.2 * (d * across + (c + 2 * d) * pulls + bends * 20e-6));
+        assert_true(left->rim_y_m > 0.95 * (c * across + d * pulls) && left->rim_y_m < 1.2 * (c * across + (d + 2 * c) * pulls + bends * 20e-6));
+        assert_true(left->rim_m > 0.95 * across && left->rim_m < 1.2 * (across + 2.3 * pulls));
+        assert_true(left->rim_rest_m > 0.95 * across && left->rim_rest_m < 1.2 * (across + 2.3 * pulls));
+        assert_relative(left->rim_rest_m2, left->rim_m2, 1e-12);
+        assert_true(vec_distance(left->rim, fw_geometry_vec_rotate((fw_geometry_vec2){0.28e-3, 0.03e-3}, 0.6 * turn)) < 40e-6);
+        fw_arena_free(s.arena);
+    }
+}
+
+/* Three times what is far from a hole, and 3.28 times in silicon pulled along <110> (Lekhnitskii); walls that the flow puts
+   farther in take of every strip. */
+static void a_rim_in_silicon_is_strained_more(void **state) {
+    (void)state;
+    fw_device device = {.safety_factor = 2};
+    fw_flexure_limits limits = {.item[0].allowable_Pa = 1e9, .governing = 0};
+    fw_mechanism_hinge hinge = {.limits = limits};
+    fw_mechanism_variant variant = {.thickness_m = 10e-6};
+    fw_layout layout = {.edge_m = 0};
+    fw_mechanism m = {.hinge = &hinge, .device = &device, .variant = &variant, .layout = &layout};
+    const fw_verdict_arm arm = {.known = true, .narrow_m = 20e-6, .rim_m2 = 1e9, .rim_m = 1e5, .rim_x_m = 5e4, .rim_y_m = 4e4, .rim_rest_m = 1e5, .rim_rest_m2 = 1e9};
+    const double along[2] = {1e-3, 0}, rest[2] = {2e-3, 1e-6}, allowed = 1e9 / 2 * 10e-6;
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL), 3 * 1e3 / allowed, 1e-12);
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 0, 1e-3, along, NULL), 3 * 50 / allowed, 1e-12);
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 0, 0, NULL, rest), 3 * 1200 / allowed, 1e-12);
+    variant.material.c11.value = 165.7e9, variant.material.c12.value = 63.9e9, variant.material.c44.value = 79.6e9;
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL), 3.28 * 1e3 / allowed, 5e-3);
+    layout.edge_m = -2e-6;
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL), 3.28 * 1e3 / allowed / 0.64, 5e-3);
 }
 
 /* A bar of 100 um, but for a neck of 8 um beyond its middle, and a force at its end behind that. Between its hinges it bears
@@ -379,6 +436,8 @@ int main(void) {
         cmocka_unit_test(what_is_narrow_is_found),
         cmocka_unit_test(a_hole_counts_and_its_cut_does_not),
         cmocka_unit_test(a_cut_bears_what_equilibrium_asks),
+        cmocka_unit_test(rims_of_what_a_cut_leaves),
+        cmocka_unit_test(a_rim_in_silicon_is_strained_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

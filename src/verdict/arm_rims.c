@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies with release holes, cut straight across: what they leave of the body where a hinge's way is strained most, and how
+   much the rims of holes are strained at most. Theory: docs/theory/release.md */
+#include "base/constants.h"
+#include "base/sort.h"
+#include "geometry/segment.h"
+#include "verdict/strain.h"
+#include <math.h>
+
+/* ---- straight cuts through a body with holes ----
+   Whatever the stress is, over a cut that parts an end from the body's hinges it comes to what acts on either side. */
+
+/* where lines of the body cross a straight cut through `at`, ascending along vec_left(across): how many */
+static int crossings(const fw_verdict_pierced *body, fw_geometry_vec2 at, fw_geometry_vec2 across,
+                     double *far_m) {
+    const fw_geometry_vec2 along = vec_left(across);
+    int n = 0;
+    for (int i = 0; i < body->n; i++) {
+        const fw_geometry_vec2 a = vec_sub(body->line[i].a, at), b = vec_sub(body->line[i].b, at);
+        const double from = vec_dot(a, across), to = vec_dot(b, across);
+        if (from <= 0) *far_m = fmax(*far_m, vec_dot(a, a));
+        if ((from > 0) == (to > 0)) continue;
+        body->room[n++] = vec_dot(vec_along(a, from / (from - to), vec_sub(b, a)), along);
+    }
+    *far_m = sqrt(*far_m);
+    fw_sort_doubles(body->room, (size_t)n);
+    return n;
+}
+
+/* the direction of the way as seen from the end; does a cut square to it part the end from all other hinges? */
+static bool parts(const fw_verdict_pierced *body, fw_geometry_vec2 at, fw_geometry_vec2 way,
+                  fw_geometry_vec2 *across) {
+    *across = vec_dot(vec_sub(at, body->root), way) < 0 ? vec_scale(-1, way) : way;
+    bool apart = !(vec_dot(vec_sub(body->root, at), *across) > 0);
+    for (int k = 0; k < body->nhinge; k++)
+        apart = apart && (k == body->own || vec_dot(vec_sub(body->hinge[k], at), *across) > 0);
+    return apart;
+}
+
+void fw_verdict_arm_cut_at_edge(const fw_verdict_pierced *body, fw_verdict_arm *arm) {
+    const double *at = body->room;
+    double middle = 0, passed = 0, far_m = 0;
+    fw_geometry_vec2 across;
+    if (!parts(body, arm->edge, arm->along, &across)) return;
+    const int n = crossings(body, arm->edge, across, &far_m);
+    if (n % 2 != 0) return;
+    for (int k = 0; k < n; k += 2)
+        arm->cut_m += at[k + 1] - at[k];
+    /* the median of what the cut leaves is the place about which its integral of distances is least */
+    for (int k = 0; k < n && passed <= 0.5 * arm->cut_m; k += 2) {
+        middle = at[k] + 0.5 * arm->cut_m - passed;
+        passed += at[k + 1] - at[k];
+    }
+    for (int k = 0; k < n; k += 2) {
+        const double a = at[k] - middle, b = at[k + 1] - middle;
+        arm->cut_m2 += 0.5 * (b * fabs(b) - a * fabs(a));
+    }
+    arm->cut = vec_along(arm->edge, middle, vec_left(across));
+}
+
+/* ---- stress at the rims of release holes, at most ----
+   Of a place of the way two bounds, of which the lesser counts, each by a factor of Kirsch's hole: the strip of the
+   inscribed circle between holes, as if it bore everything alone; and where a straight cut square to the way parts this
+   end from the body's other hinges, the beam that this cut leaves, of area A, second moment I about its centroid, and
+   with its farthest fibre at c:
+
+     E h strain = k [ |M| c/I + |N|/A + 2 |V|/A ],   M about the centroid
+
+   2: a hole in pure shear has four times the stress, and V over A is half as much again in the middle. A load spreads:
+   no more counts of a cut than pi/4 of its distance from the end to either side, as half a plane has 2 F/(pi r) below a
+   force. Besides what the end bears, whatever else acts on the body may act on its side of the cut: F_0 at the farthest
+   point of that, and M_0. A cut leans by up to 45 degrees, as is shortest; cuts are an eighth of a hole from its middle at most. A cut that meets the body in parts with more
+   than a hole between them does not count as one beam, and one without a hole has no rim.
+   In: lines of the body, m. Out: multipliers, 1/m and 1/m2. Error: of beams; against plane solids of bodies with holes
+   tools/solids/rims. Cost: lines times 8 cuts per hole's diameter of the way. Source: G. Kirsch, Z. VDI 42, 1898;
+   W. Pilkey, D. Pilkey, Peterson's Stress Concentration Factors, 2008, 4.3 and 4.6 (rows of holes and bars in bending: no
+   more on what is left than of one hole); A. Flamant, C. R. Acad. Sci. 114, 1892. Test: test_body_arms.c,
+   rims_of_a_row_of_holes. */
+
+typedef struct section {
+    double area_m, second_m3, fibre_m; /* over the thickness */
+    double wide_m;                     /* from outer edge to outer edge */
+    double far_m;                      /* of what lies on the end's side */
+    bool holed;                        /* a hole lies in it */
+    fw_geometry_vec2 centre, across;
+} section;
+
+/* Crossings (n) of a cut, from the way: is it one beam, with holes and nothing wider between its parts, and does a hole of
+   the limb in which the way runs lie within `reach`? */
+static bool one_beam(const double *x, int n, double hole_m, double reach, bool *holed) {
+    const double apart = 1.02 * hole_m, seam_m = 1e-9;
+    int first = 0;
+    *holed = false;
+    if (n == 0 || n % 2 != 0) return false;
+    while (first + 2 < n && x[first + 1] < 0)
+        first += 2;
+    int last = first;
+    for (; last + 2 < n && x[last + 2] - x[last + 1] <= apart; last += 2)
+        *holed = *holed || (x[last + 2] - x[last + 1] > seam_m && x[last + 1] < reach);
+    for (; first > 0 && x[first] - x[first - 1] <= apart; first -= 2)
+        *holed = *holed || (x[first] - x[first - 1] > seam_m && x[first] > -reach);
+    return first == 0 && last + 2 == n;
+}
+
+/* what the cut leaves within `reach` of the way; false: it parts nothing, or is not one beam */
+static bool section_at(const fw_verdict_pierced *body, fw_geometry_vec2 at, fw_geometry_vec2 way,
+                       section *out) {
+    const double *x = body->room, reach = 0.25 * FW_PI * vec_distance(at, body->root);
+    double first = 0, low = HUGE_VAL, high = -HUGE_VAL;
+    *out = (section){.area_m = 0};
+    const bool apart = parts(body, at, way, &out->across);
+    const int n = crossings(body, at, out->across, &out->far_m);
+    if (!one_beam(x, n, body->hole_m, reach, &out->holed) || !apart) return false;
+    out->wide_m = x[n - 1] - x[0];
+    for (int k = 0; k < n; k += 2) {
+        const double a = fmax(x[k], -reach), b = fmin(x[k + 1], reach);
+        if (!(b > a)) continue;
+        low = fmin(low, a), high = fmax(high, b);
+        out->area_m += b - a;
+        first += 0.5 * (b * b - a * a);
+        out->second_m3 += (b * b * b - a * a * a) / 3;
+    }
+    if (!(out->area_m > 0)) return false;
+    const double middle = first / out->area_m;
+    out->second_m3 -= middle * first;
+    out->fibre_m = fmax(high - middle, middle - low);
+    out->far_m += fabs(middle);
+    out->centre = vec_along(at, middle, vec_left(out->across));
+    return out->second_m3 > 0;
+}
+
+/* multipliers of one place, as those of the arm */
+typedef struct rims {
+    double m2, x_m, y_m, all_m, rest_m, rest_m2;
+} rims;
+
+static rims of_strip(fw_geometry_vec2 r, double w) {
+    const double bends = 6 / (w * w);
+    return (rims){bends,
+                  bends * fabs(r.y) + 1 / w,
+                  bends * fabs(r.x) + 1 / w,
+                  bends * vec_length(r) + 1 / w,
+                  0,
+                  0};
+}
+
+static rims of_section(fw_geometry_vec2 r, const section *s) {
+    const double bends = s->fibre_m / s->second_m3, shear = 2, x = fabs(s->across.x),
+                 y = fabs(s->across.y), most = sqrt(1 + shear * shear);
+    return (rims){bends,
+                  bends * fabs(r.y) + (x + shear * y) / s->area_m,
+                  bends * fabs(r.x) + (y + shear * x) / s->area_m,
+                  bends * vec_length(r) + most / s->area_m,
+                  bends * s->far_m + most / s->area_m,
+                  bends};
+}
+
+/* A way goes in steps from cell to cell, and a cut that leans leaves more than a square one: of those that lean by up to 45
+   degrees to either side, the one that is shortest from edge to edge */
+static fw_geometry_vec2 squarest(const fw_verdict_pierced *body, fw_geometry_vec2 at,
+                                 fw_geometry_vec2 way) {
+    enum { SIDES = 3 };
+    double least = HUGE_VAL;
+    fw_geometry_vec2 best = way;
+    for (int k = -SIDES; k <= SIDES; k++) {
+        const fw_geometry_vec2 to = fw_geometry_vec_rotate(way, 0.25 * FW_PI * k / SIDES);
+        section s;
+        if (section_at(body, at, to, &s) && s.wide_m < least) least = s.wide_m, best = to;
+    }
+    return best;
+}
+
+void fw_verdict_arm_rims(const fw_verdict_pierced *body, fw_geometry_vec2 pin,
+                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w,
+                         fw_verdict_arm *arm) {
+    const double length = vec_distance(from, until);
+    const int steps = body->hole_m > 0 ? (int)ceil(4 * length / body->hole_m) : 0;
+    if (steps == 0) return;
+    const fw_geometry_vec2 way = vec_unit(vec_sub(until, from)),
+                           cut = squarest(body, vec_along(from, 0.5 * length, way), way);
+    for (int i = 0; i < steps; i++) {
+        const fw_geometry_vec2 at = vec_along(from, (i + 0.5) * length / steps, way);
+        section s;
+        rims most = of_strip(vec_sub(at, pin), w);
+        const bool beam_like = section_at(body, at, cut, &s);
+        if (!s.holed) continue; /* no rim is there */
+        if (beam_like) {
+            const rims beam = of_section(vec_sub(s.centre, pin), &s);
+            if (beam.m2 < most.m2 && beam.all_m < most.all_m) most = beam;
+        }
+        if (most.all_m > arm->rim_m) arm->rim_m = most.all_m, arm->rim = at;
+        arm->rim_m2 = fmax(arm->rim_m2, most.m2);
+        arm->rim_x_m = fmax(arm->rim_x_m, most.x_m);
+        arm->rim_y_m = fmax(arm->rim_y_m, most.y_m);
+        arm->rim_rest_m = fmax(arm->rim_rest_m, most.rest_m);
+        arm->rim_rest_m2 = fmax(arm->rim_rest_m2, most.rest_m2);
+    }
+}
+
+/* Stress at the rim of a round hole in a plate that is pulled, at most, over the stress far away: 3; of a cubic
+   crystal in its (100) plane 1 + sqrt(2 (1 - nu) + E/G) along [110], and along [100]. Source: S. Lekhnitskii, Anisotropic
+   Plates, 1968, section 43. */
+static double rim_factor(const fw_device_material *of) {
+    if (!fw_device_material_is_crystal(of)) return 3;
+    const double c11 = of->c11.value, c12 = of->c12.value, c44 = of->c44.value,
+                 all = (c11 - c12) * (c11 + 2 * c12), s11 = (c11 + c12) / all, s12 = -c12 / all;
+    const double off = s11 - s12 - 0.5 / c44, /* turned by 45 degrees */
+        t11 = s11 - 0.5 * off, t12 = s12 + 0.5 * off, t44 = 2 * (s11 - s12);
+    return 1 + sqrt(fmax(2 * (1 + s12 / s11) + 1 / (c44 * s11), 2 * (1 + t12 / t11) + t44 / t11));
+}
+
+double fw_verdict_arm_rims_bear(const fw_mechanism *m, int hinge, const fw_verdict_arm *arm,
+                                double moment_Nm, double force_N, const double *along_N,
+                                const double rest[2]) {
+    double by_force = force_N * arm->rim_m;
+    if (along_N) by_force = fmin(by_force, along_N[0] * arm->rim_x_m + along_N[1] * arm->rim_y_m);
+    if (rest) by_force += rest[0] * arm->rim_rest_m + rest[1] * arm->rim_rest_m2;
+    return rim_factor(&m->variant->material) * (moment_Nm * arm->rim_m2 + by_force) /
+           fw_verdict_arm_allowed_N_per_m(m, hinge, arm);
+}
