@@ -164,6 +164,11 @@ void fw_flexure_elastica_held(fw_flexure_elastica *e, const double twist[3], con
 void fw_flexure_elastica_of_wrench(fw_flexure_elastica *e, const double wrench[3], double tolerance,
                                    bool warm, fw_flexure_elastica_result *out);
 
+/* The coarser mesh of the last solution; and that solutions begin on no coarser one than that (0: any). A beam
+   that is hardly bent is solved on the coarsest mesh, since its state has no error there; its tangent has. */
+int fw_flexure_elastica_level(const fw_flexure_elastica *e);
+void fw_flexure_elastica_no_coarser(fw_flexure_elastica *e, int level);
+
 /* --- of the last solution ----------------------------------------------------------------- */
 typedef struct fw_flexure_elastica_state {
     double s_m;                /* along the centre line of the whole beam */

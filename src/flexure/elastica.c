@@ -221,8 +221,9 @@ static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, d
                                                  : 1};
     double reached = -1;
     bool found = false;
-    for (int level = warm ? e->solved - !e->moved : first_level(e, guess); level < FW_LEVELS - 1;
-         level++) {
+    int from = first_level(e, guess);
+    if (from < e->least) from = e->least;
+    for (int level = warm ? e->solved - !e->moved : from; level < FW_LEVELS - 1; level++) {
         fw_flexure_mesh_fill(e, level);
         part = g;
         found = fw_flexure_elastica_reach(e, level, &part, &w, &n);
@@ -243,6 +244,14 @@ static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, d
     out->reached = out->code == FW_ELASTICA_LIMIT ? reached : found ? 1 : 0;
     out->passes = e->passes;
     out->steps = w.steps;
+}
+
+int fw_flexure_elastica_level(const fw_flexure_elastica *e) {
+    return e->solved > 0 ? e->solved - 1 : 0;
+}
+
+void fw_flexure_elastica_no_coarser(fw_flexure_elastica *e, int level) {
+    e->least = level;
 }
 
 void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
