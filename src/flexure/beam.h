@@ -152,9 +152,10 @@ void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_
                               const double twist[3], const double wrench[3], double tolerance,
                               fw_flexure_elastica_result *out);
 /* From the last solution on its own mesh, for the state inside alone: of the same ends, values near
-   those. Error that of the last that said it; false: ask afresh. A third of the cost. */
+   those. Error that of the last that said it; false: ask afresh. A third of the cost. out: twist, wrench and
+   start_Nm alone */
 bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
-                               double tolerance);
+                               double tolerance, fw_flexure_elastica_result *out);
 /* Where other flexures hold the bodies: given are the rotation, the displacement along a direction
    (unit vector) and the force across it; twist and wrench have these, and the rest of another law.
    Only near that. */

@@ -280,7 +280,7 @@ void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_
 static const double more = 1.5, more_turn = 0.02, more_force = 1;
 
 bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
-                               double tolerance) {
+                               double tolerance, fw_flexure_elastica_result *out) {
     fw_flexure_goal g = {.eased = false};
     fw_flexure_newton n = {.tolerance = 0.1 * tolerance,
                            .last = 0.01,
@@ -298,6 +298,12 @@ bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica
     }
     e->square = n.square;
     memcpy(e->last, n.end.value, sizeof e->last);
+    *out = (fw_flexure_elastica_result){.code = FW_ELASTICA_OK};
+    for (int i = 0; i < 3; i++) {
+        out->twist[i] = e->last[i] * unit(e, i);
+        out->wrench[i] = e->last[3 + i] * unit(e, 3 + i);
+    }
+    out->start_Nm = e->hinged ? 0 : e->p[0] * unit(e, 3);
     return fabs(e->last[0]) <= more * e->judged[0] + more_turn &&
            hypot(e->last[4], e->last[5]) <= more * e->judged[1] + more_force;
 }

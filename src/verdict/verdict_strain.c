@@ -288,7 +288,10 @@ static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest
     const bool placed = isfinite(apart_m);
     const double length_m = fw_flexure_elastica_linear(beam)->length_m;
     bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
-    if (under && pull >= pressed && fw_flexure_elastica_again(beam, task, followed)) return true;
+    if (under && pull >= pressed && fw_flexure_elastica_again(beam, task, followed, &r) &&
+        (!placed || is_there(&r, c, s, apart_m, length_m)))
+        return true;
+    r.code = FW_ELASTICA_FAILED;
     bool held = (!under || pull < pressed) && placed &&
                 fw_flexure_hinge_law_held(&h->law, rest, th, along[1], apart_m, u, &moment, &pull);
     const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
