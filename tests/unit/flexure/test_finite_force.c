@@ -171,7 +171,7 @@ static void compare(const strip *s, double th, const double F[2], compared *wors
 }
 
 static void holds(const compared *worst, int least) {
-    if (!(worst->count > least && worst->place < 0.01 && worst->moment < 0.008))
+    if (!(worst->count > least && worst->place < 0.01 && worst->moment < 0.004))
         fail_msg("%d states: place off by %g, moment by %g", worst->count, worst->place,
                  worst->moment);
 }
