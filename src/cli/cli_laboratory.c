@@ -73,7 +73,7 @@ static fw_status read_data(work *w, const char *name, char **data, size_t *n) {
         return fw_diag_error(&w->diags, 224, (fw_place){.file = name},
                              "there is no such process pack%s%s%s: correct the name of the flow, "
                              "or set FLEXWRIGHT_DATA to the directory that holds processes/",
-                             near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+                             FW_DID_YOU_MEAN(near));
     }
     return fw_input_read(w->arena, path, MOST_BYTES, &w->diags, data, n);
 }

@@ -54,7 +54,7 @@ static fw_status check_list(fw_arena *arena, const char *list, fw_diags *diags) 
         fw_status status = fw_diag_error(
             diags, 110, (fw_place){"--effects", 0, 0},
             "there is no effect \"%.60s\"%s%s%s; known are auto, all, none, or a list of %s", own,
-            near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", names.data);
+            FW_DID_YOU_MEAN(near), names.data);
         return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
     }
     return FW_OK;

@@ -125,8 +125,7 @@ static const fw_mask_rule_kind_row *kind_named(fw_xml_reader *r, const fw_xml_el
         fw_text_printf(&known, "%s%s", i ? ", " : "", names[i]);
     const char *meant = fw_did_you_mean(a->value, names, n);
     fw_diag_error(r->diags, 135, a->place, "<rule> kind=\"%.64s\" is not one of: %s%s%s%s",
-                  a->value, fw_text_end(&known) == FW_OK ? known.data : "",
-                  meant ? "; did you mean '" : "", meant ? meant : "", meant ? "'?" : "");
+                  a->value, fw_text_end(&known) == FW_OK ? known.data : "", FW_DID_YOU_MEAN(meant));
     return NULL;
 }
 

@@ -186,7 +186,7 @@ static const char *unknown_joint(const fw_plan *plan, const char *id) {
     const char *near = name ? fw_did_you_mean(id, name, n) : NULL;
     return fw_arena_printf(plan->arena,
                            "no drawn hinge or flexure of this device has that id%s%s%s",
-                           near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+                           FW_DID_YOU_MEAN(near));
 }
 
 /* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through
@@ -504,7 +504,7 @@ static fw_status check_planned(fw_plan *plan) {
             FW_TRY(step_meant(plan, id, &near));
             fw_diag_error(&plan->diags, 199, (fw_place){0},
                           "planning time for '%s': no flow of this device has such a step%s%s%s",
-                          id, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+                          id, FW_DID_YOU_MEAN(near));
             return FW_USAGE;
         }
         at += part + (at[part] == ',');

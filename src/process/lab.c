@@ -172,8 +172,7 @@ static fw_status known(fw_arena *arena, const fw_process_flow *flow, const fw_xm
     }
     const char *best = fw_did_you_mean(a->value, id, (size_t)flow->nequipment);
     return fw_diag_error(diags, 376, a->place, "flow '%s' has no equipment '%s'%s%s%s", flow->id,
-                         a->value, best ? "; did you mean '" : "", best ? best : "",
-                         best ? "'?" : "");
+                         a->value, FW_DID_YOU_MEAN(best));
 }
 
 /* <tool> of a laboratory pack (FW-D376) */
@@ -251,8 +250,7 @@ static fw_status no_such(fw_process_flow *flow, fw_diags *diags, const fw_xml_at
             strncmp(flow->quantity[i]->id + stem, id->value + stem, 1) == 0)
             best = flow->quantity[i]->id;
     return fw_diag_error(diags, 211, id->place, "flow '%s' has no quantity '%s'%s%s%s", flow->id,
-                         id->value, best ? "; did you mean '" : "", best ? best : "",
-                         best ? "'?" : "");
+                         id->value, FW_DID_YOU_MEAN(best));
 }
 
 static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags,

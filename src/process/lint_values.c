@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the values make sense, wherever they come from: a pack, a laboratory, calibrate? Read once with the pack and again
-   when a laboratory has replaced some (fw_process_flow_lint_values). Are their
-   uncertainties ones? Can the prices be added? Does a filling serve a
-   wafer? Is every mask but the first aligned to one before it? */
+   when a laboratory has replaced some (fw_process_flow_lint_values). Are their uncertainties ones? Can the prices be
+   added? Does a filling serve a wafer? Is every mask but the first aligned to one before it? */
 #include "process/films.h"
 #include "process/pack.h"
 #include "xml/xml_reader.h"
@@ -29,9 +28,11 @@ typedef struct units { /* of the rows, read once */
     fw_quantity_unit of[RANGES];
 } units;
 
-static void read_units(units *u) {
+static units read_units(void) {
+    units u;
     for (int i = 0; i < RANGES; i++)
-        fw_quantity_unit_parse(ranges[i].unit, strlen(ranges[i].unit), &u->of[i], NULL, NULL);
+        fw_quantity_unit_parse(ranges[i].unit, strlen(ranges[i].unit), &u.of[i], NULL, NULL);
+    return u;
 }
 
 /* index, or -1 */
@@ -138,16 +139,14 @@ void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diag
 }
 
 bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
-    units u;
-    read_units(&u);
+    const units u = read_units();
     return in_range(&u, q, diags);
 }
 
 /* the range that the first one of an id gives holds for every one that replaces it */
 fw_status fw_process_lint_ranges(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
-    units u;
-    read_units(&u);
+    const units u = read_units();
     for (int i = 0; i < f->nquantity; i++) {
         fw_quantity *q = f->quantity[i];
         if (q->range && range_of(&u, q) < 0)
@@ -172,11 +171,10 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
         if (own) too_uncertain(&u, q, pack->diags);
         if (own && !q->replaced) fw_process_warn_exact(q, NULL, pack->diags);
     }
-    for (int i = 0; i < f->nprocess_material; i++) {
-        const fw_process_material *m = &f->process_material[i];
+    const fw_process_material *m = f->process_material;
+    for (const fw_process_material *end = m + f->nprocess_material; m < end; m++)
         if (m->highest_K && m == fw_process_flow_material(f, m->id))
             in_range(&u, m->highest_K, pack->diags);
-    }
     return FW_OK;
 }
 
@@ -561,9 +559,8 @@ fw_status fw_process_lint_uses(fw_process_pack *pack) {
 
 /* ---- masks ---- */
 
-static const fw_process_step *exposed_before(const fw_process_flow *f, int before,
-                                             const char *mask) {
-    for (int i = 0; i < before; i++)
+static const fw_process_step *exposed_before(const fw_process_flow *f, int end, const char *mask) {
+    for (int i = 0; i < end; i++)
         if (f->step[i].mask[0] && (!mask || strcmp(f->step[i].mask, mask) == 0)) return &f->step[i];
     return NULL;
 }

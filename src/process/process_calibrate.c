@@ -74,8 +74,7 @@ static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *of)
         fw_text_printf(&list, "%s%s", i ? ", " : "", names[i]);
     FW_TRY(fw_text_end(&list));
     return fw_diag_error(diags, 211, of->place, "there is no coupon '%s'%s%s%s; known are %s",
-                         of->coupon, best ? "; did you mean '" : "", best ? best : "",
-                         best ? "'?" : "", list.data);
+                         of->coupon, FW_DID_YOU_MEAN(best), list.data);
 }
 
 static fw_status check_feature(const fw_process_coupon *kind, const fw_process_measurement *r,

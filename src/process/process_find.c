@@ -172,8 +172,7 @@ void *fw_process_pack_find(fw_process_pack *pack, const fw_xml_attribute *attrib
     if (found && found->kind == kind) return found->item;
     const char *best = nearest(pack, attribute->value, kind);
     fw_diag_error(pack->diags, 165, attribute->place, "%s='%s': there is no %s with this id%s%s%s",
-                  attribute->name, attribute->value, word[kind], best ? "; did you mean '" : "",
-                  best ? best : "", best ? "'?" : "");
+                  attribute->name, attribute->value, word[kind], FW_DID_YOU_MEAN(best));
     return NULL;
 }
 

@@ -52,8 +52,7 @@ static fw_status check_arguments(fw_process_pack *pack, const fw_xml_record *e,
                 names[i] = law->argument[i].name;
             const char *best = fw_did_you_mean(name->value, names, (size_t)law->nargument);
             fw_diag_error(pack->diags, 167, name->place, "law '%s' has no argument '%s'%s%s%s",
-                          law->name, name->value, best ? "; did you mean '" : "", best ? best : "",
-                          best ? "'?" : "");
+                          law->name, name->value, FW_DID_YOU_MEAN(best));
             continue;
         }
         const fw_quantity *value = fw_process_pack_quantity(pack, c, "q");
@@ -124,7 +123,7 @@ static const fw_process_law *law_of(fw_process_pack *pack, const fw_xml_record *
         names[n++] = fw_process_law_row(i)->name;
     const char *best = fw_did_you_mean(a->value, names, n);
     fw_diag_error(pack->diags, 166, a->place, "there is no law '%s'%s%s%s", a->value,
-                  best ? "; did you mean '" : "", best ? best : "", best ? "'?" : "");
+                  FW_DID_YOU_MEAN(best));
     return NULL;
 }
 

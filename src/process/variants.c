@@ -78,8 +78,7 @@ static fw_status no_such(const fw_process_pack *pack, const fw_process_choice *c
         name[i] = f->alternative[i].id;
     const char *best = fw_did_you_mean(c->alternative, name, (size_t)f->nalternative);
     fw_diag_error(pack->diags, 375, c->place, "flow '%s' has no alternative '%s'%s%s%s", f->id,
-                  c->alternative, best ? "; did you mean '" : "", best ? best : "",
-                  best ? "'?" : "");
+                  c->alternative, FW_DID_YOU_MEAN(best));
     return FW_OK;
 }
 

@@ -50,7 +50,7 @@ static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const cha
         }
     }
     fw_diag_error(r->diags, 282, r->place, "flow %s has no step '%s'%s%s%s", r->flow->id, id,
-                  best ? "; did you mean '" : "", best ? best : "", best ? "'?" : "");
+                  FW_DID_YOU_MEAN(best));
     return NULL;
 }
 

@@ -29,8 +29,7 @@ fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *w
     FW_TRY(fw_text_end(&list));
     const char *meant = n ? fw_did_you_mean(name, known, (size_t)n) : NULL;
     return fw_diag_error(r->diags, 282, r->place, "%s '%s'; there are: %s%s%s%s", what, name,
-                         list.data, meant ? "; did you mean '" : "", meant ? meant : "",
-                         meant ? "'?" : "");
+                         list.data, FW_DID_YOU_MEAN(meant));
 }
 
 char *fw_recipe_asrun_word(char **at, char separator) {

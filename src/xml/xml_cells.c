@@ -285,7 +285,7 @@ static void say_word(fw_xml_reader *r, const fw_xml_record *record, const fw_xml
     const char *better = fw_xml_full(r->diags) ? NULL : fw_did_you_mean(wrong, row->words, count);
     fw_diag_error(r->diags, fw_xml_numbers_of(r, record->row)->word, a->place,
                   "<%s> %s=\"%s\" is not one of: %s%s%s%s", record->row->name, row->name, wrong,
-                  list, better ? "; did you mean '" : "", better ? better : "", better ? "'?" : "");
+                  list, FW_DID_YOU_MEAN(better));
 }
 
 static void read_word(fw_xml_reader *r, const fw_xml_record *record,
