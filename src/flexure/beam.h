@@ -152,9 +152,10 @@ void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_
                               const double twist[3], const double wrench[3], double tolerance,
                               fw_flexure_elastica_result *out);
 /* From the last solution on its own mesh, for the state inside alone: of the same ends, values near
-   those. Error that of the last that said it; false: ask afresh. A third of the cost. */
+   those. Error that of the last that said it; false: ask afresh. A third of the cost. out: twist, wrench and
+   start_Nm alone */
 bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
-                               double tolerance);
+                               double tolerance, fw_flexure_elastica_result *out);
 /* Where other flexures hold the bodies: given are the rotation, the displacement along a direction
    (unit vector) and the force across it; twist and wrench have these, and the rest of another law.
    Only near that. */
@@ -163,6 +164,11 @@ void fw_flexure_elastica_held(fw_flexure_elastica *e, const double twist[3], con
                               fw_flexure_elastica_result *out);
 void fw_flexure_elastica_of_wrench(fw_flexure_elastica *e, const double wrench[3], double tolerance,
                                    bool warm, fw_flexure_elastica_result *out);
+
+/* The coarser mesh of the last solution; and that solutions begin on no coarser one than that (0: any). A beam
+   that is hardly bent is solved on the coarsest mesh, since its state has no error there; its tangent has. */
+int fw_flexure_elastica_level(const fw_flexure_elastica *e);
+void fw_flexure_elastica_no_coarser(fw_flexure_elastica *e, int level);
 
 /* --- of the last solution ----------------------------------------------------------------- */
 typedef struct fw_flexure_elastica_state {

@@ -62,6 +62,7 @@ struct fw_flexure_chart {
     fw_flexure_elastica *solver;
     double step[AXES]; /* rad, m, of t */
     double force_N;    /* F = force_N sinh t */
+    int level;         /* mesh on which solutions begin */
     long asked, made;  /* questions, corners */
     int last;          /* cell along F where the last answer was */
     cell cell[CELLS];
@@ -147,6 +148,15 @@ static bool solve_at(fw_flexure_chart *x, const double at[AXES], point *out) {
     return isfinite(out->value) && isfinite(out->h[0][0]) && isfinite(out->h[1][2]);
 }
 
+/* Fourth derivatives are differences of tangents over the square of a twenty-fifth of a step, so that what
+   tangents differ by is a thousand times more in them: all have meshes as fine as a bent beam needs */
+static bool solve_alike(fw_flexure_chart *x, const double at[AXES], point *out) {
+    fw_flexure_elastica_no_coarser(x->solver, x->level);
+    bool sound = solve_at(x, at, out);
+    fw_flexure_elastica_no_coarser(x->solver, 0);
+    return sound;
+}
+
 /* ---- a corner of the lattice ---- */
 
 static inline int index_of(int i, int j, int k) {
@@ -185,7 +195,7 @@ static void make_node(fw_flexure_chart *x, node *n) {
         at[a] = n->at[a] * x->step[a];
     n->made = true;
     x->made++;
-    n->sound = solve_at(x, at, &p);
+    n->sound = solve_alike(x, at, &p);
     if (!n->sound) return;
     n->d[0] = p.value;
     for (int a = 0; a < AXES; a++) {
@@ -197,7 +207,7 @@ static void make_node(fw_flexure_chart *x, node *n) {
         double there = at[a], e = beside * x->step[a];
         for (int i = 0; i < 2 && n->sound; i++) {
             at[a] = there + (i ? e : -e);
-            n->sound = solve_at(x, at, &side[i]);
+            n->sound = solve_alike(x, at, &side[i]);
         }
         at[a] = there;
         if (n->sound) beside_node(&p, &side[1], &side[0], a, e, n->d);
@@ -330,7 +340,7 @@ static bool agrees(fw_flexure_chart *x, const cell *c, double most) {
     point p;
     for (int a = 0; a < AXES; a++)
         at[a] = (c->at[a] + amid) * x->step[a];
-    if (!solve_at(x, at, &p)) return false;
+    if (!solve_alike(x, at, &p)) return false;
     contract(c, amid, amid, &r);
     hermite(amid, b, d);
     g[0] = dot(r.by_th, b) / x->step[0], g[1] = dot(r.by_w, b) / x->step[1];
@@ -498,7 +508,9 @@ fw_status fw_flexure_chart_new(fw_arena *arena, const fw_flexure_hinge_law *law,
     x->step[0] = step_of[0], x->step[1] = step_of[1] * L;
     x->step[2] = step_of[2];
     x->force_N = widen * L / (8 * law->bend_m_per_N); /* EI/L^2 = L/(8 bend) */
-    for (int i = 0; i < HALVINGS; i++) {              /* until the cell beside rest is good */
+    point bent;
+    if (solve_at(x, x->step, &bent)) x->level = fw_flexure_elastica_level(solver);
+    for (int i = 0; i < HALVINGS; i++) { /* until the cell beside rest is good */
         make_cell(x, &x->cell[0], first_allowed);
         if (x->cell[0].sound) break;
         for (int a = 0; a < AXES; a++)

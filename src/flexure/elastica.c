@@ -221,8 +221,9 @@ static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, d
                                                  : 1};
     double reached = -1;
     bool found = false;
-    for (int level = warm ? e->solved - !e->moved : first_level(e, guess); level < FW_LEVELS - 1;
-         level++) {
+    int from = first_level(e, guess);
+    if (from < e->least) from = e->least;
+    for (int level = warm ? e->solved - !e->moved : from; level < FW_LEVELS - 1; level++) {
         fw_flexure_mesh_fill(e, level);
         part = g;
         found = fw_flexure_elastica_reach(e, level, &part, &w, &n);
@@ -243,6 +244,14 @@ static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, d
     out->reached = out->code == FW_ELASTICA_LIMIT ? reached : found ? 1 : 0;
     out->passes = e->passes;
     out->steps = w.steps;
+}
+
+int fw_flexure_elastica_level(const fw_flexure_elastica *e) {
+    return e->solved > 0 ? e->solved - 1 : 0;
+}
+
+void fw_flexure_elastica_no_coarser(fw_flexure_elastica *e, int level) {
+    e->least = level;
 }
 
 void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
@@ -271,7 +280,7 @@ void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_
 static const double more = 1.5, more_turn = 0.02, more_force = 1;
 
 bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
-                               double tolerance) {
+                               double tolerance, fw_flexure_elastica_result *out) {
     fw_flexure_goal g = {.eased = false};
     fw_flexure_newton n = {.tolerance = 0.1 * tolerance,
                            .last = 0.01,
@@ -289,6 +298,12 @@ bool fw_flexure_elastica_again(fw_flexure_elastica *e, const fw_flexure_elastica
     }
     e->square = n.square;
     memcpy(e->last, n.end.value, sizeof e->last);
+    *out = (fw_flexure_elastica_result){.code = FW_ELASTICA_OK};
+    for (int i = 0; i < 3; i++) {
+        out->twist[i] = e->last[i] * unit(e, i);
+        out->wrench[i] = e->last[3 + i] * unit(e, 3 + i);
+    }
+    out->start_Nm = e->hinged ? 0 : e->p[0] * unit(e, 3);
     return fabs(e->last[0]) <= more * e->judged[0] + more_turn &&
            hypot(e->last[4], e->last[5]) <= more * e->judged[1] + more_force;
 }

@@ -78,6 +78,7 @@ struct fw_flexure_elastica {
     bool hinged;
     double p[FW_UNKNOWN], kept[FW_UNKNOWN]; /* moment (hinged: rotation) at the start, Fx, Fy */
     int solved;                             /* level of the last solution, -1: none */
+    int least;                              /* level to begin on, unless from the last solution */
     bool
         halved; /* the mesh before it has a solution that is good enough; after `again`: it is that */
     bool moved;       /* by `again` since the solution */

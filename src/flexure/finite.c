@@ -191,6 +191,67 @@ void fw_flexure_hinge_series(const double *c, const double *d, int terms, double
         two_series(c, d, terms, th, false, out);
 }
 
+/* ---- what a pull does, which depends on how far the arc is wound ---- */
+
+enum { TERMS = 8 };
+/* polynomials in x^2 on [0, pi]: alpha, beta (1e-5, 1e-8 off), g4, h4 (1e-4, 1e-3), a4, n4 (6e-6, 1e-11) */
+static const double winding[6][TERMS] = {
+    {0.9999938136439734, 0.05718714905417563, -0.06245087333766429, 0.005008597271293301,
+     -0.00016895481715463692, 7.60229742361299e-06, -2.536864532903121e-08, -1.552608349343485e-08},
+    {1.0000000070450015, -0.15714291342653472, 0.006663676802324393, -0.00011906356215448638,
+     1.8120859051710829e-06, -1.2352991964091367e-08, 7.027535079541526e-10,
+     -4.2162562013330835e-11},
+    {0.5140185347141033, 0.08498159192350846, 0.00626446380071406, -0.0011819546835394265,
+     0.00027430919173046536, -6.40984446250425e-05, 4.0844215727947085e-06,
+     -4.9551865098133094e-08},
+    {0.30851019993467355, -0.01878233813269975, -0.01554799902810932, -0.005699514040496883,
+     0.0017581665974348401, -0.0005461634586697807, 8.200778895512981e-05, -3.696275822588733e-06},
+    {0, 0.00019303110553626129, -0.00010717859107173158, 5.5577391374892374e-05,
+     -1.6687184101909937e-05, 2.4384508568566684e-06, -1.6653777306682087e-07,
+     4.2763896609386958e-09},
+    {0, -5.2566462489825575e-05, 7.0779069283274877e-06, -4.2782996206045487e-07,
+     1.6089728585605016e-08, -4.0521036928134123e-10, 6.9245011467490211e-12,
+     -8.2930693630117909e-14}};
+
+/* two of them side by side */
+INLINE void polynomials(const double (*c)[TERMS], double x, double q, const double by[2],
+                        bool second, fw_flexure_hinge_jet out[2]) {
+    double t = x * x;
+    pair p = {0}, s = {0}, h = {0};
+    for (int n = TERMS - 1; n >= 0; n--) {
+        if (second) h = h * t + s;
+        s = s * t + p;
+        p = p * t + (pair){c[0][n], c[1][n]};
+    }
+    for (int i = 0; i < 2; i++)
+        out[i] = (fw_flexure_hinge_jet){by[i] * p[i], by[i] * q * 2 * x * s[i],
+                                        second ? by[i] * q * q * (2 * s[i] + 8 * t * h[i]) : 0};
+}
+
+INLINE void wind(const fw_flexure_hinge_law *law, double th, bool second,
+                 fw_flexure_hinge_wound *at) {
+    double q = 0.5 * law->share, x = law->half_angle_rad + q * th;
+    /* beyond a full turn nothing is known: the ends' values go on */
+    if (fabs(x) > FW_PI) x = copysign(FW_PI, x), q = 0;
+    double per = 8 * law->bend_m_per_N / law->length_m; /* L^2/EI */
+    fw_flexure_hinge_jet a[2], b[2], c[2];
+    polynomials(winding, x, q, (const double[2]){per, per}, second, a);
+    polynomials(winding + 2, x, q, (const double[2]){1, 1}, second, b);
+    polynomials(winding + 4, x, q, (const double[2]){1, 1}, second, c);
+    *at = (fw_flexure_hinge_wound){a[0], a[1], b[0], b[1], c[0], c[1], per};
+    if (!law->table) return;
+    two_series(law->table->pull_x, law->table->pull_y, law->table->terms, th, second, a);
+    at->px = a[0], at->py = a[1], at->per_N = 0;
+}
+
+void fw_flexure_hinge_law_wound(const fw_flexure_hinge_law *law, double th, bool second,
+                                fw_flexure_hinge_wound *at) {
+    if (second)
+        wind(law, th, true, at);
+    else
+        wind(law, th, false, at);
+}
+
 static fw_flexure_hinge_jet one_over(fw_flexure_hinge_jet c) {
     double k = 1 / c.value, slope = c.slope * k;
     return (fw_flexure_hinge_jet){k, -slope * k, (2 * slope * slope - c.curve * k) * k};

@@ -46,6 +46,14 @@ typedef struct fw_flexure_hinge_soft {
 void fw_flexure_hinge_law_soft(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                double rotation_rad, bool second, fw_flexure_hinge_soft *at);
 
+/* What a pull along the chord does to the arc as it is wound, and what is of fourth order: finite_force.c */
+typedef struct fw_flexure_hinge_wound {
+    fw_flexure_hinge_jet px, py, g4, h4, a4, n4;
+    double per_N; /* L^2/EI; 0 of a table, which has neither a4 nor n4 */
+} fw_flexure_hinge_wound;
+void fw_flexure_hinge_law_wound(const fw_flexure_hinge_law *law, double rotation_rad, bool second,
+                                fw_flexure_hinge_wound *at);
+
 void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                              fw_flexure_hinge_law *law);
 /* all of its stiffness times `by` (above 0); a table becomes the law's own */

@@ -13,7 +13,9 @@
    d(th) the drift and F the force along the chord:
 
      U(th, w, v) = K th^2/2 + stationary over F of
-                   F (v - d + h(w)) - ry F^2/2 - by F^2 n(py F)/2 + g(w)/(2 (bx a(px F) + rx))
+                   F (v - d + h(w)) - ry F^2/2 - by F^2 N/2 + g(w)/(2 (bx A + rx))
+     A = a(px F) + a4 q(y; 2/47, 1/47),  N = n(py F) + n4 q(y; 1/60, 1/55),  y = F L^2/EI
+     q(y; b, e) = (y/(1 + b y + e^2 y^2))^2
      a(y) = 12 (z coth z - 1)/y,  z = sqrt(y)/2                    softness across a pulled strip
      n(y) = (b(y) + e a(y)) / ((1/60 + e) (1 + e y a(y))),  b = (1 - a)/y       and along its chord
      h(w) = w^2/2l (1 + h4 (w/l)^2),  g(w) = (w L/l)^2 (1 + g4 (w/l)^2),  l = L + ry F
@@ -22,18 +24,20 @@
    bx, by, rx, ry, d and x = a + share th/2 are those of finite.c, functions of th. a, n and 6 w^2/5L
    of shortening are the exact beam column (a = 0: a straight leaf; roots included); alpha and beta
    make the third variation of the wound arc exact (V3 = 1/2 int (F.t) phi^2 ds with phi = int M/EI
-   ds), h4 and g4 the fourth under a force along the axis. For any arc the law is thus exact to the
-   second order of the forces, and for a leaf at any pull.
+   ds), h4 and g4 the fourth under a force along the axis, n4 that under one across it, a4 what both
+   have in common (where it is above 0; b and e are what the fifth has in the mean). For any arc the
+   law is thus exact to the third order of the forces, and for a leaf at any pull.
 
    a is a sum of simple fractions, two of its own poles and four for the rest, 5e-6 of a up to y =
    5000: the law's derivatives are its own to the last digits. The equation of F is convex between
    two poles; Newton's steps are kept there.
    In: rad, m; out: J, N m, N and derivatives. Valid: holds says |x| < pi, |w| < 0.4 L, py F above
    0.98 of the column's buckling load. Error against the exact beam, up to strains of 1 %, 30 deg
-   and displacements of ten widths or 0.6 r: place 1.7 % (1.3 % to five widths), root moments 0.8 %;
-   of a guided leaf whose ends keep their distance forces and moments 0.5 %. Cost 150 ns, of
-   the second derivatives 60 more. Source: docs/theory/effects/nonlinear-hinge.md; stability
-   functions: Livesley, Chandler 1956. Test: test_finite_force.c. */
+   and displacements of ten widths or 0.6 r: place 1 % (0.7 % was the largest of 2700 states), root
+   moments 0.4 %; of a guided leaf whose ends keep their distance forces and moments 0.5 %. Cost
+   2500 instructions of an arc, 4400 of a leaf with roots, 900 more of the second derivatives.
+   Source: docs/theory/effects/nonlinear-hinge.md; stability functions: Livesley, Chandler 1956.
+   Test: test_finite_force.c. */
 
 /* so that what is not asked for is not worked out, at any level of optimisation */
 #define INLINE static inline __attribute__((always_inline))
@@ -82,57 +86,27 @@ INLINE curve along_chord(double y, double e) {
     return (curve){per * v, per * v1, per * (b.dd + e * a.dd - v * dd - 2 * v1 * d) * q};
 }
 
-/* ---- what depends on how far the arc is wound ---- */
-
-enum { TERMS = 8 };
-/* polynomials in x^2 on [0, pi]: alpha, beta (1e-5, 1e-8 off), g4, h4 (1e-4, 1e-3) */
-static const double winding[4][TERMS] = {
-    {0.9999938136439734, 0.05718714905417563, -0.06245087333766429, 0.005008597271293301,
-     -0.00016895481715463692, 7.60229742361299e-06, -2.536864532903121e-08, -1.552608349343485e-08},
-    {1.0000000070450015, -0.15714291342653472, 0.006663676802324393, -0.00011906356215448638,
-     1.8120859051710829e-06, -1.2352991964091367e-08, 7.027535079541526e-10,
-     -4.2162562013330835e-11},
-    {0.5140185347141033, 0.08498159192350846, 0.00626446380071406, -0.0011819546835394265,
-     0.00027430919173046536, -6.40984446250425e-05, 4.0844215727947085e-06,
-     -4.9551865098133094e-08},
-    {0.30851019993467355, -0.01878233813269975, -0.01554799902810932, -0.005699514040496883,
-     0.0017581665974348401, -0.0005461634586697807, 8.200778895512981e-05, -3.696275822588733e-06}};
-
-typedef struct wound { /* jets by th */
-    fw_flexure_hinge_jet alpha, beta, g4, h4;
-} wound;
-
-/* two of them side by side */
-INLINE void polynomials(const double (*c)[TERMS], double x, double q, const double by[2],
-                        bool second, fw_flexure_hinge_jet out[2]) {
-    double t = x * x;
-    pair p = {0}, s = {0}, h = {0};
-    for (int n = TERMS - 1; n >= 0; n--) {
-        if (second) h = h * t + s;
-        s = s * t + p;
-        p = p * t + (pair){c[0][n], c[1][n]};
-    }
-    for (int i = 0; i < 2; i++)
-        out[i] = (fw_flexure_hinge_jet){by[i] * p[i], by[i] * q * 2 * x * s[i],
-                                        second ? by[i] * q * q * (2 * s[i] + 8 * t * h[i]) : 0};
+/* what is of fourth order: q(y; 2/47, 1/47) and q(y; 1/60, 1/55) side by side, by y */
+INLINE void fourth(double y, curve *of_a, curve *of_n) {
+    const pair b = {2 / 47.0, 1 / 60.0}, e = {1 / (47.0 * 47), 1 / (55.0 * 55)};
+    const pair over = 1 / (1 + y * (b + y * e)), root = y * over, flat = 1 - y * y * e;
+    const pair d = flat * over * over;
+    const pair dd = -2 * (y * e + flat * over * (b + 2 * y * e)) * over * over;
+    const pair v = root * root, v1 = 2 * root * d, v2 = 2 * (d * d + root * dd);
+    *of_a = (curve){v[0], v1[0], v2[0]}, *of_n = (curve){v[1], v1[1], v2[1]};
 }
 
-INLINE wound wind(const fw_flexure_hinge_law *law, double th, bool second) {
-    double q = 0.5 * law->share, x = law->half_angle_rad + q * th;
-    /* beyond a full turn nothing is known: the ends' values go on */
-    if (fabs(x) > FW_PI) x = copysign(FW_PI, x), q = 0;
-    double per = 8 * law->bend_m_per_N / law->length_m; /* L^2/EI */
-    fw_flexure_hinge_jet a[2], b[2];
-    polynomials(winding, x, q, (const double[2]){per, per}, second, a);
-    polynomials(winding + 2, x, q, (const double[2]){1, 1}, second, b);
-    return (wound){a[0], a[1], b[0], b[1]};
+/* f(p F) + four q(per F), by F */
+INLINE curve with_fourth(const curve *f, double p, const curve *q, double four, double per) {
+    return (curve){f->v + four * q->v, p * f->d + four * per * q->d,
+                   p * p * f->dd + four * per * per * q->dd};
 }
 
 /* ---- the stationary value ---- */
 
 typedef struct terms { /* of one state (th, w, v) */
     fw_flexure_hinge_soft c;
-    wound x;
+    fw_flexure_hinge_wound x;
     double e, length_m, w, free; /* free: v - d */
 } terms;
 
@@ -142,8 +116,8 @@ typedef struct shortening {
     double g, g_w, g_ww, g_l, g_ll, g_wl, g_4, g_4w, g_4l;
 } shortening;
 
-typedef struct state { /* at one F: a(px F), n(py F), k = 1/(bx a + rx) by F */
-    curve a, n, k;
+typedef struct state { /* at one F: a(px F), n(py F), their q; by F: A, N and k = 1/(bx A + rx) */
+    curve a, n, qa, qn, A, N, k;
     shortening s;
 } state;
 
@@ -170,39 +144,42 @@ static void shorten_more(const terms *t, double F, shortening *s) {
     s->g_4 = L2 * z4, s->g_4w = 4 * L2 * z3 * over, s->g_4l = -4 * L2 * z4 * over;
 }
 
-/* a at px F, k from it */
-INLINE void soften(const terms *t, const curve *a, state *s) {
-    double px = t->x.alpha.value;
-    double c1 = t->c.bend_x.value * a->d * px, c2 = t->c.bend_x.value * a->dd * px * px;
-    double k = 1 / (t->c.bend_x.value * a->v + t->c.rest_x.value);
-    s->a = *a;
+/* A, N and k from a, n and their q */
+INLINE void soften(const terms *t, state *s) {
+    const fw_flexure_hinge_wound *x = &t->x;
+    s->A = with_fourth(&s->a, x->px.value, &s->qa, x->a4.value, x->per_N);
+    s->N = with_fourth(&s->n, x->py.value, &s->qn, x->n4.value, x->per_N);
+    double c1 = t->c.bend_x.value * s->A.d, c2 = t->c.bend_x.value * s->A.dd;
+    double k = 1 / (t->c.bend_x.value * s->A.v + t->c.rest_x.value);
     s->k = (curve){k, -c1 * k * k, (2 * c1 * c1 * k - c2) * k * k};
 }
 
 INLINE void look(const terms *t, double F, state *s) {
-    curve a, unused;
-    pulled(t->x.alpha.value * F, &a, &unused);
-    soften(t, &a, s);
-    s->n = along_chord(t->x.beta.value * F, t->e);
+    curve unused;
+    pulled(t->x.px.value * F, &s->a, &unused);
+    s->n = along_chord(t->x.py.value * F, t->e);
+    fourth(t->x.per_N * F, &s->qa, &s->qn);
+    soften(t, s);
     shorten(t, F, &s->s);
 }
 
 /* dPhi/dF and its derivative by F */
 INLINE double slope_of(const terms *t, const state *s, double F, double *second) {
     const shortening *p = &s->s;
-    double y = t->x.beta.value * F, by = t->c.bend_y.value, r = t->c.rest_y.value, k = s->k.v;
+    double by = t->c.bend_y.value, r = t->c.rest_y.value, k = s->k.v;
     double by_l = F * p->h_l + 0.5 * k * p->g_l;
-    *second = -r - by * (s->n.v + 2 * y * s->n.d + 0.5 * y * y * s->n.dd) + 0.5 * s->k.dd * p->g +
+    *second = -r - by * (s->N.v + F * (2 * s->N.d + 0.5 * F * s->N.dd)) + 0.5 * s->k.dd * p->g +
               2 * r * (p->h_l + 0.5 * s->k.d * p->g_l) + r * r * (F * p->h_ll + 0.5 * k * p->g_ll);
-    return t->free + p->h - r * F - by * F * (s->n.v + 0.5 * y * s->n.d) + 0.5 * s->k.d * p->g +
+    return t->free + p->h - r * F - by * F * (s->N.v + 0.5 * F * s->N.d) + 0.5 * s->k.d * p->g +
            r * by_l;
 }
 
-/* the interval of F between the poles of a and n */
+/* the interval of F between the poles of a and n; an arc that is pressed bows below a column's load */
 static void between_poles(const terms *t, double *low, double *high) {
     const double most = 0.999 * pole_at[0];
-    *low = -most / fmax(t->x.beta.value, fmax(t->x.alpha.value, 1e-300)); /* 0: a plain spring */
-    *high = t->x.alpha.value < 0 ? -most / t->x.alpha.value : (double)INFINITY;
+    const double pressed = fmax(t->x.per_N, fmax(t->x.py.value, t->x.px.value));
+    *low = -most / fmax(pressed, 1e-300); /* 0: a plain spring */
+    *high = t->x.px.value < 0 ? -most / t->x.px.value : (double)INFINITY;
     *low = fmax(*low, -0.5 * t->length_m / fmax(t->c.rest_y.value, 1e-300)); /* l > L/2 */
 }
 
@@ -212,9 +189,12 @@ static double first_guess(const terms *t) {
     static const curve b = {1 / 60.0, -A_CURVE, 2 * B_CURVE};
     double e = t->e, per = 1 / (1 / 60.0 + e), d = e, dd = 2 * e * a.d, v = b.v + e;
     double v1 = b.d + e * a.d - v * d;
-    state s = {.n = {1, per * v1, per * (b.dd + e * a.dd - v * dd - 2 * v1 * d)}};
+    state s = {.a = a,
+               .n = {1, per * v1, per * (b.dd + e * a.dd - v * dd - 2 * v1 * d)},
+               .qa = {0, 0, 2},
+               .qn = {0, 0, 2}};
     double second;
-    soften(t, &a, &s);
+    soften(t, &s);
     shorten(t, 0, &s.s);
     double slope = slope_of(t, &s, 0, &second);
     return second < 0 ? -slope / second : 0;
@@ -222,12 +202,13 @@ static double first_guess(const terms *t) {
 
 /* what was looked at, at F + more: first derivatives by the second ones, values to the third order */
 static void advance(const terms *t, double more, state *s) {
-    double x = t->x.alpha.value * more, y = t->x.beta.value * more;
-    curve a = s->a, n = s->n;
-    a.v += x * (a.d + 0.5 * x * a.dd), a.d += x * a.dd;
-    n.v += y * (n.d + 0.5 * y * n.dd), n.d += y * n.dd;
-    s->n = n;
-    soften(t, &a, s);
+    curve *const of[4] = {&s->a, &s->n, &s->qa, &s->qn};
+    const double by[4] = {t->x.px.value, t->x.py.value, t->x.per_N, t->x.per_N};
+    for (int i = 0; i < 4; i++) {
+        double y = by[i] * more;
+        of[i]->v += y * (of[i]->d + 0.5 * y * of[i]->dd), of[i]->d += y * of[i]->dd;
+    }
+    soften(t, s);
 }
 
 /* Newton's method: near its end a step leaves its square, and where second derivatives are not asked for
@@ -251,7 +232,7 @@ static double solve(const terms *t, bool hessian, state *s) {
             return to;
         }
         if (!(to > low && to < high) || !(second < 0))
-            to = isfinite(high) ? 0.5 * (low + high) : 2 * F + fabs(F - low) + 1 / t->x.beta.value;
+            to = isfinite(high) ? 0.5 * (low + high) : 2 * F + fabs(F - low) + 1 / t->x.py.value;
         F = to;
     }
     return F;
@@ -260,13 +241,7 @@ static double solve(const terms *t, bool hessian, state *s) {
 INLINE void prepare(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                     const double at[3], bool second, terms *t) {
     fw_flexure_hinge_law_soft(law, rest, at[0], second, &t->c);
-    t->x = wind(law, at[0], second);
-    if (law->table) {
-        fw_flexure_hinge_jet pull[2];
-        fw_flexure_hinge_series(law->table->pull_x, law->table->pull_y, law->table->terms, at[0],
-                                second, pull);
-        t->x.alpha = pull[0], t->x.beta = pull[1];
-    }
+    fw_flexure_hinge_law_wound(law, at[0], second, &t->x);
     double half = law->bend_m_per_N > 0 ? 0.25 * law->root_m_per_N / law->bend_m_per_N : 0;
     t->e = law->share * half / 6; /* half: dL/L of one root */
     t->length_m = law->length_m;
@@ -279,20 +254,28 @@ typedef struct turning {
     double one, two, with_F, with_w;
 } turning;
 
+/* of f(p F) + four q(per F), whose p and four turn with th */
+INLINE turning turned(const curve *f, const fw_flexure_hinge_jet *p, const curve *q,
+                      const fw_flexure_hinge_jet *four, double per, double F) {
+    double more = p->slope * F;
+    return (turning){.one = f->d * more + four->slope * q->v,
+                     .two = f->dd * more * more + f->d * p->curve * F + four->curve * q->v,
+                     .with_F =
+                         f->d * p->slope + f->dd * p->value * more + four->slope * per * q->d};
+}
+
 INLINE turning by_rotation(const terms *t, const state *s, double F) {
     const fw_flexure_hinge_jet *bx = &t->c.bend_x, *rx = &t->c.rest_x, *by = &t->c.bend_y;
-    const fw_flexure_hinge_jet *ry = &t->c.rest_y, *d = &t->c.drift_m, *p = &t->x.alpha;
-    const fw_flexure_hinge_jet *o = &t->x.beta, *h4 = &t->x.h4, *g4 = &t->x.g4;
+    const fw_flexure_hinge_jet *ry = &t->c.rest_y, *d = &t->c.drift_m;
+    const fw_flexure_hinge_jet *h4 = &t->x.h4, *g4 = &t->x.g4;
     const shortening *z = &s->s;
-    double k = s->k.v, F2 = F * F, y = o->value * F, r = ry->value, l1 = ry->slope * F;
-    /* bx a(px F) + rx */
-    double c = bx->slope * s->a.v + bx->value * s->a.d * p->slope * F + rx->slope;
-    double cc = bx->curve * s->a.v + 2 * bx->slope * s->a.d * p->slope * F +
-                bx->value * (s->a.dd * p->slope * p->slope * F2 + s->a.d * p->curve * F) +
-                rx->curve;
-    double cF = bx->value * s->a.d * p->value;
-    double cm = bx->slope * s->a.d * p->value +
-                bx->value * (s->a.dd * p->value * p->slope * F + s->a.d * p->slope);
+    const turning A = turned(&s->a, &t->x.px, &s->qa, &t->x.a4, t->x.per_N, F);
+    const turning N = turned(&s->n, &t->x.py, &s->qn, &t->x.n4, t->x.per_N, F);
+    double k = s->k.v, F2 = F * F, r = ry->value, l1 = ry->slope * F;
+    /* bx A + rx */
+    double c = bx->slope * s->A.v + bx->value * A.one + rx->slope;
+    double cc = bx->curve * s->A.v + 2 * bx->slope * A.one + bx->value * A.two + rx->curve;
+    double cF = bx->value * s->A.d, cm = bx->slope * s->A.d + bx->value * A.with_F;
     double k1 = -c * k * k, kF = -cF * k * k;
     double k2 = (2 * c * c * k - cc) * k * k, km = (2 * c * cF * k - cm) * k * k;
     /* what shortens, T = F h + k g/2: by th, by l, and both, at a held l first */
@@ -304,17 +287,16 @@ INLINE turning by_rotation(const terms *t, const state *s, double F) {
     double T1w = F * h4->slope * z->h_4w + 0.5 * (k1 * z->g_w + k * g4->slope * z->g_4w);
     double Tl = F * z->h_l + 0.5 * k * z->g_l, Tll = F * z->h_ll + 0.5 * k * z->g_ll;
     double TFl = z->h_l + 0.5 * kF * z->g_l, Twl = F * z->h_wl + 0.5 * k * z->g_wl;
-    double n1 = s->n.d * o->slope * F;
-    double n2 = s->n.dd * o->slope * o->slope * F2 + s->n.d * o->curve * F;
     return (turning){
-        .one = -F * d->slope - 0.5 * F2 * (ry->slope + by->slope * s->n.v + by->value * n1) + T1 +
-               Tl * l1,
+        .one = -F * d->slope - 0.5 * F2 * (ry->slope + by->slope * s->N.v + by->value * N.one) +
+               T1 + Tl * l1,
         .two = -F * d->curve -
-               0.5 * F2 * (ry->curve + by->curve * s->n.v + 2 * by->slope * n1 + by->value * n2) +
+               0.5 * F2 *
+                   (ry->curve + by->curve * s->N.v + 2 * by->slope * N.one + by->value * N.two) +
                T2 + 2 * T1l * l1 + Tll * l1 * l1 + Tl * ry->curve * F,
-        .with_F = -d->slope - F * ry->slope - by->slope * F * (s->n.v + 0.5 * y * s->n.d) -
-                  by->value * F2 * o->slope * (1.5 * s->n.d + 0.5 * y * s->n.dd) + T1F + T1l * r +
-                  TFl * l1 + Tll * r * l1 + Tl * ry->slope,
+        .with_F = -d->slope - F * ry->slope - by->slope * F * (s->N.v + 0.5 * F * s->N.d) -
+                  by->value * F * (N.one + 0.5 * F * N.with_F) + T1F + T1l * r + TFl * l1 +
+                  Tll * r * l1 + Tl * ry->slope,
         .with_w = T1w + Twl * l1};
 }
 
@@ -328,15 +310,15 @@ INLINE void bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *r
     const shortening *p = &s.s;
     shorten_more(&t, F, &s.s);
     const turning turn = by_rotation(&t, &s, F);
-    double px = t.x.alpha.value, py = t.x.beta.value;
+    double pressed = fmax(t.x.per_N, fmax(t.x.px.value, t.x.py.value));
     out->pull_N = F;
     out->energy_J = 0.5 * K * at[0] * at[0] + F * (t.free + p->h) -
-                    0.5 * F * F * (t.c.rest_y.value + t.c.bend_y.value * s.n.v) + 0.5 * k * p->g;
+                    0.5 * F * F * (t.c.rest_y.value + t.c.bend_y.value * s.N.v) + 0.5 * k * p->g;
     out->gradient[0] = K * at[0] + turn.one;
     out->gradient[1] = F * p->h_w + 0.5 * k * p->g_w;
     out->gradient[2] = F;
     out->holds = fw_flexure_hinge_law_holds(law, at[0]) && fabs(at[1]) < 0.4 * law->length_m &&
-                 fmin(px * F, py * F) > -0.98 * pole_at[0];
+                 fmin(pressed * F, t.x.px.value * F) > -0.98 * pole_at[0];
     out->kx_N_per_m = 1 / (t.c.bend_x.value + t.c.rest_x.value);
     out->ky_N_per_m = 1 / (t.c.bend_y.value + t.c.rest_y.value);
     out->drift_slope = t.c.drift_m.slope;
@@ -369,7 +351,7 @@ static void known(const fw_flexure_hinge_law *law, terms *t, state *s, double th
     displaced_m[0] = t->w;
     displaced_m[1] = -slope_of(t, s, F, &second); /* dPhi/dF = 0 at v */
     *moment_Nm = law->stiffness_Nm_per_rad * th + by_rotation(t, s, F).one;
-    *pull = t->x.alpha.value * F;
+    *pull = t->x.px.value * F;
 }
 
 /* The same from the other side: (w, v) and dU/dth under a force (along, across) that is given. The

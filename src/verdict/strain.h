@@ -133,11 +133,9 @@ typedef struct fw_verdict_hinge_load {
     double apart_m[2];
     double least_known; /* as in fw_flexure_strip_load */
 } fw_verdict_hinge_load;
-/* of hinge k at the poses q (3 nbody: m, rad) */
+/* of hinge k; without loads nothing has become longer */
 fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *mechanism, int k,
-                                               const double *q, double angle_rad,
-                                               const double force_N[2],
-                                               fw_effects_hinge_model level);
+                                               const fw_dynamics_instant *now);
 
 enum { FW_FACES = 4 }; /* two of either root */
 

@@ -93,8 +93,7 @@ static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynami
                       fw_verdict_hinge_strains *strain) {
     const fw_mechanism *m = w->mechanism;
     const fw_mechanism_hinge *hinge = &m->hinge[k];
-    fw_verdict_hinge_load load = fw_verdict_hinge_load_at(
-        m, k, now->q, now->angle_rad[hinge->pin], now->reaction_N + 2 * hinge->pin, now->hinge);
+    fw_verdict_hinge_load load = fw_verdict_hinge_load_at(m, k, now);
     load.least_known = w->hinge[k].least;
     fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
     const fw_verdict_largest *peak = &w->hinge[k].strain;

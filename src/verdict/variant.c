@@ -309,7 +309,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, scene, v->motion[i]);
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
-        if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
+        if (v->motion[i])
+            FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->loads, v->motion[i]->level));
         FW_TRY(fw_verdict_bending_judge(arena, (int)i, v->motion[i], v));
         FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief || options->bounded,
                                           diags, v));

@@ -445,8 +445,9 @@ double fw_verdict_motion_model_error(const fw_mechanism *mechanism,
 double fw_verdict_motion_lasting_error(const fw_mechanism *mechanism);
 /* of it what may make a strain more; the rest makes it less */
 double fw_verdict_motion_lasting_above(const fw_mechanism *mechanism);
-/* fills the strains of a step to the next level (may be NULL), on both levels */
+/* fills the strains of a step to the next level (may be NULL), on both levels; loads: what acted */
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_effects_loads *loads,
                                    const fw_statics_level_step *step);
 
 /* one variant: every scene's motion and the required workspace. layout may be NULL: joint forces

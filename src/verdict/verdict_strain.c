@@ -234,8 +234,11 @@ static bool is_solved(const fw_flexure_elastica_result *r) {
    changes no root's moment by more than this share of the larger one. */
 static const double same_moment = 0.01;
 
-static bool is_there(const fw_flexure_elastica_result *r, double c, double s, double apart_m) {
+static bool is_there(const fw_flexure_elastica_result *r, double c, double s, double apart_m,
+                     double length_m) {
+    const double rounding = 1e-9; /* of the length: strains nothing */
     double off = fabs(c * r->twist[1] + s * r->twist[2] - apart_m);
+    if (off <= rounding * length_m) return true;
     return hypot(r->wrench[1], r->wrench[2]) * off <=
            same_moment * fmax(fabs(r->wrench[0]), fabs(r->start_Nm));
 }
@@ -272,7 +275,10 @@ static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest
     const bool placed = isfinite(apart_m);
     const double length_m = fw_flexure_elastica_linear(beam)->length_m;
     bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
-    if (under && pull >= pressed && fw_flexure_elastica_again(beam, task, followed)) return true;
+    if (under && pull >= pressed && fw_flexure_elastica_again(beam, task, followed, &r) &&
+        (!placed || is_there(&r, c, s, apart_m, length_m)))
+        return true;
+    r.code = FW_ELASTICA_FAILED;
     bool held = (!under || pull < pressed) && placed &&
                 fw_flexure_hinge_law_held(&h->law, rest, th, along[1], apart_m, u, &moment, &pull);
     const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
@@ -284,8 +290,7 @@ static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest
         fw_flexure_elastica_near(beam, task, twist, wrench, tolerance, &r);
     else
         fw_flexure_elastica_solve(beam, task, tolerance, false, &r);
-    const bool one = under && pull >= pressed; /* equilibrium with this force */
-    return is_solved(&r) && (one || !placed || is_there(&r, c, s, apart_m));
+    return is_solved(&r) && (!placed || is_there(&r, c, s, apart_m, length_m));
 }
 
 /* The beam turned by theta under a dead force at W on its second body, in the first one's frame; apart_m:
@@ -365,37 +370,58 @@ static double turned(const fw_mechanism *m, const double *q, int body) {
     return body == FW_GROUND ? 0 : q[3 * body + 2] - m->body[body].phi_rad;
 }
 
-static void pin_on(const double *q, int body, double x, double y, double at[2]) {
-    const double none[3] = {0}, *p = body == FW_GROUND ? none : q + 3 * body;
+/* where a pin is now: bodies and ground that have become longer carry it along (fw_mechanism_strained,
+   fw_effects_stretch) */
+static fw_geometry_vec2 pin_on(const fw_mechanism *m, const fw_dynamics_instant *now, int body,
+                               fw_geometry_vec2 at, fw_geometry_vec2 root) {
+    const fw_effects_loads *loads = now->loads;
+    const double none[3] = {0}, *p = body == FW_GROUND ? none : now->q + 3 * body;
+    if (loads && loads->strained)
+        fw_mechanism_strain_pin(loads->strain, m->nbody, fw_mechanism_ground_centre(m), body, root,
+                                &at.x, &at.y);
+    if (loads && loads->stretch.law && body == FW_GROUND) {
+        double law[3] = {(double)NAN};
+        if (!isnan(now->t_s))
+            fw_quantity_law_value(loads->stretch.law, now->t_s, now->piece_s, law);
+        const fw_geometry_vec2 from = vec_sub(vec_add(at, root), loads->stretch.centre_m);
+        at = vec_add(at, vec_scale(loads->stretch.strain * law[0], from));
+    }
     double c = cos(p[2]), s = sin(p[2]);
-    at[0] = p[0] + c * x - s * y, at[1] = p[1] + s * x + c * y;
+    return (fw_geometry_vec2){p[0] + c * at.x - s * at.y, p[1] + s * at.x + c * at.y};
 }
 
-fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *m, int k, const double *q,
-                                               double angle_rad, const double force_N[2],
-                                               fw_effects_hinge_model level) {
-    const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-    fw_verdict_hinge_load load = {.angle_rad = angle_rad,
-                                  .fx_N = force_N[0],
-                                  .fy_N = force_N[1],
-                                  .frame_rad =
-                                      0.5 * (turned(m, q, pin->body_a) + turned(m, q, pin->body_b)),
-                                  .pinned = level == FW_HINGE_REVOLUTE,
-                                  .apart_m = {(double)NAN, (double)NAN}};
-    double a[2], b[2];
+fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *m, int k,
+                                               const fw_dynamics_instant *now) {
+    const int n = m->hinge[k].pin;
+    const fw_mechanism_pin *pin = &m->pin[n];
+    fw_verdict_hinge_load load = {
+        .angle_rad = now->angle_rad[n],
+        .fx_N = now->reaction_N[2 * n],
+        .fy_N = now->reaction_N[2 * n + 1],
+        .frame_rad = 0.5 * (turned(m, now->q, pin->body_a) + turned(m, now->q, pin->body_b)),
+        .pinned = now->hinge == FW_HINGE_REVOLUTE,
+        .apart_m = {(double)NAN, (double)NAN}};
     if (load.pinned) return load; /* a pin holds both at one place */
-    pin_on(q, pin->body_a, pin->ax_m, pin->ay_m, a);
-    pin_on(q, pin->body_b, pin->bx_m, pin->by_m, b);
-    load.apart_m[0] = b[0] - a[0], load.apart_m[1] = b[1] - a[1];
+    const fw_geometry_vec2 a = pin_on(m, now, pin->body_a, (fw_geometry_vec2){pin->ax_m, pin->ay_m},
+                                      pin->root_a_m),
+                           b = pin_on(m, now, pin->body_b, (fw_geometry_vec2){pin->bx_m, pin->by_m},
+                                      pin->root_b_m);
+    load.apart_m[0] = b.x - a.x, load.apart_m[1] = b.y - a.y;
     return load;
 }
 
-static void strains(const fw_mechanism *m, fw_effects_hinge_model level,
-                    fw_flexure_elastica *const *beam, const fw_statics_level_state *at) {
+static void strains(const fw_mechanism *m, const fw_effects_loads *loads, double t_s,
+                    fw_effects_hinge_model level, fw_flexure_elastica *const *beam,
+                    const fw_statics_level_state *at) {
+    const fw_dynamics_instant then = {.t_s = t_s,
+                                      .piece_s = t_s,
+                                      .q = at->q,
+                                      .angle_rad = at->angle_rad,
+                                      .reaction_N = at->reaction_N,
+                                      .hinge = level,
+                                      .loads = loads};
     for (int k = 0; k < m->nhinge; k++) {
-        int pin = m->hinge[k].pin;
-        const fw_verdict_hinge_load load = fw_verdict_hinge_load_at(
-            m, k, at->q, at->angle_rad[pin], at->reaction_N + 2 * pin, level);
+        const fw_verdict_hinge_load load = fw_verdict_hinge_load_at(m, k, &then);
         fw_verdict_hinge_strains s;
         fw_verdict_hinge_strain(&m->hinge[k], level == FW_HINGE_ELASTICA ? beam[k] : NULL, &load,
                                 &s);
@@ -404,6 +430,7 @@ static void strains(const fw_mechanism *m, fw_effects_hinge_model level,
 }
 
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
+                                   const fw_effects_loads *loads,
                                    const fw_statics_level_step *step) {
     if (!step || step->why_not || !m->device || m->device->nflexure == 0) return FW_OK;
     const bool exact = step->used == FW_HINGE_ELASTICA || step->next == FW_HINGE_ELASTICA;
@@ -412,8 +439,8 @@ fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(beam);
     for (int k = 0; exact && k < m->nhinge; k++)
         FW_TRY(fw_verdict_hinge_beam(arena, &m->hinge[k], &beam[k]));
-    strains(m, step->used, beam, &step->at);
-    strains(m, step->next, beam, &step->up);
+    strains(m, loads, step->t_s, step->used, beam, &step->at);
+    strains(m, loads, step->t_s, step->next, beam, &step->up);
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }

@@ -240,8 +240,28 @@ static void an_end_of_corners(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* A slender leaf whose ends lose something of their stiffness (silicon) is pulled harder and harder: its
+   lattice has the steps of any other, so that the whole way is in it */
+static void a_pulled_leaf_of_silicon(void **state) {
+    (void)state;
+    enum { QUESTIONS = 4000 };
+    strip s;
+    int known = 0;
+    strip_new(&s, 0, 1 / 148.0, 0.36, 0.08);
+    for (int n = 0; n < QUESTIONS; n++) {
+        double part = (double)n / QUESTIONS, w = 0.02 * part * s.in.length_m, u[2], moment, pull;
+        fw_flexure_hinge_bent b;
+        assert_true(fw_flexure_hinge_law_held(&s.law, &s.rest, 0, 500 * part * s.unit[1], w, u, &moment, &pull));
+        const double at[3] = {0, w, u[1]};
+        known += fw_flexure_chart_bend(s.chart, at, false, &b);
+    }
+    if (known < 0.98 * QUESTIONS) fail_msg("%d of %d", known, QUESTIONS);
+    fw_arena_free(s.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pulled_leaf_of_silicon),
         cmocka_unit_test(forces_are_the_beam_s), cmocka_unit_test(one_potential),
         cmocka_unit_test(no_steps_at_faces),     cmocka_unit_test(the_place_alone),
         cmocka_unit_test(not_beyond_buckling),   cmocka_unit_test(an_end_of_corners),

@@ -298,9 +298,14 @@ static void again_is_afresh(void **state) {
             fw_flexure_elastica_solve(fresh, &task, 1e-11, false, &at);
             if (at.code > FW_ELASTICA_ROUGH) break;
             asked += i > 0;
-            if (i > 0 && fw_flexure_elastica_again(r.e, &task, tolerance))
+            fw_flexure_elastica_result again;
+            if (i > 0 && fw_flexure_elastica_again(r.e, &task, tolerance, &again)) {
                 followed++;
-            else
+                double size = hypot(at.twist[1], at.twist[2]) + fabs(at.twist[0]) * r.length;
+                assert_near(again.twist[1], at.twist[1], tolerance * size);
+                assert_near(again.twist[2], at.twist[2], tolerance * size);
+                assert_near(again.start_Nm, at.start_Nm, tolerance * (fabs(at.start_Nm) + fabs(at.wrench[0]) + fabs(force) * r.length));
+            } else
                 fw_flexure_elastica_solve(r.e, &task, 1e-8, false, &at);
             fw_flexure_elastica_along(r.e, PLACES, part, M[0], N[0]);
             fw_flexure_elastica_along(fresh, PLACES, part, M[1], N[1]);

@@ -2,6 +2,7 @@
 /* Section moments and strains of exact beams in the verdict; what a level of hinges may be off by.
  */
 #include "effects/hinge_rigs.h"
+#include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
 #include "verdict/verdict.h"
@@ -264,7 +265,7 @@ static void band_of_a_step(void **state) {
     x.loads = &still;
     assert_near(fw_verdict_motion_model_error(&s.r.m, &x), fw_verdict_model_error.motion,
                 0); /* no strains */
-    assert_int_equal(fw_verdict_level_strains(s.r.arena, &s.r.m, pins->level), FW_OK);
+    assert_int_equal(fw_verdict_level_strains(s.r.arena, &s.r.m, pins->loads, pins->level), FW_OK);
     double off = 0, largest = 0;
     for (int i = 0; i < 6; i++) {
         off = fmax(off, fabs(pins->level->up.strain[i] - pins->level->at.strain[i]));
@@ -319,8 +320,63 @@ static void instants_without_a_beam(void **state) {
     fw_arena_free(s.r.arena);
 }
 
+/* where ground and bodies have become longer by then, pins stand where those of the strained mechanism do; a
+   beam whose force leads to one equilibrium alone stands in that place, too, and in no other */
+static void places_on_strained_ground(void **state) {
+    (void)state;
+    scenery s;
+    six_bar(&s, &cases[2], 1);
+    fw_mechanism *m = &s.r.m;
+    const fw_statics *x = rest(&s.r, FW_HINGE_ELASTICA);
+    const fw_mechanism *strained;
+    double strain[32] = {0}, none[32] = {0};
+    assert_true(m->nbody < 31);
+    for (int i = 0; i <= m->nbody; i++)
+        strain[i] = 1e-3 * (1 + i);
+    const fw_effects_loads longer = {.nbody = m->nbody, .strain = strain, .strained = true};
+    const fw_quantity_law swings = {
+        .kind = &fw_quantity_law_sine, .frequency_Hz = 700, .phase_rad = 0.4, .end_s = 1};
+    double law[3];
+    fw_quantity_law_value(&swings, 1e-4, 1e-4, law);
+    const fw_effects_loads grows = {
+        .nbody = m->nbody,
+        .strain = none,
+        .stretch = {strain[m->nbody] / law[0], fw_mechanism_ground_centre(m), &swings}};
+    fw_dynamics_instant now = {.t_s = 1e-4,
+                               .piece_s = 1e-4,
+                               .q = x->q,
+                               .angle_rad = x->angle_rad,
+                               .reaction_N = x->reaction_N,
+                               .hinge = FW_HINGE_ELASTICA};
+    for (int way = 0; way < 2; way++) {
+        if (way) memset(strain, 0, (size_t)m->nbody * sizeof *strain); /* the ground alone */
+        assert_int_equal(fw_mechanism_strained(s.r.arena, m, strain, &strained), FW_OK);
+        for (int k = 0; k < 6; k++) {
+            now.loads = way ? &grows : &longer;
+            const fw_verdict_hinge_load at = fw_verdict_hinge_load_at(m, k, &now);
+            now.loads = NULL;
+            const fw_verdict_hinge_load want = fw_verdict_hinge_load_at(strained, k, &now);
+            for (int i = 0; i < 2; i++)
+                assert_near(at.apart_m[i], want.apart_m[i], 1e-17);
+        }
+    }
+    for (int k = 0; k < 6; k++) {
+        fw_flexure_elastica *beam;
+        fw_verdict_hinge_strains there, elsewhere;
+        fw_verdict_hinge_load at = fw_verdict_hinge_load_at(m, k, &now);
+        assert_int_equal(fw_verdict_hinge_beam(s.r.arena, &s.r.hinge[k], &beam), FW_OK);
+        fw_verdict_hinge_strain(&s.r.hinge[k], beam, &at, &there);
+        const double axis = s.r.hinge[k].axis_rad + at.frame_rad;
+        at.apart_m[0] += 20e-6 * cos(axis), at.apart_m[1] += 20e-6 * sin(axis);
+        fw_verdict_hinge_strain(&s.r.hinge[k], beam, &at, &elsewhere);
+        assert_true(there.known && !elsewhere.known);
+    }
+    fw_arena_free(s.r.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(places_on_strained_ground),
         cmocka_unit_test(moments_of_the_six_bar),
         cmocka_unit_test(closed_form_to_second_order),
         cmocka_unit_test(hairpin_turned_far),
