@@ -151,7 +151,7 @@ fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 set_tests_properties(fuzz.device PROPERTIES DEPENDS build.sanitized) # in the same tree
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
-set_tests_properties(build.sanitized PROPERTIES RUN_SERIAL ON) # two at a time within
+set_tests_properties(build.sanitized PROPERTIES PROCESSORS 2 COST 1000) # two at a time within; beside it what waits more than it computes
 
 include(serve/serve.cmake)
 include(ccx/ccx.cmake)
@@ -212,13 +212,17 @@ list(REMOVE_DUPLICATES programs)
 add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 
 # The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
-foreach(cost cli.advice:85 web.page:80 build.threads:60 accept.masks:55 cli.program:50 cli.workspace:50 fuzz.device:40 hostile.documents:12
-        effects.absent:40 docs.json:35 accuracy.survey:30 accept.wafer:30 cli.tradeoff:30 unit.plan.test_advice:30 hard.valgrind:25
-        cli.limits:25 build.bytes:20 hard.test_hard_bounds:20 serve.robust:20 hard.test_hard_surfaces:18 serve.mutants:18
-        hard.test_hard_friction:17 accept.random:15 accept.written:10 fault.files:15 live.memory:15 cli.hinge:14 accuracy.reference:14 docs.readme:13
-        cli.effects:13 hard.test_hard_contact:10 fault.memory:10 unit.continuum.test_continuum:9
-        whole.dynamics.test_method_motions:9 hard.test_hard_verdict:8 whole.plan.test_design:8 gate.counts:8
-        unit.statics.test_bounds:7 docs.limits:7 hard.test_hard_combinations:6)
+foreach(cost web.page:300 cli.study:55 cli.advice:47 build.threads:45 cli.program:45 klayout.cells:44 accept.masks:40
+        docs.json:40 library.consumer:40 python.package:38 cli.slurm:34 docs.readme:32 accept.wafer:32 build.bytes:31
+        golden.plans:30 serve.robust:30 install.tree:28 cli.probe:26 cli.effects:25 arch.additions:25
+        unit.continuum.test_continuum:24 cli.workspace:22 effects.absent:22 cli.measurements:20 python.install:20
+        accuracy.survey:20 hard.valgrind:17 fault.files:17 fuzz.device:17 accept.random:16 python.docs:15
+        cli.inputs:15 cli.tradeoff:15 hard.test_hard_bounds:15 cli.limits:14 gate.counts:14 serve.mutants:14
+        cli.frames:13 cli.flowback:12 unit.continuum.test_solid:12 hostile.documents:12 serve.doors:12
+        cli.out_of_plane:11 cli.manners:11 cli.third_flow:11 cli.hinge:10 serve.hostile:10 docs.limits:10
+        golden.gallery:9 clearance.cases:8 cli.reproducible:8 live.memory:8 docs.schema:8 hard.test_hard_surfaces:8
+        cli.apart:7 fault.calls:7 hard.test_hard_contact:7 hard.test_hard_friction:7 unit.plan.test_advice:7
+        unit.workspace.test_survey:7 unit.effects.test_fringe:7 accept.written:6 fault.memory:6)
     string(REPLACE ":" ";" cost ${cost})
     list(GET cost 0 name)
     list(GET cost 1 seconds)
