@@ -305,7 +305,9 @@ static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest
         fw_flexure_elastica_near(beam, task, twist, wrench, tolerance, &r);
     else
         fw_flexure_elastica_solve(beam, task, tolerance, false, &r);
-    return is_solved(&r) && (!placed || is_there(&r, c, s, apart_m, rounding_m * length_m));
+    const bool one = under && pull >= pressed; /* equilibrium with this force */
+    const double near_m = (one ? followed_m : rounding_m) * length_m;
+    return is_solved(&r) && (!placed || is_there(&r, c, s, apart_m, near_m));
 }
 
 /* The beam turned by theta under a dead force at W on its second body, in the first one's frame; apart_m:
