@@ -233,12 +233,14 @@ static bool is_solved(const fw_flexure_elastica_result *r) {
 /* Of the equilibria that have one force, that of the place: what its place along the axis is off by
    changes no root's moment by more than this share of the larger one. */
 static const double same_moment = 0.01;
+/* of the length: what strains nothing, and what a solution that followed another is off by in a strip that is
+   pulled hard and hardly bent, where moments say nothing */
+static const double rounding_m = 1e-9, followed_m = 1e-3;
 
 static bool is_there(const fw_flexure_elastica_result *r, double c, double s, double apart_m,
-                     double length_m) {
-    const double rounding = 1e-9; /* of the length: strains nothing */
+                     double near_m) {
     double off = fabs(c * r->twist[1] + s * r->twist[2] - apart_m);
-    if (off <= rounding * length_m) return true;
+    if (off <= near_m) return true;
     return hypot(r->wrench[1], r->wrench[2]) * off <=
            same_moment * fmax(fabs(r->wrench[0]), fabs(r->start_Nm));
 }
@@ -276,7 +278,7 @@ static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest
     const double length_m = fw_flexure_elastica_linear(beam)->length_m;
     bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
     if (under && pull >= pressed && fw_flexure_elastica_again(beam, task, followed, &r) &&
-        (!placed || is_there(&r, c, s, apart_m, length_m)))
+        (!placed || is_there(&r, c, s, apart_m, followed_m * length_m)))
         return true;
     r.code = FW_ELASTICA_FAILED;
     bool held = (!under || pull < pressed) && placed &&
@@ -290,7 +292,9 @@ static bool under_force(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest
         fw_flexure_elastica_near(beam, task, twist, wrench, tolerance, &r);
     else
         fw_flexure_elastica_solve(beam, task, tolerance, false, &r);
-    return is_solved(&r) && (!placed || is_there(&r, c, s, apart_m, length_m));
+    const bool one = under && pull >= pressed; /* equilibrium with this force */
+    const double near_m = (one ? followed_m : rounding_m) * length_m;
+    return is_solved(&r) && (!placed || is_there(&r, c, s, apart_m, near_m));
 }
 
 /* The beam turned by theta under a dead force at W on its second body, in the first one's frame; apart_m:
