@@ -72,11 +72,11 @@ typedef struct fw_dynamics_motion_options {
     long most_steps; /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
-    long
-        hopeless_rhs; /* a run of more evaluations ends, too, when a hinge has turned by half beyond its limit: a verdict
-                          needs no more; 0: never */
-    const double *hopeless_rad; /* (npin) those angles: statics/ sets them */
-    double hinge_accuracy;      /* by which auto chooses the model of hinges; 0: accuracy */
+    /* a run of more evaluations ends, too, when a hinge has turned by half beyond its limit: a verdict needs no more;
+       0: never. hopeless_rad: (npin) those angles, set by statics/ */
+    long hopeless_rhs;
+    const double *hopeless_rad;
+    double hinge_accuracy; /* by which auto chooses the model of hinges; 0: accuracy */
     long most_beams; /* auto takes exact beams only where the motion with the model before asked for
                         the forces of hinges no more often than this; 0: however often */
     bool within_limits; /* where hinges turn beyond their elastic limit auto takes no better model

@@ -69,8 +69,9 @@ void fw_verdict_arm_cut_at_edge(const fw_verdict_pierced *body, fw_verdict_arm *
    2: a hole in pure shear has four times the stress, and V over A is half as much again in the middle. A load spreads:
    no more counts of a cut than pi/4 of its distance from the end to either side, as half a plane has 2 F/(pi r) below a
    force. Besides what the end bears, whatever else acts on the body may act on its side of the cut: F_0 at the farthest
-   point of that, and M_0. A cut leans by up to 45 degrees, as is shortest; cuts are an eighth of a hole from its middle at most. A cut that meets the body in parts with more
-   than a hole between them does not count as one beam, and one without a hole has no rim.
+   point of that, and M_0. A cut leans by up to 45 degrees, as is shortest; cuts are an eighth of a hole from its middle at
+   most. A cut that meets the body in parts with more than a hole between them does not count as one beam, and one without
+   a hole has no rim.
    In: lines of the body, m. Out: multipliers, 1/m and 1/m2. Error: of beams; against plane solids of bodies with holes
    tools/solids/rims. Cost: lines times 8 cuts per hole's diameter of the way. Source: G. Kirsch, Z. VDI 42, 1898;
    W. Pilkey, D. Pilkey, Peterson's Stress Concentration Factors, 2008, 4.3 and 4.6 (rows of holes and bars in bending: no
