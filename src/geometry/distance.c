@@ -148,12 +148,14 @@ typedef struct listed {
 
 /* A segment that is `limit` away from a box is so from every segment within that box: also as rounded, since no step
    of a gap falls as boxes become smaller. */
-static void list_near(const fw_geometry_contour *q, const fw_geometry_box *box, double limit,
+static void list_near(const fw_geometry_boxed *boxed, const fw_geometry_box *box, double limit,
                       listed *to) {
+    const fw_geometry_contour *q = boxed->contour;
     to->of = q;
     to->n = 0;
     for (to->rest = 0; to->rest < q->count && to->n < FEW; to->rest++) {
-        const fw_geometry_box own = fw_segment_box(&q->segment[to->rest]);
+        const fw_geometry_box own =
+            boxed->box ? boxed->box[to->rest] : fw_segment_box(&q->segment[to->rest]);
         if (fw_box_apart(&own, box, limit)) continue;
         const int n = to->n++;
         to->which[n] = to->rest;
@@ -207,14 +209,26 @@ static void look_at_list(const fw_geometry_segment *s, const fw_geometry_box *ow
     }
 }
 
-double fw_geometry_contour_distance_below(const fw_geometry_contour *p,
-                                          const fw_geometry_contour *q, double limit_m,
-                                          fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q) {
+fw_status fw_geometry_contour_boxed(fw_arena *arena, const fw_geometry_contour *contour,
+                                    fw_geometry_boxed *out) {
+    fw_geometry_box *box = fw_arena_array(arena, fw_geometry_box, (size_t)contour->count);
+    FW_NEED(box);
+    *out = (fw_geometry_boxed){.contour = contour, .box = box};
+    for (int i = 0; i < contour->count; i++) {
+        box[i] = fw_segment_box(&contour->segment[i]);
+        out->whole = i ? fw_box_join(out->whole, box[i]) : box[i];
+    }
+    return FW_OK;
+}
+
+double fw_geometry_boxed_distance_below(const fw_geometry_contour *p, const fw_geometry_boxed *q,
+                                        double limit_m, fw_geometry_vec2 *at_p,
+                                        fw_geometry_vec2 *at_q) {
     least_chord best = {limit_m, {0, 0}, {0, 0}};
     const fw_geometry_box around = fw_geometry_contour_box(p);
     listed near;
     if (p->count > 0) list_near(q, &around, limit_m, &near);
-    bool any = p->count > 0 && (near.n > 0 || near.rest < q->count);
+    bool any = p->count > 0 && (near.n > 0 || near.rest < q->contour->count);
     for (int i = 0; any && i < p->count && best.length > 0; i++) {
         fw_geometry_box own = fw_segment_box(&p->segment[i]);
         if (fw_box_gap(own, near.whole) >= best.length) continue;
@@ -223,6 +237,13 @@ double fw_geometry_contour_distance_below(const fw_geometry_contour *p,
     if (at_p) *at_p = best.at_p;
     if (at_q) *at_q = best.at_q;
     return best.length;
+}
+
+double fw_geometry_contour_distance_below(const fw_geometry_contour *p,
+                                          const fw_geometry_contour *q, double limit_m,
+                                          fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q) {
+    const fw_geometry_boxed once = {.contour = q}; /* its boxes are found as they are asked for */
+    return fw_geometry_boxed_distance_below(p, &once, limit_m, at_p, at_q);
 }
 
 double fw_geometry_contour_distance(const fw_geometry_contour *p, const fw_geometry_contour *q,

@@ -85,9 +85,8 @@ fw_status fw_layout_comb_stator(fw_arena *arena, const fw_layout_comb_plan *p,
 /* ---- what is in the way ---- */
 
 typedef struct obstacle {
-    const char *kind, *id;              /* of its name; id NULL: body `body` */
-    const fw_geometry_contour *outline; /* NULL: a disc, which keeps its own distance */
-    fw_geometry_box box;
+    const char *kind, *id;     /* of its name; id NULL: body `body` */
+    fw_geometry_boxed outline; /* contour NULL: a disc, which keeps its own distance */
     fw_geometry_vec2 centre;
     double radius_m, space_m; /* space_m: what it asks for by itself; 0: what is asked for */
     int body;
@@ -106,13 +105,14 @@ static bool within(fw_geometry_box b, fw_geometry_vec2 p) {
 /* box: of the outline */
 static bool close_by(const fw_geometry_contour *p, fw_geometry_box box, const obstacle *o,
                      double space_m, fw_geometry_vec2 *at) {
-    const fw_geometry_contour *q = o->outline;
-    const fw_geometry_box b = o->box;
+    const fw_geometry_contour *q = o->outline.contour;
+    const fw_geometry_box b = o->outline.whole;
     fw_geometry_vec2 there;
     if (box.x0 > b.x1 + space_m || b.x0 > box.x1 + space_m || box.y0 > b.y1 + space_m ||
         b.y0 > box.y1 + space_m)
         return false;
-    if (fw_geometry_contour_distance_below(p, q, space_m, at, &there) < space_m * (1.0 - 1e-9))
+    if (fw_geometry_boxed_distance_below(p, &o->outline, space_m, at, &there) <
+        space_m * (1.0 - 1e-9))
         return true;
     *at = q->segment[0].a;
     if (within(box, *at) && fw_geometry_contour_contains(p, *at)) return true;
@@ -136,15 +136,13 @@ static bool disc_close_by(const fw_geometry_contour *p, fw_geometry_box b, fw_ge
     return fw_geometry_contour_contains(p, centre);
 }
 
-static void add_outline(obstacles *o, const char *kind, const char *id, int body,
-                        const fw_geometry_contour *outline, double space_m) {
-    if (outline->count == 0) return;
-    o->item[o->n++] = (obstacle){.kind = kind,
-                                 .id = id,
-                                 .body = body,
-                                 .outline = outline,
-                                 .box = fw_geometry_contour_box(outline),
-                                 .space_m = space_m};
+static fw_status add_outline(fw_arena *arena, obstacles *o, const char *kind, const char *id,
+                             int body, const fw_geometry_contour *outline, double space_m) {
+    obstacle *to = &o->item[o->n];
+    if (outline->count == 0) return FW_OK;
+    *to = (obstacle){.kind = kind, .id = id, .body = body, .space_m = space_m};
+    o->n++;
+    return fw_geometry_contour_boxed(arena, outline, &to->outline);
 }
 
 /* bodies but one, hinges, and the drives before one */
@@ -154,7 +152,7 @@ static fw_status list_obstacles(const fw_layout_drawing *d, int body, int before
     o->n = 0;
     FW_NEED(o->item = fw_arena_array(d->arena, obstacle, most));
     for (int b = 0; b < device->nbody; b++)
-        if (b != body) add_outline(o, "", NULL, b, &d->plain[b], 0.0);
+        if (b != body) FW_TRY(add_outline(d->arena, o, "", NULL, b, &d->plain[b], 0.0));
     for (int j = 0; j < device->nrevolute; j++)
         o->item[o->n++] = (obstacle){.kind = "hinge ",
                                      .id = device->revolute[j].id,
@@ -163,8 +161,9 @@ static fw_status list_obstacles(const fw_layout_drawing *d, int body, int before
     for (int i = 0; i < before; i++) {
         const char *id = fw_text_name(d->comb[i].comb->id);
         if (d->comb[i].off) continue;
-        add_outline(o, "comb drive ", id, FW_NONE, &d->comb[i].rotor, 0.0);
-        add_outline(o, "comb drive ", id, FW_NONE, &d->comb[i].stator, 0.0);
+        const fw_geometry_contour *own[] = {&d->comb[i].rotor, &d->comb[i].stator};
+        for (int k = 0; k < 2; k++)
+            FW_TRY(add_outline(d->arena, o, "comb drive ", id, FW_NONE, own[k], 0.0));
     }
     return FW_OK;
 }
@@ -188,7 +187,7 @@ static fw_status list_for_stator(const fw_layout_drawing *d, int rotor, int befo
             d->arena, fw_layout_joint_point(d->device, joint[0]),
             fw_layout_joint_point(d->device, joint[1]),
             fmax(fw_layout_rule.base_width_m, d->device->die.anchor_m) + BASE_M, bar));
-        add_outline(o, "", "the base", FW_NONE, bar, LEAST_M);
+        FW_TRY(add_outline(d->arena, o, "", "the base", FW_NONE, bar, LEAST_M));
     }
     return FW_OK;
 }
@@ -200,8 +199,8 @@ static const obstacle *crossed(const obstacles *o, const fw_geometry_contour *c,
     for (int i = 0; i < o->n; i++) {
         const obstacle *p = &o->item[i];
         const double space = p->space_m > 0.0 ? p->space_m : space_m;
-        if (p->outline ? close_by(c, box, p, space, at)
-                       : disc_close_by(c, box, p->centre, p->radius_m, at))
+        if (p->outline.contour ? close_by(c, box, p, space, at)
+                               : disc_close_by(c, box, p->centre, p->radius_m, at))
             return p;
     }
     return NULL;
@@ -416,8 +415,8 @@ fw_status fw_layout_stator_place(fw_layout_drawing *d, fw_layout_comb_plan *p, c
     FW_TRY(name_crossed(d, &all, &electrode, LEAST_M, &what));
     if (!what) {
         all.n = 0;
-        add_outline(&all, "its own rotor's body ", NULL, p->comb->body_b,
-                    &d->plain[p->comb->body_b], p->comb->gap_m * (1.0 - 1e-6));
+        FW_TRY(add_outline(d->arena, &all, "its own rotor's body ", NULL, p->comb->body_b,
+                           &d->plain[p->comb->body_b], p->comb->gap_m * (1.0 - 1e-6)));
         FW_TRY(name_crossed(d, &all, &electrode, LEAST_M, &what));
     }
     if (what) {

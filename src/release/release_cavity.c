@@ -128,31 +128,20 @@ static fw_status cells_inside(fw_arena *arena, const cell_grid *cells,
     return FW_OK;
 }
 
-/* eight cells at once: to[i] = from[i] | from[i + by], i from below, so that both may be the same list */
-static void join_shifted(unsigned char *to, const unsigned char *from, size_t by, size_t n) {
-    size_t i = 0;
-    uint64_t a, b;
-    for (; i + sizeof a <= n; i += sizeof a) {
-        memcpy(&a, from + i, sizeof a);
-        memcpy(&b, from + i + by, sizeof b);
-        a |= b;
-        memcpy(to + i, &a, sizeof a);
-    }
-    for (; i < n; i++)
-        to[i] = from[i] | from[i + by];
-}
+typedef uint64_t lot __attribute__((vector_size(32)));
 
-static void join_sets(unsigned char *to, const unsigned char *other, size_t n) {
+/* many cells at once: to[i] = p[i] | q[i], i from below, so that both may lie in the same list, at or beyond it */
+static void join_sets(unsigned char *to, const unsigned char *p, const unsigned char *q, size_t n) {
     size_t i = 0;
-    uint64_t a, b;
+    lot a, b;
     for (; i + sizeof a <= n; i += sizeof a) {
-        memcpy(&a, to + i, sizeof a);
-        memcpy(&b, other + i, sizeof b);
+        memcpy(&a, p + i, sizeof a);
+        memcpy(&b, q + i, sizeof b);
         a |= b;
         memcpy(to + i, &a, sizeof a);
     }
     for (; i < n; i++)
-        to[i] |= other[i];
+        to[i] = p[i] | q[i];
 }
 
 static void turn_round(unsigned char *set, size_t n) {
@@ -172,8 +161,9 @@ static void turn_round(unsigned char *set, size_t n) {
 static void join_following(unsigned char *list, size_t n, size_t reach, size_t stride) {
     size_t have = 1, want = reach + 1;
     for (; 2 * have <= want; have *= 2)
-        join_shifted(list, list, have * stride, n - have * stride);
-    if (have < want) join_shifted(list, list, (want - have) * stride, n - (want - have) * stride);
+        join_sets(list, list, list + have * stride, n - have * stride);
+    if (have < want)
+        join_sets(list, list, list + (want - have) * stride, n - (want - have) * stride);
 }
 
 /* Every cell within k columns and rows of one of the set; k < 0: away from those that are not in it. On a wider list with
@@ -373,11 +363,15 @@ static fw_status cells_outlines(fw_arena *arena, const cell_grid *cells, const u
                                 fw_geometry_region *outlines) {
     lattice l = {.cells = cells, .across = cells->columns + 1};
     size_t n = (size_t)l.across * ((size_t)cells->rows + 1);
+    const unsigned char nowhere[8] = {NOWHERE, NOWHERE, NOWHERE, NOWHERE,
+                                      NOWHERE, NOWHERE, NOWHERE, NOWHERE};
     int room = 0;
     FW_NEED(l.way = fw_arena_array(arena, unsigned char, n));
     find_ways(&l, set);
     *outlines = (fw_geometry_region){0};
     for (size_t at = 0; at < n; at++) {
+        while (at + 8 < n && !memcmp(l.way + at, nowhere, 8))
+            at += 8;
         if (l.way[at] == NOWHERE) continue;
         if (outlines->count == room) {
             int more = 2 * room + 16;
@@ -418,7 +412,7 @@ static fw_status cover(maker *m, bool (*wanted)(const maker *m, int piece), unsi
     for (int i = 0; i < m->layout->npiece; i++)
         if (wanted(m, i))
             FW_TRY(cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge, set));
-    join_sets(set, edge, m->n);
+    join_sets(set, set, edge, m->n);
     fw_arena_rewind(m->arena, mark);
     return FW_OK;
 }

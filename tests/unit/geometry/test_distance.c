@@ -303,6 +303,9 @@ static void below_is_the_least_of_all_pairs(void **state) {
         fw_geometry_vec2 a, b;
         double d = fw_geometry_contour_distance_below(&p, &q, limit, &a, &b);
         assert_true(d == fmin(least, limit));
+        fw_geometry_boxed boxed;
+        assert_int_equal(fw_geometry_contour_boxed(*state, &q, &boxed), FW_OK);
+        assert_true(fw_geometry_boxed_distance_below(&p, &boxed, limit, NULL, NULL) == d);
         assert_true(fw_geometry_contour_distance(&p, &q, NULL, NULL) == least);
         if (d < limit) assert_near(vec_distance(a, b), d, 1e-18);
         below += least < limit;
