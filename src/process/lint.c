@@ -184,6 +184,7 @@ static const struct {
     {"does what a step works on lie open, and does metal grow where it shall?",
      fw_process_lint_reach, false},
     {"does no rinse take off what lies open?", fw_process_lint_rinses, false},
+    {"is water not left to dry in air where there is a drier?", fw_process_lint_aired, false},
     {"does a critical point dryer get what it takes up?", fw_process_lint_critical, false},
     {"is what is plated or bonded cleaned shortly before?", fw_process_lint_fresh, false},
     {"does no rework bring a layer into a bath that attacks it?", fw_process_lint_reworked, false},
@@ -496,11 +497,43 @@ static fw_status lint_lasts(fw_arena *arena, fw_process_flow *flow, const fw_pro
                         s->pulse ? " and its pauses" : "", why));
 }
 
+/* Somebody waits for the end of an etch that is seen: from the first look to the stop time, if it does not come sooner. Whoever
+   is there for less comes back to what went on alone. A step that goes on in parts is looked at between them, and a chamber
+   stops by itself. And nobody is there for hours longer than a computed step takes. */
+static fw_status lint_watched(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
+                              fw_diags *diags) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    const double window = s->time.stop_s - s->time.first_look_s;
+    if (!s->time.computable || !law || law->stated) return FW_OK;
+    const bool seen = fw_process_step_in_liquid(s) && !s->pulse &&
+                      fw_words_hold("develop release strip wet-etch", " ", s->op);
+    const bool less =
+        seen &&
+        s->attended_s<window *(1.0 - 1e-9), more = s->attended_s> s->booked_stop_own_s + 3600.0;
+    if (!less && !more) return FW_OK;
+    char is[32], t[32];
+    fw_number_text(is, sizeof is, s->attended_s / 60.0, 4);
+    fw_number_text(t, sizeof t, (less ? window : s->booked_stop_own_s) / 60.0, 4);
+    const char *why = fw_arena_printf(
+        arena,
+        less
+            ? "somebody is at step %s for %s min (attended), but from its first look to its stop "
+              "time are %s min: nobody sees when it is through. Nearest change: attended=\"%.0f\", "
+              "or an etch that is known better"
+            : "somebody stands at step %s for %s min (attended), which takes %s min at most by its "
+              "law: more than an hour longer. Nearest change: attended=\"%.0f\"",
+        s->id, is, t, ceil((less ? window : s->booked_stop_own_s) / 60.0));
+    FW_NEED(why);
+    fw_diag_warning(diags, less ? 617 : 609, s->place, "%s", why);
+    return fw_process_flow_add_reason(arena, flow, -1, why);
+}
+
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         FW_TRY(lint_uncertain(arena, flow, s));
         FW_TRY(lint_lasts(arena, flow, s, diags));
+        FW_TRY(lint_watched(arena, flow, s, diags));
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
         for (int k = 0; k < s->nderive; k++)

@@ -129,6 +129,23 @@ static fw_status check_under(const fw_process_coupon *kind, const fw_process_mea
                          unit ? ", such as 20 " : "", unit ? unit : "", is);
 }
 
+bool fw_process_coupon_on_test_die(const char *coupon) {
+    const fw_process_coupon *kind = kind_named(coupon);
+    return kind && !kind->plain;
+}
+
+fw_status fw_process_measurement_of_flow(const fw_process_flow *flow,
+                                         const fw_process_measurement *r, fw_diags *diags) {
+    const fw_process_coupon *kind = kind_named(r->coupon);
+    if (!kind || !kind->rate) return FW_OK;
+    const fw_quantity *q = fw_process_flow_quantity(flow, r->feature);
+    if (q && fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_SPEED))
+        return FW_OK;
+    return fw_diag_error(diags, 605, r->place,
+                         "the feature of %s is the id of a rate of flow '%s', and '%s' is none",
+                         r->coupon, flow->id, r->feature);
+}
+
 fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags *diags) {
     const fw_process_coupon *kind = kind_named(r->coupon);
     if (!kind) return unknown_kind(diags, r);

@@ -344,6 +344,19 @@ static void warn_apart(const fw_process_readings *r, fw_diags *diags) {
     }
 }
 
+/* of a wafer that was scrapped or held by then: what was read is of another state than the flow's */
+static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                   const fw_recipe_coupon *c, fw_diags *diags) {
+    const fw_recipe_asrun_entry *out =
+        e->wafer ? fw_recipe_asrun_out(run, e->wafer, e->end_s) : NULL;
+    if (!out) return false;
+    fw_diag_warning(diags, 604, c->row.place,
+                    "'%s' of step %s does not count: wafer %s was %s at %s before (line %d)",
+                    c->text, e->step->id, e->wafer, fw_recipe_fate_word(out->fate), out->at->id,
+                    out->line);
+    return true;
+}
+
 fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
                                    fw_process_readings *readings) {
     int most = 0;
@@ -356,6 +369,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;
+            if (is_out(run, e, c, diags)) continue;
             if (read_again(run, i, k, &again)) {
                 warn_again(&again, diags);
                 continue;
