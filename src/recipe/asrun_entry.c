@@ -54,7 +54,6 @@ static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const cha
     return NULL;
 }
 
-static const char *const fate_words[] = {NULL, "held", "resumed", "scrapped"};
 static const char *const own_words[] = {"start",      "end",      "by",   "second",
                                         "tool",       "bath",     "note", "wafer",
                                         "instrument", "scrapped", "held", "resumed"};
@@ -220,43 +219,12 @@ static fw_status check_wafer(const fw_recipe_asrun_reader *r, const char *id) {
 
 /* ---- what became of a wafer ---- */
 
-const char *fw_recipe_fate_word(fw_recipe_fate fate) {
-    return fate_words[fate];
-}
-
-const fw_recipe_asrun_entry *fw_recipe_asrun_out(const fw_recipe_asrun *run, const char *wafer,
-                                                 double time_s) {
-    const fw_recipe_asrun_entry *last = NULL;
-    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
-        if (e->fate != FW_FATE_RUN && strcmp(e->wafer, wafer) == 0 && e->start_s < time_s) last = e;
-    return last && last->fate != FW_FATE_RESUMED ? last : NULL;
-}
-
-bool fw_recipe_asrun_expects(const fw_recipe_asrun *run, const fw_process_step *step,
-                             const char *wafer) {
-    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
-        if (e->step == step && (!e->wafer || strcmp(e->wafer, wafer) == 0)) return false;
-    return !fw_recipe_asrun_out(run, wafer, (double)INFINITY);
-}
-
-int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *run, int steps,
-                          fw_recipe_fate fate) {
-    int n = 0;
-    for (int i = 0; i < run->nwafer; i++) {
-        const fw_recipe_asrun_entry *out =
-            fw_recipe_asrun_out(run, run->wafer[i], (double)INFINITY);
-        const bool before = out && out->at < flow->step + steps;
-        n += before ? out->fate == fate : fate == FW_FATE_RUN;
-    }
-    return n;
-}
-
 static fw_status read_fate(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                            fw_recipe_fate fate, const char *why) {
     if (e->fate != FW_FATE_RUN)
         return fw_diag_error(r->diags, 282, r->place,
                              "the entry says %s and %s of a wafer: one entry says one of them",
-                             fate_words[e->fate], fate_words[fate]);
+                             fw_recipe_fate_word(e->fate), fw_recipe_fate_word(fate));
     e->fate = fate;
     e->why = why;
     return FW_OK;
@@ -270,7 +238,7 @@ static fw_status check_fate(const fw_recipe_asrun_reader *r, const fw_recipe_asr
         if (other->wafer && strcmp(other->wafer, e->wafer) == 0 && e->start_s < other->end_s)
             return fw_diag_error(r->diags, 603, r->place,
                                  "wafer %s is %s at %s, before what is in line %d (%s, to %s)",
-                                 e->wafer, fate_words[e->fate], e->start, other->line,
+                                 e->wafer, fw_recipe_fate_word(e->fate), e->start, other->line,
                                  other->at->id, other->end);
         if (other->fate != FW_FATE_RUN && strcmp(other->wafer, e->wafer) == 0) out = other;
     }
@@ -283,7 +251,7 @@ static fw_status check_fate(const fw_recipe_asrun_reader *r, const fw_recipe_asr
                              out && out->fate == FW_FATE_SCRAPPED ? ": it is scrapped" : "");
     if ((held && e->fate == FW_FATE_HELD) || (out && out->fate == FW_FATE_SCRAPPED))
         return fw_diag_error(r->diags, 603, r->place, "wafer %s was %s at %s already (line %d)",
-                             e->wafer, fate_words[out->fate], out->at->id, out->line);
+                             e->wafer, fw_recipe_fate_word(out->fate), out->at->id, out->line);
     return FW_OK;
 }
 
@@ -300,8 +268,8 @@ static fw_status check_there(const fw_recipe_asrun_reader *r, const fw_recipe_as
     if (!out) return FW_OK;
     return fw_diag_error(r->diags, 603, r->place,
                          "wafer %s was %s at %s, %s (line %d: %s): no later entry of it is taken%s",
-                         e->wafer, fate_words[out->fate], out->at->id, out->start, out->line,
-                         out->why,
+                         e->wafer, fw_recipe_fate_word(out->fate), out->at->id, out->start,
+                         out->line, out->why,
                          out->fate == FW_FATE_HELD ? "; where it goes on, log resumed= first" : "");
 }
 
@@ -332,9 +300,8 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
                                  name, value);
         return field[i].text == &e->wafer ? check_wafer(r, value) : FW_OK;
     }
-    for (int fate = FW_FATE_HELD; fate <= FW_FATE_SCRAPPED; fate++)
-        if (strcmp(name, fate_words[fate]) == 0)
-            return read_fate(r, e, (fw_recipe_fate)fate, value);
+    for (fw_recipe_fate fate = FW_FATE_HELD; fate <= FW_FATE_SCRAPPED; fate++)
+        if (strcmp(name, fw_recipe_fate_word(fate)) == 0) return read_fate(r, e, fate, value);
     if (strncmp(name, "set ", 4) == 0) return read_setting(r, e, name + 4, value);
     if (strcmp(name, "coupon") == 0) return read_coupon(r, e, value);
     return read_measure(r, e, name, value);
@@ -345,12 +312,12 @@ static fw_status check_alone(const fw_recipe_asrun_reader *r, const fw_recipe_as
     if (!e->wafer)
         return fw_diag_error(r->diags, 282, r->place,
                              "%s= is of one wafer: add wafer=, and an entry for each of several",
-                             fate_words[e->fate]);
+                             fw_recipe_fate_word(e->fate));
     if (e->nmeasured || e->nset || e->ncoupon || e->end_s != e->start_s)
         return fw_diag_error(r->diags, 282, r->place,
                              "%s= is an entry of its own, at one time and without values: log what "
                              "was run and measured of wafer %s with an entry of the step before it",
-                             fate_words[e->fate], e->wafer);
+                             fw_recipe_fate_word(e->fate), e->wafer);
     return r->fresh ? check_fate(r, e) : FW_OK;
 }
 

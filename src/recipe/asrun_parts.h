@@ -67,7 +67,7 @@ typedef struct fw_recipe_asrun_total {
 fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                  fw_arena *arena, fw_recipe_asrun_total *total);
 
-/* ---- what became of wafers: asrun_entry.c ---- */
+/* ---- what became of wafers: asrun_values.c ---- */
 
 /* "scrapped", "held", "resumed" */
 const char *fw_recipe_fate_word(fw_recipe_fate fate);

@@ -271,6 +271,40 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
     return fw_process_measurement_check(&c->row, r->diags);
 }
 
+/* ---- what became of wafers ---- */
+
+const char *fw_recipe_fate_word(fw_recipe_fate fate) {
+    static const char *const word[] = {NULL, "held", "resumed", "scrapped"};
+    return word[fate];
+}
+
+const fw_recipe_asrun_entry *fw_recipe_asrun_out(const fw_recipe_asrun *run, const char *wafer,
+                                                 double time_s) {
+    const fw_recipe_asrun_entry *last = NULL;
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
+        if (e->fate != FW_FATE_RUN && strcmp(e->wafer, wafer) == 0 && e->start_s < time_s) last = e;
+    return last && last->fate != FW_FATE_RESUMED ? last : NULL;
+}
+
+bool fw_recipe_asrun_expects(const fw_recipe_asrun *run, const fw_process_step *step,
+                             const char *wafer) {
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
+        if (e->step == step && (!e->wafer || strcmp(e->wafer, wafer) == 0)) return false;
+    return !fw_recipe_asrun_out(run, wafer, (double)INFINITY);
+}
+
+int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *run, int steps,
+                          fw_recipe_fate fate) {
+    int n = 0;
+    for (int i = 0; i < run->nwafer; i++) {
+        const fw_recipe_asrun_entry *out =
+            fw_recipe_asrun_out(run, run->wafer[i], (double)INFINITY);
+        const bool before = out && out->at < flow->step + steps;
+        n += before ? out->fate == fate : fate == FW_FATE_RUN;
+    }
+    return n;
+}
+
 /* ---- the coupons of a log, as calibrate takes them ---- */
 
 /* Is b, which comes later, in the place of a? It reads the same feature of the same drawn size again. A rate is read off
