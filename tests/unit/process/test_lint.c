@@ -631,6 +631,8 @@ static void who_is_there(void **state) {
         const char *says;
     } at[] = {
         {al, "equipment=\"al-bench\" in-source=\"yes\" batch=\"1\" attended=\"2\"", 617, "somebody is at step S14 for 2 min"},
+        {"equipment=\"litho-bench\" in-source=\"yes\" batch=\"1\" attended=\"5\">",
+         "equipment=\"litho-bench\" in-source=\"yes\" batch=\"1\" attended=\"0.5\">", 617, "somebody is at step S11 for 0.5 min"},
         {al, "equipment=\"al-bench\" in-source=\"yes\" batch=\"1\" attended=\"220\"", 609, "somebody stands at step S14 for 220 min"},
         {"equipment=\"rie\" in-source=\"yes\" batch=\"1\" attended=\"15\"", "equipment=\"rie\" in-source=\"yes\" batch=\"1\" attended=\"480\"",
          609, "somebody stands at step S18 for 480 min"},
