@@ -414,10 +414,9 @@ static void find_roots(const fw_mechanism_builder *b, const fw_mechanism_hinge *
    what its ends lose may also be a formula's that leaves these out, as the printed one does: then a
    moment strains the strip less than by a softer material */
 static fw_status scale_hinge(const fw_mechanism_builder *b, double by, fw_mechanism_hinge *hinge) {
-    fw_flexure_result *c = &hinge->closed_form;
-    const double ends = c->ends_stiffer;
+    const double ends = hinge->closed_form.ends_stiffer;
     hinge->scale = by;
-    if (hinge->stated) c->error.strain += 1 - fmin(fmax(by, 1), ends) / ends;
+    if (hinge->stated) hinge->stated_less = 1 - fmin(fmax(by, 1), ends) / ends;
     fw_flexure_path_strain_scale(&hinge->section, by);
     return fw_flexure_hinge_law_scale(b->arena, &hinge->law, by);
 }
