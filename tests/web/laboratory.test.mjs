@@ -74,11 +74,11 @@ describe("numbers of the laboratory", () => {
         await page.click("#log-add");
         await page.waitForSelector('.as-run .messages:has-text("FW-D282")', { timeout: 60000 });
         assert.equal(existsSync(log), false, "a refused entry begins no log");
-        await fill("ended", "2026-11-20T10:21");
+        await fill("ended", "2026-11-20T10:50");
         await page.click("#log-add");
         await read(1);
         assert.match(await page.textContent(".as-run .messages"), /does not give 'cracks or chipped edge'/); // what a colleague would ask stays
-        assert.match(await page.textContent(".log-deviations"), /S01: duration is 21 min, planned 8 min/);
+        assert.match(await page.textContent(".log-deviations"), /S01: duration is 50 min, planned 16 min/);
         // the terminal goes on with it, and the page after it
         execFileSync(program, ["log", server.file, "--flow", FLOW, "--run", log, "-q", "--entry", "S02; start=2026-11-20T11:00; end=2026-11-20T11:35; by=CD; particles in bright light=0"], { cwd: source, stdio: "ignore" });
         await page.selectOption('.log-form select[aria-label="Step"]', "S18");
