@@ -306,9 +306,8 @@ fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
 
 static void moduli_of(const fw_flexure_crystal *k, fw_flexure_beam *out) {
     out->cubic = true;
-    out->a0_per_Pa = k->a0_per_Pa, out->g0_per_Pa = k->g0_per_Pa;
+    out->a0_per_Pa = k->a0_per_Pa;
     out->a1_per_Pa = k->aligned ? k->a1_per_Pa : 0; /* else the mean over all directions */
-    out->g1_per_Pa = k->aligned ? k->g1_per_Pa : 0;
     out->orientation_rad = 0.25 * atan2(k->sin4, k->cos4);
 }
 
@@ -467,7 +466,11 @@ fw_status fw_flexure_path_beam(fw_arena *arena, const fw_flexure_input *in,
                              .width = width,
                              .stiffer = stiffer,
                              .context = strip};
-    if (strip->stuff.elastic.known) moduli_of(&strip->stuff.elastic, out);
+    const fw_flexure_crystal *k = &strip->stuff.elastic;
+    if (k->known) {
+        moduli_of(k, out);
+        out->g0_per_Pa = k->g0_per_Pa, out->g1_per_Pa = k->aligned ? k->g1_per_Pa : 0;
+    }
     give_ends(strip, out);
     fw_flexure_beam_compliance(out, &linear);
     out->depth_factor = linear.c[0][0] * closed_form->stiffness_Nm_per_rad;
