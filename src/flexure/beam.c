@@ -38,26 +38,32 @@ static double width_at(const fw_flexure_beam *b, int piece, double s_m) {
     return w[0] + z * rise - z * (1 - z) * bow;
 }
 
-/* of 1/E, by both ends; those of the first and the last piece alone are felt there */
+/* of 1/E, by both ends */
 static double lost_at(const fw_flexure_beam *b, int piece, double s_m) {
-    double sum = 0;
-    if (b->lost_per_Pa == 0) return 0;
-    if (piece == 0) sum += exp(-s_m / b->lost_m);
-    if (piece == b->npiece - 1) sum += exp((s_m - b->piece[piece].length_m) / b->lost_m);
-    return b->lost_per_Pa * sum;
+    double before = s_m, behind = -s_m, sum = 0;
+    if (b->lost_per_Pa[0] == 0 && b->lost_per_Pa[1] == 0) return 0;
+    for (int i = 0; i < piece; i++)
+        before += b->piece[i].length_m;
+    for (int i = piece; i < b->npiece; i++)
+        behind += b->piece[i].length_m;
+    if (b->lost_per_Pa[0] != 0) sum += b->lost_per_Pa[0] * exp(-before / b->lost_m[0]);
+    if (b->lost_per_Pa[1] != 0) sum += b->lost_per_Pa[1] * exp(-behind / b->lost_m[1]);
+    return sum;
 }
 
 void fw_flexure_beam_at(const fw_flexure_beam *b, int piece, const fw_flexure_beam_pose *start,
                         double s_m, fw_flexure_beam_section *out) {
     out->pose = along(start, b->piece[piece].curvature_per_m, s_m);
     double t = out->width_m = width_at(b, piece, s_m);
-    double per_E =
-        b->cubic ? b->a0_per_Pa + b->a1_per_Pa * cos(4 * (out->pose.psi_rad + b->orientation_rad))
-                 : 1 / b->youngs_Pa;
+    double four = b->cubic ? cos(4 * (out->pose.psi_rad + b->orientation_rad)) : 0;
+    double per_E = b->cubic ? b->a0_per_Pa + b->a1_per_Pa * four : 1 / b->youngs_Pa;
+    double per_G = b->cubic ? b->g0_per_Pa + b->g1_per_Pa * four : 0;
     double per_A = 1 / (b->depth_m * t), depth = b->depth_factor > 0 ? b->depth_factor : 1;
+    if (!(per_G > 0)) per_G = 1 / b->shear_Pa;
+    if (b->stiffer) depth *= b->stiffer(b->context, piece, s_m);
     out->bend_per_Nm2 = 12 * (per_E - lost_at(b, piece, s_m)) * per_A / (t * t * depth);
     out->axial_per_N = b->inextensible ? 0 : per_E * per_A;
-    out->shear_per_N = b->inextensible ? 0 : 1.2 * per_A / b->shear_Pa;
+    out->shear_per_N = b->inextensible ? 0 : 1.2 * per_A * per_G;
 }
 
 /* sums over the beam, about a point: of 1/EI times 1, x, y, x^2, x y, y^2, and of what axial and

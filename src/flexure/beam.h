@@ -15,8 +15,8 @@ typedef struct fw_flexure_beam_piece {
     double width_m[3];                /* start, middle, end: the parabola through them */
 } fw_flexure_beam_piece;
 
-/* width at s_m from the start of a piece, where a parabola is not enough; smooth within a piece */
-typedef double fw_beam_width(const void *context, int piece, double s_m);
+/* of the section at s_m from the start of a piece; smooth within a piece */
+typedef double fw_beam_course(const void *context, int piece, double s_m);
 
 typedef struct fw_flexure_beam {
     const fw_flexure_beam_piece *piece;
@@ -25,12 +25,14 @@ typedef struct fw_flexure_beam {
     double depth_m, youngs_Pa, shear_Pa;
     double depth_factor; /* EI over that of plane stress; 0 is taken as 1 */
     double root_m[2];    /* length dL added at each end: a point rotation dL/EI */
-    bool cubic;          /* 1/E = a0 + a1 cos 4(psi + orientation), not 1/youngs_Pa */
+    bool cubic;          /* 1/E = a0 + a1 cos 4(psi + orientation), not 1/youngs_Pa; 1/G likewise */
     double a0_per_Pa, a1_per_Pa, orientation_rad; /* orientation: of the frame's x from [100] */
-    double lost_per_Pa, lost_m; /* what either end takes of 1/E in bending, s from it:
-                                   lost exp(-s/lost_m); 0: nothing */
-    bool inextensible;          /* no axial and no shear strain */
-    fw_beam_width *width;       /* NULL: width_m of the pieces */
+    double g0_per_Pa, g1_per_Pa;                  /* both 0: 1/shear_Pa */
+    double lost_per_Pa[2], lost_m[2]; /* what the first and the second end take of 1/E in bending, s
+                                         from it: lost exp(-s/lost_m); 0: nothing */
+    bool inextensible;                /* no axial and no shear strain */
+    fw_beam_course *width;            /* NULL: width_m of the pieces */
+    fw_beam_course *stiffer; /* EI over that of plane stress, times depth_factor; NULL: 1 */
     const void *context;
 } fw_flexure_beam;
 

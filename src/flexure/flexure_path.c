@@ -66,21 +66,29 @@ void fw_flexure_path_root(const fw_flexure_course *p, const fw_flexure_path_stuf
     *root_m = (block * mean + (p->root_m[end] - block) * along) / along;
 }
 
+fw_flexure_end_loss fw_flexure_path_end(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
+                                        int end) {
+    const fw_geometry_strip_piece *q = &p->shape[end ? p->n - 1 : 0].piece;
+    double length = 0, f = 1, t = q->width_m[2 * end], h = m->end_depth_m, k = q->curvature_per_m;
+    if (!m->elastic.known) return (fw_flexure_end_loss){0};
+    for (int i = 0; i < p->n; i++)
+        length += p->shape[i].piece.length_m;
+    if (k != 0) f = depth_at(m, h * sqrt(fabs(k) / t)).bow;
+    double block = p->concentration[end] == 1 ? 0 : fw_flexure_root_block_m(t, 0);
+    return fw_flexure_end_loss_of(&m->elastic, h, f, length, block);
+}
+
 /* mean of P over exp(-s/l) along the arc (line) that the strip ends with: P + l (T + q N)/(1 +
    q^2), T inwards, N to the centre of curvature, q = l/R */
 void fw_flexure_path_end_loss(const fw_flexure_course *p, const fw_flexure_path_stuff *m, int end,
                               fw_flexure_path_section *at, double *loss_m) {
-    double root, length = 0, f = 1;
+    double root;
     fw_flexure_path_root(p, m, end, at, &root);
     *loss_m = 0;
     if (!m->elastic.known) return;
-    for (int i = 0; i < p->n; i++)
-        length += p->shape[i].piece.length_m;
-    double k = p->shape[end ? p->n - 1 : 0].piece.curvature_per_m, t = at->width_m;
-    double h = m->end_depth_m, inwards = end ? -1 : 1, psi = at->pose.angle_rad;
-    double block = p->concentration[end] == 1 ? 0 : fw_flexure_root_block_m(t, 0);
-    if (k != 0) f = depth_at(m, h * sqrt(fabs(k) / t)).bow;
-    const fw_flexure_end_loss loss = fw_flexure_end_loss_of(&m->elastic, h, f, length, block);
+    double k = p->shape[end ? p->n - 1 : 0].piece.curvature_per_m;
+    double inwards = end ? -1 : 1, psi = at->pose.angle_rad;
+    const fw_flexure_end_loss loss = fw_flexure_path_end(p, m, end);
     double q = loss.reach_m * k, far = loss.reach_m / (1 + q * q); /* N: to the left times k */
     at->neutral_x_m = at->pose.x_m + far * (inwards * cos(psi) - q * sin(psi));
     at->neutral_y_m = at->pose.y_m + far * (inwards * sin(psi) + q * cos(psi));

@@ -304,6 +304,13 @@ fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
 
 /* ---- the beam of beam.h that a flexure is, with the corrections of its closed form ---- */
 
+static void moduli_of(const fw_flexure_crystal *k, fw_flexure_beam *out) {
+    out->cubic = true;
+    out->a0_per_Pa = k->a0_per_Pa;
+    out->a1_per_Pa = k->aligned ? k->a1_per_Pa : 0; /* else the mean over all directions */
+    out->orientation_rad = 0.25 * atan2(k->sin4, k->cos4);
+}
+
 /* the crystal of the closed form in the frame of the flexure; psi of a tangent is a quarter turn
    off the polar angle, which cos 4 psi does not feel. The two roots give as
    fw_flexure_root_m_per_Pa has it, the ends take away what fw_flexure_end_loss_of says, spread as
@@ -314,10 +321,7 @@ static void elastic_of(const fw_flexure_input *in, const fw_flexure_result *clos
     double turn = 0.5 * FW_PI - out->psi_rad; /* from the middle to either end */
     fw_flexure_shape shape;
     fw_flexure_shape_of(in, &shape);
-    out->cubic = true;
-    out->a0_per_Pa = k->a0_per_Pa;
-    out->a1_per_Pa = k->aligned ? k->a1_per_Pa : 0; /* else the mean over all directions */
-    out->orientation_rad = 0.25 * atan2(k->sin4, k->cos4);
+    moduli_of(k, out);
     out->depth_factor = closed_form->depth_factor * shape.golovin;
     out->shear_Pa = closed_form->youngs_Pa / (2 * (1 + closed_form->poisson));
     double h = in->depth_m, L = in->length_m, t = in->width_m, E = closed_form->youngs_Pa, f = 1;
@@ -325,11 +329,11 @@ static void elastic_of(const fw_flexure_input *in, const fw_flexure_result *clos
         f = fw_flexure_depth_crystal(h / sqrt(in->radius_m * t), k, E).bow;
     const fw_flexure_end_loss loss = fw_flexure_end_loss_of(k, h, f, L, shape.root_block_m);
     double far = exp(-L / loss.reach_m);
-    out->lost_m = loss.reach_m;
-    out->lost_per_Pa = k->bow_per_Pa * loss.length_m / (loss.reach_m * (1 - far));
+    double lost = k->bow_per_Pa * loss.length_m / (loss.reach_m * (1 - far));
     for (int end = 0; end < 2; end++) {
         double four = 4 * (out->orientation_rad + (end ? turn : -turn));
-        double per_E = out->a0_per_Pa + out->a1_per_Pa * cos(four) - out->lost_per_Pa * (1 + far);
+        double per_E = out->a0_per_Pa + out->a1_per_Pa * cos(four) - lost * (1 + far);
+        out->lost_per_Pa[end] = lost, out->lost_m[end] = loss.reach_m;
         out->root_m[end] = fw_flexure_root_m_per_Pa(&shape, k, k->aligned ? cos(four) : 0) / per_E;
     }
 }
@@ -359,20 +363,89 @@ void fw_flexure_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_res
     if (fw_flexure_elastic_of(in).known) elastic_of(in, closed_form, out);
 }
 
+/* what the sections of a path's beam are asked of */
+typedef struct strip_made {
+    fw_flexure_course course;
+    fw_flexure_path_stuff stuff;
+} strip_made;
+
 static double width(const void *context, int piece, double s_m) {
-    return fw_geometry_strip_width((const fw_geometry_strip_shape *)context + piece, s_m);
+    const strip_made *strip = context;
+    return fw_geometry_strip_width(&strip->course.shape[piece], s_m);
 }
 
-/* One depth factor for the whole: what makes 1/C_th of the beam the stiffness of the closed form,
-   which has it at every place. In, out: SI. Cost: that of fw_flexure_beam_compliance.
-   Test: test_path.c beam_of_a_path */
+/* D g */
+static double stiffer(const void *context, int piece, double s_m) {
+    const strip_made *strip = context;
+    fw_flexure_path_section at;
+    if (strip->course.shape[piece].piece.curvature_per_m == 0) return 1;
+    fw_flexure_path_section_at(&strip->course, &strip->stuff, piece, s_m, &at);
+    return at.depth.stiffness * at.golovin;
+}
+
+/* int exp(-s/l) ds/(I D g) of an end, s from it, as l int 1/(I D g) du with u = exp(-s/l) */
+static double felt_by(const strip_made *strip, int end, double l_m) {
+    const fw_flexure_course *p = &strip->course;
+    double node[NODES], weight[NODES], length = 0, sum = 0;
+    for (int i = 0; i < p->n; i++)
+        length += p->shape[i].piece.length_m;
+    fw_flexure_gauss_rule(NODES, node, weight);
+    const double far = exp(-length / l_m), step = (1 - far) / PANELS;
+    for (int k = 0; k < PANELS * NODES; k++) {
+        double s = -l_m * log(far + (k / NODES + node[k % NODES]) * step);
+        double from = end ? length - s : s;
+        int i = 0;
+        for (; i < p->n - 1 && from > p->shape[i].piece.length_m; i++)
+            from -= p->shape[i].piece.length_m;
+        double t = width(strip, i, from), h = strip->stuff.depth_m;
+        sum += l_m * step * weight[k % NODES] * 12 / (h * t * t * t * stiffer(strip, i, from));
+    }
+    return sum;
+}
+
+/* Roots that give, and ends that lose, as much as those of the closed form: of a crystal the block has its
+   mean modulus, and what an end loses is spread as fw_flexure_end_loss_of found it. The ends count three
+   times as much in what a force bends as in what a moment turns, so that a beam without them cannot
+   have both from one factor on all of its length. Test: test_path_law.c beam_of_a_crystal */
+static void give_ends(const strip_made *strip, fw_flexure_beam *out) {
+    const double most = 0.5; /* of 1/E: of a strip that is many times as wide soon behind its end */
+    const fw_flexure_course *p = &strip->course;
+    double root[2], soft[2];
+    for (int end = 0; end < 2; end++) {
+        fw_flexure_path_section at;
+        fw_flexure_path_root(p, &strip->stuff, end, &at, &root[end]);
+        soft[end] = at.bend_per_Nm2;
+        const fw_flexure_end_loss loss = fw_flexure_path_end(p, &strip->stuff, end);
+        if (!(loss.length_m > 0)) continue;
+        double inertia = at.thin_per_Nm2 / at.bend_per_Nm2 * at.width_m * at.width_m * at.width_m *
+                         strip->stuff.depth_m / 12;
+        out->lost_m[end] = loss.reach_m;
+        double lost = strip->stuff.elastic.bow_per_Pa * loss.length_m / inertia;
+        out->lost_per_Pa[end] =
+            fmin(lost / felt_by(strip, end, loss.reach_m), most * out->a0_per_Pa);
+    }
+    for (int end = 0; end < 2; end++) { /* the root's rotation is counted in the section there */
+        fw_flexure_beam_section at;
+        const int i = end ? p->n - 1 : 0;
+        const fw_flexure_beam_pose from = {p->start[i].x_m, p->start[i].y_m, p->start[i].angle_rad};
+        fw_flexure_beam_at(out, i, &from, end ? p->shape[i].piece.length_m : 0, &at);
+        out->root_m[end] = root[end] * soft[end] / at.bend_per_Nm2;
+    }
+}
+
+/* Width, modulus and depth factor at every place, roots and ends are those of the closed form, and 1/C_th of the
+   beam is its stiffness to rounding: one factor on the whole beam takes what quadratures are off by.
+   Not in it: Winkler's neutral line, by which a moment moves the point that it turns about. In, out: SI.
+   Cost: that of fw_flexure_beam_compliance. Test: test_path.c beam_of_a_path, test_path_law.c */
 fw_status fw_flexure_path_beam(fw_arena *arena, const fw_flexure_input *in,
                                const fw_flexure_result *closed_form, fw_flexure_beam *out) {
-    fw_flexure_course *p;
+    strip_made *strip;
     fw_flexure_beam_piece *piece;
     fw_flexure_beam_linear linear;
-    FW_NEED(p = fw_arena_one(arena, fw_flexure_course));
-    fw_flexure_path_of(in, p);
+    FW_NEED(strip = fw_arena_one(arena, strip_made));
+    const fw_flexure_course *p = &strip->course;
+    fw_flexure_path_of(in, &strip->course);
+    strip->stuff = fw_flexure_path_stuff_of(p, in);
     FW_NEED(piece = fw_arena_array(arena, fw_flexure_beam_piece, (size_t)p->n));
     for (int i = 0; i < p->n; i++) {
         const fw_geometry_strip_piece *q = &p->shape[i].piece;
@@ -390,9 +463,15 @@ fw_status fw_flexure_path_beam(fw_arena *arena, const fw_flexure_input *in,
                              .youngs_Pa = closed_form->youngs_Pa,
                              .shear_Pa = closed_form->youngs_Pa / (2 * (1 + closed_form->poisson)),
                              .depth_factor = 1,
-                             .root_m = {p->root_m[0], p->root_m[1]},
                              .width = width,
-                             .context = p->shape};
+                             .stiffer = stiffer,
+                             .context = strip};
+    const fw_flexure_crystal *k = &strip->stuff.elastic;
+    if (k->known) {
+        moduli_of(k, out);
+        out->g0_per_Pa = k->g0_per_Pa, out->g1_per_Pa = k->aligned ? k->g1_per_Pa : 0;
+    }
+    give_ends(strip, out);
     fw_flexure_beam_compliance(out, &linear);
     out->depth_factor = linear.c[0][0] * closed_form->stiffness_Nm_per_rad;
     return FW_OK;
@@ -410,5 +489,8 @@ fw_status fw_flexure_beam_of_input(fw_arena *arena, const fw_flexure_input *in,
 void fw_flexure_beam_scale(fw_flexure_beam *beam, double by) {
     if (!(by > 0)) return;
     beam->youngs_Pa *= by, beam->shear_Pa *= by;
-    beam->a0_per_Pa /= by, beam->a1_per_Pa /= by, beam->lost_per_Pa /= by;
+    beam->a0_per_Pa /= by, beam->a1_per_Pa /= by;
+    beam->g0_per_Pa /= by, beam->g1_per_Pa /= by;
+    for (int end = 0; end < 2; end++)
+        beam->lost_per_Pa[end] /= by;
 }

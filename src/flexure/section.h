@@ -112,6 +112,9 @@ void fw_flexure_path_section_at(const fw_flexure_course *path, const fw_flexure_
 /* dL/(EI) of an end without and with depth: per N m */
 void fw_flexure_path_root(const fw_flexure_course *path, const fw_flexure_path_stuff *stuff,
                           int end, fw_flexure_path_section *at, double *root_m);
+/* what an end of it loses; nothing where the material's moduli are not known by direction */
+fw_flexure_end_loss fw_flexure_path_end(const fw_flexure_course *path,
+                                        const fw_flexure_path_stuff *stuff, int end);
 /* of the second kind: d of fw_flexure_end_loss_of; neutral_*: where it counts */
 void fw_flexure_path_end_loss(const fw_flexure_course *path, const fw_flexure_path_stuff *stuff,
                               int end, fw_flexure_path_section *at, double *loss_m);

@@ -94,6 +94,8 @@ typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
     fw_flexure_path_strain section;
     fw_flexure_hinge_law law;
     double scale; /* stated stiffness over its own; 1: none is stated, or 0 */
+    double
+        stated_less; /* share by which a moment may strain it less than the stated stiffness says */
     /* the arc as drawn: direction, in the world, from the arc's centre to the middle of the arc
        (leaf: across it); `first` is the body at polar angle -a from there (element frame of
        flexure.h) */

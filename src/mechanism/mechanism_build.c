@@ -409,10 +409,14 @@ static void find_roots(const fw_mechanism_builder *b, const fw_mechanism_hinge *
     pin->root_b_m = turned_back(body_of(b, pin->body_b), root[hinge->first_is_a ? 1 : 0]);
 }
 
-/* a stated stiffness was measured, or computed better than here: what made it another one than the
-   geometry's makes the strip's other forces others by as much */
+/* A stated stiffness was measured, or computed better than here: what made it another one than the
+   geometry's makes the strip's other forces others by as much. One that is less than the geometry's with
+   what its ends lose may also be a formula's that leaves these out, as the printed one does: then a
+   moment strains the strip less than by a softer material */
 static fw_status scale_hinge(const fw_mechanism_builder *b, double by, fw_mechanism_hinge *hinge) {
+    const double ends = hinge->closed_form.ends_stiffer;
     hinge->scale = by;
+    if (hinge->stated) hinge->stated_less = 1 - fmin(fmax(by, 1), ends) / ends;
     fw_flexure_path_strain_scale(&hinge->section, by);
     return fw_flexure_hinge_law_scale(b->arena, &hinge->law, by);
 }

@@ -116,15 +116,16 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
         motion->ledger.hinge.used == FW_HINGE_REVOLUTE || moved >= fw_verdict_model_error.motion;
     double up = (usual ? moved : fmax(moved - less, 0)) + bent;
     out->lasting = fmin(up, stays) + c->error.above;
-    out->lasting_low = stays + c->error.strain;
+    const double stated = by->hinge->stated_less, down = moved + stated;
+    out->lasting_low = stays + stated + c->error.strain;
     if (out->utilisation > 0) out->lasting_low += 1 - least / out->utilisation;
-    out->utilisation_low = fmax(0.0, least * (1.0 - moved - bent - c->error.strain) - numeric);
+    out->utilisation_low = fmax(0.0, least * (1.0 - down - bent - c->error.strain) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + up + c->error.above) + numeric;
     double share = out->utilisation > 0 ? 1 / out->utilisation : 0, kept = least * share;
     double common = fmin(fw_verdict_motion_lasting_error(by->m), moved);
     double above = fmin(fw_verdict_motion_lasting_above(by->m), up - bent);
     out->parts = (fw_verdict_band_parts){.root = {kept * c->error.strain, c->error.above},
-                                         .stiffness = {kept * common, above},
+                                         .stiffness = {kept * (common + stated), above},
                                          .model = {kept * (moved - common), up - bent - above},
                                          .place = {1 - kept, 0},
                                          .bodies = {kept * bent, bent},
@@ -181,11 +182,12 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     double share =
         load->known && load->over_rotation > 0.0 ? fabs(1.0 - 1.0 / load->over_rotation) : 0.0;
     double moved = share * fw_verdict_motion_lasting_error(by->m);
+    double down = moved + share * by->hinge->stated_less;
     double fades = load->known ? faded(by->hinge, load->force_N, out->peak_strain) : 0;
     double numeric =
         load->known ? load->error / out->strain_limit : peak->error_rad / c->limit_angle_rad;
     out->numeric = 0.0; /* no run makes the proof closer */
-    double low = moved + c->error.strain + fades + load->relief;
+    double low = down + c->error.strain + fades + load->relief;
     out->lasting = moved + c->error.above + load->give;
     out->lasting_low = low;
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - low) - numeric);
@@ -193,7 +195,7 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     if (!workspace->certified) out->utilisation_high += numeric;
     double open = out->utilisation > 0 ? numeric / out->utilisation : 0;
     out->parts = (fw_verdict_band_parts){.root = {c->error.strain, c->error.above},
-                                         .stiffness = {moved, moved},
+                                         .stiffness = {down, moved},
                                          .model = {load->relief, load->give},
                                          .place = {fades, 0},
                                          .numbers = {open, workspace->certified ? 0 : open}};

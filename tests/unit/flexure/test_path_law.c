@@ -2,6 +2,7 @@
 /* Paths at finite rotation: against the law of plain arcs, against the exact beam, derivatives. */
 #include "flexure/beam.h"
 #include "flexure/path.h"
+#include "flexure/section.h"
 #include "test.h"
 
 static uint64_t seed = 0xbead;
@@ -168,10 +169,74 @@ static void derivatives_of_the_table(void **state) {
     fw_arena_free(arena);
 }
 
+/* the beam's compliance against the closed form's, at W: rotation, along and across. spread: m/N less along,
+   since what ends lose is spread */
+static void has_compliance(fw_arena *arena, const fw_flexure_input *in, double spread, double tol,
+                           double place) {
+    fw_flexure_result out;
+    fw_flexure_beam beam;
+    fw_flexure_beam_linear linear;
+    fw_flexure_closed_form(in, &out);
+    assert_int_equal(fw_flexure_path_beam(arena, in, &out, &beam), FW_OK);
+    fw_flexure_beam_compliance(&beam, &linear);
+    assert_relative(linear.c[0][0] * out.stiffness_Nm_per_rad, 1, 1e-9);
+    assert_relative(linear.c[1][1], out.compliance[1][1] - spread, tol);
+    assert_relative(linear.c[2][2], out.compliance[2][2], tol);
+    assert_near(linear.centre_m[0], out.centre_m + out.offset_m[0], place);
+    assert_near(linear.centre_m[1], out.offset_m[1], place);
+    assert_relative(beam.depth_factor, 1, 1e-4); /* its parts have the stiffness by themselves */
+}
+
+/* Ends of a crystal lose up to 3 % of what a force bends, a third of that of what a moment turns, and blocks
+   give with the mean modulus: the beam has both, in any direction. What an end loses stands l from it in the
+   closed form, and is spread as exp(-s/l) in the beam, with a variance of l^2 */
+static void beam_of_a_crystal(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    seed = 0x51c0;
+    for (int trial = 0; trial < 16; trial++) {
+        fw_flexure_input in = arc(100e-6, 4, uniform(4e-6, 10e-6));
+        double t = in.width_m;
+        in.kind = FW_FLEXURE_LEAF, in.radius_m = in.angle_rad = 0;
+        in.length_m = uniform(20, 60) * t, in.depth_m = uniform(2, 10) * t;
+        in.width_middle_m = uniform(0.6, 1.3) * t, in.fillet_m = uniform(0.2, 0.7) * t;
+        in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(0, 1.6));
+        const fw_flexure_end_loss loss = fw_flexure_end_loss_of(
+            &in.crystal, in.depth_m, 1, in.length_m, fw_flexure_root_block_m(t, in.fillet_m));
+        double lost = 2 * in.crystal.bow_per_Pa * loss.length_m * 12 / (in.depth_m * t * t * t);
+        has_compliance(arena, &in, lost * loss.reach_m * loss.reach_m, 0.008, 1e-12);
+        /* two pieces, one of them as an arc whose direction goes through all of the crystal's */
+        const fw_geometry_strip_piece hook[2] = {{20 * t, 0, {t, t, 0.9 * t}},
+                                                 {40 * t, 1 / (20 * t), {0.9 * t, t, t}}};
+        in.kind = FW_FLEXURE_PATH, in.piece = hook, in.npiece = 2;
+        in.length_m = in.width_middle_m = 0, in.depth_m = fmin(in.depth_m, 4 * t);
+        has_compliance(arena, &in, 0, 0.005, 0.002 * 20 * t);
+    }
+    fw_arena_free(arena);
+}
+
+/* an arc in plane strain between lines in plane stress: each has its own depth factor */
+static void beam_of_two_depths(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_geometry_strip_piece hairpin[3] = {{150e-6, 0, {4e-6, 4e-6, 4e-6}},
+                                                {60e-6 * 3, 1 / 60e-6, {4e-6, 4e-6, 4e-6}},
+                                                {150e-6, 0, {4e-6, 4e-6, 4e-6}}};
+    fw_flexure_input in = arc(100e-6, 4, 4e-6);
+    in.kind = FW_FLEXURE_PATH, in.piece = hairpin, in.npiece = 3;
+    for (int ends = 0; ends < 2; ends++) {
+        in.ends = ends;
+        has_compliance(arena, &in, 0, 0.001, 0.1e-6);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_arc_has_the_arcs_law),
         cmocka_unit_test(drift_of_the_exact_beam),
+        cmocka_unit_test(beam_of_a_crystal),
+        cmocka_unit_test(beam_of_two_depths),
         cmocka_unit_test(derivatives_of_the_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

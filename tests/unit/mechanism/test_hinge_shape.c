@@ -106,6 +106,48 @@ static void drawings(void **state) {
     }
 }
 
+static const fw_mechanism *built(fw_arena *arena, const fixture *f) {
+    fw_diags diags = fw_diags_new(arena);
+    const fw_layout *l;
+    const fw_mechanism *m;
+    fw_mechanism_variant v = {.thickness_m = 50e-6,
+                              .explicit_mass_scale = 1,
+                              .explicit_stiffness_scale = 1,
+                              .explicit_damping_scale = 1};
+    v.material = (fw_device_material){.id = "silicon",
+                                      .youngs = {.value = 147e9},
+                                      .poisson = {.value = 0.28},
+                                      .density = {.value = 2330},
+                                      .strength = {.value = 1e9}};
+    assert_int_equal(fw_layout_build(arena, &f->device, &diags, &l), FW_OK);
+    assert_int_equal(fw_mechanism_build(arena, &f->device, l, &v, &diags, &m), FW_OK);
+    return m;
+}
+
+/* A stiffness that leaves out what the ends lose, as the printed formula's, says of the strain under a moment less than
+   one that has it: the band's lower end has both (judge.examples, arm-stated-moment.xml) */
+static void stated_as_printed(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture f;
+    fixture_six_bar(&f);
+    const fw_flexure_result own = built(arena, &f)->hinge[0].closed_form;
+    const double ends = own.ends_stiffer, part[] = {0.9, 1, 0.5 * (1 + ends), ends, 1.1};
+    double before = HUGE_VAL;
+    assert_true(ends > 1.001 && ends < 1.1);
+    for (int i = 0; i < 5; i++) {
+        f.revolute[0].stiffness_Nm_per_rad = part[i] * own.stiffness_Nm_per_rad;
+        const fw_mechanism_hinge *h = &built(arena, &f)->hinge[0];
+        assert_true(h->stated);
+        double more = h->stated_less;
+        if (part[i] <= 1) assert_relative(more, 1 - 1 / ends, 1e-9);
+        if (part[i] >= ends) assert_near(more, 0, 1e-12);
+        assert_true(more <= before);
+        before = more;
+    }
+    fw_arena_free(arena);
+}
+
 /* bodies of a joint named the other way round: the same drawing, the other sense */
 static void named_the_other_way(void **state) {
     (void)state;
@@ -121,6 +163,7 @@ static void named_the_other_way(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(drawings),
+                                       cmocka_unit_test(stated_as_printed),
                                        cmocka_unit_test(named_the_other_way)};
     return cmocka_run_group_tests_name("hinge shape", tests, NULL, NULL);
 }
