@@ -403,6 +403,7 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data, whole.length,
                                 &plan->diags, run));
     FW_TRY(check_head(plan->arena, &plan->diags, options->run, begun, run));
+    run->table = pf->table;
     FW_TRY(entries_of(plan, options, run, &list));
     FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,
                                        (size_t)(run->nentry + list.n), sizeof *run->entry));

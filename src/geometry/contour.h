@@ -112,6 +112,17 @@ double fw_geometry_contour_distance(const fw_geometry_contour *p, const fw_geome
 double fw_geometry_contour_distance_below(const fw_geometry_contour *p,
                                           const fw_geometry_contour *q, double limit_m,
                                           fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q);
+/* an outline that many others are compared with */
+typedef struct fw_geometry_boxed {
+    const fw_geometry_contour *contour;
+    const fw_geometry_box *box; /* (count) of its segments */
+    fw_geometry_box whole;
+} fw_geometry_boxed;
+fw_status fw_geometry_contour_boxed(fw_arena *arena, const fw_geometry_contour *contour,
+                                    fw_geometry_boxed *out); /* keeps the contour */
+double fw_geometry_boxed_distance_below(const fw_geometry_contour *p, const fw_geometry_boxed *q,
+                                        double limit_m, fw_geometry_vec2 *at_p,
+                                        fw_geometry_vec2 *at_q);
 /* least distance between segments of one outline that are not neighbours (space or width), with the
    indices of the two; `inside` true: through material (width), false: through the outside (space).
    Counted are chords between edges that face each other (outward normals more than 90 degrees

@@ -137,60 +137,113 @@ double fw_geometry_segment_distance(const fw_geometry_segment *p, const fw_geome
 
 enum { FEW = 1024, RUN = 8 };
 
-/* the segments of q against one of p whose box is given; box: of the first FEW, run: of every RUN
-   of these */
-static double nearest_of(const fw_geometry_segment *s, fw_geometry_box own,
-                         const fw_geometry_contour *q, const fw_geometry_box *box,
-                         const fw_geometry_box *run, double least, fw_geometry_vec2 *at_p,
-                         fw_geometry_vec2 *at_q) {
-    for (int j = 0; j < q->count; j++) {
-        if (j % RUN == 0 && j + RUN <= q->count && j + RUN <= FEW &&
-            (fw_box_apart(&own, &run[j / RUN], least) || fw_box_gap(own, run[j / RUN]) >= least)) {
-            j += RUN - 1;
-            continue;
-        }
-        const fw_geometry_segment *t = &q->segment[j];
-        fw_geometry_box there = j < FEW ? box[j] : fw_segment_box(t);
-        if (fw_box_apart(&own, &there, least)) continue;
-        double gap = fw_box_gap(own, there);
-        if (gap >= least || fw_geometry_segment_clear_of(s, &there) >= least ||
-            fw_geometry_segment_clear_of(t, &own) >= least)
-            continue;
-        if (gap > 10 * FW_COINCIDENT_M) { /* then they do not touch */
-            least = nearest_chord(s, t, least, at_p, at_q);
-            continue;
-        }
-        fw_geometry_vec2 here = {0, 0}, across = here;
-        double d = fw_geometry_segment_distance(s, t, &here, &across);
-        if (d < least) {
-            least = d;
-            *at_p = here;
-            *at_q = across;
-        }
+/* the segments of an outline that may be near the other one, in their order */
+typedef struct listed {
+    const fw_geometry_contour *of;
+    fw_geometry_box whole; /* around all of them */
+    int n, rest;           /* listed; from `rest` on none is, and all may be near */
+    int which[FEW];
+    fw_geometry_box box[FEW], run[FEW / RUN]; /* of each, of every RUN of these */
+} listed;
+
+/* A segment that is `limit` away from a box is so from every segment within that box: also as rounded, since no step
+   of a gap falls as boxes become smaller. */
+static void list_near(const fw_geometry_boxed *boxed, const fw_geometry_box *box, double limit,
+                      listed *to) {
+    const fw_geometry_contour *q = boxed->contour;
+    to->of = q;
+    to->n = 0;
+    for (to->rest = 0; to->rest < q->count && to->n < FEW; to->rest++) {
+        const fw_geometry_box own =
+            boxed->box ? boxed->box[to->rest] : fw_segment_box(&q->segment[to->rest]);
+        if (fw_box_apart(&own, box, limit)) continue;
+        const int n = to->n++;
+        to->which[n] = to->rest;
+        to->box[n] = own;
+        to->run[n / RUN] = n % RUN ? fw_box_join(to->run[n / RUN], own) : own;
+        to->whole = n ? fw_box_join(to->whole, own) : own;
     }
-    return least;
+    for (int j = to->rest; j < q->count; j++)
+        to->whole = fw_box_join(to->whole, fw_segment_box(&q->segment[j]));
+}
+
+typedef struct least_chord {
+    double length;
+    fw_geometry_vec2 at_p, at_q;
+} least_chord;
+
+/* two segments, each with its box */
+static void look_between(const fw_geometry_segment *s, const fw_geometry_box *own,
+                         const fw_geometry_segment *t, const fw_geometry_box *there,
+                         least_chord *best) {
+    const double least = best->length;
+    if (fw_box_apart(own, there, least)) return;
+    double gap = fw_box_gap(*own, *there);
+    if (gap >= least || fw_geometry_segment_clear_of(s, there) >= least ||
+        fw_geometry_segment_clear_of(t, own) >= least)
+        return;
+    if (gap > 10 * FW_COINCIDENT_M) { /* then they do not touch */
+        best->length = nearest_chord(s, t, least, &best->at_p, &best->at_q);
+        return;
+    }
+    fw_geometry_vec2 here = {0, 0}, across = here;
+    double d = fw_geometry_segment_distance(s, t, &here, &across);
+    if (d < least) *best = (least_chord){d, here, across};
+}
+
+/* one segment, whose box is given, against those of a list and the rest of their outline */
+static void look_at_list(const fw_geometry_segment *s, const fw_geometry_box *own, const listed *q,
+                         least_chord *best) {
+    for (int k = 0; k < q->n; k++) {
+        if (k % RUN == 0 && k + RUN <= q->n &&
+            (fw_box_apart(own, &q->run[k / RUN], best->length) ||
+             fw_box_gap(*own, q->run[k / RUN]) >= best->length)) {
+            k += RUN - 1;
+            continue;
+        }
+        look_between(s, own, &q->of->segment[q->which[k]], &q->box[k], best);
+    }
+    for (int j = q->rest; j < q->of->count; j++) {
+        const fw_geometry_box there = fw_segment_box(&q->of->segment[j]);
+        look_between(s, own, &q->of->segment[j], &there, best);
+    }
+}
+
+fw_status fw_geometry_contour_boxed(fw_arena *arena, const fw_geometry_contour *contour,
+                                    fw_geometry_boxed *out) {
+    fw_geometry_box *box = fw_arena_array(arena, fw_geometry_box, (size_t)contour->count);
+    FW_NEED(box);
+    *out = (fw_geometry_boxed){.contour = contour, .box = box};
+    for (int i = 0; i < contour->count; i++) {
+        box[i] = fw_segment_box(&contour->segment[i]);
+        out->whole = i ? fw_box_join(out->whole, box[i]) : box[i];
+    }
+    return FW_OK;
+}
+
+double fw_geometry_boxed_distance_below(const fw_geometry_contour *p, const fw_geometry_boxed *q,
+                                        double limit_m, fw_geometry_vec2 *at_p,
+                                        fw_geometry_vec2 *at_q) {
+    least_chord best = {limit_m, {0, 0}, {0, 0}};
+    const fw_geometry_box around = fw_geometry_contour_box(p);
+    listed near;
+    if (p->count > 0) list_near(q, &around, limit_m, &near);
+    bool any = p->count > 0 && (near.n > 0 || near.rest < q->contour->count);
+    for (int i = 0; any && i < p->count && best.length > 0; i++) {
+        fw_geometry_box own = fw_segment_box(&p->segment[i]);
+        if (fw_box_gap(own, near.whole) >= best.length) continue;
+        look_at_list(&p->segment[i], &own, &near, &best);
+    }
+    if (at_p) *at_p = best.at_p;
+    if (at_q) *at_q = best.at_q;
+    return best.length;
 }
 
 double fw_geometry_contour_distance_below(const fw_geometry_contour *p,
                                           const fw_geometry_contour *q, double limit_m,
                                           fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q) {
-    double least = limit_m;
-    fw_geometry_vec2 best_p = {0, 0}, best_q = {0, 0};
-    fw_geometry_box whole = fw_geometry_contour_box(q), box[FEW], run[FEW / RUN];
-    bool boxed = false;
-    for (int i = 0; i < p->count && q->count > 0; i++) {
-        fw_geometry_box own = fw_segment_box(&p->segment[i]);
-        if (fw_box_gap(own, whole) >= least) continue;
-        for (int j = 0; !boxed && j < q->count && j < FEW; j++) {
-            box[j] = fw_segment_box(&q->segment[j]);
-            run[j / RUN] = j % RUN ? fw_box_join(run[j / RUN], box[j]) : box[j];
-        }
-        boxed = true;
-        least = nearest_of(&p->segment[i], own, q, box, run, least, &best_p, &best_q);
-    }
-    if (at_p) *at_p = best_p;
-    if (at_q) *at_q = best_q;
-    return least;
+    const fw_geometry_boxed once = {.contour = q}; /* its boxes are found as they are asked for */
+    return fw_geometry_boxed_distance_below(p, &once, limit_m, at_p, at_q);
 }
 
 double fw_geometry_contour_distance(const fw_geometry_contour *p, const fw_geometry_contour *q,

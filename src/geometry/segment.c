@@ -101,6 +101,25 @@ double fw_geometry_segment_nearest(const fw_geometry_segment *s, fw_geometry_vec
     return vec_distance(from, best);
 }
 
+fw_geometry_near fw_geometry_near_of(const fw_geometry_segment *s, double reach) {
+    const double less = reach * (1 - 1e-9), more = reach * (1 + 1e-9) + 1e-10, r = s->radius;
+    fw_geometry_near n = {.segment = s, .reach = reach};
+    if (s->kind == FW_LINE) {
+        n.u = vec_sub(s->b, s->a);
+        n.square = vec_dot(n.u, n.u);
+        n.sure = less * less * n.square, n.far = more * more * n.square;
+        return n;
+    }
+    const double sweep = fabs(s->sweep_rad), hollow = r > more ? r - more : 0;
+    const double way = s->sweep_rad > 0 ? 1 : -1;
+    n.u = vec_scale(way, vec_sub(s->a, s->centre)), n.v = vec_scale(way, vec_sub(s->b, s->centre));
+    n.both = sweep<3.14, n.either = sweep> 3.15;
+    n.margin = 1e-9 * r;
+    n.far = (r + more) * (r + more), n.within = hollow * hollow;
+    n.sure = (r + less) * (r + less), n.sure_within = r > less ? (r - less) * (r - less) : -1;
+    return n;
+}
+
 /* 0 .. 3: the quarter that a direction lies in, each with its first axis */
 static int quarter(fw_geometry_vec2 v) {
     if (v.y >= 0) return v.x > 0 ? 0 : v.y > 0 ? 1 : 2;

@@ -83,6 +83,45 @@ fw_geometry_vec2 fw_geometry_segment_foot(const fw_geometry_segment *s, fw_geome
                                           double *t);
 double fw_geometry_segment_nearest(const fw_geometry_segment *s, fw_geometry_vec2 from, double *t,
                                    fw_geometry_vec2 *at);
+/* Is the nearest point no farther than a reach? Asked of many places. Said by squares, without a root, a quotient or an
+   angle, where the foot is surely no end of the segment, or the carrier is too far away, and the distance is not within a
+   billionth of the reach (and 1e-10 m, by which ends may be off a circle); else by the nearest point.
+   In: segment, reach > 0 (m), place. Out: whether fw_geometry_segment_nearest is at most the reach. Test:
+   test_segment.c. */
+typedef struct fw_geometry_near {
+    const fw_geometry_segment *segment;
+    double reach;
+    double far,
+        sure; /* the reach squared, with all that may be wrong: of a line times its length squared, */
+    double within, sure_within; /* of an arc from its centre, on either side of it */
+    fw_geometry_vec2 u,
+        v; /* line: along it; arc: from the centre to its ends, turned round where it runs clockwise */
+    double square, margin;
+    bool both,
+        either; /* arc: less, more than half a turn: after one end and before the other, or one of these */
+} fw_geometry_near;
+fw_geometry_near fw_geometry_near_of(const fw_geometry_segment *s, double reach);
+static inline bool fw_geometry_is_near(const fw_geometry_near *n, fw_geometry_vec2 at) {
+    const fw_geometry_segment *s = n->segment;
+    if (s->kind == FW_LINE) {
+        const fw_geometry_vec2 to = vec_sub(at, s->a);
+        const double t = vec_dot(to, n->u), off = vec_cross(n->u, to), square = off * off;
+        if (square > n->far) return false;
+        if (t >= 0 && t <= n->square && square < n->sure) return true;
+    } else {
+        const fw_geometry_vec2 ray = vec_sub(at, s->centre);
+        const double square = vec_dot(ray, ray);
+        if (square > n->far || square < n->within) return false;
+        if (square < n->sure && square > n->sure_within) {
+            const double margin = n->margin * (fabs(ray.x) + fabs(ray.y));
+            const bool after_a = vec_cross(n->u, ray) > margin,
+                       before_b = vec_cross(ray, n->v) > margin;
+            if ((n->both && after_a && before_b) || (n->either && (after_a || before_b)))
+                return true;
+        }
+    }
+    return fw_geometry_segment_nearest(s, at, NULL, NULL) <= n->reach;
+}
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
 bool fw_geometry_segment_faces(const fw_geometry_segment *arc, fw_geometry_vec2 direction,
                                double *t);

@@ -84,25 +84,45 @@ fw_status fw_layout_comb_stator(fw_arena *arena, const fw_layout_comb_plan *p,
 
 /* ---- what is in the way ---- */
 
-static bool close_by(const fw_geometry_contour *p, const fw_geometry_contour *q, double space_m,
-                     fw_geometry_vec2 *at) {
-    fw_geometry_box a = fw_geometry_contour_box(p), b = fw_geometry_contour_box(q);
+typedef struct obstacle {
+    const char *kind, *id;     /* of its name; id NULL: body `body` */
+    fw_geometry_boxed outline; /* contour NULL: a disc, which keeps its own distance */
+    fw_geometry_vec2 centre;
+    double radius_m, space_m; /* space_m: what it asks for by itself; 0: what is asked for */
+    int body;
+} obstacle;
+
+/* all that stands still while places are tried, in the order in which it is named */
+typedef struct obstacles {
+    obstacle *item;
+    int n;
+} obstacles;
+
+static bool within(fw_geometry_box b, fw_geometry_vec2 p) {
+    return p.x >= b.x0 && p.x <= b.x1 && p.y >= b.y0 && p.y <= b.y1;
+}
+
+/* box: of the outline */
+static bool close_by(const fw_geometry_contour *p, fw_geometry_box box, const obstacle *o,
+                     double space_m, fw_geometry_vec2 *at) {
+    const fw_geometry_contour *q = o->outline.contour;
+    const fw_geometry_box b = o->outline.whole;
     fw_geometry_vec2 there;
-    if (q->count == 0 || a.x0 > b.x1 + space_m || b.x0 > a.x1 + space_m || a.y0 > b.y1 + space_m ||
-        b.y0 > a.y1 + space_m)
+    if (box.x0 > b.x1 + space_m || b.x0 > box.x1 + space_m || box.y0 > b.y1 + space_m ||
+        b.y0 > box.y1 + space_m)
         return false;
-    if (fw_geometry_contour_distance_below(p, q, space_m, at, &there) < space_m * (1.0 - 1e-9))
+    if (fw_geometry_boxed_distance_below(p, &o->outline, space_m, at, &there) <
+        space_m * (1.0 - 1e-9))
         return true;
     *at = q->segment[0].a;
-    if (fw_geometry_contour_contains(p, *at)) return true;
+    if (within(box, *at) && fw_geometry_contour_contains(p, *at)) return true;
     *at = p->segment[0].a;
-    return fw_geometry_contour_contains(q, *at);
+    return within(b, *at) && fw_geometry_contour_contains(q, *at);
 }
 
 /* the same for a disc */
-static bool disc_close_by(const fw_geometry_contour *p, fw_geometry_vec2 centre, double radius_m,
-                          fw_geometry_vec2 *at) {
-    fw_geometry_box b = fw_geometry_contour_box(p);
+static bool disc_close_by(const fw_geometry_contour *p, fw_geometry_box b, fw_geometry_vec2 centre,
+                          double radius_m, fw_geometry_vec2 *at) {
     double far, t;
     *at = centre;
     if (centre.x < b.x0 - radius_m || centre.x > b.x1 + radius_m || centre.y < b.y0 - radius_m ||
@@ -116,65 +136,105 @@ static bool disc_close_by(const fw_geometry_contour *p, fw_geometry_vec2 centre,
     return fw_geometry_contour_contains(p, centre);
 }
 
-static fw_status name(fw_layout_drawing *d, fw_geometry_vec2 at, const char *kind, const char *id,
-                      const char **what) {
-    char x[32], y[32];
-    FW_NEED(id);
-    FW_NEED(*what = fw_arena_printf(d->arena, "%s%s at (%s, %s) um", kind, id,
-                                    fw_layout_um(x, at.x), fw_layout_um(y, at.y)));
-    return FW_OK;
+static fw_status add_outline(fw_arena *arena, obstacles *o, const char *kind, const char *id,
+                             int body, const fw_geometry_contour *outline, double space_m) {
+    obstacle *to = &o->item[o->n];
+    if (outline->count == 0) return FW_OK;
+    *to = (obstacle){.kind = kind, .id = id, .body = body, .space_m = space_m};
+    o->n++;
+    return fw_geometry_contour_boxed(arena, outline, &to->outline);
 }
 
-static fw_status crosses_drives(fw_layout_drawing *d, const fw_geometry_contour *c, int before,
-                                double space_m, const char **what) {
-    fw_geometry_vec2 at;
-    for (int i = 0; i < before && !*what; i++) {
-        const fw_layout_comb_plan *p = &d->comb[i];
-        const char *id = fw_text_name(p->comb->id);
-        if (!p->off &&
-            (close_by(c, &p->rotor, space_m, &at) || close_by(c, &p->stator, space_m, &at)))
-            FW_TRY(name(d, at, "comb drive ", id, what));
-    }
-    return FW_OK;
-}
-
-fw_status fw_layout_actuator_crosses(fw_layout_drawing *d, const fw_geometry_contour *c, int body,
-                                     double space_m, int before, const char **what) {
+/* bodies but one, hinges, and the drives before one */
+static fw_status list_obstacles(const fw_layout_drawing *d, int body, int before, obstacles *o) {
     const fw_device *device = d->device;
-    fw_geometry_vec2 at;
-    *what = NULL;
-    for (int b = 0; b < device->nbody && !*what; b++)
-        if (b != body && close_by(c, &d->plain[b], space_m, &at))
-            FW_TRY(name(d, at, "", fw_layout_body_label(d, b), what));
-    for (int j = 0; j < device->nrevolute && !*what; j++) {
-        const fw_layout_hinge_layout *h = &d->layout->hinge[j];
-        if (disc_close_by(c, h->centre, h->keep_out_m, &at))
-            FW_TRY(name(d, at, "hinge ", device->revolute[j].id, what));
+    const size_t most = (size_t)(device->nbody + device->nrevolute + 2 * before + d->neyelet + 1);
+    o->n = 0;
+    FW_NEED(o->item = fw_arena_array(d->arena, obstacle, most));
+    for (int b = 0; b < device->nbody; b++)
+        if (b != body) FW_TRY(add_outline(d->arena, o, "", NULL, b, &d->plain[b], 0.0));
+    for (int j = 0; j < device->nrevolute; j++)
+        o->item[o->n++] = (obstacle){.kind = "hinge ",
+                                     .id = device->revolute[j].id,
+                                     .centre = d->layout->hinge[j].centre,
+                                     .radius_m = d->layout->hinge[j].keep_out_m};
+    for (int i = 0; i < before; i++) {
+        const char *id = fw_text_name(d->comb[i].comb->id);
+        if (d->comb[i].off) continue;
+        const fw_geometry_contour *own[] = {&d->comb[i].rotor, &d->comb[i].stator};
+        for (int k = 0; k < 2; k++)
+            FW_TRY(add_outline(d->arena, o, "comb drive ", id, FW_NONE, own[k], 0.0));
     }
-    FW_TRY(crosses_drives(d, c, before, space_m, what));
     return FW_OK;
 }
 
 /* besides: the rings of others, and where the bar between two ground hinges will be */
-static fw_status stator_crosses(fw_layout_drawing *d, const fw_geometry_contour *c, int rotor,
-                                double space_m, int before, const char **what) {
+static fw_status list_for_stator(const fw_layout_drawing *d, int rotor, int before, obstacles *o) {
     int joint[3];
-    fw_geometry_vec2 at;
-    FW_TRY(fw_layout_actuator_crosses(d, c, rotor, space_m, before, what));
-    for (int i = 0; i < d->neyelet && !*what; i++) {
+    FW_TRY(list_obstacles(d, rotor, before, o));
+    for (int i = 0; i < d->neyelet; i++) {
         const fw_layout_eyelet_plan *e = &d->eyelet[i];
-        if (!e->off && disc_close_by(c, e->at, 0.5 * e->hole_m + e->ring_m + LEAST_M, &at))
-            FW_TRY(name(d, at, "an eyelet of tendon ", e->tendon->id ? e->tendon->id : "", what));
+        if (!e->off)
+            o->item[o->n++] = (obstacle){.kind = "an eyelet of tendon ",
+                                         .id = e->tendon->id ? e->tendon->id : "",
+                                         .centre = e->at,
+                                         .radius_m = 0.5 * e->hole_m + e->ring_m + LEAST_M};
     }
-    if (!*what && fw_layout_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
-        fw_geometry_contour bar;
+    if (fw_layout_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
+        fw_geometry_contour *bar = fw_arena_one(d->arena, fw_geometry_contour);
+        FW_NEED(bar);
         FW_TRY(fw_geometry_contour_bar(
             d->arena, fw_layout_joint_point(d->device, joint[0]),
             fw_layout_joint_point(d->device, joint[1]),
-            fmax(fw_layout_rule.base_width_m, d->device->die.anchor_m) + BASE_M, &bar));
-        if (close_by(c, &bar, LEAST_M, &at)) FW_TRY(name(d, at, "", "the base", what));
+            fmax(fw_layout_rule.base_width_m, d->device->die.anchor_m) + BASE_M, bar));
+        FW_TRY(add_outline(d->arena, o, "", "the base", FW_NONE, bar, LEAST_M));
     }
     return FW_OK;
+}
+
+/* the first one that is nearer than the space; NULL: none */
+static const obstacle *crossed(const obstacles *o, const fw_geometry_contour *c, double space_m,
+                               fw_geometry_vec2 *at) {
+    const fw_geometry_box box = fw_geometry_contour_box(c);
+    for (int i = 0; i < o->n; i++) {
+        const obstacle *p = &o->item[i];
+        const double space = p->space_m > 0.0 ? p->space_m : space_m;
+        if (p->outline.contour ? close_by(c, box, p, space, at)
+                               : disc_close_by(c, box, p->centre, p->radius_m, at))
+            return p;
+    }
+    return NULL;
+}
+
+static fw_status name(fw_layout_drawing *d, const obstacle *o, fw_geometry_vec2 at,
+                      const char **what) {
+    char x[32], y[32];
+    const char *id = o->id ? o->id : fw_layout_body_label(d, o->body);
+    FW_NEED(id);
+    FW_NEED(*what = fw_arena_printf(d->arena, "%s%s at (%s, %s) um", o->kind, id,
+                                    fw_layout_um(x, at.x), fw_layout_um(y, at.y)));
+    return FW_OK;
+}
+
+/* *what: what is crossed first, and where; NULL: nothing */
+static fw_status name_crossed(fw_layout_drawing *d, const obstacles *o,
+                              const fw_geometry_contour *c, double space_m, const char **what) {
+    fw_geometry_vec2 at;
+    const obstacle *p = crossed(o, c, space_m, &at);
+    *what = NULL;
+    return p ? name(d, p, at, what) : FW_OK;
+}
+
+fw_status fw_layout_actuator_crosses(fw_layout_drawing *d, const fw_geometry_contour *c, int body,
+                                     double space_m, int before, const char **what) {
+    obstacles all;
+    fw_geometry_vec2 at;
+    fw_mark mark = fw_arena_mark(d->arena);
+    *what = NULL;
+    FW_TRY(list_obstacles(d, body, before, &all));
+    const obstacle *p = crossed(&all, c, space_m, &at), first = p ? *p : (obstacle){0};
+    fw_arena_rewind(d->arena, mark);
+    return p ? name(d, &first, at, what) : FW_OK;
 }
 
 /* ---- lead and pad ---- */
@@ -188,22 +248,26 @@ static double pad_of(const fw_layout_drawing *d) {
     return d->device->die.pad_m > 0.0 ? d->device->die.pad_m : PAD_M;
 }
 
-/* bars of the lead and the pad (axis-parallel, on the grid), each a part to unite */
-static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, const candidate *c,
-                           fw_geometry_contour part[3], int *npart, fw_geometry_vec2 *letter_at,
-                           fw_geometry_vec2 *pad_at) {
+typedef struct
+    lead { /* from the electrode, around one corner or none, into the middle of the pad */
+    fw_geometry_vec2 start, beyond, corner, middle; /* beyond: half a lead past the corner */
+    bool turns;
+    fw_geometry_box pad; /* axis-parallel, on the grid */
+    fw_geometry_vec2 letter_at, pad_at;
+} lead;
+
+static lead lead_of(const fw_layout_drawing *d, const fw_layout_comb_plan *p, const candidate *c) {
     double face = p->comb->kind == FW_ELECTRODES_COMB ? p->length_m - 0.5 * p->comb->overlap_m
                                                       : p->comb->gap_m;
     fw_geometry_vec2 u = fw_v(p->local.c, p->local.s), n = fw_left(u), way = u;
-    fw_geometry_vec2 start = fw_add(fw_add(p->local.origin, face + 0.5 * BACK_M, u), c->from, n);
-    fw_geometry_vec2 end = fw_add(start, 0.5 * BACK_M + c->ahead, u);
-    fw_geometry_vec2 corner = end;
-    *npart = 0;
-    if (c->aside != 0.0) {
+    lead l = {.turns = c->aside != 0.0};
+    l.start = fw_add(fw_add(p->local.origin, face + 0.5 * BACK_M, u), c->from, n);
+    l.corner = fw_add(l.start, 0.5 * BACK_M + c->ahead, u);
+    fw_geometry_vec2 end = l.corner;
+    if (l.turns) {
         way = c->aside > 0.0 ? n : fw_v(-n.x, -n.y);
         end = fw_add(end, c->aside, n);
-        FW_TRY(fw_geometry_contour_bar(d->arena, start, fw_add(corner, 0.5 * BACK_M, u), BACK_M,
-                                       &part[(*npart)++]));
+        l.beyond = fw_add(l.corner, 0.5 * BACK_M, u);
     }
     double text = fw_layout_text_width(c->letter, 9.0 * STROKE_M, STROKE_M);
     double pad = pad_of(d), wide = fmax(pad, text + 2.0 * MARGIN_M),
@@ -211,17 +275,36 @@ static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, c
     double high = pad + strip;
     double reach = fmin(fabs(way.x) > 1e-9 ? 0.5 * wide / fabs(way.x) : HUGE_VAL,
                         fabs(way.y) > 1e-9 ? 0.5 * high / fabs(way.y) : HUGE_VAL);
-    fw_geometry_vec2 middle = fw_add(end, reach - 0.25 * BACK_M, way);
-    double x0 = fw_layout_to_grid(middle.x - 0.5 * wide),
-           y0 = fw_layout_to_grid(middle.y - 0.5 * high);
-    /* into the middle of the pad, whatever its edge is like where it is reached */
-    FW_TRY(fw_geometry_contour_bar(d->arena, c->aside != 0.0 ? corner : start, middle, BACK_M,
-                                   &part[(*npart)++]));
-    *letter_at =
+    l.middle = fw_add(end, reach - 0.25 * BACK_M, way);
+    double x0 = fw_layout_to_grid(l.middle.x - 0.5 * wide),
+           y0 = fw_layout_to_grid(l.middle.y - 0.5 * high);
+    l.pad = (fw_geometry_box){x0, y0, x0 + wide, y0 + high};
+    l.letter_at =
         fw_v(fw_layout_to_grid(x0 + 0.5 * (wide - text)), fw_layout_to_grid(y0 + MARGIN_M));
-    *pad_at = fw_v(fw_layout_to_grid(x0 + 0.5 * wide), fw_layout_to_grid(y0 + strip + 0.5 * pad));
-    return fw_geometry_contour_rectangle(d->arena, (fw_geometry_box){x0, y0, x0 + wide, y0 + high},
-                                         &part[(*npart)++]);
+    l.pad_at = fw_v(fw_layout_to_grid(x0 + 0.5 * wide), fw_layout_to_grid(y0 + strip + 0.5 * pad));
+    return l;
+}
+
+/* The bars of a lead and its pad, each a part to unite, where all of them keep their distance from everything: npart 0
+   where not. The pad is in the way most often, so that nothing else is drawn then. */
+static fw_status draw_lead(fw_layout_drawing *d, const lead *l, const obstacles *all,
+                           double space_m, fw_geometry_contour part[3], int *npart) {
+    fw_geometry_contour pad;
+    fw_geometry_vec2 at;
+    int n = 0;
+    *npart = 0;
+    FW_TRY(fw_geometry_contour_rectangle(d->arena, l->pad, &pad));
+    if (crossed(all, &pad, space_m, &at)) return FW_OK;
+    if (l->turns)
+        FW_TRY(fw_geometry_contour_bar(d->arena, l->start, l->beyond, BACK_M, &part[n++]));
+    /* into the middle of the pad, whatever its edge is like where it is reached */
+    FW_TRY(fw_geometry_contour_bar(d->arena, l->turns ? l->corner : l->start, l->middle, BACK_M,
+                                   &part[n++]));
+    for (int i = 0; i < n; i++)
+        if (crossed(all, &part[i], space_m, &at)) return FW_OK;
+    part[n++] = pad;
+    *npart = n;
+    return FW_OK;
 }
 
 static fw_status unite(fw_arena *arena, const fw_geometry_contour *electrode,
@@ -243,34 +326,20 @@ static fw_status unite(fw_arena *arena, const fw_geometry_contour *electrode,
     return status == FW_GEOMETRY ? FW_OK : status;
 }
 
-/* does what is in `part` keep its distance from everything, its own rotor's body included? */
-static fw_status is_free(fw_layout_drawing *d, const fw_layout_comb_plan *p,
-                         const fw_geometry_contour *part, int npart, double space_m, bool *good) {
-    int before = (int)(p - d->comb);
-    *good = false;
-    for (int i = 0; i < npart; i++) {
-        const char *what;
-        FW_TRY(stator_crosses(d, &part[i], FW_NONE - 9, space_m, before, &what));
-        if (what) return FW_OK;
-    }
-    *good = true;
-    return FW_OK;
-}
-
 static fw_status try_lead(fw_layout_drawing *d, fw_layout_comb_plan *p,
-                          const fw_geometry_contour *electrode, const candidate *c, double space_m,
-                          bool *done) {
-    fw_geometry_contour part[3];
+                          const fw_geometry_contour *electrode, const obstacles *all,
+                          const candidate *c, double space_m, bool *done) {
+    fw_geometry_contour part[3], whole;
+    const lead l = lead_of(d, p, c);
     int npart;
     *done = false;
-    FW_TRY(draw_lead(d, p, c, part, &npart, &p->letter_at, &p->pad_at));
-    FW_TRY(is_free(d, p, part, npart, space_m, done));
-    if (!*done) return FW_OK;
-    fw_geometry_contour whole;
+    FW_TRY(draw_lead(d, &l, all, space_m, part, &npart));
+    if (npart == 0) return FW_OK;
     FW_TRY(unite(d->arena, electrode, part, npart, &whole, done));
     if (!*done) return FW_OK;
     p->stator = whole;
     p->letter = c->letter;
+    p->letter_at = l.letter_at, p->pad_at = l.pad_at;
     return FW_OK;
 }
 
@@ -278,6 +347,7 @@ static fw_status try_lead(fw_layout_drawing *d, fw_layout_comb_plan *p,
    is short enough and there is room, else its number */
 static fw_status find_place(fw_layout_drawing *d, fw_layout_comb_plan *p,
                             const fw_geometry_contour *electrode, bool *done) {
+    obstacles all; /* its own rotor's body is one */
     static const double ahead[] = {60e-6,  80e-6,  110e-6, 150e-6, 220e-6,
                                    320e-6, 450e-6, 650e-6, 900e-6, 1300e-6},
                         from[] = {0.0, 0.4, -0.4, 0.8, -0.8},
@@ -292,6 +362,7 @@ static fw_status find_place(fw_layout_drawing *d, fw_layout_comb_plan *p,
     FW_NEED(number);
     half = fmax(0.0, half - 0.5 * BACK_M);
     *done = false;
+    FW_TRY(list_for_stator(d, FW_NONE, (int)(p - d->comb), &all));
     for (int round = 0; round < 4; round++) {
         double space = round < 2 ? FREE_M : LEAST_M;
         bool named = round % 2 == 0;
@@ -302,7 +373,7 @@ static fw_status find_place(fw_layout_drawing *d, fw_layout_comb_plan *p,
                     candidate c = {from[f] * half, ahead[a], aside[t], named ? id : number};
                     if (half <= 0.0 && f > 0) continue;
                     fw_mark mark = fw_arena_mark(d->arena);
-                    FW_TRY(try_lead(d, p, electrode, &c, space, done));
+                    FW_TRY(try_lead(d, p, electrode, &all, &c, space, done));
                     if (*done) return FW_OK;
                     fw_arena_rewind(d->arena, mark);
                 }
@@ -332,21 +403,21 @@ static fw_status impossible(fw_layout_drawing *d, const fw_layout_comb_plan *p, 
 
 fw_status fw_layout_stator_place(fw_layout_drawing *d, fw_layout_comb_plan *p, const char **why) {
     fw_geometry_contour electrode;
+    obstacles all;
     const char *what;
     bool done;
-    int before = (int)(p - d->comb);
     p->stator = (fw_geometry_contour){NULL, 0};
     p->routed = false;
     FW_TRY(impossible(d, p, why));
     if (*why) return FW_OK;
     FW_TRY(fw_layout_comb_stator(d->arena, p, &electrode));
-    FW_TRY(stator_crosses(d, &electrode, p->comb->body_b, LEAST_M, before, &what));
+    FW_TRY(list_for_stator(d, p->comb->body_b, (int)(p - d->comb), &all));
+    FW_TRY(name_crossed(d, &all, &electrode, LEAST_M, &what));
     if (!what) {
-        fw_geometry_vec2 at;
-        double gap = p->comb->gap_m;
-        if (close_by(&electrode, &d->plain[p->comb->body_b], gap * (1.0 - 1e-6), &at))
-            FW_TRY(name(d, at, "its own rotor's body ", fw_layout_body_label(d, p->comb->body_b),
-                        &what));
+        all.n = 0;
+        FW_TRY(add_outline(d->arena, &all, "its own rotor's body ", NULL, p->comb->body_b,
+                           &d->plain[p->comb->body_b], p->comb->gap_m * (1.0 - 1e-6)));
+        FW_TRY(name_crossed(d, &all, &electrode, LEAST_M, &what));
     }
     if (what) {
         FW_NEED(*why =

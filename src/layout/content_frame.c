@@ -128,6 +128,7 @@ typedef struct window {
     fw_arena *arena;
     const fw_layout *device;
     fw_layout_piece *piece;
+    fw_geometry_box *box; /* (npiece) of each, as it is now */
     int npiece;
     double thief_m;         /* depth of the thief; 0: none */
     fw_geometry_vec2 *path; /* (npath) what stands on the edge in hand */
@@ -163,7 +164,7 @@ static fw_status is_clear(const window *w, fw_geometry_box box, double keep, dou
     for (int i = 0; i < w->npiece && *clear; i++) {
         const fw_geometry_contour *c = &w->piece[i].contour;
         double far = is_frame(&w->piece[i]) ? from_frame : is_in_the_way(&w->piece[i]) ? keep : 0;
-        if (far <= 0 || fw_box_gap(box, fw_geometry_contour_box(c)) >= far) continue;
+        if (far <= 0 || fw_box_gap(box, w->box[i]) >= far) continue;
         *clear = fw_geometry_contour_distance_below(&place, c, far, NULL, NULL) >= far &&
                  !fw_geometry_contour_contains(c, place.segment[0].a) &&
                  !fw_geometry_contour_contains(&place, c->segment[0].a);
@@ -334,14 +335,19 @@ static fw_status in_window(fw_arena *arena, const fw_layout *device,
                            const fw_layout_pattern *pattern, int npattern, fw_layout_piece *piece,
                            int npiece) {
     window w = {.arena = arena, .device = device, .piece = piece, .npiece = npiece};
+    FW_NEED(w.box = fw_arena_array(arena, fw_geometry_box, (size_t)npiece));
+    for (int i = 0; i < npiece; i++)
+        w.box[i] = fw_geometry_contour_box(&piece[i].contour);
     for (int round = 0; round < 2; round++) /* the fill stands on the thief, whatever their order */
         for (int k = 0; k < npattern; k++) {
             fw_layout_growth growth = pattern[k].kind->in_window;
             bool thief = growth == FW_GROWS_ALONG_EDGES;
             if (growth == FW_GROWS_NOT || thief != (round == 0)) continue;
             for (int i = 0; i < npiece; i++)
-                if (is_frame(&piece[i]))
+                if (is_frame(&piece[i])) {
                     FW_TRY(grow(&w, &piece[i], thief ? add_thief : add_fill, &pattern[k]));
+                    w.box[i] = fw_geometry_contour_box(&piece[i].contour);
+                }
             if (thief) w.thief_m = fw_layout_to_grid(pattern[k].value[0]);
         }
     return FW_OK;

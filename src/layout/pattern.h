@@ -81,6 +81,7 @@ typedef struct fw_layout_pattern_kind { /* a row: one for each line of patterns.
     /* FW_GEOMETRY: cannot be drawn with these numbers */
     fw_status (*draw)(fw_layout_pen *pen);
     int on_frame; /* on the frame of every die, so often; 0: on the test die */
+    bool aligns;  /* plates are put on each other by it */
     bool fills;   /* takes what the others leave of a row: drawn by layout_content.c */
     fw_layout_growth in_window; /* on the device's own die: content_frame.c */
 } fw_layout_pattern_kind;

@@ -211,6 +211,7 @@ static fw_status draw_vernier(fw_layout_pen *pen) {
 
 const fw_layout_pattern_kind fw_layout_pattern_vernier = {
     .name = "vernier",
+    .aligns = true,
     .what = "pairs of scales on two layers: offset of one against the other",
     .parameter = {{"pitch", 16e-6, 12e-6, 100e-6, false},
                   {"step", 0.25e-6, 0.05e-6, 5e-6, false},
@@ -270,6 +271,7 @@ static fw_status draw_back_mark(fw_layout_pen *pen) {
 
 const fw_layout_pattern_kind fw_layout_pattern_back_mark = {
     .name = "back-mark",
+    .aligns = true,
     .what = "cross on the back's own layer in a window of the device layer",
     .parameter = {{"window", 160e-6, 40e-6, 1e-3, false},
                   {"cross", 120e-6, 20e-6, 1e-3, false},
@@ -299,6 +301,7 @@ static fw_status draw_frame_mark(fw_layout_pen *pen) {
 
 const fw_layout_pattern_kind fw_layout_pattern_frame_mark = {
     .name = "frame-mark",
+    .aligns = true,
     .what = "windows with a cross of the back on the frame of every die",
     .parameter = {{"window", 120e-6, 40e-6, 1e-3, false},
                   {"cross", 90e-6, 20e-6, 1e-3, false},
@@ -320,6 +323,7 @@ static fw_status draw_frame_vernier(fw_layout_pen *pen) {
 
 const fw_layout_pattern_kind fw_layout_pattern_frame_vernier = {
     .name = "frame-vernier",
+    .aligns = true,
     .what = "pairs of scales on the frame of every die: offset of front and back",
     .parameter = {{"pitch", 16e-6, 12e-6, 100e-6, false},
                   {"step", 0.25e-6, 0.05e-6, 5e-6, false},

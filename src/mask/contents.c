@@ -25,6 +25,7 @@ static fw_release_cavity_asked asked_by(const fw_mask_content *c) {
 static fw_status draw_cavity(const fw_mask_content *content, fw_mask_sheet *sheet) {
     fw_release_cavity_asked asked = asked_by(content);
     fw_release_cavity cavity;
+    asked.drawn_only = true;
     FW_TRY(fw_release_cavity_make(sheet->arena, sheet->device, &asked, &cavity));
     for (int i = 0; i < cavity.hollow.count; i++)
         FW_TRY(fw_mask_sheet_add(sheet, FW_ROLE_CAVITY, FW_NONE - 1, "cavity",

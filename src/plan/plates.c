@@ -12,11 +12,27 @@
    Plates are printed in one order, drawn smaller by the same length, aligned to the same one within the same
    budget. */
 
-static bool on_test_die(const fw_mask_table *table, const char *id, size_t n) {
+static const fw_layout_pattern *on_test_die(const fw_mask_table *table, const char *id, size_t n) {
     for (int i = 0; i < table->npattern; i++)
         if (strlen(table->pattern[i].id) == n && memcmp(table->pattern[i].id, id, n) == 0)
-            return true;
-    return false;
+            return &table->pattern[i];
+    return NULL;
+}
+
+/* what is not there, or is there for something else: does a step read what nothing is measured on, or align by what is no
+   mark? */
+static void check_pattern(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table,
+                          const char *step, fw_word id, bool mark, fw_place place) {
+    const fw_layout_pattern *p = on_test_die(table, id.at, id.length);
+    const char *does = mark ? "aligns by" : "reads coupon";
+    if (!p)
+        fw_diag_error(diags, 372, place, "step %s %s '%.*s', which masks/%s.xml does not have",
+                      step, does, (int)id.length, id.at, flow->id);
+    else if (mark ? !p->kind->aligns : !p->measure)
+        fw_diag_error(diags, 372, place, "step %s %s '%s', which in masks/%s.xml is a %s: %s", step,
+                      does, p->id, flow->id, p->kind->name,
+                      mark ? "no plate is put on another by it"
+                           : "it does not say what is measured on it (measure)");
 }
 
 /* what steps read off a pattern, and marks that they align by, are on the test die */
@@ -26,17 +42,12 @@ static void check_coupons(fw_diags *diags, const fw_process_flow *flow,
         const fw_process_step *s = &flow->step[i];
         for (int k = 0; k < s->naccept; k++) {
             const fw_process_accept *a = &s->accept[k];
-            if (a->coupon[0] && !on_test_die(table, a->coupon, strlen(a->coupon)))
-                fw_diag_error(diags, 372, a->place,
-                              "step %s reads coupon '%s', which masks/%s.xml does not have", s->id,
-                              a->coupon, flow->id);
+            const fw_word id = {a->coupon, strlen(a->coupon)};
+            if (a->coupon[0]) check_pattern(diags, flow, table, s->id, id, false, a->place);
         }
         const char *marks = s->align.to ? s->align.marks : "";
         for (fw_word word; fw_word_next(&marks, " ", &word);)
-            if (!on_test_die(table, word.at, word.length))
-                fw_diag_error(diags, 372, s->align.place,
-                              "step %s aligns by '%.*s', which masks/%s.xml does not have", s->id,
-                              (int)word.length, word.at, flow->id);
+            check_pattern(diags, flow, table, s->id, word, true, s->align.place);
     }
 }
 
@@ -221,9 +232,15 @@ void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_
 
        d + o <= m,   d = max over instants and corners p of its outline of |x(t) + R(t) p - x0 - R0 p|
 
-   with the budget o between the two plates. The displacement of a rigid body is affine in p, so that its largest length is at
-   a corner of the box around it. In: poses of the centres of mass at the motion's samples, m and rad. Out: m. Error: between
-   samples, and leaves that bend further than what they hold. Cost: samples times pieces.
+   with the budget o between the two plates. An isotropic etch of u leaves the hollow's corners round by u: beside a corner
+   of what moves, m and m from that of the hollow, the carrier begins
+
+       sqrt(2) m - (sqrt(2) - 1) u
+
+   away, which is less than m where m < u, and is then what d + o is held against. The displacement of a rigid body is
+   affine in p, so that its largest length is at a corner of the box around it. In: poses of the centres of mass at the
+   motion's samples, m and rad. Out: m. Error: between samples, and leaves that bend further than what they hold. Cost:
+   samples times pieces.
 
    In a required workspace the platform takes C and D along, and A and F stand. Between two hinges of a body nothing
    goes farther than they; beside the line between them, at most r away, its rotation adds
@@ -349,37 +366,65 @@ static void of_workspace(const fw_layout *layout, const fw_mechanism *m,
     }
 }
 
-static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_variant_verdict *v,
-                        double margin_m) {
-    farthest far = {.m = 0.0};
-    of_workspace(plan->layout, v->mechanism, &v->workspace, &far);
+static void of_scenes(const fw_plan *plan, const fw_verdict_variant_verdict *v, farthest *far) {
+    of_workspace(plan->layout, v->mechanism, &v->workspace, far);
     for (int b = 0; b < plan->device->nbody; b++) {
         fw_geometry_box box;
         if (!box_of(plan->layout, b, &box)) continue;
         for (int s = 0; s < plan->device->nscene; s++)
             if (v->motion[s] && v->motion[s]->q)
-                of_body(v->mechanism, v->motion[s], box, b, s, &far);
+                of_body(v->mechanism, v->motion[s], box, b, s, far);
     }
+}
+
+/* what the etch of the hollow takes sideways, by which its corners are round; 0: not known */
+static double rounding_m(const fw_plan_flow *pf) {
+    double most = 0.0;
+    for (int i = 0; i < pf->table->nlayer; i++) {
+        const fw_mask_layer *l = &pf->table->layer[i];
+        const fw_quantity *q = l->shrink && (l->roles & 1u << FW_ROLE_CAVITY)
+                                   ? fw_process_flow_quantity(pf->flow, l->shrink)
+                                   : NULL;
+        if (q && !q->unknown) most = fmax(most, q->value);
+    }
+    return most;
+}
+
+/* v NULL: nothing is known to move; the plates lie aside all the same */
+static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_variant_verdict *v,
+                        double margin_m) {
+    farthest far = {.m = 0.0, .scene = FW_NONE};
+    if (v) of_scenes(plan, v, &far);
+    const double u = rounding_m(pf), corner = sqrt(2.0) * margin_m - (sqrt(2.0) - 1.0) * u,
+                 reach = fmin(margin_m, corner);
     double overlay = fw_mask_overlay_m(pf->table, FW_ROLE_CAVITY);
     const int row = fw_mask_plate_of_role(pf->table, FW_ROLE_CAVITY);
     const bool bonded =
         row >= 0 && fw_process_flow_hollow(pf->flow, pf->table->plates[row].id, NULL);
-    char goes[32], off[32], margin[32], needs[32];
-    if (far.m + overlay <= margin_m) return FW_OK;
+    char goes[32], off[32], has[32], needs[32];
+    const double need = far.m + overlay,
+                 least = fmax(need, (need + (sqrt(2.0) - 1.0) * u) / sqrt(2.0));
+    if (need <= reach) return FW_OK;
+    const char *way =
+        far.m > 0.0
+            ? fw_arena_printf(plan->arena, "link %s goes %s um in %s%s, and",
+                              plan->device->body[far.body].id,
+                              fw_number_text(goes, sizeof goes, far.m * 1e6, 4),
+                              far.scene == FW_NONE ? "a required workspace, at most" : "scene ",
+                              far.scene == FW_NONE ? "" : plan->device->scene[far.scene].name)
+            : "what moves";
+    FW_NEED(way);
     const char *why = fw_arena_printf(
         plan->arena,
-        "link %s goes %s um in %s%s, and may lie %s um aside of its hollow, which reaches only "
-        "%s um beyond it: it would "
-        "run over %s. Nearest change: margin=\"%s um\" of <content kind=\"cavity\"> in "
-        "masks/%s.xml, or less "
-        "travel",
-        plan->device->body[far.body].id, fw_number_text(goes, sizeof goes, far.m * 1e6, 4),
-        far.scene == FW_NONE ? "a required workspace, at most" : "scene ",
-        far.scene == FW_NONE ? "" : plan->device->scene[far.scene].name,
-        fw_number_text(off, sizeof off, overlay * 1e6, 4),
-        fw_number_text(margin, sizeof margin, margin_m * 1e6, 4),
+        "%s may lie %s um aside of its hollow, which reaches only %s um beyond it%s: it would run "
+        "over %s. Nearest change: margin=\"%s um\" of <content kind=\"cavity\"> in "
+        "masks/%s.xml%s",
+        way, fw_number_text(off, sizeof off, overlay * 1e6, 4),
+        fw_number_text(has, sizeof has, fmax(reach, 0.0) * 1e6, 4),
+        reach < margin_m ? " at its corners, which the etch leaves round" : "",
         bonded ? "bonded glass" : "the wafer below it",
-        fw_number_text(needs, sizeof needs, ceil((far.m + overlay) * 1e6), 4), pf->flow->id);
+        fw_number_text(needs, sizeof needs, ceil(least * 1e6), 4), pf->flow->id,
+        far.m > 0.0 ? ", or less travel" : "");
     FW_NEED(why);
     return fw_process_flow_add_reason(plan->arena, pf->flow, 0, why);
 }
@@ -416,9 +461,11 @@ fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags 
     ptrdiff_t at = pf - plan->flow;
     if (isnan(margin_m)) return FW_OK;
     if (row >= 0) air(plan, pf, pf->table->plates[row].id, diags);
-    if (!plan->layout || !plan->layout->drawn || at >= plan->verdict.nvariant) return FW_OK;
-    const fw_verdict_variant_verdict *v = &plan->verdict.variant[at];
-    return v->motion && v->mechanism && v->mechanism->drawn ? travel(plan, pf, v, margin_m) : FW_OK;
+    if (!plan->layout || !plan->layout->drawn) return FW_OK;
+    const fw_verdict_variant_verdict *v =
+        at < plan->verdict.nvariant ? &plan->verdict.variant[at] : NULL;
+    const bool moves = v && v->motion && v->mechanism && v->mechanism->drawn;
+    return travel(plan, pf, moves ? v : NULL, margin_m);
 }
 
 /* ---- what the flow leaves below the device ---- */

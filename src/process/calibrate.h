@@ -51,6 +51,11 @@ fw_status fw_process_coupon_forms(const char *words, fw_text *out);
 const char *fw_process_coupon_called(const char *name);
 /* FW_INPUT and FW-D211 where a row lacks what its coupon needs */
 fw_status fw_process_measurement_check(const fw_process_measurement *row, fw_diags *diags);
+/* the same of what the flow must have for it: the rate that an etch-rate is of */
+fw_status fw_process_measurement_of_flow(const fw_process_flow *flow,
+                                         const fw_process_measurement *row, fw_diags *diags);
+/* does the coupon stand on a test die, under its kind or its name? */
+bool fw_process_coupon_on_test_die(const char *coupon);
 /* are all rows of the coupon of one run, so that what stands under `at` is the same in all? */
 bool fw_process_coupon_of_one_run(const char *coupon);
 

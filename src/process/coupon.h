@@ -56,6 +56,8 @@ typedef struct fw_process_coupon {
        features (any: none is listed), and under `at` one of these (any: the first is a plain number) */
     const char *features[3];
     fw_quantity_dimension under[2];
+    bool plain; /* read on any wafer: stands on no test die */
+    bool rate;  /* its feature is the id of a rate of the flow */
 } fw_process_coupon;
 
 /* process_calibrate.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the

@@ -88,7 +88,8 @@ static fw_status selectivity(fw_process_coupon_work *w) {
 }
 
 const fw_process_coupon fw_process_coupon_etch_rate = {
-    "etch-rate", FW_DIM_LENGTH, false, false, true, false, rates, .under = {FW_DIM_TIME}};
+    "etch-rate", FW_DIM_LENGTH,          false,         false,       true, false,
+    rates,       .under = {FW_DIM_TIME}, .plain = true, .rate = true};
 const fw_process_coupon fw_process_coupon_step = {
     "al-step", FW_DIM_LENGTH, false, false, true, false, selectivity, .under = {FW_DIM_LENGTH}};
 
@@ -324,7 +325,8 @@ static fw_status fit_spin(fw_process_coupon_work *w) {
 }
 
 const fw_process_coupon fw_process_coupon_spin = {
-    "spin", FW_DIM_LENGTH, false, false, true, false, fit_spin, .under = {FW_DIM_ROTATION}};
+    "spin",       FW_DIM_LENGTH, false, false, true, false, fit_spin, .under = {FW_DIM_ROTATION},
+    .plain = true};
 
 /* ---- plating ---- */
 
@@ -411,7 +413,8 @@ static fw_status by_pads(fw_process_coupon_work *w) {
 }
 
 const fw_process_coupon fw_process_coupon_mass = {
-    "plating-mass", FW_DIM_MASS, false, false, true, false, by_mass, .under = {FW_DIM_CHARGE}};
+    "plating-mass",           FW_DIM_MASS,  false, false, true, false, by_mass,
+    .under = {FW_DIM_CHARGE}, .plain = true};
 const fw_process_coupon fw_process_coupon_pads = {
     "plating-pads", FW_DIM_LENGTH, false,   true,
     true,           true,          by_pads, .under = {FW_DIM(-2, 0, 1, 1, 0, 0, 0)}};

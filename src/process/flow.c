@@ -219,12 +219,13 @@ static double pausing_s(const fw_process_step *s, double t_s) {
    stop time: a log is judged from both. Test: test_step_texts.c. */
 static void book(fw_process_step *s) {
     double t = s->time.nominal_s * (1.0 + s->overrun), own, handling;
-    s->booked_s = s->booked_stop_s = 0.0;
+    s->booked_s = s->booked_stop_s = s->booked_stop_own_s = 0.0;
     if (!s->time.computable) return;
     own = t + pausing_s(s, t) + s->finish_s;
     handling = fmax(0.0, s->attended_s - own);
     s->booked_s = own + handling;
-    s->booked_stop_s = s->time.stop_s + pausing_s(s, s->time.stop_s) + s->finish_s + handling;
+    s->booked_stop_own_s = s->time.stop_s + pausing_s(s, s->time.stop_s) + s->finish_s;
+    s->booked_stop_s = s->booked_stop_own_s + handling;
 }
 
 static fw_status compute_step(fw_arena *arena, fw_process_step *s) {

@@ -184,6 +184,7 @@ static const struct {
     {"does what a step works on lie open, and does metal grow where it shall?",
      fw_process_lint_reach, false},
     {"does no rinse take off what lies open?", fw_process_lint_rinses, false},
+    {"is water not left to dry in air where there is a drier?", fw_process_lint_aired, false},
     {"does a critical point dryer get what it takes up?", fw_process_lint_critical, false},
     {"is what is plated or bonded cleaned shortly before?", fw_process_lint_fresh, false},
     {"does no rework bring a layer into a bath that attacks it?", fw_process_lint_reworked, false},
@@ -496,11 +497,55 @@ static fw_status lint_lasts(fw_arena *arena, fw_process_flow *flow, const fw_pro
                         s->pulse ? " and its pauses" : "", why));
 }
 
+static fw_status tell_attended(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
+                               int number, double needed_s, fw_diags *diags) {
+    char is[32], t[32], to[32];
+    fw_number_text(is, sizeof is, s->attended_s / 60.0, 4);
+    fw_number_text(t, sizeof t, needed_s / 60.0, 4);
+    fw_number_text(to, sizeof to, ceil(needed_s / 60.0), 6);
+    const char *why =
+        number == 617
+            ? fw_arena_printf(arena,
+                              "somebody is at step %s for %s min (attended), but from its first "
+                              "look to its stop time are %s min: nobody sees when it is through. "
+                              "Nearest change: attended=\"%s\", or an etch that is known better",
+                              s->id, is, t, to)
+            : fw_arena_printf(arena,
+                              "somebody stands at step %s for %s min (attended), which takes %s "
+                              "min at most by its law: more than an hour longer. Nearest change: "
+                              "attended=\"%s\"",
+                              s->id, is, t, to);
+    FW_NEED(why);
+    fw_diag_warning(diags, number, s->place, "%s", why);
+    return fw_process_flow_add_reason(arena, flow, -1, why);
+}
+
+/* Somebody waits for the end of a wet step that is seen: from the first look to the stop time, if it does not come sooner.
+   Whoever is there for less comes back to what went on alone. A chamber stops by itself, and a solvent takes nothing else,
+   however long. And nobody is there for hours longer than a computed step takes; of stated times that was asked before.
+   Test: test_lint.c, who_is_there. */
+static fw_status lint_watched(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
+                              fw_diags *diags) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    const double window_s = s->time.stop_s - s->time.first_look_s;
+    const bool stated = !law || law->stated;
+    const fw_process_hazard *in = fw_process_step_in_liquid(s) ? fw_process_step_liquid(s) : NULL;
+    const bool seen = in && !fw_process_only_dries(in) && !s->pulse &&
+                      fw_words_hold("develop release strip wet-etch", " ", s->op);
+    if (!s->time.computable) return FW_OK;
+    if (seen && s->attended_s < window_s * (1.0 - 1e-9))
+        return tell_attended(arena, flow, s, 617, window_s, diags);
+    if (!stated && s->attended_s > s->booked_stop_own_s + 3600.0)
+        return tell_attended(arena, flow, s, 609, s->booked_stop_own_s, diags);
+    return FW_OK;
+}
+
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         FW_TRY(lint_uncertain(arena, flow, s));
         FW_TRY(lint_lasts(arena, flow, s, diags));
+        FW_TRY(lint_watched(arena, flow, s, diags));
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
         for (int k = 0; k < s->nderive; k++)

@@ -159,7 +159,19 @@ static const struct {
     {"package", 1, 604800, "chips are packaged within days"},
 };
 
+/* A plasma strikes, is matched and settles within some seconds: what is ashed for less is ashed as it happens. */
+static const char *unstruck(const fw_process_step *s, double time_s) {
+    const double least_s = 10.0;
+    const bool plasma = s->equipment && s->equipment->vacuum && !fw_process_step_in_liquid(s) &&
+                        fw_words_hold("clean dry-etch strip", " ", s->op);
+    return plasma && time_s < least_s
+               ? "a plasma strikes and settles within some seconds, and is worth a time from ten on"
+               : NULL;
+}
+
 const char *fw_process_step_unkept(const fw_process_step *s, double time_s) {
+    const char *plasma = unstruck(s, time_s);
+    if (plasma) return plasma;
     for (size_t i = 0; i < sizeof times / sizeof times[0]; i++)
         if (fw_process_step_is_op(s, times[i].op) &&
             (time_s < times[i].least_s || time_s > times[i].most_s))

@@ -110,7 +110,8 @@ static void lint_within(fw_process_pack *pack, const fw_process_step *s) {
         sum += q->value;
         if (!longest || q->value > longest->value) longest = q;
     }
-    if (!law || !law->stated || !time || time->unknown || !(sum > time->value * (1.0 + 1e-9)))
+    if (!law || !law->stated || !time || time->unknown || !longest ||
+        !(sum > time->value * (1.0 + 1e-9)))
         return;
     char is[32], parts[32];
     fw_diag_error(pack->diags, 609, longest->replaced ? longest->place : s->place,

@@ -110,6 +110,7 @@ fw_status fw_process_lint_hands(fw_process_pack *pack);
 fw_status fw_process_lint_longest(fw_process_pack *pack);
 fw_status fw_process_lint_lags(fw_process_pack *pack);
 fw_status fw_process_lint_rinses(fw_process_pack *pack);
+fw_status fw_process_lint_aired(fw_process_pack *pack); /* lint_state.c (FW-D618) */
 fw_status fw_process_lint_critical(fw_process_pack *pack);
 fw_status fw_process_lint_lifted(fw_process_pack *pack);
 fw_status fw_process_lint_baths(fw_process_pack *pack);

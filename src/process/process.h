@@ -252,6 +252,7 @@ typedef struct fw_process_step {
     /* what the machine is taken for: the time of the law with the over-etch, the pauses, the finishes, and what handling
        takes beyond them (attended_s). Nominal, and at the stop time; 0 where the time is not computable */
     double booked_s, booked_stop_s;
+    double booked_stop_own_s; /* the latter without what attendance takes beyond it */
 } fw_process_step;
 
 /* <corner of>: what a flow does not make exactly as drawn */

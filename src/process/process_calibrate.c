@@ -129,6 +129,44 @@ static fw_status check_under(const fw_process_coupon *kind, const fw_process_mea
                          unit ? ", such as 20 " : "", unit ? unit : "", is);
 }
 
+bool fw_process_coupon_on_test_die(const char *coupon) {
+    const fw_process_coupon *kind = kind_named(coupon);
+    return kind && !kind->plain;
+}
+
+fw_status fw_process_measurement_of_flow(const fw_process_flow *flow,
+                                         const fw_process_measurement *r, fw_diags *diags) {
+    const fw_process_coupon *kind = kind_named(r->coupon);
+    if (!kind || !kind->rate) return FW_OK;
+    const fw_quantity *q = fw_process_flow_quantity(flow, r->feature);
+    if (q && fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_SPEED))
+        return FW_OK;
+    return fw_diag_error(diags, 605, r->place,
+                         "the feature of %s is the id of a rate of flow '%s', and '%s' is none",
+                         r->coupon, flow->id, r->feature);
+}
+
+/* no width below 0, no depth of metres, no line of half a metre on a plate: what a pack may not say either (FW-D278) */
+static bool makes_sense(const fw_process_measurement *r, fw_diags *diags) {
+    const struct {
+        const char *id;
+        double value;
+        fw_quantity_dimension dimension;
+    } of[] = {{"measured", r->value, r->dimension},
+              {"drawn", r->drawn_m, FW_DIM_LENGTH},
+              {"at", r->at, r->at_dimension}};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        const char *unit = fw_quantity_dimension_unit(of[i].dimension);
+        const fw_quantity q = {.id = of[i].id,
+                               .value = of[i].value,
+                               .unit = unit ? unit : "1",
+                               .dimension = of[i].dimension,
+                               .place = r->place};
+        if (!isnan(q.value) && !fw_process_quantity_in_range(&q, diags)) return false;
+    }
+    return true;
+}
+
 fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags *diags) {
     const fw_process_coupon *kind = kind_named(r->coupon);
     if (!kind) return unknown_kind(diags, r);
@@ -147,7 +185,8 @@ fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags
                              "charge or speed at which it was measured",
                              r->coupon);
     FW_TRY(check_feature(kind, r, diags));
-    return check_under(kind, r, diags);
+    FW_TRY(check_under(kind, r, diags));
+    return makes_sense(r, diags) ? FW_OK : FW_INPUT;
 }
 
 /* two coupons of one number: their weighted mean, unless they contradict each other */

@@ -300,7 +300,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
     if (last && same_wafer(last, e) && e->start_s < last->start_s)
         fw_diag_warning(r->diags, 283, r->place,
                         "step %s starts before step %s, which was entered before it", e->step->id,
-                        last->step->id);
+                        last->at->id);
     ask_units(r, e);
     ask_missing(r, run, e);
 }
@@ -336,15 +336,16 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
             LONGEST_WORDS);
     FW_TRY(fw_recipe_asrun_entry_read(&r, words, n, ';', &e));
     FW_TRY(check_clock(&r, &e, now_s));
-    ask(&r, run, &e);
+    if (e.fate == FW_FATE_RUN) ask(&r, run, &e);
     fw_text out = fw_text_new(arena);
-    fw_text_printf(&out, "step=%s\tstart=%s\tend=%s\tby=%s", e.step->id, e.start, e.end, e.by);
+    fw_text_printf(&out, "step=%s\tstart=%s\tend=%s\tby=%s", e.at->id, e.start, e.end, e.by);
     const struct {
         const char *name, *value;
     } more[] = {{"wafer", e.wafer},           {"second", e.second}, {"tool", e.tool},
                 {"instrument", e.instrument}, {"bath", e.bath},     {"note", e.note}};
     for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
         if (more[i].value) fw_text_printf(&out, "\t%s=%s", more[i].name, more[i].value);
+    if (e.fate != FW_FATE_RUN) fw_text_printf(&out, "\t%s=%s", fw_recipe_fate_word(e.fate), e.why);
     for (int i = 0; i < e.nmeasured; i++)
         fw_text_printf(&out, "\t%s=%s", e.measured[i].measure, e.measured[i].value);
     for (int i = 0; i < e.nset; i++)

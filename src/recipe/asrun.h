@@ -6,6 +6,7 @@
    tabs. */
 #ifndef FW_RECIPE_ASRUN_H
 #define FW_RECIPE_ASRUN_H
+#include "mask/mask.h"
 #include "process/calibrate.h"
 #include "process/process.h"
 
@@ -35,8 +36,20 @@ typedef struct fw_recipe_coupon {
     int nsite;                    /* 0: looked at, not measured */
 } fw_recipe_coupon;
 
+/* An entry is of a step that was run, or says what became of a wafer: from scrapped or held on no entry of it is expected or
+   taken, until a held one is resumed. */
+typedef enum fw_recipe_fate {
+    FW_FATE_RUN,
+    FW_FATE_HELD,
+    FW_FATE_RESUMED,
+    FW_FATE_SCRAPPED
+} fw_recipe_fate;
+
 typedef struct fw_recipe_asrun_entry {
-    const fw_process_step *step;
+    const fw_process_step *step; /* that was run; NULL: none was (fate) */
+    const fw_process_step *at;   /* that one, or the one at which the fate was seen */
+    fw_recipe_fate fate;
+    const char *why;       /* of a fate, as written */
     double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */
     /* as written; NULL: not given; wafer NULL: the whole lot */
     const char *start, *end, *by, *second, *tool, *bath, *note, *wafer, *instrument;
@@ -54,9 +67,10 @@ typedef struct fw_recipe_asrun {
     int nwafer;
     fw_recipe_asrun_entry *entry; /* (nentry) in the order of the log */
     int nentry;
-    char chain[65]; /* of the last line */
-    char begun[65]; /* of the first one */
-    bool headed;    /* its first line says that a head is kept beside it */
+    char chain[65];             /* of the last line */
+    char begun[65];             /* of the first one */
+    const fw_mask_table *table; /* of the test die that coupons are on; NULL: not looked at */
+    bool headed;                /* its first line says that a head is kept beside it */
 } fw_recipe_asrun;
 
 /* does the text begin as a log does? */
@@ -77,9 +91,13 @@ const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char
 /* the line that begins a log (lot and wafers may be NULL), and the line of one entry written as
      C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; wafer=3; thickness=9.1 9.0 9.2 9.1 9.1 um;
      set current=0.2 A; coupon=plating-pads, drawn=1000 um, value=9.1 um, u=0.05 um, at=25 C/cm2
+   or of what became of a wafer
+     C22; wafer=3; start=2026-11-20T10:21; by=AB; scrapped=cracked in the jig
+   (held and resumed likewise, end as start),
    with second, tool, bath, instrument, note and the step's measures as further words. *line ends with a newline; what
    is wrong with the entry is FW-D282, a value that makes no sense FW-D278, what a cautious colleague would ask a warning
-   FW-D283, at `place`. now_s: local time, NaN: not known. */
+   FW-D283, an entry of a wafer that is scrapped or held FW-D603, a coupon that the flow does not have
+   FW-D605, at `place`. now_s: local time, NaN: not known. */
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
                                 const char **line);
@@ -113,7 +131,7 @@ fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recip
                                      fw_text *out);
 
 /* asrun_values.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers. FW-D610: a reading that a later
-   one took the place of; FW-D611: readings of one run under something else */
+   one took the place of; FW-D611: readings of one run under something else; FW-D604: of a wafer that was scrapped or held by then, left out */
 fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
                                    fw_process_readings *readings);
 typedef struct fw_recipe_read_again {

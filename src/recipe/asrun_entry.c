@@ -54,8 +54,9 @@ static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const cha
     return NULL;
 }
 
-static const char *const own_words[] = {"start", "end",  "by",    "second",    "tool",
-                                        "bath",  "note", "wafer", "instrument"};
+static const char *const own_words[] = {"start",      "end",      "by",   "second",
+                                        "tool",       "bath",     "note", "wafer",
+                                        "instrument", "scrapped", "held", "resumed"};
 enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 
 /* how many times yes or no stands there; 0: something else stands there, too */
@@ -181,9 +182,24 @@ static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     return FW_OK;
 }
 
+/* A line of a log cannot be taken back, and what the flow does not have is of no use to calibrate. */
+static fw_status check_coupon(const fw_recipe_asrun_reader *r, const fw_process_measurement *row) {
+    const fw_mask_table *table = r->run->table;
+    bool there = !table || !fw_process_coupon_on_test_die(row->coupon);
+    for (int i = 0; !there && i < table->npattern; i++)
+        there = strcmp(table->pattern[i].kind->name, row->coupon) == 0 ||
+                strcmp(table->pattern[i].id, row->coupon) == 0;
+    if (there) return fw_process_measurement_of_flow(r->flow, row, r->diags);
+    return fw_diag_error(r->diags, 605, r->place,
+                         "coupon %s stands on the test dies of other flows; that of %s has none",
+                         row->coupon, r->flow->id);
+}
+
 static fw_status read_coupon(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                              const char *value) {
-    return fw_recipe_asrun_coupon_read(r, value, &e->coupon[e->ncoupon++]);
+    fw_recipe_coupon *c = &e->coupon[e->ncoupon++];
+    FW_TRY(fw_recipe_asrun_coupon_read(r, value, c));
+    return r->fresh ? check_coupon(r, &c->row) : FW_OK;
 }
 
 static fw_status check_wafer(const fw_recipe_asrun_reader *r, const char *id) {
@@ -199,6 +215,62 @@ static fw_status check_wafer(const fw_recipe_asrun_reader *r, const char *id) {
                                    "how many there are or their ids, with --wafers",
                              id);
     return fw_recipe_asrun_unknown(r, "the lot has no wafer", id, run->wafer, run->nwafer);
+}
+
+/* ---- what became of a wafer ---- */
+
+static fw_status read_fate(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
+                           fw_recipe_fate fate, const char *why) {
+    if (e->fate != FW_FATE_RUN)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "the entry says %s and %s of a wafer: one entry says one of them",
+                             fw_recipe_fate_word(e->fate), fw_recipe_fate_word(fate));
+    e->fate = fate;
+    e->why = why;
+    return FW_OK;
+}
+
+/* a wafer is held once, resumed where it is held, and scrapped for good; in the order of their times */
+static fw_status check_fate(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *out = NULL;
+    for (int i = 0; i < r->run->nentry; i++) {
+        const fw_recipe_asrun_entry *other = &r->run->entry[i];
+        if (other->wafer && strcmp(other->wafer, e->wafer) == 0 && e->start_s < other->end_s)
+            return fw_diag_error(r->diags, 603, r->place,
+                                 "wafer %s is %s at %s, before what is in line %d (%s, to %s)",
+                                 e->wafer, fw_recipe_fate_word(e->fate), e->start, other->line,
+                                 other->at->id, other->end);
+        if (other->fate != FW_FATE_RUN && strcmp(other->wafer, e->wafer) == 0) out = other;
+    }
+    const bool held = out && out->fate == FW_FATE_HELD;
+    if (e->fate == FW_FATE_RESUMED && !held)
+        return fw_diag_error(r->diags, 603, r->place,
+                             "wafer %s is not held, so that it cannot be "
+                             "resumed%s",
+                             e->wafer,
+                             out && out->fate == FW_FATE_SCRAPPED ? ": it is scrapped" : "");
+    if ((held && e->fate == FW_FATE_HELD) || (out && out->fate == FW_FATE_SCRAPPED))
+        return fw_diag_error(r->diags, 603, r->place, "wafer %s was %s at %s already (line %d)",
+                             e->wafer, fw_recipe_fate_word(out->fate), out->at->id, out->line);
+    return FW_OK;
+}
+
+/* no step of a wafer that is scrapped or held, and none of a lot of which nothing is left */
+static fw_status check_there(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e,
+                             int there) {
+    if (!e->wafer && r->run->nwafer > 0 && there == 0)
+        return fw_diag_error(r->diags, 603, r->place,
+                             "all wafers of the lot are scrapped or held: step %s is run of none",
+                             e->at->id);
+    if (!e->wafer) return FW_OK;
+    const fw_recipe_asrun_entry *out = fw_recipe_asrun_out(r->run, e->wafer, e->end_s);
+    if (!out) out = fw_recipe_asrun_out(r->run, e->wafer, e->start_s);
+    if (!out) return FW_OK;
+    return fw_diag_error(r->diags, 603, r->place,
+                         "wafer %s was %s at %s, %s (line %d: %s): no later entry of it is taken%s",
+                         e->wafer, fw_recipe_fate_word(out->fate), out->at->id, out->start,
+                         out->line, out->why,
+                         out->fate == FW_FATE_HELD ? "; where it goes on, log resumed= first" : "");
 }
 
 static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
@@ -228,9 +300,25 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
                                  name, value);
         return field[i].text == &e->wafer ? check_wafer(r, value) : FW_OK;
     }
+    for (fw_recipe_fate fate = FW_FATE_HELD; fate <= FW_FATE_SCRAPPED; fate++)
+        if (strcmp(name, fw_recipe_fate_word(fate)) == 0) return read_fate(r, e, fate, value);
     if (strncmp(name, "set ", 4) == 0) return read_setting(r, e, name + 4, value);
     if (strcmp(name, "coupon") == 0) return read_coupon(r, e, value);
     return read_measure(r, e, name, value);
+}
+
+/* an entry of what became of a wafer is of that wafer, and of nothing else */
+static fw_status check_alone(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
+    if (!e->wafer)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "%s= is of one wafer: add wafer=, and an entry for each of several",
+                             fw_recipe_fate_word(e->fate));
+    if (e->nmeasured || e->nset || e->ncoupon || e->end_s != e->start_s)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "%s= is an entry of its own, at one time and without values: log what "
+                             "was run and measured of wafer %s with an entry of the step before it",
+                             fw_recipe_fate_word(e->fate), e->wafer);
+    return r->fresh ? check_fate(r, e) : FW_OK;
 }
 
 /* what no entry may lack */
@@ -241,6 +329,7 @@ static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_as
                              lacks);
     if (e->end_s < e->start_s)
         return fw_diag_error(r->diags, 282, r->place, "step %s ends before it starts", e->step->id);
+    if (e->fate != FW_FATE_RUN) return check_alone(r, e);
     if (e->step->second_signature && (!e->second || strcmp(e->second, e->by) == 0))
         return fw_diag_error(r->diags, 282, r->place,
                              "step %s is never done alone: add second= with the initials of the "
@@ -283,9 +372,19 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     if (!e->step)
         return fw_diag_error(r->diags, 282, r->place,
                              "the entry names no step; add step= with its id");
+    e->at = e->step;
+    if (e->fate != FW_FATE_RUN && !e->end) e->end = e->start, e->end_s = e->start_s;
+    int there = 0;
+    for (int i = 0; i < r->run->nwafer; i++)
+        there += !fw_recipe_asrun_out(r->run, r->run->wafer[i], e->start_s);
     e->loads = e->wafer || fw_process_step_is_of_lot(e->step)
                    ? 1
-                   : (r->run->nwafer + e->step->batch - 1) / e->step->batch;
+                   : (there + e->step->batch - 1) / e->step->batch;
     if (e->loads < 1) e->loads = 1; /* a log of before there were wafers */
-    return check_entry(r, e);
+    FW_TRY(check_entry(r, e));
+    if (e->fate != FW_FATE_RUN)
+        e->step = NULL;
+    else if (r->fresh)
+        return check_there(r, e, there);
+    return FW_OK;
 }

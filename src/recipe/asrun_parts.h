@@ -54,6 +54,33 @@ double fw_recipe_asrun_limit(const char *text, double absent);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
 
+/* "short", "in window", "long" or "no plan": an entry's duration; what was waited since the end of the step that a lag names
+   (NaN: that is not in the log), and whether that is fine */
+const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+double fw_recipe_asrun_waited(const fw_recipe_asrun *run, const fw_process_lag *lag,
+                              const fw_recipe_asrun_entry *e);
+bool fw_recipe_asrun_wait_is_fine(const fw_process_lag *lag, double wait_s);
+typedef struct fw_recipe_asrun_total {
+    int logged, out, repeated;
+    double planned_s, actual_s; /* what several wafers share counts once */
+} fw_recipe_asrun_total;
+fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                 fw_arena *arena, fw_recipe_asrun_total *total);
+
+/* ---- what became of wafers: asrun_values.c ---- */
+
+/* "scrapped", "held", "resumed" */
+const char *fw_recipe_fate_word(fw_recipe_fate fate);
+/* the entry by which the wafer is scrapped or held at that time; NULL: it is there. INFINITY: by all that is in the log */
+const fw_recipe_asrun_entry *fw_recipe_asrun_out(const fw_recipe_asrun *run, const char *wafer,
+                                                 double time_s);
+/* is there to be an entry of the step for the wafer? Neither was it run, nor is the wafer out */
+bool fw_recipe_asrun_expects(const fw_recipe_asrun *run, const fw_process_step *step,
+                             const char *wafer);
+/* How many wafers come out of the first `steps` steps of the flow (FW_FATE_RUN), or are held or scrapped in one of them */
+int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *run, int steps,
+                          fw_recipe_fate fate);
+
 /* ---- control charts of what was measured ---- */
 
 typedef struct fw_recipe_chart_point { /* a subgroup: the sites of one wafer */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Planned against actual as a page: deviations in plain words, control charts of what was measured, every entry. */
+/* Planned against actual as a page (deviations in plain words, control charts of what was measured, every entry), and as
+   JSON. */
+#include "base/json.h"
 #include "base/text.h"
 #include "recipe/asrun_parts.h"
 #include "recipe/recipe_words.h"
@@ -45,6 +47,38 @@ static void cell(fw_text *out, const char *text) {
     fw_text_add(out, "<td>");
     fw_text_escaped(out, text ? text : "");
     fw_text_add(out, "</td>");
+}
+
+/* what became of wafers, and how many there still are */
+static void fates(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (e->fate == FW_FATE_RUN) continue;
+        if (n++ == 0)
+            fw_text_printf(
+                out,
+                "<h2>Wafers</h2>\n<p>%d in, %d out, %d held, %d scrapped.</p>\n<table><thead>"
+                "<tr><th>Wafer</th><th>What became of it</th><th>At</th><th>When</th><th>Why</th>"
+                "<th>Who; note</th></tr></thead><tbody>\n",
+                run->nwafer, fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_RUN),
+                fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_HELD),
+                fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_SCRAPPED));
+        fw_text_add(out, "<tr>");
+        cell(out, e->wafer);
+        cell(out, fw_recipe_fate_word(e->fate));
+        fw_text_printf(out, "<td>%s ", e->at->id);
+        fw_text_escaped(out, e->at->title);
+        fw_text_add(out, "</td>");
+        cell(out, e->start);
+        cell(out, e->why);
+        fw_text_add(out, "<td>");
+        fw_text_escaped(out, e->by);
+        if (e->note) fw_text_add(out, "; ");
+        fw_text_escaped(out, e->note ? e->note : "");
+        fw_text_add(out, "</td></tr>\n");
+    }
+    if (n) fw_text_add(out, "</tbody></table>\n");
 }
 
 static fw_status deviations(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
@@ -256,6 +290,7 @@ static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
 fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out) {
     heading(flow, run, out);
+    fates(flow, run, out);
     FW_TRY(deviations(flow, run, out));
     FW_TRY(charts(flow, run, out));
     entries(flow, run, out);
@@ -265,4 +300,269 @@ fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recip
                 "limit, or the eighth and every further point on one side of the centre. Red: such "
                 "a point, or one with a value that is not accepted.</p>\n</body></html>\n");
     return fw_text_end(out);
+}
+
+/* ---- planned against actual, as JSON ---- */
+static void put_number(fw_json *out, const char *key, double value) {
+    fw_json_number(out, key, value, FW_PLAIN_DIGITS);
+}
+
+/* what nobody wrote down is left out */
+static void put_text(fw_json *out, const char *key, const char *value) {
+    if (value) fw_json_text(out, key, value);
+}
+
+static void sites_json(const fw_recipe_measured *m, fw_json *out) {
+    if (m->nsite < 2) return;
+    fw_json_object(out, "sites");
+    for (int i = 0; i < FW_RECIPE_SITES; i++)
+        if (!isnan(m->site[i])) put_number(out, fw_recipe_site_name[i], m->site[i]);
+    fw_json_end(out);
+}
+
+static void measured_json(const fw_recipe_asrun_entry *e, fw_json *out) {
+    fw_json_list(out, "measured");
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_recipe_measured *m = &e->measured[i];
+        fw_json_object(out, NULL);
+        fw_json_text(out, "measure", m->measure);
+        if (isnan(m->number))
+            put_text(out, "value", m->value);
+        else
+            put_number(out, "value", m->number);
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+        put_text(out, "unit", a->unit);
+        fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(a, m));
+        sites_json(m, out);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
+    fw_json_list(out, "settings");
+    for (int i = 0; i < e->nset; i++) {
+        const fw_recipe_set *s = &e->set[i];
+        fw_json_object(out, NULL);
+        fw_json_text(out, "name", s->name);
+        if (isnan(s->value))
+            put_text(out, "value", s->text);
+        else
+            put_number(out, "value", s->value);
+        put_number(out, "planned", s->q->unknown ? (double)NAN : fw_quantity_in_unit(s->q));
+        put_text(out, "unit", s->q->unit);
+        fw_json_truth(out, "accepted", fw_recipe_asrun_allowed(s));
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    fw_json_list(out, "coupons");
+    for (int i = 0; i < e->ncoupon; i++)
+        fw_json_text(out, NULL, e->coupon[i].text);
+    fw_json_end(out);
+}
+
+static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_json *out) {
+    fw_json_list(out, "waited");
+    for (int i = 0; i < e->step->nlag; i++) {
+        const fw_process_lag *l = &e->step->lag[i];
+        double wait = fw_recipe_asrun_waited(run, l, e);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "from", l->from);
+        put_number(out, "waited_s", wait);
+        put_number(out, "min_s", l->min_s);
+        put_number(out, "max_s", l->max_s);
+        if (isnan(wait))
+            fw_json_null(out, "accepted");
+        else
+            fw_json_truth(out, "accepted", fw_recipe_asrun_wait_is_fine(l, wait));
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_json *out) {
+    put_text(out, "wafer", e->wafer);
+    put_text(out, "start", e->start);
+    put_text(out, "end", e->end);
+    put_number(out, "actual_s", e->end_s - e->start_s);
+    put_text(out, "judged", fw_recipe_asrun_in_time(run, e));
+    put_text(out, "by", e->by);
+    put_text(out, "second", e->second);
+    put_text(out, "tool", e->tool);
+    put_text(out, "instrument", e->instrument);
+    put_text(out, "bath", e->bath);
+    put_text(out, "note", e->note);
+    measured_json(e, out);
+    settings_json(e, out);
+    waited_json(run, e, out);
+}
+
+/* the last entry of a step itself, and the last ones of its other wafers in a list */
+static void runs_json(const fw_recipe_asrun *run, const fw_process_step *s, fw_json *out) {
+    const fw_recipe_asrun_entry *last = NULL;
+    int times = 0, wafers = 0;
+    for (int k = 0; k < run->nentry; k++) {
+        if (run->entry[k].step != s) continue;
+        last = &run->entry[k];
+        times++;
+        wafers += fw_recipe_asrun_is_last(run, last);
+    }
+    fw_json_whole(out, "times", times);
+    if (last) entry_json(run, last, out);
+    if (wafers < 2) return;
+    fw_json_list(out, "others");
+    for (int k = 0; k < run->nentry; k++) {
+        const fw_recipe_asrun_entry *e = &run->entry[k];
+        if (e->step != s || e == last || !fw_recipe_asrun_is_last(run, e)) continue;
+        fw_json_object(out, NULL);
+        entry_json(run, e, out);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static fw_status deviations_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                 fw_json *out, fw_arena *arena) {
+    fw_recipe_deviation *list;
+    int n;
+    FW_TRY(fw_recipe_asrun_deviations(arena, flow, run, &list, &n));
+    fw_json_list(out, "deviations");
+    for (int i = 0; i < n; i++) {
+        fw_json_object(out, NULL);
+        fw_json_text(out, "step", list[i].entry->step->id);
+        put_text(out, "wafer", list[i].entry->wafer);
+        fw_json_text(out, "what", list[i].what);
+        fw_json_text(out, "planned", list[i].planned);
+        fw_json_text(out, "actual", list[i].actual);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    return FW_OK;
+}
+
+static void read_again_json(const fw_recipe_asrun *run, fw_json *out) {
+    int i = 0, k = 0;
+    fw_json_list(out, "read_again");
+    for (fw_recipe_read_again a; fw_recipe_asrun_read_again(run, &i, &k, &a);) {
+        fw_json_object(out, NULL);
+        fw_json_text(out, "step", a.entry->step->id);
+        put_text(out, "wafer", a.entry->wafer);
+        fw_json_whole(out, "line", a.entry->line);
+        fw_json_text(out, "coupon", a.coupon->text);
+        fw_json_whole(out, "by_line", a.by->line);
+        fw_json_text(out, "by_coupon", a.by_coupon->text);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void fates_json(const fw_recipe_asrun *run, fw_json *out) {
+    fw_json_list(out, "fates");
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (e->fate == FW_FATE_RUN) continue;
+        fw_json_object(out, NULL);
+        fw_json_text(out, "wafer", e->wafer);
+        fw_json_text(out, "fate", fw_recipe_fate_word(e->fate));
+        fw_json_text(out, "step", e->at->id);
+        fw_json_text(out, "at", e->start);
+        fw_json_text(out, "by", e->by);
+        fw_json_text(out, "why", e->why);
+        put_text(out, "note", e->note);
+        fw_json_whole(out, "line", e->line);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+/* how many wafers come to the step and go on from it, and of which it is not in the log yet */
+static void wafers_json(const fw_process_flow *flow, const fw_recipe_asrun *run, int step,
+                        fw_json *out) {
+    if (run->nwafer == 0) return;
+    fw_json_whole(out, "wafers_in", fw_recipe_asrun_count(flow, run, step, FW_FATE_RUN));
+    fw_json_whole(out, "wafers_out", fw_recipe_asrun_count(flow, run, step + 1, FW_FATE_RUN));
+    fw_json_list(out, "expected");
+    for (int i = 0; i < run->nwafer; i++)
+        if (fw_recipe_asrun_expects(run, &flow->step[step], run->wafer[i]))
+            fw_json_text(out, NULL, run->wafer[i]);
+    fw_json_end(out);
+}
+
+static void set_json(const char *name, const fw_quantity *q, fw_json *out) {
+    fw_json_object(out, NULL);
+    fw_json_text(out, "name", name);
+    put_number(out, "planned", q->unknown ? (double)NAN : fw_quantity_in_unit(q));
+    fw_json_text(out, "unit", q->unit);
+    fw_json_end(out);
+}
+
+/* what an entry of the step may say: what is measured and within which limits, and what is set */
+static void asked_json(const fw_process_step *s, fw_json *out) {
+    fw_json_list(out, "measures");
+    for (int i = 0; i < s->naccept; i++) {
+        const fw_process_accept *a = &s->accept[i];
+        fw_json_object(out, NULL);
+        fw_json_text(out, "measure", a->measure);
+        fw_json_text(out, "low", a->low);
+        fw_json_text(out, "high", a->high);
+        fw_json_text(out, "unit", a->unit);
+        fw_json_whole(out, "sites", a->sites);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    fw_json_list(out, "sets");
+    for (int i = 0; i < s->nsetting; i++)
+        set_json(s->setting[i].name, s->setting[i].q, out);
+    for (int i = 0; i < s->nderived; i++)
+        if (s->derived[i]->id) set_json(s->derived[i]->id, s->derived[i], out);
+    fw_json_end(out);
+}
+
+fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
+    put_text(out, "schema", "flexwright.as-run/1");
+    put_text(out, "flow", flow->id);
+    put_text(out, "lot", run->lot);
+    if (run->nwafer > 0) {
+        fw_json_list(out, "wafers");
+        for (int i = 0; i < run->nwafer; i++)
+            fw_json_text(out, NULL, run->wafer[i]);
+        fw_json_end(out);
+    }
+    put_text(out, "plan_sha256", run->plan);
+    put_text(out, "chain", run->chain[0] ? run->chain : NULL);
+    fw_json_whole(out, "entries", run->nentry);
+    fw_json_list(out, "steps");
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const fw_process_time *p = &s->time;
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", s->id);
+        fw_json_text(out, "title", s->title);
+        put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);
+        put_number(out, "first_look_s", p->computable ? p->first_look_s : (double)NAN);
+        put_number(out, "stop_s", p->computable ? p->stop_s : (double)NAN);
+        put_number(out, "at_machine_s", p->computable ? s->booked_s : (double)NAN);
+        put_number(out, "at_machine_most_s", p->computable ? s->booked_stop_s : (double)NAN);
+        wafers_json(flow, run, i, out);
+        runs_json(run, s, out);
+        asked_json(s, out);
+        fw_json_end(out);
+    }
+    fw_recipe_asrun_total t;
+    FW_TRY(fw_recipe_asrun_sum_up(flow, run, text->arena, &t));
+    fw_json_end(out);
+    fw_json_whole(out, "logged", t.logged);
+    fw_json_whole(out, "repeated", t.repeated);
+    fw_json_whole(out, "outside", t.out);
+    put_number(out, "at_machine_s", t.planned_s);
+    put_number(out, "actual_s", t.actual_s);
+    FW_TRY(deviations_json(flow, run, out, text->arena));
+    read_again_json(run, out);
+    fates_json(run, out);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
 }

@@ -271,6 +271,40 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
     return fw_process_measurement_check(&c->row, r->diags);
 }
 
+/* ---- what became of wafers ---- */
+
+const char *fw_recipe_fate_word(fw_recipe_fate fate) {
+    static const char *const word[] = {NULL, "held", "resumed", "scrapped"};
+    return word[fate];
+}
+
+const fw_recipe_asrun_entry *fw_recipe_asrun_out(const fw_recipe_asrun *run, const char *wafer,
+                                                 double time_s) {
+    const fw_recipe_asrun_entry *last = NULL;
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
+        if (e->fate != FW_FATE_RUN && strcmp(e->wafer, wafer) == 0 && e->start_s < time_s) last = e;
+    return last && last->fate != FW_FATE_RESUMED ? last : NULL;
+}
+
+bool fw_recipe_asrun_expects(const fw_recipe_asrun *run, const fw_process_step *step,
+                             const char *wafer) {
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
+        if (e->step == step && (!e->wafer || strcmp(e->wafer, wafer) == 0)) return false;
+    return !fw_recipe_asrun_out(run, wafer, (double)INFINITY);
+}
+
+int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *run, int steps,
+                          fw_recipe_fate fate) {
+    int n = 0;
+    for (int i = 0; i < run->nwafer; i++) {
+        const fw_recipe_asrun_entry *out =
+            fw_recipe_asrun_out(run, run->wafer[i], (double)INFINITY);
+        const bool before = out && out->at < flow->step + steps;
+        n += before ? out->fate == fate : fate == FW_FATE_RUN;
+    }
+    return n;
+}
+
 /* ---- the coupons of a log, as calibrate takes them ---- */
 
 /* Is b, which comes later, in the place of a? It reads the same feature of the same drawn size again. A rate is read off
@@ -344,6 +378,19 @@ static void warn_apart(const fw_process_readings *r, fw_diags *diags) {
     }
 }
 
+/* of a wafer that was scrapped or held by then: what was read is of another state than the flow's */
+static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                   const fw_recipe_coupon *c, fw_diags *diags) {
+    const fw_recipe_asrun_entry *out =
+        e->wafer ? fw_recipe_asrun_out(run, e->wafer, e->end_s) : NULL;
+    if (!out) return false;
+    fw_diag_warning(diags, 604, c->row.place,
+                    "'%s' of step %s does not count: wafer %s was %s at %s before (line %d)",
+                    c->text, e->step->id, e->wafer, fw_recipe_fate_word(out->fate), out->at->id,
+                    out->line);
+    return true;
+}
+
 fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
                                    fw_process_readings *readings) {
     int most = 0;
@@ -356,6 +403,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;
+            if (is_out(run, e, c, diags)) continue;
             if (read_again(run, i, k, &again)) {
                 warn_again(&again, diags);
                 continue;

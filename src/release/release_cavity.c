@@ -63,31 +63,34 @@ static span span_of(const cell_grid *c, fw_geometry_box b, double room_m) {
                   within(floor((b.y1 + room_m - c->from.y) / s), c->rows - 1)};
 }
 
-/* is an arc surely farther away? Without an angle */
-static bool is_far(const fw_geometry_segment *s, fw_geometry_vec2 p, double reach) {
-    return s->kind == FW_ARC && fabs(vec_distance(p, s->centre) - s->radius) > reach;
+/* what of a box a line may reach in the row at y: all of it, of an arc and of a line that hardly rises */
+static fw_geometry_box reached(const fw_geometry_segment *s, fw_geometry_box box, double y,
+                               double reach) {
+    const double rise = s->b.y - s->a.y, run = s->b.x - s->a.x;
+    if (s->kind == FW_ARC || fabs(rise) < 1e-3 * fabs(run)) return box;
+    const double mid = s->a.x + run / rise * (y - s->a.y), half = 1.001 * reach * fabs(run / rise);
+    box.x0 = fw_greater(box.x0, mid - half), box.x1 = fw_lesser(box.x1, mid + half);
+    return box;
 }
 
 /* adds the cells that an outline may touch: none that it touches is missing, none is added whose middle is farther than a
    step from it */
 static void cells_touch(const cell_grid *cells, const fw_geometry_contour *outline,
                         unsigned char *set) {
-    double reach = HALF_DIAGONAL * cells->step_m * (1.0 + 1e-9), t;
-    fw_geometry_vec2 on, to = middle(cells, cells->columns, cells->rows);
-    const fw_geometry_box all = {cells->from.x, cells->from.y, to.x, to.y};
+    const double reach = HALF_DIAGONAL * cells->step_m * (1.0 + 1e-9);
+    const fw_geometry_vec2 from = cells->from, to = middle(cells, cells->columns, cells->rows);
     for (int i = 0; i < outline->count; i++) {
         const fw_geometry_segment *s = &outline->segment[i];
         const fw_geometry_box box = fw_segment_box(s);
-        if (fw_box_gap(box, all) > reach) continue;
-        span a = span_of(cells, box, reach);
-        for (int r = a.r0; r <= a.r1; r++)
-            for (int c = a.c0; c <= a.c1; c++) {
-                unsigned char *cell = &set[(size_t)r * (size_t)cells->columns + (size_t)c];
-                fw_geometry_vec2 at = middle(cells, c, r);
-                if (!*cell && !is_far(s, at, reach) &&
-                    fw_geometry_segment_nearest(s, at, &t, &on) <= reach)
-                    *cell = 1;
-            }
+        if (fw_box_gap(box, (fw_geometry_box){from.x, from.y, to.x, to.y}) > reach) continue;
+        const span a = span_of(cells, box, reach);
+        const fw_geometry_near near = fw_geometry_near_of(s, reach);
+        for (int r = a.r0; r <= a.r1; r++) {
+            unsigned char *row = &set[(size_t)r * (size_t)cells->columns];
+            const span in = span_of(cells, reached(s, box, middle(cells, 0, r).y, reach), reach);
+            for (int c = in.c0; c <= in.c1; c++)
+                if (!row[c]) row[c] = fw_geometry_is_near(&near, middle(cells, c, r));
+        }
     }
 }
 
@@ -125,31 +128,20 @@ static fw_status cells_inside(fw_arena *arena, const cell_grid *cells,
     return FW_OK;
 }
 
-/* eight cells at once: to[i] = from[i] | from[i + by], i from below, so that both may be the same list */
-static void join_shifted(unsigned char *to, const unsigned char *from, size_t by, size_t n) {
-    size_t i = 0;
-    uint64_t a, b;
-    for (; i + sizeof a <= n; i += sizeof a) {
-        memcpy(&a, from + i, sizeof a);
-        memcpy(&b, from + i + by, sizeof b);
-        a |= b;
-        memcpy(to + i, &a, sizeof a);
-    }
-    for (; i < n; i++)
-        to[i] = from[i] | from[i + by];
-}
+typedef uint64_t lot __attribute__((vector_size(32)));
 
-static void join_sets(unsigned char *to, const unsigned char *other, size_t n) {
+/* many cells at once: to[i] = p[i] | q[i], i from below, so that both may lie in the same list, at or beyond it */
+static void join_sets(unsigned char *to, const unsigned char *p, const unsigned char *q, size_t n) {
     size_t i = 0;
-    uint64_t a, b;
+    lot a, b;
     for (; i + sizeof a <= n; i += sizeof a) {
-        memcpy(&a, to + i, sizeof a);
-        memcpy(&b, other + i, sizeof b);
+        memcpy(&a, p + i, sizeof a);
+        memcpy(&b, q + i, sizeof b);
         a |= b;
         memcpy(to + i, &a, sizeof a);
     }
     for (; i < n; i++)
-        to[i] |= other[i];
+        to[i] = p[i] | q[i];
 }
 
 static void turn_round(unsigned char *set, size_t n) {
@@ -169,8 +161,9 @@ static void turn_round(unsigned char *set, size_t n) {
 static void join_following(unsigned char *list, size_t n, size_t reach, size_t stride) {
     size_t have = 1, want = reach + 1;
     for (; 2 * have <= want; have *= 2)
-        join_shifted(list, list, have * stride, n - have * stride);
-    if (have < want) join_shifted(list, list, (want - have) * stride, n - (want - have) * stride);
+        join_sets(list, list, list + have * stride, n - have * stride);
+    if (have < want)
+        join_sets(list, list, list + (want - have) * stride, n - (want - have) * stride);
 }
 
 /* Every cell within k columns and rows of one of the set; k < 0: away from those that are not in it. On a wider list with
@@ -370,11 +363,15 @@ static fw_status cells_outlines(fw_arena *arena, const cell_grid *cells, const u
                                 fw_geometry_region *outlines) {
     lattice l = {.cells = cells, .across = cells->columns + 1};
     size_t n = (size_t)l.across * ((size_t)cells->rows + 1);
+    const unsigned char nowhere[8] = {NOWHERE, NOWHERE, NOWHERE, NOWHERE,
+                                      NOWHERE, NOWHERE, NOWHERE, NOWHERE};
     int room = 0;
     FW_NEED(l.way = fw_arena_array(arena, unsigned char, n));
     find_ways(&l, set);
     *outlines = (fw_geometry_region){0};
     for (size_t at = 0; at < n; at++) {
+        while (at + 8 < n && !memcmp(l.way + at, nowhere, 8))
+            at += 8;
         if (l.way[at] == NOWHERE) continue;
         if (outlines->count == room) {
             int more = 2 * room + 16;
@@ -415,13 +412,13 @@ static fw_status cover(maker *m, bool (*wanted)(const maker *m, int piece), unsi
     for (int i = 0; i < m->layout->npiece; i++)
         if (wanted(m, i))
             FW_TRY(cells_inside(m->arena, &m->cells, &m->layout->piece[i].contour, edge, set));
-    join_sets(set, edge, m->n);
+    join_sets(set, set, edge, m->n);
     fw_arena_rewind(m->arena, mark);
     return FW_OK;
 }
 
 /* where hollows touch in a corner alone the ground between them is taken, until no such place is left */
-static fw_status join_corners(maker *m) {
+static void join_corners(const maker *m) {
     int columns = m->cells.columns;
     for (bool again = true; again;) {
         again = false;
@@ -440,7 +437,6 @@ static fw_status join_corners(maker *m) {
                 again = true;
             }
     }
-    return FW_OK;
 }
 
 /* a hollow beside ground that is itself surrounded: that ground goes */
@@ -557,7 +553,7 @@ static fw_status start(fw_arena *arena, const fw_layout *layout, double room_m, 
                        maker *m) {
     *m = (maker){.arena = arena, .layout = layout};
     FW_TRY(cells_over(layout->die, room_m, step_m, &m->cells));
-    m->n = (size_t)m->cells.columns * (size_t)m->cells.rows;
+    m->n = number_of(&m->cells);
     return fw_release_parts(arena, layout, true, &m->part_of, &m->part, &m->npart);
 }
 
@@ -572,9 +568,10 @@ fw_status fw_release_cavity_make(fw_arena *arena, const fw_layout *layout,
     FW_TRY(cover(&m, is_free_to_move, m.hollow));
     FW_TRY(cells_grow(arena, &m.cells, k + w, m.hollow)); /* what is narrower than */
     FW_TRY(cells_grow(arena, &m.cells, -w, m.hollow));    /* a wall is closed */
-    FW_TRY(join_corners(&m));
+    join_corners(&m);
     FW_TRY(flatten_nested(&m));
     FW_TRY(sort_outlines(&m, cavity));
+    if (asked->drawn_only) return FW_OK;
     FW_TRY(cells_square(arena, &m.cells, all_of(&m), m.hollow, &cavity->widest));
     return find_ground(&m, cavity);
 }

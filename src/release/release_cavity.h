@@ -14,6 +14,7 @@ typedef struct fw_release_cavity_asked {
     double margin_m; /* around everything that moves */
     double wall_m;   /* ground narrower than this between two hollows does not stand */
     double step_m;
+    bool drawn_only; /* the outlines alone: neither ground nor the widest square is asked for */
 } fw_release_cavity_asked;
 
 typedef struct fw_release_ground { /* below a part that must stay */

@@ -81,9 +81,32 @@ static int bin_of(const fw_release_field *f, double y) {
     return i < 0.0 ? 0 : i >= f->bins ? f->bins - 1 : (int)i;
 }
 
+/* From right to left, by the bin in which the rightmost point lies: behind a climb none reaches farther to the right than
+   a bin beyond it. */
+static fw_status order_climbs(fw_release_field *f) {
+    const double wide = (f->box.x1 - f->box.x0) / f->bins;
+    int *first = fw_arena_array(f->arena, int, (size_t)f->bins + 1);
+    int *bin = fw_arena_raw(f->arena, ((size_t)f->nclimb + 1) * sizeof *bin);
+    fw_release_climb *to = fw_arena_raw(f->arena, ((size_t)f->nclimb + 1) * sizeof *to);
+    FW_NEED(first && bin ? to : NULL);
+    for (int i = 0; i < f->nclimb; i++) {
+        const double k = (f->box.x1 - f->climb[i].x_most) / wide;
+        bin[i] = k > 0.0 ? k < f->bins ? (int)k : f->bins - 1 : 0;
+        first[bin[i] + 1]++;
+    }
+    for (int b = 0; b < f->bins; b++)
+        first[b + 1] += first[b];
+    for (int i = 0; i < f->nclimb; i++)
+        to[first[bin[i]]++] = f->climb[i];
+    f->climb = to;
+    f->behind_m = 1.000001 * wide;
+    return FW_OK;
+}
+
 static fw_status sort_climbs(fw_release_field *f) {
     f->bins = f->nclimb / 4 + 1;
     f->bin_m = (f->box.y1 - f->box.y0) / f->bins;
+    FW_TRY(order_climbs(f));
     FW_NEED(f->first = fw_arena_array(f->arena, int, (size_t)f->bins + 2));
     for (int i = 0; i < f->nclimb; i++)
         for (int b = bin_of(f, f->climb[i].y0); b <= bin_of(f, f->climb[i].y1); b++)
@@ -157,8 +180,12 @@ int fw_release_field_part(fw_release_field *f, fw_geometry_vec2 p) {
     int found = FW_RELEASE_OPENING, b = bin_of(f, p.y), n = 0;
     for (int i = f->first[b]; i < f->first[b + 1]; i++) {
         const fw_release_climb *c = &f->climb[f->listed[i]];
+        if (c->x_most <= p.x) {
+            if (c->x_most <= p.x - f->behind_m) break;
+            continue;
+        }
         if (!(c->y0 <= p.y && p.y < c->y1)) continue;
-        if (c->x_most <= p.x || crossing(c, p.y) <= p.x) continue;
+        if (crossing(c, p.y) <= p.x) continue;
         int at = c->part + 1; /* 0: lettering */
         if (!f->met[at]) f->touched[n++] = at;
         f->met[at] = true;
@@ -206,6 +233,7 @@ int fw_release_field_row(fw_release_field *f, double y, double x0, double x1,
     int b = bin_of(f, y), n = 0, touched = 0;
     for (int i = f->first[b]; i < f->first[b + 1]; i++) {
         const fw_release_climb *c = &f->climb[f->listed[i]];
+        if (c->x_most <= x0 - f->behind_m) break;
         if (!(c->y0 <= y && y < c->y1) || c->x_most <= x0) continue;
         double x = crossing(c, y);
         if (x <= x0) continue;

@@ -58,7 +58,7 @@ typedef struct fw_release_field {
     fw_geometry_box box;
     int *first, *listed; /* climbs by height: of bin i those from first[i] to first[i + 1] */
     int bins;
-    double bin_m;
+    double bin_m, behind_m; /* climb: from right to left, but for what is nearer than behind_m */
     /* (npart + 1) of a question: lettering, then the parts; winding 0 and met false between two */
     int *winding, *touched;
     bool *met;

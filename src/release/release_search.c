@@ -99,19 +99,28 @@ static void give_up(search *s, const fw_release_level *level, const fw_release_b
     }
 }
 
+/* could it, as far as is known before its edges are looked at? No point is farther than `most` */
+static bool may_matter(const search *s, const fw_release_level *level, const fw_release_box *box,
+                       bool cut, double most) {
+    if (!cut) return box->part >= 0 && most > enough(&s->part[box->part]);
+    for (int i = 0; i < box->count; i++) {
+        const int part = s->field->edge[level->list[box->first + i]].part;
+        if (part != FW_RELEASE_OPENING && most > (part >= 0 ? enough(&s->part[part]) : s->least_m))
+            return true;
+    }
+    return false;
+}
+
 static fw_status search_box(search *s, const fw_release_level *level, fw_release_box *box,
                             fw_release_level *next) {
     fw_geometry_vec2 up, c = {box->x, box->y};
     double rise, most;
     bool known = box->part != FW_RELEASE_MIXED, cut = !known;
     s->boxes++;
-    if (known && box->part < 0) return FW_OK;
-    if (known && box->near_m + fw_release_box_about(box) <= enough(&s->part[box->part]))
-        return FW_OK;
-    most = fw_release_box_most(s->field, level, box, &up, &rise);
     if (!known) cut = fw_release_box_cut(s->field, level, box);
     if (!cut) fw_release_box_settle(s->field, box);
-    if (!cut && box->part < 0) return FW_OK;
+    if (!may_matter(s, level, box, cut, box->near_m + fw_release_box_about(box))) return FW_OK;
+    most = fw_release_box_most(s->field, level, box, &up, &rise);
     if (!matters(s, level, box, cut, most)) return FW_OK;
     int part = cut ? fw_release_field_part(s->field, c) : box->part;
     if (part >= 0) found(&s->part[part], box->near_m, c);

@@ -238,28 +238,51 @@ typedef struct making {
     fw_diags *diags;
 } making;
 
-static fw_status hours_of(making *w, const fw_process_tool_time *t, fw_schedule_machine *m) {
-    fw_schedule_calendar *c = &w->hours[m->nhours];
+static fw_status read_hours(const fw_process_tool_time *t, fw_schedule_calendar *c,
+                            fw_diags *diags) {
     if (!fw_schedule_calendar_parse(t->open, c) || c->dated || strcmp(t->open, "none") == 0)
-        return fw_diag_error(w->diags, 376, t->place,
+        return fw_diag_error(diags, 376, t->place,
                              "open=\"%s\" is not like 09:00-17:00 or 09:00-12:00,13:00-17:00",
                              t->open);
     c->weekends = true;
+    if (!days_of(t->days, &c->closed_days))
+        return fw_diag_error(diags, 376, t->place,
+                             "days=\"%s\" are not some of Mon Tue Wed Thu Fri Sat Sun", t->days);
+    return FW_OK;
+}
+
+static fw_status read_closed(const fw_process_tool_time *t, long *from, long *to, fw_diags *diags) {
+    if (fw_quantity_date_parse(t->from, from) && fw_quantity_date_parse(t->to, to) && *to >= *from)
+        return FW_OK;
+    return fw_diag_error(diags, 376, t->place,
+                         "closed=\"%s\" to=\"%s\" are not two dates, the first one first", t->from,
+                         t->to);
+}
+
+fw_status fw_schedule_tool_words(const fw_process_flow *flow, fw_diags *diags) {
+    fw_status status = FW_OK;
+    for (int i = 0; i < flow->ntool_time; i++) {
+        const fw_process_tool_time *t = &flow->tool_time[i];
+        fw_schedule_calendar hours;
+        long from, to;
+        fw_status of = t->open ? read_hours(t, &hours, diags) : read_closed(t, &from, &to, diags);
+        if (of != FW_OK) status = of;
+    }
+    return status;
+}
+
+static fw_status hours_of(making *w, const fw_process_tool_time *t, fw_schedule_machine *m) {
+    fw_schedule_calendar *c = &w->hours[m->nhours];
+    FW_TRY(read_hours(t, c, w->diags));
     c->dated = w->day->dated;
     c->first_day = w->day->first_day;
-    if (!days_of(t->days, &c->closed_days))
-        return fw_diag_error(w->diags, 376, t->place,
-                             "days=\"%s\" are not some of Mon Tue Wed Thu Fri Sat Sun", t->days);
     m->nhours++;
     return FW_OK;
 }
 
 static fw_status closed_of(making *w, const fw_process_tool_time *t, fw_schedule_machine *m) {
     long from, to;
-    if (!fw_quantity_date_parse(t->from, &from) || !fw_quantity_date_parse(t->to, &to) || to < from)
-        return fw_diag_error(w->diags, 376, t->place,
-                             "closed=\"%s\" to=\"%s\" are not two dates, the first one first",
-                             t->from, t->to);
+    FW_TRY(read_closed(t, &from, &to, w->diags));
     if (!w->day->dated)
         return fw_diag_error(w->diags, 376, t->place,
                              "'%s' is closed on dates, and the plan has none: begin it on one, "

@@ -123,6 +123,9 @@ typedef struct fw_schedule_options {
 /* "08:00-18:00", "08:00-12:00,13:00-18:00" with breaks between, or "none"; behind it " from 2026-11-23" where the plan
    begins on a date, "T13:00" where on a time of it, " UTC" or " UTC+01:00" where its zone is stated; false: it is none of
    these */
+/* calendar.c: are the hours and dates of a laboratory's machines such? FW-D376. It is asked where a laboratory pack is read, also
+   where nothing is scheduled */
+fw_status fw_schedule_tool_words(const fw_process_flow *flow, fw_diags *diags);
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *calendar);
 /* FW_OK also when there is no schedule: feasible is false and `why` says it. FW_LIMIT: too large */
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,

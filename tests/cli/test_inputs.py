@@ -161,8 +161,8 @@ BROWSER = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chrom
 
 def apart(sheet):
     """without what the verdict says of another way of drying: verdict.json and the report have it, and a recipe's own JSON is the
-    same whatever the verdict"""
-    return re.sub(r'<p class="small"><b>Not for this device:.*?</p>', "", sheet, flags=re.S)
+    same whatever the verdict; and without the numbers of sources, which are counted as the sheet names them"""
+    return re.sub(r' \[\d+\]', "", re.sub(r'<p class="small"><b>Not for this device:.*?</p>', "", sheet, flags=re.S))
 
 
 class Printed(unittest.TestCase):

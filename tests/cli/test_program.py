@@ -177,8 +177,8 @@ class Plan(InTemporary):
     def test_far_beyond_without_an_end(self):
         """what rings far beyond its hinges for millions of steps is ended: rejected, and nothing said of the end of its scene"""
         device = ROOT / "tests/data/advice/tendon-six-bar.xml"
-        for pull in ("40 mN", "4 N"):
-            said = run("check", device, "--set", f"pull={pull}", "--corners", "none", *QUIET, "--time-limit", "60")
+        for pull in ("4 N", "40 mN")[:2 if ALL else 1]:
+            said = run("check", device, "--set", f"pull={pull}", "--corners", "none", *QUIET)
             self.expect(said, 1)
             self.assertIn("FW-D205", said.stderr)
             self.assertRegex(said.stdout.splitlines()[1], "^as drawn: hinge [A-F] uses [0-9]{3,}")

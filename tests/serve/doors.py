@@ -164,6 +164,46 @@ class Doors(unittest.TestCase):
         self.assertGreater(refused, tried / 3)
         self.assertGreater(jobs, 0)
 
+    def test_of_a_laboratory(self):
+        """what a laboratory pack says besides plain values: its sources, its machines and choices, and times that no bench keeps; the command, the
+        page's preview and its jobs refuse it for the same reason"""
+        device = re.sub(r'\s*<(flow ref|workspace flow)="copper[^>]*/>', "", DEVICES[0].read_text())
+        device = re.sub(r'\s*<scene [^>]*flow="copper.*?</scene>', "", device, flags=re.S)
+        source = '<source id="lab" kind="handbook" date="2026-11-20">lab</source>'
+        rate = '<q id="rie.R" value="0.5" urel="0.01" unit="um/min" status="typical" src="lab"/>'
+        strip = '<q id="strip.t" value="%s" urel="0.01" unit="%s" status="typical" src="lab"/>'
+        for number, (body, code) in enumerate((
+                (source + strip % ("3", "s"), "FW-D577"), (source + strip % ("0.05", "min"), "FW-D577"), (source + strip % ("10", "s"), None),
+                (source + rate, None), (source + rate.replace("0.01", "5"), "FW-D530"), (source + rate.replace("typical", "measured"), "FW-D173"),
+                (source.replace("11-20", "02-30") + rate, "FW-D171"), (source + rate + rate.replace("0.5", "0.6"), "FW-D211"),
+                (source + rate.replace("0.5", "0,5"), "FW-D070"), (source + rate.replace('"lab"', '"nobody"'), "FW-D046"),
+                ('<tool equipment="rie" open="09:00-12:00"/>', None), ('<tool equipment="rie" open="25:00-26:00"/>', "FW-D376"),
+                ('<tool equipment="rie" open="09:00-12:00" days="Mo"/>', "FW-D376"), ('<tool equipment="rie" closed="2026-02-30"/>', "FW-D376"),
+                ('<tool equipment="rie" closed="2026-03-02" to="2026-03-01"/>', "FW-D376"), ('<tool equipment="rei" open="09:00-12:00"/>', "FW-D376"),
+                ('<choose alternative="nope"/>', "FW-D375"))):
+            with self.subTest(body=body):
+                lab = f'<process xmlns="urn:flexwright:process:1" flow="al-masked-rie">{body}</process>'
+                (self.here / "lab.xml").write_text(lab)
+                by_lab = check("-", "--flow", "al-masked-rie", "--lab", self.here / "lab.xml", input=device)
+                self.assertEqual(by_lab[1], frozenset([code] if code else []))
+                self.assertEqual(by_lab[0] == 3, bool(code))
+                self.assertEqual(self.preview(device, lab={"lab.xml": lab}, options={"flow": "al-masked-rie"}), by_lab, "preview")
+                if number % 4 == 0:
+                    self.assertEqual(self.job(device, files={"lab.xml": lab}, options={"lab": "lab.xml", "flow": "al-masked-rie"}), by_lab, "job")
+
+    def test_of_rows_that_make_no_sense(self):
+        """coupons of widths below 0, of lines of metres and of depths of none: refused, and nothing is written"""
+        table, lab = self.here / "rows.csv", self.here / "rows.xml"
+        for row in ("undercut-ladder,width,10,-3,0.08,um,50,0.5,um", "cd-lines,line,2000000,1999999,0.1,um,,,", "cd-lines,line,-10,9,0.1,um,,,",
+                    "etch-rate,rie.R,,45,0.1,um,-90,0.1,min", "etch-rate,rie.R,,45,0.1,um,90000,0.1,min", "etch-rate,rie.R,,2,0.1,m,90,0.1,min",
+                    "etch-rate,rie.R,,45,90,um,90,0.1,min", "al-step,,,500,0.01,um,50,0.1,um", "plating-mass,,,-5,0.1,mg,100,1,C"):
+            with self.subTest(row=row):
+                lab.unlink(missing_ok=True)
+                table.write_text("coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit\n" + row + "\n")
+                done = subprocess.run([PROGRAM, "calibrate", table, "--flow", "al-masked-rie", "-o", lab, "-q"], capture_output=True, text=True)
+                self.assertEqual((done.returncode, lab.exists()), (3, False), done.stderr)
+                self.assertTrue(codes(done.stderr))
+
     def test_of_calibrate(self):
         """every rate of every flow, read off a coupon as it is, a hundred thousand times too small and too large, and below 0: what
         calibrate writes is taken by --lab, and what makes no sense is not written"""

@@ -165,6 +165,7 @@ export class AsRun {
         this.result.replaceChildren(...[
             rows.length ? h("div", { class: "wide", tabIndex: 0, role: "region", "aria-label": "Steps as run" }, h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["step", "wafer", "planned, at the machine", "as run", "time", "measured and set"].map((x) => h("th", { scope: "col" }, x)))), h("tbody", {}, rows))) : null,
             r.deviations?.length ? h("ul", { class: "log-deviations" }, r.deviations.map((d) => h("li", {}, `${d.step}${d.wafer ? `, wafer ${d.wafer}` : ""}: ${d.what} is ${d.actual}, planned ${d.planned}`))) : null,
+            r.fates?.length ? h("ul", { class: "log-fates" }, r.fates.map((f) => h("li", {}, `wafer ${f.wafer}: ${f.fate} at ${f.step}, ${f.at}: ${f.why}`))) : null,
             this.name ? h("div", { class: "row" }, link, keep, fit) : null].filter(Boolean));
         this.#steps();
     }
@@ -189,6 +190,10 @@ export class AsRun {
         const [bath, bathBox] = field("bath", "");
         const [instrument, instrumentBox] = field("measured with", "");
         const [note, noteBox] = field("note", "");
+        const [why, whyBox] = field("why", "", { placeholder: "cracked in the chuck" });
+        const became = select("What became of the wafer", [["", "nothing: it goes on"], ["held", "held"], ["resumed", "goes on after it was held"], ["scrapped", "scrapped"]], "", () => (whyBox.hidden = !became.value));
+        whyBox.hidden = true;
+        this.became = { became, why };
         const [lot, lotBox] = field("lot", "");
         const [file, fileBox] = field("file", "lot1", { id: "log-file" });
         const [wafers, wafersBox] = field("wafers: how many, or their names with commas between", "1");
@@ -201,6 +206,8 @@ export class AsRun {
         this.form.replaceChildren(h("h3", {}, this.name ? "The next entry" : "Begin a log"), ...[
             this.first ? h("div", { class: "draw-fields" }, fileBox, lotBox, wafersBox) : null,
             h("div", { class: "draw-fields" }, h("label", { class: "pose-field wide-field" }, h("span", {}, "step"), this.step), this.first ? null : h("label", { class: "pose-field" }, h("span", {}, "of"), wafer), startBox, endBox, byBox, secondBox, toolBox, bathBox, instrumentBox, noteBox),
+            this.told.wafers ? h("details", { class: "reasons" }, h("summary", {}, "What became of a wafer"), h("p", { class: "doc" }, "An entry of its own, at the time under ended: from then on nothing more is expected of the wafer. What was run and measured of it before is an entry before this one."),
+                h("div", { class: "draw-fields" }, h("label", { class: "pose-field" }, h("span", {}, "it is"), became), whyBox)) : null,
             this.measured, h("details", { class: "reasons" }, h("summary", {}, "What was set"), this.sets), h("details", { class: "reasons" }, h("summary", {}, "Coupons that were measured"), h("p", { class: "doc" }, "One a line, as calibrate takes them: name, feature, drawn size, values, standard uncertainty, at what."), this.coupons),
             h("div", { class: "row" }, button("Add to the log", { icon: "check", class: "small primary", id: "log-add", type: "submit" }))].filter(Boolean));
         this.#asked();
@@ -219,6 +226,13 @@ export class AsRun {
     #words() {
         const x = this.told.steps.find((y) => y.id === this.step.value);
         const parts = [x.id];
+        const { became, why } = this.became;
+        if (became.value) {
+            const { end, by, wafer, note } = this.fields;
+            if (!wafer.value || !why.value.trim()) return { why: "Say of which wafer, and why." };
+            for (const [name, value] of [["wafer", wafer.value], ["start", end.value], ["by", by.value], ["note", note.value], [became.value, why.value]]) if (value.trim()) parts.push(`${name}=${value.trim()}`);
+            return parts.some((p) => /[;\t\r\n]/.test(p)) ? { why: "No semicolon can stand in an entry." } : { words: parts.join("; ") };
+        }
         for (const [name, input] of Object.entries(this.fields)) if (input.value.trim()) parts.push(`${name}=${input.value.trim()}`);
         for (const input of this.form.querySelectorAll("[data-kind]")) {
             const value = input.value.trim();

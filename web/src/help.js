@@ -55,7 +55,7 @@ const SENTENCES = {
     "Accuracy wanted": "Relative error of the largest deflection of a hinge that is good enough, for all of the page.",
     begun: "Date and time, of this machine, at which the step was begun.", ended: "Date and time at which it was done; not before it was begun.", by: "Initials of who did it.",
     "second signature": "Initials of who watched, where the step asks for two.", machine: "Which one, where the laboratory has several; its name or number.", bath: "Which bath or bottle: what is used up is counted on it.",
-    "measured with": "The instrument that the values below are read from.", note: "What else was seen; any words.", lot: "The name of the lot, as on its box.", file: "The log's file, beside the description.",
+    "measured with": "The instrument that the values below are read from.", note: "What else was seen; any words.", why: "What happened to the wafer, in words.", "What became of the wafer": "Scrapped or held, nothing more is expected of it; a held one may go on.", lot: "The name of the lot, as on its box.", file: "The log's file, beside the description.",
     "wafers: how many, or their names with commas between": "4 for wafers 1 to 4, or names: W1, W2.", of: "The wafer that went through the step, or the whole lot.", log: "The as-run log of a lot, a file beside the description, or a new one.",
     "Coupons, one a line": "Name, feature, drawn size, values, standard uncertainty and what it was measured at, each with its unit (um), as flexwright calibrate takes them.",
     step: "The step of the recipe that was run.", Step: "The step of the recipe that was run.", Wafer: "The wafer that went through it, or the whole lot.",

@@ -262,6 +262,58 @@ static void touching_neighbours_have_no_chord(void **state) {
     assert_true(clear > 3000 && below > 1000 && below < clear - 500);
 }
 
+/* a ring of many teeth about a point; every other edge an arc where `round` is set */
+static fw_geometry_contour teeth(fw_arena *arena, fw_geometry_vec2 c, double r, int n, bool round) {
+    fw_geometry_vec2 first = {c.x + r, c.y}, at = first;
+    fw_geometry_outline o = fw_geometry_outline_start(arena, first);
+    for (int i = 1; i <= n; i++) {
+        double angle = FW_TURN * i / n, out = r * (i < n && i % 2 ? 1 + uniform(0.02, 0.2) : 1);
+        fw_geometry_vec2 to = {c.x + out * cos(angle), c.y + out * sin(angle)};
+        if (i == n) to = first;
+        fw_geometry_vec2 between = vec_sub(to, at);
+        if (round && i % 2) /* half a turn over the chord */
+            fw_geometry_outline_arc_to(&o, vec_along(at, 0.5, between), FW_PI, to, 0);
+        else
+            fw_geometry_outline_line(&o, to, 0);
+        at = to;
+    }
+    fw_geometry_contour made;
+    assert_int_equal(fw_geometry_outline_close(&o, &made), FW_OK);
+    return made;
+}
+
+/* below a limit it is the least of all pairs of segments, bit for bit, also of outlines with more segments than are
+   listed; else the limit */
+static void below_is_the_least_of_all_pairs(void **state) {
+    int below = 0;
+    for (int i = 0; i < 60; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        const bool many = i % 10 == 0, round = i % 3 == 0;
+        fw_geometry_contour p = teeth(*state, (fw_geometry_vec2){0, 0}, 1e-4, whole(6, 60), round),
+                            q = teeth(*state, (fw_geometry_vec2){uniform(1e-4, 3e-4), uniform(0, 2e-4)},
+                                      1e-4, many ? 2400 : whole(6, 200), round);
+        if (many) fw_geometry_contour_reverse(*state, &q, &q);
+        double least = HUGE_VAL, limit = uniform(0, 1e-4);
+        for (int k = 0; k < p.count; k++)
+            for (int m = 0; m < q.count; m++) {
+                fw_geometry_vec2 here, there;
+                least = fmin(least, fw_geometry_segment_distance(&p.segment[k], &q.segment[m], &here,
+                                                                 &there));
+            }
+        fw_geometry_vec2 a, b;
+        double d = fw_geometry_contour_distance_below(&p, &q, limit, &a, &b);
+        assert_true(d == fmin(least, limit));
+        fw_geometry_boxed boxed;
+        assert_int_equal(fw_geometry_contour_boxed(*state, &q, &boxed), FW_OK);
+        assert_true(fw_geometry_boxed_distance_below(&p, &boxed, limit, NULL, NULL) == d);
+        assert_true(fw_geometry_contour_distance(&p, &q, NULL, NULL) == least);
+        if (d < limit) assert_near(vec_distance(a, b), d, 1e-18);
+        below += least < limit;
+        fw_arena_rewind(*state, mark);
+    }
+    assert_true(below > 15 && below < 55);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         geo_test(distance_matches_sampling),
@@ -272,6 +324,7 @@ int main(void) {
         geo_test(clearance_of_rounds),
         geo_test(joints_are_no_edges),
         geo_test(contains_matches_closed_forms),
+        geo_test(below_is_the_least_of_all_pairs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,6 +133,26 @@ static void bound_of_an_arc_and_a_box(void **state) {
     assert_true(clear > 500);
 }
 
+/* the same answer as the nearest point's, also a hair on either side of the reach */
+static void within_is_nearest(void **state) {
+    (void)state;
+    int in = 0;
+    for (int i = 0; i < 20000; i++) {
+        fw_geometry_segment s = random_segment(1e-4);
+        fw_geometry_vec2 p = {uniform(-2e-4, 2e-4), uniform(-2e-4, 2e-4)};
+        double far = fw_geometry_segment_nearest(&s, p, NULL, NULL), reach = uniform(1e-6, 2e-4);
+        const double hair[] = {0.5, 1 - 1e-12, 1, 1 + 1e-12, 2};
+        fw_geometry_near near = fw_geometry_near_of(&s, reach);
+        assert_int_equal(fw_geometry_is_near(&near, p), far <= reach);
+        in += far <= reach;
+        for (int k = 0; k < 5; k++) {
+            near = fw_geometry_near_of(&s, hair[k] * far);
+            assert_int_equal(fw_geometry_is_near(&near, p), far <= hair[k] * far);
+        }
+    }
+    assert_true(in > 5000 && in < 19000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_lie_on_the_segment),
@@ -140,6 +160,7 @@ int main(void) {
         cmocka_unit_test(touches_are_one_point),
         cmocka_unit_test(overlaps_give_their_ends),
         geo_test(bound_of_an_arc_and_a_box),
+        geo_test(within_is_nearest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

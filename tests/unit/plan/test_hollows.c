@@ -25,9 +25,10 @@ static const char device_form[] =
     "b-y=\"0.75 mm\" hinge=\"leaf\"/>"
     "<revolute id=\"D\" a=\"right\" a-x=\"0 mm\" a-y=\"-0.75 mm\" b=\"ground\" b-x=\"1.8 mm\" "
     "b-y=\"0 mm\" hinge=\"leaf\"/></mechanism>"
-    "<scene name=\"push\" duration=\"3 ms\"><force on=\"stage\" fx=\"4 uN\"/>"
+    "<scene name=\"push\" duration=\"3 ms\"><force on=\"stage\" fx=\"%s\"/>"
     "<air kind=\"slide\" on=\"stage\" gap=\"%s\"/></scene></device>";
 
+static const char *fx = "4 uN";
 static char folder[] = "fw-hollows-XXXXXX";
 
 /* a file of the data directory, with one text exchanged */
@@ -91,7 +92,7 @@ static fw_plan *asked(const char *gap, fw_status *loaded) {
     fw_plan_options options = fw_plan_options_default();
     options.data_directory = folder;
     fw_plan *plan = fw_plan_new(&options);
-    snprintf(xml, sizeof xml, device_form, gap);
+    snprintf(xml, sizeof xml, device_form, fx, gap);
     *loaded = fw_plan_load_memory(plan, "stage.xml", xml, strlen(xml));
     return plan;
 }
@@ -178,6 +179,29 @@ static void travel(void **state) {
     assert_int_equal(sscanf(strstr(why, " goes "), " goes %lf um", &goes), 1);
     assert_true(goes * 1e-6 > 0.5 * way && goes * 1e-6 <= way * 1.001);
     fw_plan_free(plan);
+}
+
+/* The etch of 20 um leaves corners round by as much: sqrt(2) m - (sqrt(2) - 1) 20 um beside a corner of what moves, against
+   the overlay alone where nothing goes far. 3 um are left at m = 7.98 um. */
+static void corners_are_round(void **state) {
+    (void)state;
+    static const struct {
+        const char *margin;
+        bool over;
+    } row[] = {{"40", false}, {"9.2", false}, {"7.9", true}, {"5", true}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        char to[200];
+        snprintf(to, sizeof to, "<content kind=\"cavity\" margin=\"%s um\"", row[i].margin);
+        copy("masks/silicon-on-glass.xml", "<content kind=\"cavity\" margin=\"40 um\"", to);
+        fx = "4 nN";
+        fw_plan *plan = judged("20 um");
+        fx = "4 uN";
+        const char *why = reason_of(plan, "it would run over bonded glass");
+        if ((why != NULL) != row[i].over) fail_msg("%s um: %s", row[i].margin, why ? why : "nothing");
+        if (why) assert_non_null(strstr(why, "at its corners, which the etch leaves round"));
+        if (why) assert_non_null(strstr(why, "margin=\"8 um\""));
+        fw_plan_free(plan);
+    }
 }
 
 /* ---- a required workspace ---- */
@@ -309,6 +333,11 @@ static void disagreements(void **state) {
          "aligns plate \"device\" to cavity, and masks/silicon-on-glass.xml to pads"},
         {"processes", "<plate id=\"pads\"", "<plate id=\"metal\"", 421,
          "plate \"metal\" is no row in masks/silicon-on-glass.xml"},
+        {"processes", "marks=\"back-mark frame-mark\"", "marks=\"back-mrk frame-mark\"", 372,
+         "aligns by 'back-mrk', which masks/silicon-on-glass.xml does not have"},
+        {"processes", "marks=\"back-mark frame-mark\"", "marks=\"back-mark ladder\"", 372,
+         "aligns by 'ladder', which in masks/silicon-on-glass.xml is a undercut-ladder: no plate"},
+        {"processes", "coupon=\"slots\"", "coupon=\"fill\"", 372, "reads coupon 'fill', which in masks/silicon-on-glass.xml is a fill"},
         {"processes", "mask=\"pads\"", "mask=\"metal\"", 412, "next of the plates"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
@@ -331,6 +360,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(as_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_air, set_up, tear_down),
         cmocka_unit_test_setup_teardown(travel, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(corners_are_round, set_up, tear_down),
         cmocka_unit_test_setup_teardown(required_poses_count, set_up, tear_down),
         cmocka_unit_test_setup_teardown(disagreements, set_up, tear_down),
     };

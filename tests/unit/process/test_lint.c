@@ -64,6 +64,7 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "id=\"hard.t\" value=\"5\"", "id=\"hard.t\" value=\"4000\"", 577, "step S13 (bake) takes 4000 min"},
         {SILICON, "id=\"clean.t\" value=\"35\"", "id=\"clean.t\" value=\"28000\"", 577, "step S02 (clean)"},
         {SILICON, "id=\"develop.t\" value=\"60\" u=\"10\"", "id=\"develop.t\" value=\"1\" u=\"0.2\"", 577, "step S11 (develop)"},
+        {SILICON, "id=\"strip.t\" value=\"15\" u=\"2\"", "id=\"strip.t\" value=\"0.05\" u=\"0.01\"", 577, "a plasma strikes and settles"},
         {DOUBLE, "<lag from=\"B03\" max=\"4\" unit=\"h\"/>", "<lag from=\"B03\" max=\"1\" unit=\"s\"/>", 577, "nobody carries a wafer so fast"},
         {SILICON, "<q id=\"si.d\"", "<q id=\"h.pan.wet-longest\" value=\"10\" u=\"0\" unit=\"h\" status=\"assumed\" src=\"guess\"/><q id=\"si.d\"",
          578, "'h.pan.wet-longest' lets a wafer wait for 600 min"},
@@ -620,6 +621,32 @@ static void steps_that_do_nothing(void **state) {
     assert_non_null(said_of(558, "step S02 is for 6 wafers at once, and clean-bench takes 4"));
 }
 
+/* somebody is there from the first look to the stop time, and for no hours beyond a computed time */
+static void who_is_there(void **state) {
+    (void)state;
+    static const char al[] = "equipment=\"al-bench\" in-source=\"yes\" batch=\"1\" attended=\"22\"";
+    static const struct {
+        const char *from, *to;
+        int number;
+        const char *says;
+    } at[] = {
+        {al, "equipment=\"al-bench\" in-source=\"yes\" batch=\"1\" attended=\"2\"", 617, "somebody is at step S14 for 2 min"},
+        {"equipment=\"litho-bench\" in-source=\"yes\" batch=\"1\" attended=\"5\">",
+         "equipment=\"litho-bench\" in-source=\"yes\" batch=\"1\" attended=\"0.5\">", 617, "somebody is at step S11 for 0.5 min"},
+        {al, "equipment=\"al-bench\" in-source=\"yes\" batch=\"1\" attended=\"220\"", 609, "somebody stands at step S14 for 220 min"},
+        {"equipment=\"rie\" in-source=\"yes\" batch=\"1\" attended=\"15\"", "equipment=\"rie\" in-source=\"yes\" batch=\"1\" attended=\"480\"",
+         609, "somebody stands at step S18 for 480 min"},
+    };
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        fw_process_flow *f = computed_pack(SILICON, at[i].from, at[i].to);
+        expect(at[i].number, at[i].says);
+        assert_true(reasons(f, at[i].says) == 1);
+    }
+    computed_pack(SILICON, NULL, NULL);
+    assert_null(said_of(617, ""));
+    assert_null(said_of(609, ""));
+}
+
 /* one die in the middle of the pack's own wafer, where the description lays out none; currents against the supply */
 static void the_packs_own_wafer(void **state) {
     (void)state;
@@ -718,6 +745,9 @@ static void what_is_told(void **state) {
         {COPPER, "<arg name=\"area\" q=\"mask.plated-area\"/></time>", "<arg name=\"area\" q=\"cell.area\"/></time>", 561,
          "step C22 takes 'cell.area' for the area that it plates"},
         {SILICON, "equipment=\"aligner\"", "equipment=\"metrology\"", 608, "step S09 (expose) is done at 'metrology'"},
+        {SILICON, "<finish kind=\"rinse\" q=\"al-rinse.t\"/>\n    <finish kind=\"dry\" by=\"spin\"/>",
+         "<finish kind=\"rinse\" q=\"al-rinse.t\"/>\n    <finish kind=\"dry\" by=\"air\"/>", 618,
+         "step S14 lets the water of its rinse dry in air"},
         {COPPER, "id=\"bath.volume\" value=\"100\" u=\"2\"", "id=\"bath.volume\" value=\"1\" u=\"0.1\"", 608,
          "step C05 uses a filling of 1 mL of bath 'anodising'"},
     };
@@ -782,6 +812,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(uncertainties_make_sense, setup, teardown),
         cmocka_unit_test_setup_teardown(the_packs_own_wafer, setup, teardown),
         cmocka_unit_test_setup_teardown(steps_that_do_nothing, setup, teardown),
+        cmocka_unit_test_setup_teardown(who_is_there, setup, teardown),
         cmocka_unit_test_setup_teardown(sheets_go_over_to_dies, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),

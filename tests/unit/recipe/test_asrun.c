@@ -548,6 +548,139 @@ static void wafers_are_no_repetitions(void **state) {
     assert_true(holds(&page, "a value is not accepted"));
 }
 
+/* ---- what becomes of wafers ---- */
+
+static const char *fate(const char *log, const char *wafer, const char *time, const char *word, int number) {
+    return with(log, fw_arena_printf(arena, "C22; wafer=%s; start=2026-11-20T%s; by=AB; %s=cracked in the jig", wafer, time, word), number);
+}
+
+static const char *run_of(const char *log, const char *step, const char *wafer, const char *from, const char *to, int number) {
+    return with(log, fw_arena_printf(arena, "%s; start=2026-11-20T%s; end=2026-11-20T%s; by=AB; second=CD%s%s", step, from, to,
+                                     wafer ? "; wafer=" : "", wafer ? wafer : ""), number);
+}
+
+/* from then on no entry of a wafer that is scrapped or held is taken or expected; what was done before may still be logged */
+static void wafers_that_are_out(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    fw_text text = fw_text_new(arena), json = fw_text_new(arena), page = fw_text_new(arena);
+    lot_wafers = "1,2,3";
+    const char *log = run_of(begun(), "C21", NULL, "10:00", "10:12", 0);
+    log = run_of(log, "C22", "1", "10:20", "10:42", 0);
+    log = fate(log, "2", "10:45", "scrapped", 0);
+    log = fate(log, "3", "10:50", "held", 0);
+    run_of(log, "C22", "2", "10:46", "10:50", 603);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "wafer 2 was scrapped at C22, 2026-11-20T10:45 (line 4: cracked in the jig)"));
+    run_of(log, "C22", "3", "11:00", "11:22", 603);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "log resumed= first"));
+    run_of(log, "C22", "2", "10:21", "10:43", 0); /* before that, and only logged now */
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(run.nentry, 4);
+    assert_null(run.entry[2].step);
+    assert_string_equal(run.entry[2].at->id, "C22");
+    assert_string_equal(run.entry[2].why, "cracked in the jig");
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+    assert_true(holds(&text, "wafer 2: scrapped at C22, 2026-11-20T10:45, by AB: cracked in the jig"));
+    assert_true(holds(&text, "wafers: 3 in, 1 out, 1 held"));
+    assert_true(holds(&text, "2 of 28 steps run, 0 repeated"));
+    assert_false(holds(&text, "not yet"));
+    assert_true(holds(&json, "\"wafers_in\":3,\"wafers_out\":1,\"expected\":[]"));
+    assert_true(holds(&json, "\"wafers_in\":1,\"wafers_out\":1,\"expected\":[\"1\"]"));
+    assert_true(holds(&json, "\"fates\":[{\"wafer\":\"2\",\"fate\":\"scrapped\",\"step\":\"C22\",\"at\":\"2026-11-20T10:45\",\"by\":\"AB\",\"why\":\"cracked in the jig\",\"line\":4}"));
+    assert_true(holds(&page, "3 in, 1 out, 1 held, 1 scrapped"));
+    /* held, and goes on; scrapped, and does not; and no lot is left of scrapped wafers */
+    const char *on = fate(log, "3", "12:00", "resumed", 0);
+    assert_int_equal(read_log(on, strlen(on), &run), FW_OK);
+    text = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_true(holds(&text, "not yet: wafer 3\n"));
+    run_of(on, "C22", "3", "12:01", "12:23", 0);
+    fate(on, "2", "12:00", "resumed", 603);
+    fate(on, "1", "12:00", "resumed", 603);
+    fate(on, "2", "12:00", "scrapped", 603);
+    fate(on, "1", "10:30", "scrapped", 603); /* it was plated until 10:42 */
+    fate(on, "4", "12:00", "scrapped", 282);
+    const char *none = fate(fate(on, "1", "12:00", "scrapped", 0), "3", "12:30", "scrapped", 0);
+    run_of(none, "C23", NULL, "13:00", "13:10", 603);
+    /* an entry of its own */
+    with(log, entry("held=why"), 282);
+    with(log, entry("wafer=1; held=why"), 282); /* from 10:30 to 10:52 */
+    with(log, "C22; wafer=1; start=2026-11-20T12:00; by=AB; held=why; scrapped=why", 282);
+    with(log, "C22; wafer=1; start=2026-11-20T12:00; by=AB; held=why; thickness=9 um", 282);
+    with(log, "C22; wafer=1; start=2026-11-20T12:00; held=why", 282);
+}
+
+/* calibrate leaves out what was read on a wafer after it was scrapped, and keeps what was read before */
+static void readings_of_what_is_out(void **state) {
+    (void)state;
+    static const char pads[] = "%s; wafer=1; start=2026-11-20T%s; end=2026-11-20T%s; by=AB; second=CD; coupon=plating-pads, drawn=%d um, value=9.1 um, u=0.1 um, at=25 C/cm2";
+    fw_recipe_asrun run;
+    fw_process_readings r;
+    lot_wafers = "1,2";
+    const char *log = with(begun(), fw_arena_printf(arena, pads, "C22", "10:00", "10:22", 10), 0);
+    log = with(log, fw_arena_printf(arena, pads, "C22", "11:00", "11:22", 100), 0);
+    log = fate(log, "1", "11:30", "scrapped", 0);
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(r.n, 2);
+    run.entry[2].start_s -= 3600.0; /* as if it had been scrapped at 10:30 */
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(r.n, 1);
+    assert_near(r.item[0].row.drawn_m, 10e-6, 1e-12);
+    assert_int_equal(diags.item[diags.count - 1].number, 604);
+}
+
+/* a load that was typed with one start and end took that long for all of its wafers, one after the other where the machine takes
+   one: neither "long" for each, nor counted for each */
+static void loads_share_their_time(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    fw_text text = fw_text_new(arena), json = fw_text_new(arena);
+    lot_wafers = "1,2,3,4";
+    const char *log = begun();
+    for (int i = 1; i <= 4; i++)
+        log = run_of(log, "C21", fw_arena_printf(arena, "%d", i), "10:00", "10:40", 0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_true(holds(&text, "0 outside of their limits; planned at the machine 40 min for them, actual 40 min"));
+    assert_false(holds(&json, "\"judged\":\"long\""));
+    /* of one wafer alone that is long */
+    log = run_of(begun(), "C21", "1", "10:00", "10:40", 0);
+    json = fw_text_new(arena);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_true(holds(&json, "\"judged\":\"long\""));
+}
+
+/* what calibrate could make nothing of is not written */
+static void coupons_of_other_flows(void **state) {
+    (void)state;
+    static const char *const words[] = {"coupon=al-step, value=0.4 um, u=0.01 um, at=50 um", "coupon=arde-slots, drawn=10 um, value=45 um, u=0.1 um, at=90 min"};
+    fw_recipe_asrun run;
+    const char *line;
+    with(begun(), entry("coupon=etch-rate, seed.Q, value=1 um, u=0.01 um, at=5 min"), 605);
+    with(begun(), entry("coupon=etch-rate, seed.d, value=1 um, u=0.01 um, at=5 min"), 605);
+    with(begun(), entry("coupon=etch-rate, seed.R, value=1 um, u=0.01 um, at=5 min"), 0);
+    const fw_layout_pattern_kind pads = {.name = "plating-pads"};
+    const fw_layout_pattern pattern = {.kind = &pads, .id = "pads"};
+    const fw_mask_table table = {.pattern = &pattern, .npattern = 1};
+    const char *log = begun();
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        run.table = &table;
+        assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry(words[i]), (fw_place){"entry", 1, 1}, now, &diags, &line), FW_INPUT);
+        assert_int_equal(diags.item[diags.count - 1].number, 605);
+    }
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    run.table = &table;
+    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry("coupon=plating-pads, drawn=10 um, value=9.1 um, u=0.1 um, at=25 C/cm2"),
+                                         (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+}
+
 /* the year 2126 has not come; ages ago is asked about; before 1970 and far ahead are dates like others */
 static void the_clock(void **state) {
     (void)state;
@@ -684,6 +817,10 @@ int main(void) {
         cmocka_unit_test_setup_teardown(anything_typed, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),
         cmocka_unit_test_setup_teardown(the_clock, setup, teardown),
+        cmocka_unit_test_setup_teardown(wafers_that_are_out, setup, teardown),
+        cmocka_unit_test_setup_teardown(readings_of_what_is_out, setup, teardown),
+        cmocka_unit_test_setup_teardown(loads_share_their_time, setup, teardown),
+        cmocka_unit_test_setup_teardown(coupons_of_other_flows, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

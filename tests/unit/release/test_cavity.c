@@ -10,7 +10,7 @@ static double uniform(void) {
 }
 
 static fw_release_cavity made(plate *p, double margin, double wall, double step) {
-    fw_release_cavity_asked asked = {margin * UM, wall * UM, step * UM};
+    fw_release_cavity_asked asked = {margin * UM, wall * UM, step * UM, false};
     fw_release_cavity c;
     assert_int_equal(fw_release_cavity_make(p->arena, &p->layout, &asked, &c), FW_OK);
     return c;
@@ -130,13 +130,33 @@ static void nested_is_flat(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* the outlines alone are those that come with the ground */
+static void outlines_alone(void **state) {
+    (void)state;
+    plate *p = plate_new(900);
+    plate_add(p, FW_ROLE_STRUCTURE, 0, "left", rectangle(p, -300, -300, -250, 300));
+    plate_add(p, FW_ROLE_STRUCTURE, 0, "right", disc(p, 200, 100, 90));
+    plate_add(p, FW_ROLE_STRUCTURE, FW_GROUND, "base", rectangle(p, -100, -300, 0, -100));
+    fw_release_cavity whole = made(p, 40, 30, 10), alone;
+    fw_release_cavity_asked asked = {40 * UM, 30 * UM, 10 * UM, true};
+    assert_int_equal(fw_release_cavity_make(p->arena, &p->layout, &asked, &alone), FW_OK);
+    assert_int_equal(whole.nground, 1);
+    assert_int_equal(alone.nground, 0);
+    assert_true(alone.widest.x1 == alone.widest.x0);
+    assert_true(whole.hollow.count > 0);
+    assert_int_equal(alone.hollow.count, whole.hollow.count);
+    assert_int_equal(alone.land.count, whole.land.count);
+    assert_near(alone.area_m2, whole.area_m2, 0.0);
+    fw_arena_free(p->arena);
+}
+
 static void nothing_moves(void **state) {
     (void)state;
     plate *p = plate_new(500);
     plate_add(p, FW_ROLE_STRUCTURE, FW_GROUND, "base", rectangle(p, -50, 50, 50, 80));
     fw_release_cavity c = made(p, 60, 40, 10);
     assert_int_equal(c.hollow.count, 0);
-    fw_release_cavity_asked fine = {1e-6, 1e-6, 1e-8};
+    fw_release_cavity_asked fine = {1e-6, 1e-6, 1e-8, false};
     assert_int_equal(fw_release_cavity_make(p->arena, &p->layout, &fine, &c), FW_LIMIT);
     fw_arena_free(p->arena);
 }
@@ -160,6 +180,7 @@ int main(void) {
         cmocka_unit_test(margins_hold),   cmocka_unit_test(land_is_left),
         cmocka_unit_test(ground_is_lost), cmocka_unit_test(nested_is_flat),
         cmocka_unit_test(nothing_moves),  cmocka_unit_test(squares_keep_clear),
+        cmocka_unit_test(outlines_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -198,6 +198,45 @@ static void maps_are_distances(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* of every cell with material the bits of the least of all edges: beside few edges, which are taken together, and many */
+static void maps_have_the_bits_of_edges(void **state) {
+    (void)state;
+    int met = 0;
+    for (int n = 0; n < 12; n++) {
+        const bool many = n % 2;
+        const fw_release_map *m;
+        fw_release_field f;
+        plate *p = plate_new(300);
+        plate_add(p, FW_ROLE_STRUCTURE, 0, "plate", rectangle(p, -280, -270, 290, 260));
+        plate_add(p, FW_ROLE_TEXT, FW_NONE - 1, "odd", odd(p, -120, -80, 60));
+        plate_add(p, FW_ROLE_TEXT, FW_NONE - 1, "disc", disc(p, 150 * uniform(), 120, 40));
+        for (int i = 0; many && i < 400; i++) { /* in a corner, so that its boxes have more than are taken together */
+            double x = 200 + 3 * (i % 20), y = -200 + 3 * (i / 20);
+            plate_add(p, FW_ROLE_TEXT, FW_NONE - 1, "dot",
+                      i % 3 ? rectangle(p, x, y, x + 1, y + 2) : disc(p, x, y, 1));
+        }
+        int *part_of, npart;
+        fw_release_part *part;
+        assert_int_equal(fw_release_parts(p->arena, &p->layout, true, &part_of, &part, &npart),
+                         FW_OK);
+        assert_int_equal(fw_release_field_make(p->arena, &p->layout, part_of, npart, &f), FW_OK);
+        assert_int_equal(fw_release_map_make(p->arena, &p->layout, true, 90, &m), FW_OK);
+        double cell = (m->box.x1 - m->box.x0) / 90;
+        for (int i = 0; i < m->rows * m->columns; i++) {
+            fw_geometry_vec2 at = {m->box.x0 + (i % m->columns + 0.5) * cell,
+                                   m->box.y0 + (i / m->columns + 0.5) * cell};
+            double least = HUGE_VAL;
+            if (m->distance_m[i] < 0.0F) continue;
+            for (int k = 0; k < f.nedge; k++)
+                least = fmin(least, fw_release_edge_distance(&f.edge[k], at));
+            assert_true(m->distance_m[i] == (float)least);
+            met++;
+        }
+        fw_arena_free(p->arena);
+    }
+    assert_true(met > 40000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_those_of_geometry),
@@ -205,6 +244,7 @@ int main(void) {
         cmocka_unit_test(rows_are_those_of_points),
         cmocka_unit_test(boxes_hold_what_they_say),
         cmocka_unit_test(maps_are_distances),
+        cmocka_unit_test(maps_have_the_bits_of_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
