@@ -190,21 +190,36 @@ static void join(fw_maths_interval *range, double x) {
     range->hi = x > range->hi ? x : range->hi;
 }
 
-static void middle_of(const motion *s, const fw_clearance_pair *pair, const fw_clearance_span *span,
-                      fw_clearance_pose middle[2]) {
-    fw_maths_interval range[2][3];
-    fw_clearance_pose pose[NODES][2];
-    for (int k = 0; k < 6; k++)
-        range[k / 3][k % 3] = (fw_maths_interval){HUGE_VAL, -HUGE_VAL};
-    for (int piece = span->first; piece <= span->last; piece++) {
-        int n = fw_clearance_pair_coefficients(pair, s->path, span, piece, pose);
-        for (int i = 0; i < n; i++)
-            for (int k = 0; k < 2; k++) {
-                join(&range[k][0], pose[i][k].x_m);
-                join(&range[k][1], pose[i][k].y_m);
-                join(&range[k][2], pose[i][k].phi_rad);
-            }
+/* of the six coordinates of a pair over a span: x, y, phi of the first solid, then of the second */
+static void ranges_of(const motion *s, const fw_clearance_pair *pair, const fw_clearance_span *span,
+                      fw_maths_interval range[2][3]) {
+    const bool all = span->first == 0 && span->last == s->path->npiece - 1 && s->range &&
+                     span->from == 0 && span->to == 1;
+    const fw_clearance_pose stands = fw_clearance_ground_pose(s->things);
+    for (int k = 0; k < 2; k++) {
+        const int solid = k ? pair->b : pair->a;
+        const double at[3] = {stands.x_m, stands.y_m, stands.phi_rad};
+        for (int q = 0; q < 3; q++) {
+            fw_maths_interval *r = &range[k][q];
+            *r = (fw_maths_interval){HUGE_VAL, -HUGE_VAL};
+            if (solid == s->things->nbody)
+                *r = (fw_maths_interval){at[q], at[q]};
+            else if (all)
+                *r = s->range[3 * solid + q];
+            else
+                for (int piece = span->first; piece <= span->last; piece++) {
+                    double c[NODES];
+                    fw_clearance_path_part(s->path, piece, 3 * solid + q, span->from, span->to, c);
+                    for (int i = 0; i < s->path->nodes[piece]; i++)
+                        join(r, c[i]);
+                }
+        }
     }
+}
+
+static void middle_of(const motion *s, const fw_clearance_pair *pair, const fw_clearance_span *span,
+                      fw_maths_interval range[2][3], fw_clearance_pose middle[2]) {
+    ranges_of(s, pair, span, range);
     for (int k = 0; k < 2; k++)
         middle[k] = (fw_clearance_pose){0.5 * (range[k][0].lo + range[k][0].hi),
                                         0.5 * (range[k][1].lo + range[k][1].hi),
@@ -229,20 +244,31 @@ static double slack_about(const motion *s, const fw_clearance_pair *pair,
 
 static bool bound(const void *context, const fw_clearance_pair *pair,
                   const fw_clearance_region *region, fw_clearance_pose middle[2], double *slack_m) {
-    middle_of(context, pair, &region->span, middle);
+    fw_maths_interval range[2][3];
+    middle_of(context, pair, &region->span, range, middle);
     *slack_m = slack_about(context, pair, &region->span, middle);
     return true;
 }
 
-/* the coefficients of a span of one piece */
+/* The coefficients of a span of one piece; of many, corners of the ranges of each solid's coordinates: oscillations that
+   slide along a wall are proved as a whole, whatever they do one after the other. */
 static bool hull_of(const void *context, const fw_clearance_pair *pair,
                     const fw_clearance_region *region, fw_clearance_hull *hull) {
+    enum { CORNERS = 8 };
     const motion *s = context;
     const fw_clearance_span *span = &region->span;
-    if (span->first != span->last) return false;
-    *hull = (fw_clearance_hull){.count = 0};
-    middle_of(s, pair, span, hull->middle);
-    hull->count = fw_clearance_pair_coefficients(pair, s->path, span, span->first, hull->pose);
+    fw_maths_interval r[2][3];
+    *hull = (fw_clearance_hull){.apart = span->first != span->last};
+    middle_of(s, pair, span, r, hull->middle);
+    if (!hull->apart)
+        hull->count = fw_clearance_pair_coefficients(pair, s->path, span, span->first, hull->pose);
+    for (; hull->apart && hull->count < CORNERS; hull->count++)
+        for (int k = 0; k < 2; k++) {
+            const int c = hull->count;
+            hull->pose[c][k] = (fw_clearance_pose){c & 1 ? r[k][0].hi : r[k][0].lo,
+                                                   c & 2 ? r[k][1].hi : r[k][1].lo,
+                                                   c & 4 ? r[k][2].hi : r[k][2].lo};
+        }
     return true;
 }
 

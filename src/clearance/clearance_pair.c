@@ -343,14 +343,17 @@ double fw_clearance_edges_bound(const fw_clearance_pair *pair, const fw_clearanc
     for (int k = 0; k < 2; k++)
         edge[k] = placed(&pair->things->solid[k ? pair->b : pair->a], hull->middle[k],
                          &meet->edge[k]->segment);
+    double least[2] = {HUGE_VAL, HUGE_VAL}; /* of each solid by itself */
     for (int i = 0; i < hull->count; i++) {
-        const double d =
-            -shifted_support(&edge[1], vec_scale(-1, n), hull->middle[1], hull->pose[i][1]) -
-            shifted_support(&edge[0], n, hull->middle[0], hull->pose[i][0]);
-        if (d < *there_m) *there_m = d, *where = i;
+        const double q =
+            -shifted_support(&edge[1], vec_scale(-1, n), hull->middle[1], hull->pose[i][1]);
+        const double p = -shifted_support(&edge[0], n, hull->middle[0], hull->pose[i][0]);
+        if (p + q < *there_m) *there_m = p + q, *where = i;
+        least[0] = fmin(least[0], p), least[1] = fmin(least[1], q);
         for (int k = 0; k < 2; k++)
             turn[k] = fmax(turn[k], fabs(hull->pose[i][k].phi_rad - hull->middle[k].phi_rad));
     }
+    if (hull->apart) *there_m = least[0] + least[1];
     for (int k = 0; k < 2; k++) {
         const fw_geometry_vec2 centre = {hull->middle[k].x_m, hull->middle[k].y_m};
         const double most = turn[k] + hull->rest_rad[k];

@@ -68,6 +68,7 @@ typedef struct fw_clearance_hull {
     fw_clearance_pose middle[2], pose[FW_CLEARANCE_HULL][2];
     int count;
     double rest_m[2], rest_rad[2];
+    bool apart; /* of each solid by itself: whichever poses of the two go together */
 } fw_clearance_hull;
 /* Proved: two edges are nowhere in the region nearer than this. *where: at which of the hull's
    poses they are, to first order; *there_m: how near */

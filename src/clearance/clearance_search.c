@@ -195,6 +195,8 @@ static double look_along(search *s, const node *n, const fw_clearance_meet *meet
     int nearest;
     double there;
     if (!domain->hull || !domain->hull(domain->context, pair, &n->region, &hull)) return -HUGE_VAL;
+    /* whoever asks for enough alone reads what the looks on the way to it have found, too */
+    if (hull.apart && isfinite(s->wish->enough_m)) return -HUGE_VAL;
     double low = fw_clearance_edges_bound(pair, &hull, meet, &nearest, &there);
     if (domain->corner && there - lost(s, n->pair) < bar(s)) {
         const fw_clearance_region corner = domain->corner(&n->region, nearest);

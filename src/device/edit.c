@@ -393,10 +393,9 @@ static fw_status take_out(const editor *e, fw_text *out) {
 }
 
 /* "arc" is parameter[arc]/@value */
-static fw_status whole_path(editor *e, const fw_device_text_change *change) {
-    e->path = change->path ? change->path : "";
-    if (change->kind == FW_CHANGE_SET && e->path[0] && !strpbrk(e->path, "[]/@"))
-        FW_NEED(e->path = fw_arena_printf(e->arena, "parameter[%s]/@value", e->path));
+static fw_status whole_path(fw_arena *arena, const char **path) {
+    if ((*path)[0] && !strpbrk(*path, "[]/@"))
+        FW_NEED(*path = fw_arena_printf(arena, "parameter[%s]/@value", *path));
     return FW_OK;
 }
 
@@ -411,7 +410,8 @@ fw_status fw_device_edit(fw_arena *arena, const char *file, const char *xml, siz
         FW_TRY(read);
         if (i == nchange) break;
         e.root = root;
-        FW_TRY(whole_path(&e, &change[i]));
+        e.path = change[i].path ? change[i].path : "";
+        if (change[i].kind == FW_CHANGE_SET) FW_TRY(whole_path(arena, &e.path));
         fw_text next = fw_text_new(arena);
         FW_TRY(change[i].kind == FW_CHANGE_ADD      ? add(&e, &change[i], &next)
                : change[i].kind == FW_CHANGE_REMOVE ? take_out(&e, &next)
@@ -420,4 +420,64 @@ fw_status fw_device_edit(fw_arena *arena, const char *file, const char *xml, siz
     }
     fw_text_bytes(out, e.xml.data, e.xml.n);
     return fw_text_end(out);
+}
+
+/* ---- the unit that a value is written in ---- */
+
+struct fw_device_written {
+    const fw_device *device;
+    fw_xml_element *root; /* NULL: there is no file */
+};
+
+fw_status fw_device_written_open(fw_arena *arena, const fw_device *device,
+                                 const fw_device_written **written) {
+    fw_diags quiet = fw_diags_new(arena); /* it was read before */
+    fw_device_written *w = fw_arena_one(arena, fw_device_written);
+    FW_NEED(w);
+    w->device = device;
+    *written = w;
+    if (!device->source) return FW_OK;
+    fw_status status =
+        fw_xml_read(arena, device->file, device->source, device->source_length, &quiet, &w->root);
+    if (status != FW_OK) w->root = NULL;
+    return status == FW_INPUT ? FW_OK : status;
+}
+
+/* of the attribute that a path names; NULL: it is not there */
+static const char *text_of(const fw_device_written *w, const char *path) {
+    fw_device_path parts;
+    fw_xml_element *e;
+    if (!w->root || !fw_device_path_find(w->root, path, &e, &parts) || !parts.attribute)
+        return NULL;
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, parts.attribute);
+    return a ? a->value : NULL;
+}
+
+/* the first parameter of this dimension that the text names; NULL: it names none */
+static fw_status first_named(fw_arena *arena, const fw_device *d, const char *text,
+                             fw_quantity_dimension dimension, const char **name) {
+    const char *const *names;
+    size_t count;
+    *name = NULL;
+    FW_TRY(fw_quantity_expression_names(arena, text, strlen(text), &names, &count));
+    for (size_t i = 0; i < count && !*name; i++)
+        for (int k = 0; k < d->nparameter && !*name; k++)
+            if (strcmp(d->parameter[k].name, names[i]) == 0 &&
+                fw_quantity_dimension_equal(d->parameter[k].dimension, dimension))
+                *name = d->parameter[k].name;
+    return FW_OK;
+}
+
+fw_status fw_device_written_unit(fw_arena *arena, const fw_device_written *w, const char *path,
+                                 fw_quantity_dimension dimension, const char **unit) {
+    *unit = "";
+    for (int i = 0; i <= w->device->nparameter && path; i++) { /* none is computed from itself */
+        FW_TRY(whole_path(arena, &path));
+        const char *text = text_of(w, path);
+        if (!text) return FW_OK;
+        FW_TRY(fw_quantity_expression_unit(arena, text, strlen(text), dimension, unit));
+        if ((*unit)[0]) return FW_OK;
+        FW_TRY(first_named(arena, w->device, text, dimension, &path));
+    }
+    return FW_OK;
 }

@@ -9,7 +9,7 @@
    the one before. Without brackets there must be only one. */
 #ifndef FW_DEVICE_EDIT_H
 #define FW_DEVICE_EDIT_H
-#include "base/diag.h"
+#include "device/device.h"
 
 typedef enum fw_device_text_change_kind {
     FW_CHANGE_SET,   /* attribute `path` becomes `value`; it is added where it is not there; value
@@ -36,4 +36,16 @@ typedef struct fw_device_text_change {
 fw_status fw_device_edit(fw_arena *arena, const char *file, const char *xml, size_t n,
                          const fw_device_text_change *change, int nchange, fw_diags *diags,
                          fw_text *out);
+
+/* ---- the unit that a value is written in ---- */
+
+typedef struct fw_device_written fw_device_written; /* the file of a device, as a tree */
+fw_status fw_device_written_open(fw_arena *arena, const fw_device *device,
+                                 const fw_device_written **written);
+/* Of attribute (or parameter) `path`: the first unit of this dimension in its text; without one there, that of the first
+   parameter of this dimension that the text names. What --set gave is not looked at: units are the file's. "": there is none,
+   nor is the attribute in the file. Test: test_text_edit.c */
+fw_status fw_device_written_unit(fw_arena *arena, const fw_device_written *written,
+                                 const char *path, fw_quantity_dimension dimension,
+                                 const char **unit);
 #endif

@@ -424,9 +424,10 @@ static void across_rows(fw_text *out, const fw_verdict_variant_verdict *v) {
         else
             fw_markup(out, "<td>nothing across</td><td></td><td></td>");
         if (isfinite(s->tips))
-            fw_markup(out, "<td>{n}</td>", s->tips);
+            fw_markup(out, "<td>{n}, {p}</td><td>{n}</td>", s->tips, s->tips_error,
+                      s->tips / (1 + s->tips_error));
         else
-            fw_markup(out, "<td></td>");
+            fw_markup(out, "<td></td><td></td>");
         fw_markup(out, "<td>{s}</td></tr>\n", fw_verdict_decision_text(s->decision));
     }
 }
@@ -444,10 +445,11 @@ fw_status fw_report_section_out_of_plane(fw_report_page *page) {
         if (v->variant[i].out_of_plane) plates_row(page->out, &v->variant[i]);
     fw_markup(page->out, "</tbody></table>\n<table><caption>By scene: how far anything comes down "
                          "and up, at most; the largest tilt, "
-                         "in rad; and how many times the scene's forces are sure not to tip it out "
-                         "of the plane.</caption>\n"
+                         "in rad; how many times the scene's forces tip it out of the plane at "
+                         "the earliest, with what they may be off by; and how many times them it "
+                         "is sure not to.</caption>\n"
                          "<thead><tr><th>Scene</th><th>Flow</th><th>Down</th><th>Up</th><th>Tilt</"
-                         "th><th>Sure up to</th>"
+                         "th><th>Tips at, off by</th><th>Sure up to</th>"
                          "<th>Verdict</th></tr></thead><tbody>\n");
     for (int i = 0; i < v->nvariant; i++)
         if (v->variant[i].out_of_plane) across_rows(page->out, &v->variant[i]);

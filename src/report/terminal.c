@@ -215,7 +215,25 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
         }
 }
 
-/* one line a flow, and one for each scene that acts across the plane */
+/* a scene that acts across the plane, and by how much more than its forces the device may tip out of it */
+static void across(fw_text *out, const fw_verdict_across *s, const fw_mechanism_below *below) {
+    const bool tips = isfinite(s->tips);
+    if (!s->asked && !tips) return;
+    fw_text_printf(out, "  %s: ", s->scene);
+    if (s->asked) {
+        number(out, "down by up to ", -1e6 * s->lowest_m, " um");
+        number(out, ", tilted by up to ", degrees(s->tilt_rad), " deg; below it: ");
+        fw_text_printf(out, "%s%s", below->known ? below->words : "not known", tips ? "; " : "");
+    }
+    if (tips) {
+        number(out, "does not tip below ", s->tips, " times its forces, which may be off by ");
+        number(out, "", 100 * s->tips_error, " %: sure up to ");
+        number(out, "", s->tips / (1 + s->tips_error), "");
+    }
+    fw_text_add(out, "\n");
+}
+
+/* one line a flow, and one for each scene that has something to say across the plane */
 static void out_of_plane(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nvariant; i++) {
         const fw_verdict_out_of_plane *o = v->variant[i].out_of_plane;
@@ -233,16 +251,8 @@ static void out_of_plane(fw_text *out, const fw_verdict *v) {
                        o->mode[0].tilts ? "tilts" : "goes up and down");
         if (isfinite(o->ratio)) number(out, "; its stiffness is ", o->ratio, " of that in it");
         number(out, "; its weight lowers it by ", 1e9 * o->weight_m, " nm\n");
-        for (int k = 0; k < o->nscene; k++) {
-            const fw_verdict_across *s = &o->scene[k];
-            if (!s->asked) continue;
-            fw_text_printf(out, "  %s: ", s->scene);
-            number(out, "down by up to ", -1e6 * s->lowest_m, " um");
-            number(out, ", tilted by up to ", degrees(s->tilt_rad), " deg; below it: ");
-            fw_text_printf(out, "%s\n",
-                           v->variant[i].variant->below.known ? v->variant[i].variant->below.words
-                                                              : "not known");
-        }
+        for (int k = 0; k < o->nscene; k++)
+            across(out, &o->scene[k], &v->variant[i].variant->below);
     }
 }
 

@@ -56,6 +56,8 @@ typedef struct fw_verdict_trial {
     double *made; /* (ncheck) the largest at the corners that were run; NaN: none was */
     int ncheck;
     bool brief; /* clearances that are enough have no value */
+    const struct fw_device_written
+        *written; /* the file, opened when its units are asked for; NULL: not yet */
     fw_verdict_trial_end
         *end; /* (2 device->nparameter) as they are asked for; NULL: none was yet */
 } fw_verdict_trial;
@@ -109,6 +111,9 @@ typedef struct fw_verdict_value { /* all in the unit as written */
 /* of a parameter; *ok false: nothing says how far it may go, or it may not go anywhere */
 fw_status fw_verdict_value_of_parameter(fw_verdict_trial *trial, const fw_device_parameter *p,
                                         fw_verdict_value *value, bool *ok);
+/* of an attribute that is a length, between two shares of what it is: in the file's unit, and no finer than 0.1 um */
+fw_status fw_verdict_value_of_length(fw_verdict_trial *trial, const char *path, double m,
+                                     double least, double most, fw_verdict_value *value);
 /* "12.4 um" */
 const char *fw_verdict_value_text(fw_arena *arena, const fw_verdict_value *value, double x,
                                   int digits);
@@ -120,10 +125,11 @@ double fw_verdict_value_rounded(double x, double step);
 /* ---- what may change: parameters, attributes of flexures, shares of loads and of required poses ---- */
 
 typedef struct fw_verdict_part { /* an attribute that a share multiplies */
-    const char *path, *unit;     /* SI, with a prefix where that takes one */
-    double value;
-    bool squared;  /* it goes with the root of the share */
-    bool prefixed; /* the unit takes one */
+    const char *path, *unit;     /* the file's, or SI with a prefix where that takes one */
+    fw_quantity_unit as;         /* the same */
+    double value;                /* SI */
+    bool squared;                /* it goes with the root of the share */
+    bool prefixed;               /* the unit takes one */
 } fw_verdict_part;
 
 typedef struct fw_verdict_variable {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What advice may change, as settings of the description, and how its numbers are typed. */
+#include "device/edit.h"
 #include "effects/effects.h"
 #include "verdict/advice.h"
 #include <math.h>
@@ -13,7 +14,7 @@ static const double factor_without_bounds = 4.0;
    in which nothing moves is the slowest of all to judge */
 static const double nearest_to_0 = 0.01;
 
-/* of a dimension in SI: "kg m s-2"; a parameter computed from others has no unit of its own */
+/* of a dimension in SI: "kg m s-2"; a parameter may be computed from others of other dimensions, and has no unit then */
 static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
     const struct {
         const char *symbol;
@@ -28,6 +29,17 @@ static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
         if (part[i].power != 1) fw_text_printf(&text, "%d", part[i].power);
     }
     return text.failed ? NULL : text.data;
+}
+
+/* The unit that the file writes an attribute or parameter in; "": none. The file is opened once. */
+static fw_status written_unit(fw_verdict_trial *trial, const char *path,
+                              fw_quantity_dimension dimension, const char **text,
+                              fw_quantity_unit *unit) {
+    if (!trial->written)
+        FW_TRY(fw_device_written_open(trial->arena, trial->device, &trial->written));
+    FW_TRY(fw_device_written_unit(trial->arena, trial->written, path, dimension, text));
+    if (!fw_quantity_unit_parse(*text, strlen(*text), unit, NULL, NULL)) *text = "";
+    return FW_OK;
 }
 
 const char *fw_verdict_value_text(fw_arena *arena, const fw_verdict_value *value, double x,
@@ -72,8 +84,12 @@ fw_status fw_verdict_value_of_parameter(fw_verdict_trial *trial, const fw_device
                                         fw_verdict_value *h, bool *ok) {
     *h = (fw_verdict_value){.path = p->name, .unit_text = p->unit};
     *ok = false;
-    if (!fw_quantity_unit_parse(p->unit, strlen(p->unit), &h->unit, NULL, NULL) ||
-        !fw_quantity_dimension_equal(h->unit.dimension, p->dimension)) {
+    const bool own = fw_quantity_unit_parse(p->unit, strlen(p->unit), &h->unit, NULL, NULL) &&
+                     fw_quantity_dimension_equal(h->unit.dimension, p->dimension);
+    const bool pure = fw_quantity_dimension_equal(p->dimension, (fw_quantity_dimension){0});
+    if (!own) h->unit_text = "";
+    if (!own && !pure) FW_TRY(written_unit(trial, p->name, p->dimension, &h->unit_text, &h->unit));
+    if (!h->unit_text[0]) {
         FW_NEED(h->unit_text = si_unit(trial->arena, p->dimension));
         h->unit = (fw_quantity_unit){.factor = 1, .dimension = p->dimension};
     }
@@ -282,11 +298,34 @@ bool fw_verdict_flexure_within(fw_verdict_trial *trial, int flexure) {
 
 /* ---- those of flexures, loads and boxes ---- */
 
-static fw_verdict_value micrometres(const char *path, double m, double least, double most) {
-    fw_verdict_value v = {.path = path, .unit_text = "um", .now = 1e6 * m, .digit = 0.1};
-    fw_quantity_unit_parse("um", 2, &v.unit, NULL, NULL);
-    v.low = least * v.now, v.high = most * v.now, v.range = v.high - v.now;
-    return v;
+static const double fw_finest_length_m = 1e-7; /* what is drawn is not stated more finely */
+
+fw_status fw_verdict_value_of_length(fw_verdict_trial *trial, const char *path, double m,
+                                     double least, double most, fw_verdict_value *v) {
+    *v = (fw_verdict_value){.path = path};
+    FW_TRY(written_unit(trial, path, (fw_quantity_dimension){.m = 1}, &v->unit_text, &v->unit));
+    if (!v->unit_text[0]) {
+        v->unit_text = "um";
+        fw_quantity_unit_parse("um", 2, &v->unit, NULL, NULL);
+    }
+    v->now = fw_quantity_unit_from_si(&v->unit, m);
+    v->digit = pow(10, nearbyint(log10(fw_quantity_unit_from_si(&v->unit, fw_finest_length_m))));
+    v->low = least * v->now, v->high = most * v->now, v->range = v->high - v->now;
+    return FW_OK;
+}
+
+/* of `part`, whose unit is the SI one: it becomes the file's, where that has one */
+static fw_status as_written(fw_verdict_trial *trial, fw_verdict_part *part) {
+    fw_quantity_unit si = {.factor = 1};
+    const char *text;
+    fw_quantity_unit_parse(part->unit, strlen(part->unit), &si, NULL, NULL);
+    FW_TRY(written_unit(trial, part->path, si.dimension, &text, &part->as));
+    part->prefixed = !text[0] && !strchr(part->unit, '/');
+    if (text[0])
+        part->unit = text;
+    else
+        part->as = si;
+    return FW_OK;
 }
 
 static fw_status add_attribute(fw_verdict_trial *trial, int flexure, const char *attribute,
@@ -297,8 +336,8 @@ static fw_status add_attribute(fw_verdict_trial *trial, int flexure, const char 
     fw_verdict_variable *v = &variable[*count];
     bool ok;
     FW_NEED(path);
-    *v = (fw_verdict_variable){.kind = FW_PROPOSE_FLEXURES,
-                               .value = micrometres(path, of(f), least, most)};
+    *v = (fw_verdict_variable){.kind = FW_PROPOSE_FLEXURES};
+    FW_TRY(fw_verdict_value_of_length(trial, path, of(f), least, most, &v->value));
     FW_NEED(v->name = fw_arena_printf(trial->arena, "%s of flexure %s", attribute, f->id));
     FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, of}, &v->value, &ok));
     *count += ok;
@@ -323,10 +362,12 @@ static fw_status add_length_and_radius(fw_verdict_trial *trial, int flexure,
     *v = (fw_verdict_variable){
         .kind = FW_PROPOSE_FLEXURES, .value = share(shortest, longest), .npart = 2};
     FW_NEED(part = fw_arena_array(trial->arena, fw_verdict_part, 2));
-    part[0] = (fw_verdict_part){.unit = "m", .value = f->length_m, .prefixed = true};
-    part[1] = (fw_verdict_part){.unit = "m", .value = f->radius_m, .prefixed = true};
+    part[0] = (fw_verdict_part){.unit = "m", .value = f->length_m};
+    part[1] = (fw_verdict_part){.unit = "m", .value = f->radius_m};
     FW_NEED(part[0].path = fw_arena_printf(trial->arena, "flexure[%s]/@length", f->id));
     FW_NEED(part[1].path = fw_arena_printf(trial->arena, "flexure[%s]/@radius", f->id));
+    FW_TRY(as_written(trial, &part[0]));
+    FW_TRY(as_written(trial, &part[1]));
     FW_NEED(v->name = fw_arena_printf(trial->arena, "length and radius of flexure %s", f->id));
     v->part = part;
     FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, length_of}, &v->value, &length));
@@ -365,12 +406,10 @@ fw_status fw_verdict_variable_of_loads(fw_verdict_trial *trial, int scene, fw_ve
         const fw_effects_load_value *l = &values->item[i];
         const char *which = l->id ? l->id : fw_arena_printf(trial->arena, "%d", l->number);
         FW_NEED(which);
-        part[i] = (fw_verdict_part){.unit = l->unit,
-                                    .value = l->value,
-                                    .squared = l->squared,
-                                    .prefixed = !strchr(l->unit, '/')};
+        part[i] = (fw_verdict_part){.unit = l->unit, .value = l->value, .squared = l->squared};
         FW_NEED(part[i].path = fw_arena_printf(trial->arena, "scene[%s]/%s[%s]/@%s", s->name,
                                                l->element, which, l->attribute));
+        FW_TRY(as_written(trial, &part[i]));
     }
     v->part = part, v->npart = values->count;
     FW_NEED(v->name = fw_arena_printf(trial->arena, "loads of scene %s", s->name));
@@ -394,10 +433,10 @@ fw_status fw_verdict_variable_of_box(fw_verdict_trial *trial, int box, fw_verdic
     for (int i = 0; i < 6; i++) {
         if (end[i].value == 0) continue;
         fw_verdict_part *p = &part[v->npart++];
-        *p = (fw_verdict_part){
-            .unit = end[i].angle ? "rad" : "m", .value = end[i].value, .prefixed = true};
+        *p = (fw_verdict_part){.unit = end[i].angle ? "rad" : "m", .value = end[i].value};
         FW_NEED(p->path =
                     fw_arena_printf(trial->arena, "workspace[%d]/@%s", box + 1, end[i].attribute));
+        FW_TRY(as_written(trial, p));
     }
     v->part = part;
     *ok = v->npart > 0;
@@ -451,28 +490,27 @@ fw_status fw_verdict_variables_of_holes(fw_verdict_trial *trial, fw_verdict_vari
     *count = 0;
     FW_NEED(*variable = fw_arena_array(trial->arena, fw_verdict_variable, 2));
     if (!(pitch > 0) || !rims_speak(trial->verdict)) return FW_OK;
-    (*variable)[(*count)++] = (fw_verdict_variable){
-        .kind = FW_PROPOSE_HOLES,
-        .name = "pitch of release holes",
-        .value = micrometres("die/@release-pitch", pitch, 1, fw_farthest_holes)};
-    if (!(d->release_hole_m > 0) || !(least < 1)) return FW_OK; /* it goes with the pitch */
     fw_verdict_variable *v = &(*variable)[(*count)++];
-    *v = (fw_verdict_variable){.kind = FW_PROPOSE_HOLES,
-                               .name = "diameter of release holes",
-                               .value = micrometres("die/@release-hole", hole, least, 1)};
+    *v = (fw_verdict_variable){.kind = FW_PROPOSE_HOLES, .name = "pitch of release holes"};
+    FW_TRY(fw_verdict_value_of_length(trial, "die/@release-pitch", pitch, 1, fw_farthest_holes,
+                                      &v->value));
+    if (!(d->release_hole_m > 0) || !(least < 1)) return FW_OK; /* it goes with the pitch */
+    v = &(*variable)[(*count)++];
+    *v = (fw_verdict_variable){.kind = FW_PROPOSE_HOLES, .name = "diameter of release holes"};
+    FW_TRY(fw_verdict_value_of_length(trial, "die/@release-hole", hole, least, 1, &v->value));
     v->value.range = v->value.now - v->value.low;
     return FW_OK;
 }
 
 /* ---- as settings, and in words ---- */
 
-/* "112.5 uN": the prefix that leaves one to three digits before the point */
+/* "112.5 uN": in the file's unit, or with the prefix that leaves one to three digits before the point */
 static const char *part_text(fw_arena *arena, const fw_verdict_part *p, double by) {
     static const struct {
         const char *sign;
         double factor;
     } prefix[] = {{"", 1}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
-    const double value = p->value * (p->squared ? sqrt(by) : by);
+    const double value = fw_quantity_unit_from_si(&p->as, p->value * (p->squared ? sqrt(by) : by));
     char number[40];
     size_t k = 0;
     while (p->prefixed && k + 1 < sizeof prefix / sizeof prefix[0] &&

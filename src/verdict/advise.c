@@ -132,8 +132,8 @@ static fw_status start_again(advice *a) {
     const fw_verdict_trial was = *t;
     const size_t n = (size_t)was.verdict->nvariant;
     FW_TRY(fw_verdict_trial_start(t->arena, t->device, t->options, t->verdict, t));
-    t->work = was.work;
-    t->most_work = was.most_work, t->end = was.end;
+    t->work = was.work, t->most_work = was.most_work;
+    t->end = was.end, t->written = was.written;
     memcpy(t->suspect, was.suspect, n * FW_FABRICATION_INPUTS * sizeof *t->suspect);
     memcpy(t->suspected, was.suspected, n * sizeof *t->suspected);
     return FW_OK;
@@ -153,16 +153,17 @@ static fw_status lines_new(const advice *a, lines *l) {
     return FW_OK;
 }
 
-static fw_status add_line(fw_arena *arena, lines *l, const fw_device_flexure *f, const char *what,
-                          const char *attribute, double to_m, double from_m) {
-    char to[32], from[32];
-    fw_number_text(to, sizeof to, to_m * 1e6, 6);
-    fw_number_text(from, sizeof from, from_m * 1e6, 4);
+static fw_status add_line(fw_verdict_trial *trial, lines *l, const fw_device_flexure *f,
+                          const char *what, const char *attribute, double to_m, double from_m) {
     fw_device_set *set = &l->set[l->nset++];
-    FW_NEED(set->path = fw_arena_printf(arena, "flexure[%s]/@%s", f->id, attribute));
-    FW_NEED(set->value = fw_arena_printf(arena, "%s um", to));
-    fw_text_printf(&l->text, "%sflexure %s: %s >= %s um is accepted; now %s um",
-                   l->nset > 1 ? "; " : "", f->id, what, to, from);
+    fw_verdict_value v;
+    FW_NEED(set->path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute));
+    FW_TRY(fw_verdict_value_of_length(trial, set->path, from_m, 1, 1, &v));
+    const double to = fw_quantity_unit_from_si(&v.unit, to_m);
+    const char *from = fw_verdict_value_text(trial->arena, &v, v.now, 4);
+    FW_NEED(from && (set->value = fw_verdict_value_text(trial->arena, &v, to, 6)) ? from : NULL);
+    fw_text_printf(&l->text, "%sflexure %s: %s >= %s is accepted; now %s", l->nset > 1 ? "; " : "",
+                   f->id, what, set->value, from);
     return FW_OK;
 }
 
@@ -188,10 +189,10 @@ static fw_status propose_lengths(void *context, bool *added) {
         bool arc = f->kind == FW_FLEXURE_CSFH;
         l.change += fabs(log(f->length_m / was->length_m));
         if (f->length_given || !arc)
-            FW_TRY(add_line(trial->arena, &l, f, arc ? "arc length" : "leaf length", "length",
-                            f->length_m, was->length_m));
+            FW_TRY(add_line(trial, &l, f, arc ? "arc length" : "leaf length", "length", f->length_m,
+                            was->length_m));
         if (arc && f->radius_given)
-            FW_TRY(add_line(trial->arena, &l, f, "radius", "radius", f->radius_m, was->radius_m));
+            FW_TRY(add_line(trial, &l, f, "radius", "radius", f->radius_m, was->radius_m));
     }
     return propose_lines(a, &l, added);
 }
@@ -242,7 +243,7 @@ static fw_status propose_widths(void *context, bool *added) {
         const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
         if (f->width_m == was->width_m) continue;
         l.change += fabs(log(f->width_m / was->width_m));
-        FW_TRY(add_line(trial->arena, &l, f, "width", "width", f->width_m, was->width_m));
+        FW_TRY(add_line(trial, &l, f, "width", "width", f->width_m, was->width_m));
     }
     return propose_lines(a, &l, added);
 }

@@ -102,7 +102,8 @@ class Parameters(unittest.TestCase):
 
 
 STAGE = ROOT / "docs/gallery/straight-stage/device.xml"
-UNIT = {"": 1, "%": 0.01, "um": 1e-6, "mm": 1e-3, "uN": 1e-6, "mN": 1e-3, "N": 1, "V": 1, "rad": 1, "mrad": 1e-3}
+UNIT = {"": 1, "%": 0.01, "um": 1e-6, "mm": 1e-3, "uN": 1e-6, "mN": 1e-3, "N": 1, "V": 1, "rad": 1, "mrad": 1e-3, "deg": math.pi / 180, "nm": 1e-9,
+        "m": 1, "mN mm": 1e-6, "uN mm": 1e-9}
 
 
 def number(text):
@@ -209,6 +210,27 @@ class Proposals(unittest.TestCase):
             if s["path"] == "pull" or "tendon" in s["path"]:
                 self.assertLessEqual(value, 120e-6 + 1e-12, s)
         self.assertIn("flexure[leaf]/@length", [s["path"] for s in sets])
+
+    def test_units_are_those_of_the_file(self):
+        """a required box in degrees and in parameters, loads in units of any size, and lengths in millimetres come back in them"""
+        text = SIX.read_text()
+        for old, new in (('phi-min="-2 deg" phi-max="2 deg"', 'phi-min="-tilt" phi-max="2*(1 deg)"'), ('x-min="-150 um"', 'x-min="-0.15 mm"'),
+                         ('fx="0.25 mN"', 'fx="0.00025 N"'), ('<parameter name="link"', '<parameter name="tilt" value="2 deg"/>\n  <parameter name="link"'),
+                         ('length="200 um"', 'length="0.2 mm"'), ("safety-factor=\"1.5\"", "safety-factor=\"2.6\"")):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        device = pathlib.Path(self.directory.name) / "units.xml"
+        device.write_text(text)
+        document = json.loads(run("check", device, "--corners", "none", "--json").stdout)
+        unit = {s["path"]: s["value"].partition(" ")[2] for p in document["advice"] for s in p["set"]}
+        said = {"workspace[1]/@phi-min": "deg", "workspace[1]/@phi-max": "deg", "workspace[1]/@x-min": "mm", "workspace[1]/@x-max": "um",
+                "scene[step-load]/force[1]/@fx": "N", "scene[step-load]/force[1]/@fy": "mN", "scene[step-load]/torque[1]/@value": "mN mm",
+                "flexure[C]/@length": "mm"}
+        self.assertEqual({path: unit.get(path) for path in said}, said, document["advice"])
+        lengths, = [p["text"] for p in document["advice"] if p["kind"] == "flexures"]
+        self.assertRegex(lengths, r"flexure C: arc length >= 0\.2\d+ mm is accepted; now 0\.2 mm")
+        for p in document["advice"]:
+            self.assertEqual(self.judged(device, *(f"{s['path']}={s['value']}" for s in p["set"]), more=("--corners", "none")), 0, p)
 
     def test_of_what_meets(self):
         """jaws that close too far (trials look at clearances at more corners than a check does)"""

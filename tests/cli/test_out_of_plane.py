@@ -43,6 +43,23 @@ class OutOfPlane(unittest.TestCase):
         whole = self.stage("check", scene=scene, **options)
         return whole, whole["out_of_plane"][0], whole["out_of_plane"][0]["scenes"][0]
 
+    def test_tipping_is_said_alike(self):
+        """at which load it may tip, and by how much its forces may be off: terminal and report as JSON"""
+        whole, all_, scene = self.across(flow=GLASS)
+        error = scene["tips_error"]
+        self.assertGreater(error, 0)
+        sure = scene["tips_at"] / (1 + error)
+        done = run("check", self.file, *QUICK)
+        said = re.search(r"  push: does not tip below ([\d.e+]+) times its forces, which may be off by ([\d.e-]+) %: sure up to ([\d.e+]+)\n", done.stdout)
+        self.assertTrue(said, done.stdout)
+        out = pathlib.Path(self.folder.name) / "out"
+        run("plan", self.file, "-o", out, "--measurements", "none", *QUICK)
+        cell = re.search(r"<td>([\d.e+]+), ([\d.e-]+) ?%</td><td>([\d.e+]+)</td><td>\w+</td></tr>", (out / "report.html").read_text().replace("\u00a0", " "))
+        self.assertTrue(cell)
+        for found in (said, cell):
+            for text, value in zip(found.groups(), (scene["tips_at"], 100 * error, sure)):
+                self.assertAlmostEqual(float(text) / value, 1, delta=6e-3)
+
     def test_electrodes_lift(self):
         """at the middle of a stage whose stiffness there is known: both drives over a silicon carrier, none over glass"""
         drives = "".join(f'<comb-drive id="{side}" kind="comb" on="stage" x="{x} mm" y="0 mm" direction="{turn} deg" fingers="20" '

@@ -34,6 +34,56 @@ describe("the report", () => {
     });
 });
 
+/** What is wrong with the place of a control: outside of the window or of what clips it, its own words cut, something else over it. */
+const misplaced = (page) => page.evaluate(() => {
+    const out = new Set();
+    for (const e of document.querySelectorAll("button, .button, select, input, textarea, summary")) {
+        const r = e.getBoundingClientRect();
+        if (!e.checkVisibility({ visibilityProperty: true, opacityProperty: true }) || r.width <= 1 || e.closest(".skip, .read-only, .cm-editor")) continue;
+        const name = `${e.closest("[id]")?.id}: ${e.tagName.toLowerCase()} ${(e.getAttribute("aria-label") ?? e.innerText ?? e.value ?? "").trim().replace(/\s+/g, " ").slice(0, 40) || e.className}`;
+        let [left, top, right, bottom] = [0, 0, innerWidth, innerHeight], scrolls = false, down = false;
+        if (r.left < -0.5 || r.right > innerWidth + 0.5) out.add(`${name} is outside of the window`);
+        for (let p = e.parentElement; p; p = p.parentElement) {
+            const look = getComputedStyle(p), b = p.getBoundingClientRect();
+            scrolls ||= p.matches(".wide, .schedule, .tradeoff, .diff"); // tables and pictures that are meant to be pushed
+            down ||= ["auto", "scroll"].includes(look.overflowY);
+            if (look.overflowX !== "visible" && !scrolls && (r.left < b.left - 0.5 || r.right > b.right + 0.5)) out.add(`${name} is cut by ${p.id || p.className}`);
+            if (["hidden", "clip"].includes(look.overflowY) && !down && (r.top < b.top - 0.5 || r.bottom > b.bottom + 0.5)) out.add(`${name} is cut at the top or bottom by ${p.id || p.className}`);
+            if (look.overflowX !== "visible") [left, top, right, bottom] = [Math.max(left, b.left), Math.max(top, b.top), Math.min(right, b.right), Math.min(bottom, b.bottom)];
+        }
+        if (e.matches("button, .button") && e.scrollWidth > e.clientWidth + 1) out.add(`${name}: its words are cut`);
+        for (const x of [r.left + 3, (r.left + r.right) / 2, r.right - 3])
+            for (const y of [r.top + 3, (r.top + r.bottom) / 2, r.bottom - 3]) {
+                if (x < left || x > right || y < top || y > bottom) continue; // scrolled away
+                const there = document.elementFromPoint(x, y);
+                if (there && !e.contains(there) && !there.contains(e) && e.closest("label") !== there.closest("label, button, select, input")) out.add(`${name} is under ${there.tagName.toLowerCase()} ${there.id || there.getAttribute("class") || there.textContent.slice(0, 30)}`);
+            }
+    }
+    return [...out];
+});
+
+describe("controls", () => {
+    for (const device of ["reference-six-bar", "comb-stage"])
+        test(`none is cut off or covered in any view at 1000 to 1280 pixels, ${device}`, async () => {
+            const server = await serve(device);
+            const page = await open(server, { width: 1000, height: 768 });
+            const found = [];
+            await page.waitForSelector("#banner:has-text('as it will be made')", { timeout: 60000 });
+            for (const id of ["motion", "draw", "workspace", "modes", "assembly", "masks", "recipe", "explore", "accuracy"]) {
+                await view(page, id);
+                if (["modes", "assembly", "masks", "recipe"].includes(id)) await computed(page, id, 60000);
+                for (const width of [1000, 1024, 1100, 1280]) {
+                    await page.setViewportSize({ width, height: 768 });
+                    await page.waitForTimeout(80); // plots and pictures take their new size
+                    found.push(...(await misplaced(page)).map((x) => `${id} at ${width}: ${x}`));
+                }
+            }
+            assert.deepEqual(found, []);
+            await close(page);
+            await server.stop();
+        });
+});
+
 describe("rules and looks", () => {
     let server, page;
     before(async () => {

@@ -295,6 +295,56 @@ static void several_changes_are_all_or_nothing(void **state) {
     assert_string_equal(changed(TWO, both, 0), TWO);
 }
 
+/* the file's unit, of an attribute or through the parameters that it names */
+static void units_as_they_are_written(void **state) {
+    (void)state;
+    static const char text[] =
+        "<device><parameter name='turn' value='-2 deg'/><parameter name='half' value='turn/2'/>"
+        "<parameter name='far' value='0.2 mm'/><parameter name='n' value='3'/>"
+        "<parameter name='area' value='far*far'/>"
+        "<workspace x-min='-far' x-max='150 um' phi-min='half*n' phi-max='1 mrad + 2 deg'/>"
+        "<scene name='s'><torque on='x' value='3 uN * 2 mm'/><force on='x' fx='area*(2 Pa)'/>"
+        "</scene></device>";
+    const fw_quantity_dimension length = {.m = 1}, angle = {.rad = 1}, area = {.m = 2},
+                                force = {1, 1, -2, 0, 0, 0, 0, 0};
+    const struct {
+        const char *path;
+        fw_quantity_dimension dimension;
+        const char *unit;
+    } row[] = {{"workspace[1]/@x-max", length, "um"},
+               {"workspace[1]/@x-min", length, "mm"},
+               {"workspace/@phi-min", angle, "deg"},
+               {"workspace/@phi-max", angle, "mrad"},
+               {"workspace/@y-max", length, ""},
+               {"workspace[2]/@x-max", length, ""},
+               {"half", angle, "deg"},
+               {"area", area, ""},
+               {"nobody", length, ""},
+               {"scene[s]/torque[1]/@value", force, "uN"},
+               {"scene[s]/force[1]/@fx", force, ""}};
+    fw_device_parameter parameter[] = {{.name = "turn", .dimension = angle},
+                                             {.name = "half", .dimension = angle},
+                                             {.name = "far", .dimension = length},
+                                             {.name = "n"},
+                                             {.name = "area", .dimension = area}};
+    fw_device device = {.file = "t.xml", .source = text, .source_length = sizeof text - 1};
+    const fw_device_written *written;
+    const char *unit;
+    device.parameter = parameter;
+    device.nparameter = sizeof parameter / sizeof *parameter;
+    assert_int_equal(fw_device_written_open(arena, &device, &written), FW_OK);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        assert_int_equal(
+            fw_device_written_unit(arena, written, row[i].path, row[i].dimension, &unit), FW_OK);
+        if (strcmp(unit, row[i].unit) != 0)
+            fail_msg("%s: '%s' expected, got '%s'", row[i].path, row[i].unit, unit);
+    }
+    device.source = NULL; /* made by a program, not read */
+    assert_int_equal(fw_device_written_open(arena, &device, &written), FW_OK);
+    assert_int_equal(fw_device_written_unit(arena, written, "half", angle, &unit), FW_OK);
+    assert_string_equal(unit, "");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(every_attribute_there_and_back, fresh, gone),
@@ -304,6 +354,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(attributes_come_and_go, fresh, gone),
         cmocka_unit_test_setup_teardown(elements_come_and_go, fresh, gone),
         cmocka_unit_test_setup_teardown(several_changes_are_all_or_nothing, fresh, gone),
+        cmocka_unit_test_setup_teardown(units_as_they_are_written, fresh, gone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
