@@ -299,6 +299,7 @@ static bool hull_of(const void *context, const fw_clearance_pair *pair,
     const part *known = know(b, region);
     if (known->reached != FW_REACHED) return false;
     hull->count = CORNERS;
+    hull->apart = false; /* both are where the platform says */
     for (int k = 0; k < 2; k++) {
         const linear l = linear_of(b, known, k ? pair->b : pair->a);
         hull->middle[k] = l.middle;
