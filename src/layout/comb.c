@@ -248,8 +248,8 @@ static double pad_of(const fw_layout_drawing *d) {
     return d->device->die.pad_m > 0.0 ? d->device->die.pad_m : PAD_M;
 }
 
-typedef struct
-    lead { /* from the electrode, around one corner or none, into the middle of the pad */
+/* from the electrode, around one corner or none, into the middle of the pad */
+typedef struct lead {
     fw_geometry_vec2 start, beyond, corner, middle; /* beyond: half a lead past the corner */
     bool turns;
     fw_geometry_box pad; /* axis-parallel, on the grid */

@@ -266,23 +266,30 @@ typedef struct trial {
     double fold_gap_m, fold_anisotropy;
 } trial;
 
+/* once more as the flow and `facts` are now: does it refuse nothing? What cannot be computed is not made */
+static fw_status judge_again(trial *t, const fw_process_mask_facts *facts, bool *made) {
+    fw_diags quiet = fw_diags_new(t->arena);
+    fw_status status = t->compute(t->arena, t->flow, facts, &quiet);
+    *made = status == FW_OK && t->flow->manufacturable != 0;
+    return status == FW_INPUT ? FW_OK : status;
+}
+
 /* every opening at least so wide: made, printed with the gap of the flow, not in perfect contact only, and as wide on the
    mask as its rules ask for, with a grid of 1 nm at either edge */
 static fw_status with_gap(trial *t, double gap_m, bool *made) {
     fw_process_mask_facts facts = *t->facts;
     *made = false;
     if (gap_m < t->fold_gap_m) return FW_OK;
-    fw_diags quiet = fw_diags_new(t->arena);
     for (int i = 0; i < facts.ngap; i++) {
         t->gap[i] = t->facts->gap[i];
         t->gap[i].gap_m = fmax(t->gap[i].gap_m, gap_m);
     }
     facts.gap = t->gap;
     facts.narrowest_slot_m = fmax(facts.narrowest_slot_m, gap_m);
-    fw_status status = t->compute(t->arena, t->flow, &facts, &quiet);
-    *made = status == FW_OK && t->flow->manufacturable != 0 && !t->flow->tight &&
+    fw_status status = judge_again(t, &facts, made);
+    *made = *made && !t->flow->tight &&
             facts.narrowest_slot_m - 2.0 * t->flow->bias_m >= facts.least_space_m + 2e-9;
-    return status == FW_INPUT ? FW_OK : status;
+    return status;
 }
 
 static double rounded_up(double x_m) { /* what a person draws */
@@ -310,18 +317,11 @@ static fw_status least_gap(trial *t, double *gap_m) {
     return FW_OK;
 }
 
-/* with another value of a quantity; *made: the flow refuses nothing */
-static fw_status with_value(trial *t, fw_quantity *q, double value, bool *made) {
-    fw_diags quiet = fw_diags_new(t->arena);
-    q->value = value;
-    fw_status status = t->compute(t->arena, t->flow, t->facts, &quiet);
-    *made = status == FW_OK && t->flow->manufacturable != 0;
-    return status == FW_INPUT ? FW_OK : status;
-}
-
 static fw_status with_anisotropy(trial *t, fw_quantity *q, double value, bool *made) {
     *made = false;
-    return value < t->fold_anisotropy ? FW_OK : with_value(t, q, value, made);
+    if (value < t->fold_anisotropy) return FW_OK;
+    q->value = value;
+    return judge_again(t, t->facts, made);
 }
 
 /* of the cut of the device, where it is known; to 1e-4 */
@@ -359,21 +359,18 @@ static fw_status least_overetch(trial *t, double *least) {
     fw_process_flow *f = t->flow;
     fw_process_step *s = &f->step[f->behind];
     fw_quantity *q = (fw_quantity *)s->overrun_from;
-    const double was = q ? q->value : s->overrun, from = f->behind_overetch;
+    double *share = q ? &q->value : &s->overrun;
+    const double was = *share, from = f->behind_overetch;
     bool made = false, tight = f->tight;
     fw_status status = FW_OK;
     *least = (double)NAN;
     for (int i = 0; i < TRIES && status == FW_OK && !made && from + 0.01 * i <= 1.0; i++) {
-        fw_quantity none = {0};
-        if (!q) s->overrun = from + 0.01 * i;
-        status = with_value(t, q ? q : &none, from + 0.01 * i, &made);
+        *share = from + 0.01 * i;
+        status = judge_again(t, t->facts, &made);
         made = made && f->behind < 0 && (tight || !f->tight);
         if (made) *least = from + 0.01 * i;
     }
-    if (q)
-        q->value = was;
-    else
-        s->overrun = was;
+    *share = was;
     return status;
 }
 
@@ -386,12 +383,12 @@ static fw_status thinner_layer(trial *t, double *layer_m) {
     const fw_quantity was = *q;
     const double thin = 1e-7 * floor(wall / 1.3 / 1e-7 + 1e-9);
     fw_process_mask_facts facts = *t->facts;
-    fw_diags quiet = fw_diags_new(t->arena);
+    bool made;
     facts.device_thickness_m = thin;
-    fw_status status = t->compute(t->arena, t->flow, &facts, &quiet);
-    if (status == FW_OK && t->flow->manufacturable != 0) *layer_m = thin;
+    fw_status status = judge_again(t, &facts, &made);
+    if (made) *layer_m = thin;
     *q = was;
-    return status == FW_INPUT ? FW_OK : status;
+    return status;
 }
 
 /* of a release that does not reach the middle of the widest body, rounded up to a tenth of a micrometre */
@@ -408,10 +405,11 @@ static fw_status farther_reach(trial *t, double *reach_m) {
     const double was = q->value;
     const double needs = rounded_up(t->facts->release->needed_m + t->flow->release_foot_m);
     if (!(needs > is)) return FW_OK;
-    FW_TRY(with_value(t, q, needs, &made));
+    q->value = needs;
+    fw_status status = judge_again(t, t->facts, &made);
     if (made) *reach_m = needs;
     q->value = was;
-    return FW_OK;
+    return status;
 }
 
 fw_status fw_process_judge_changes(fw_arena *arena, fw_process_flow *flow,
