@@ -148,7 +148,9 @@ fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *p
 
 static const double reach_m =
                         200e-6,    /* a liquid between walls further apart pulls next to nothing */
-    pitch_m = 15e-6, facing = 0.7; /* rays along an edge; - cos of the angle between two normals */
+    pitch_m = 15e-6, facing = 0.7, /* rays along an edge; - cos of the angle between two normals */
+    first_m = 25e-6; /* most rays, those across a release hole or a slot, end before */
+enum { BINS = 512 }; /* along the longer side of the box, at most */
 
 typedef struct wall {
     fw_geometry_vec2 a, b; /* the material to the left */
@@ -162,7 +164,8 @@ typedef struct walls {
     wall *wall;
     int nwall, nx, ny;
     fw_geometry_box box;
-    int *begin, *in; /* (nx ny + 1) of each bin of the side reach_m, into its walls */
+    double side_m;   /* of a bin */
+    int *begin, *in; /* (nx ny + 1) of each bin, into its walls */
 } walls;
 
 static bool solid_of(const fw_layout_piece *p, int nbody, int *solid) {
@@ -202,16 +205,26 @@ static fw_geometry_box box_of(fw_geometry_vec2 a, fw_geometry_vec2 b) {
                              fw_greater(a.y, b.y)};
 }
 
-static int bin(double x, double from, int n) {
-    int i = (int)((x - from) / reach_m);
+static int bin(const walls *w, double x, double from, int n) {
+    int i = (int)((x - from) / w->side_m);
     return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
+typedef struct range { /* of bins, the last ones included */
+    int i0, i1, j0, j1;
+} range;
+
+static range bins_of(const walls *w, const fw_geometry_box *b) {
+    return (range){bin(w, b->x0, w->box.x0, w->nx), bin(w, b->x1, w->box.x0, w->nx),
+                   bin(w, b->y0, w->box.y0, w->ny), bin(w, b->y1, w->box.y0, w->ny)};
 }
 
 /* counts the bins that a wall's box covers, or puts it into them */
 static void spread_wall(walls *w, int at, int *next) {
     const fw_geometry_box box = box_of(w->wall[at].a, w->wall[at].b);
-    for (int j = bin(box.y0, w->box.y0, w->ny); j <= bin(box.y1, w->box.y0, w->ny); j++)
-        for (int i = bin(box.x0, w->box.x0, w->nx); i <= bin(box.x1, w->box.x0, w->nx); i++) {
+    const range r = bins_of(w, &box);
+    for (int j = r.j0; j <= r.j1; j++)
+        for (int i = r.i0; i <= r.i1; i++) {
             if (next)
                 w->in[next[j * w->nx + i]++] = at;
             else
@@ -224,8 +237,10 @@ static fw_status sort_walls(walls *w) {
         fw_geometry_box box = box_of(w->wall[i].a, w->wall[i].b);
         w->box = i ? fw_box_join(w->box, box) : box;
     }
-    w->nx = 1 + (int)((w->box.x1 - w->box.x0) / reach_m);
-    w->ny = 1 + (int)((w->box.y1 - w->box.y0) / reach_m);
+    const double width = w->box.x1 - w->box.x0, height = w->box.y1 - w->box.y0;
+    w->side_m = fmax(first_m, fmax(width, height) / BINS);
+    w->nx = 1 + (int)(width / w->side_m);
+    w->ny = 1 + (int)(height / w->side_m);
     size_t n = (size_t)w->nx * (size_t)w->ny;
     int *next;
     FW_NEED(w->begin = fw_arena_array(w->arena, int, n + 1));
@@ -240,13 +255,15 @@ static fw_status sort_walls(walls *w) {
     return FW_OK;
 }
 
-/* the nearest wall that the ray from p along the unit vector n meets, and how far away; -1: none within reach */
-static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n, double *gap) {
-    const fw_geometry_box box = box_of(p, vec_along(p, reach_m, n));
+/* the nearest wall that the ray from p along the unit vector n meets within reach, and how far away; -1: none */
+static int look_within(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n,
+                       double reach, double *gap) {
+    const fw_geometry_box box = box_of(p, vec_along(p, reach, n));
+    const range r = bins_of(w, &box);
     int found = -1;
-    *gap = reach_m;
-    for (int j = bin(box.y0, w->box.y0, w->ny); j <= bin(box.y1, w->box.y0, w->ny); j++)
-        for (int i = bin(box.x0, w->box.x0, w->nx); i <= bin(box.x1, w->box.x0, w->nx); i++)
+    *gap = reach;
+    for (int j = r.j0; j <= r.j1; j++)
+        for (int i = r.i0; i <= r.i1; i++)
             for (int k = w->begin[j * w->nx + i]; k < w->begin[j * w->nx + i + 1]; k++) {
                 const wall *to = &w->wall[w->in[k]];
                 fw_geometry_vec2 along = vec_sub(to->b, to->a), off = vec_sub(to->a, p);
@@ -258,6 +275,11 @@ static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n,
                 if (t > 0 && t < *gap) *gap = t, found = w->in[k];
             }
     return found;
+}
+
+static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n, double *gap) {
+    int found = look_within(w, own, p, n, first_m, gap);
+    return found >= 0 ? found : look_within(w, own, p, n, reach_m, gap);
 }
 
 /* x, y and turn of a body move its point p along n by this */

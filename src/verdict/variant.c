@@ -115,9 +115,10 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     bool usual =
         motion->ledger.hinge.used == FW_HINGE_REVOLUTE || moved >= fw_verdict_model_error.motion;
     double up = (usual ? moved : fmax(moved - less, 0)) + bent;
-    out->lasting = fmin(up, stays) + c->error.above;
+    /* bodies give as they do whatever computes the hinges */
+    out->lasting = fmin(up - bent, stays) + bent + c->error.above;
     const double stated = by->hinge->stated_less, down = moved + stated;
-    out->lasting_low = stays + stated + c->error.strain;
+    out->lasting_low = stays + stated + bent + c->error.strain;
     if (out->utilisation > 0) out->lasting_low += 1 - least / out->utilisation;
     out->utilisation_low = fmax(0.0, least * (1.0 - down - bent - c->error.strain) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + up + c->error.above) + numeric;
