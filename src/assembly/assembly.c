@@ -179,6 +179,47 @@ fw_status fw_assembly_assemble(fw_arena *arena, const fw_mechanism *mechanism, d
     return FW_OK;
 }
 
+/* the mechanism without the pins for which elements stand */
+static fw_status without_released(fw_arena *arena, const fw_mechanism *from, const bool *released,
+                                  fw_mechanism *to) {
+    *to = *from;
+    to->npin = 0;
+    FW_NEED(to->pin = fw_arena_array(arena, fw_mechanism_pin, (size_t)from->npin));
+    for (int i = 0; i < from->npin; i++)
+        if (!released[i]) to->pin[to->npin++] = from->pin[i];
+    return FW_OK;
+}
+
+/* In and out: q SI. Least squares of all gaps, then the joints that are left are closed from there. Exact where all close,
+   as fw_assembly_assemble is. Test: test_start_velocity.c open_pins_begin_at_rest */
+fw_status fw_assembly_assemble_giving(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const bool *released, double *q, double *moved_m,
+                                      fw_diags *diags) {
+    const int n = 3 * mechanism->nbody;
+    bool gives = false, finite = true;
+    for (int i = 0; i < mechanism->npin; i++)
+        gives = gives || (released && released[i]);
+    for (int i = 0; i < n; i++)
+        finite = finite && isfinite(q[i]);
+    if (!gives || !finite) return fw_assembly_assemble(arena, mechanism, q, moved_m, diags);
+    fw_assembly_closure c;
+    FW_TRY(fw_assembly_closure_new(arena, mechanism, q, diags, &c));
+    if (fw_assembly_closure_descend(&c, 500) || !(residual(&c) < 1e150))
+        return fw_assembly_assemble(arena, mechanism, q, moved_m, diags);
+    fw_mechanism left;
+    double *open, most = 0;
+    FW_NEED(open = fw_arena_array(arena, double, (size_t)n));
+    for (int i = 0; i < n; i++)
+        open[i] = q[i] + (i % 3 == 2 ? 1 : c.model->scale.length_m) * c.u[i];
+    FW_TRY(without_released(arena, mechanism, released, &left));
+    FW_TRY(fw_assembly_assemble(arena, &left, open, moved_m, diags));
+    for (int b = 0; b < mechanism->nbody; b++)
+        most = fmax(most, hypot(open[3 * b] - q[3 * b], open[3 * b + 1] - q[3 * b + 1]));
+    memcpy(q, open, (size_t)n * sizeof(double));
+    *moved_m = most;
+    return FW_OK;
+}
+
 /* ---- what there is to say of it ---- */
 
 static fw_geometry_vec2 place(const double *q, int body, double x, double y) {

@@ -76,6 +76,12 @@ typedef struct fw_assembly {
 fw_status fw_assembly_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q,
                                double *moved_m, fw_diags *diags);
 
+/* the same where elements stand for some pins (released, npin; NULL: for none). Those close, too, where all can; else, as
+   where the ground has grown under a stage that is held at both ends, they stay open, evenly, and flexures take that. */
+fw_status fw_assembly_assemble_giving(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const bool *released, double *q, double *moved_m,
+                                      fw_diags *diags);
+
 /* fw_assembly_assemble with everything that is known about the result; q (3 nbody) as there.
    FW_SOLVER as there; then *assembly has before, gap and after: the best that was found. */
 fw_status fw_assembly_solve(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,

@@ -419,7 +419,8 @@ static fw_status assembled(fw_dynamics_run *r, const fw_effects_loads *loads) {
         r->problem.q0[3 * b + 2] = m->body[b].phi_rad;
     }
     double moved;
-    FW_TRY(fw_assembly_assemble(r->problem.arena, m, r->problem.q0, &moved, r->diags));
+    FW_TRY(fw_assembly_assemble_giving(r->problem.arena, m, loads->released, r->problem.q0, &moved,
+                                       r->diags));
     r->record.motion->stats.assembly_moved_m = fmax(moved, r->problem.options->moved_m);
     return FW_OK;
 }

@@ -4,6 +4,7 @@
 #include "dynamics/run.h"
 #include "maths/dense.h"
 #include <math.h>
+#include <string.h>
 
 /* ---- size of the motion ---- */
 
@@ -171,6 +172,51 @@ static fw_status give_way(fw_dynamics_run *r, const bool *stated, const double *
     return FW_OK;
 }
 
+/* Pins that stay open, as where the layer has shrunk between clamps: it has done so before the scene, so that this begins
+   where the flexures that stand for them are in equilibrium with each other, and nothing rings for it.
+
+     (K + e M) du = Q,   Q of these flexures, K the tangent of all elements, e as in give_way
+
+   In and out: scaled. Newton, closed on the joints after every step; ends at 1e-12 of the size, or where steps grow. Cost:
+   n^3/3 a step, some five of them. Test: test_start_velocity.c open_pins_begin_at_rest */
+static fw_status settle(fw_dynamics_run *r) {
+    const fw_multibody_model *m = r->problem.model;
+    fw_multibody_system *sys = r->problem.system;
+    size_t n = (size_t)m->nq;
+    fw_mark mark = fw_arena_mark(r->problem.arena);
+    double *K, *Q, *still, *u = r->problem.start, before = HUGE_VAL;
+    int *pivot;
+    FW_NEED(K = fw_arena_array(r->problem.arena, double, n *n));
+    FW_NEED(Q = fw_arena_array(r->problem.arena, double, n));
+    FW_NEED(still = fw_arena_array(r->problem.arena, double, n));
+    FW_NEED(pivot = fw_arena_array(r->problem.arena, int, n));
+    for (int round = 0; round < 50; round++) {
+        double most = 0, step = 0;
+        const fw_multibody_pose *pose = fw_multibody_close_position(sys, 0, u);
+        if (!pose) break;
+        memset(K, 0, n * n * sizeof(double)), memset(Q, 0, n * sizeof(double));
+        fw_multibody_element_tangent(sys, pose, still, K, NULL);
+        fw_multibody_element_driven(sys, pose, still, true, Q);
+        for (size_t i = 0; i < n; i++) {
+            double inverse = i % 3 == 2 ? m->jinv[i / 3] : m->minv[i / 3];
+            most = fmax(most, fabs(K[i * n + i]) * inverse);
+        }
+        for (size_t i = 0; i < n; i++)
+            K[i * n + i] += 1e-9 * most / (i % 3 == 2 ? m->jinv[i / 3] : m->minv[i / 3]);
+        if (!fw_maths_lu_factor(m->nq, K, pivot)) break;
+        fw_maths_lu_solve(m->nq, K, pivot, Q);
+        for (size_t i = 0; i < n; i++)
+            step = fmax(step, fabs(Q[i]));
+        if (!(step < before) && round > 3) break;
+        for (size_t i = 0; i < n; i++)
+            u[i] += Q[i];
+        before = step;
+        if (step < 1e-12) break;
+    }
+    fw_arena_rewind(r->problem.arena, mark);
+    return FW_OK;
+}
+
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
 static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads) {
@@ -183,9 +229,14 @@ static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads)
     for (int i = 0; i < m->nq; i++)
         v[i] = given[i] = loads->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
     FW_TRY(closed_system(r, loads, &closed));
+    memcpy(r->record.kept, r->problem.start, (size_t)m->nq * sizeof(double));
     bool good = onto_joints(closed, stated, given, r->problem.start, v, r->record.rate);
-    if (good && closed != sys) {
-        bool gives = contradicted(m->nq, stated, given, v);
+    if (closed != sys) {
+        if (!good) { /* pins stay open */
+            memcpy(r->problem.start, r->record.kept, (size_t)m->nq * sizeof(double));
+            FW_TRY(settle(r));
+        }
+        bool gives = !good || contradicted(m->nq, stated, given, v);
         if (gives) FW_TRY(give_way(r, stated, given, v));
         good = onto_joints(sys, stated, gives ? given : NULL, r->problem.start, v, r->record.rate);
     }

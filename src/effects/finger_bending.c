@@ -124,12 +124,20 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     fw_arena_rewind(c->arena, mark);
     *value = valid && sum < (double)INFINITY ? sum : (double)INFINITY;
     char part[32];
-    FW_NEED(*reason = fw_arena_printf(
-                c->arena,
-                "fingers bend by up to %s %% of what would snap them, and pull the rotor aside the "
-                "more%s",
-                fw_number_text(part, sizeof part, 100 * largest_share(c), 2),
-                isfinite(*value) ? "" : "; nothing bounds what that does to the motion"));
+    const double share = largest_share(c);
+    if (isfinite(share))
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena,
+                    "fingers bend by up to %s %% of what would snap them, and pull the rotor aside "
+                    "the "
+                    "more%s",
+                    fw_number_text(part, sizeof part, 100 * share, 2),
+                    isfinite(*value) ? "" : "; nothing bounds what that does to the motion"));
+    else
+        *reason =
+            "the law of a voltage has no proved bounds, nor has how far fingers bend; nothing "
+            "bounds what that does to the motion: give the law as a table, or as one without "
+            "poles and atan2";
     return FW_OK;
 }
 

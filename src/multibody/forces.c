@@ -139,11 +139,11 @@ static void push_ports(const fw_multibody_system *sys, const fw_multibody_elemen
 }
 
 void fw_multibody_element_driven(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                                 const double *v, double *force) {
+                                 const double *v, bool pins, double *force) {
     const fw_multibody_model *m = sys->model;
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
-        if (!e->own->works) continue;
+        if (pins ? e->own->pin == FW_NONE : !e->own->works) continue;
         const fw_effects_port_state state = look(sys, pose, e, v);
         e->own->class_->force(e->own, &state, sys->work->port.f);
         push_ports(sys, e, force);

@@ -139,9 +139,9 @@ void fw_multibody_stop_travel(const fw_multibody_model *m, const fw_multibody_po
                               double *rate);
 
 /* forces.c */
-/* generalised forces (nq) of those that are driven from outside (`works`): += */
+/* generalised forces (nq) of those that are driven from outside (`works`), or of those that stand for pins: += */
 void fw_multibody_element_driven(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                                 const double *v, double *force);
+                                 const double *v, bool pins, double *force);
 /* dQ/ds by the load factor s (nq): += */
 void fw_multibody_element_slope(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                                 const double *v, double *force);

@@ -334,7 +334,7 @@ const fw_quantity_law_kind fw_quantity_law_half_sine = {
 
 /* ---- expression in time ----
 
-   It has no proved bounds: samples would have to stand for a proof. Test: test_stride.c */
+   Its bounds are proved, by ranges over cells of the scene. Test: test_stride.c, test_time_law.c */
 
 static void expression_value(const fw_quantity_law *law, double t_s, double piece_s,
                              double value[3]) {
@@ -371,6 +371,34 @@ static void expression_breaks(const fw_quantity_law *law, fw_quantity_law_breaks
     }
 }
 
+/* Over each of CELLS even cells value and slope by intervals, the value also from its middle by the slope:
+
+     most = max |f|,  slope = max |f'|,  variation <= |f(0)| + sum of cells max |f'| dt
+
+   Infinite where a cell has no bounds. Error: upwards, the variation's of first order in a cell's width. */
+static void expression_size(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size) {
+    enum { CELLS = 128 };
+    double at[3], most = 0;
+    fw_quantity_program_value(law->program, 0, at);
+    size->slope = 0, size->variation = fabs(at[0]);
+    for (int i = 0; i < CELLS; i++) {
+        const double low = end_s * i / CELLS, high = end_s * (i + 1) / CELLS;
+        double f[2], d[2];
+        fw_quantity_program_range(law->program, low, high, f, d);
+        fw_quantity_program_value(law->program, 0.5 * (low + high), at);
+        const double steep = fmax(fabs(d[0]), fabs(d[1])), half = 0.5 * (high - low) * steep;
+        const double far = fmin(fmax(fabs(f[0]), fabs(f[1])), (1 + 1e-12) * (fabs(at[0]) + half));
+        most = far <= most ? most : far; /* NaN too */
+        size->slope = fmax(size->slope, steep);
+        size->variation += 2 * half;
+    }
+    if (isfinite(most) && isfinite(size->variation)) {
+        size->most = most;
+        return;
+    }
+    size->most = size->slope = size->variation = (double)INFINITY;
+}
+
 static bool expression_is_ready(const fw_quantity_law *law) {
     return law->program != NULL;
 }
@@ -392,5 +420,6 @@ const fw_quantity_law_kind fw_quantity_law_expression = {.name = "expression",
                                                          FW_LAW_ROWS(expression_attributes),
                                                          .value = expression_value,
                                                          .breaks = expression_breaks,
+                                                         .size = expression_size,
                                                          .straight = expression_is_straight,
                                                          .is_ready = expression_is_ready};

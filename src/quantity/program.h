@@ -125,9 +125,13 @@ struct fw_quantity_program {
 fw_status fw_quantity_program_new(fw_arena *arena, size_t n, fw_quantity_program **program);
 void fw_quantity_program_emit(fw_quantity_program *program, fw_quantity_op op,
                               fw_quantity_operands operands, double constant);
-/* step of a function of program.c */
+/* step of a function of lexer.c */
 fw_quantity_op fw_quantity_function_op(int function);
 
+/* bounds of value and slope over low_s to high_s, proved by interval arithmetic: {least, most} of each; infinite where
+   there are none */
+void fw_quantity_program_range(const fw_quantity_program *program, double low_s, double high_s,
+                               double value[2], double slope[2]);
 /* which side abs, min, max take at t, packed: two times with the same answer lie in the same piece
    or in pieces that do not differ (up to collisions of a 64-bit hash) */
 uint64_t fw_quantity_program_branches(const fw_quantity_program *program, double t_s);

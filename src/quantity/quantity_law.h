@@ -59,7 +59,7 @@ bool fw_quantity_law_is_constant(const fw_quantity_law *law);
    where a sample is not finite. 1 without a law (NULL). */
 double fw_quantity_law_largest(const fw_quantity_law *law, double end_s);
 /* of a law over (0, end_s): largest |value|, largest |slope| (1/s), total variation from 0 before
-   the start on; of a constant 1, 0, 1. Upper bounds, infinite where there is none */
+   the start on; of a constant 1, 0, 1. Upper bounds, of expressions by intervals; infinite where there is none */
 typedef struct fw_quantity_law_size {
     double most, slope, variation;
 } fw_quantity_law_size;

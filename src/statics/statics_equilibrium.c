@@ -184,7 +184,8 @@ static fw_status build(fw_statics_equilibrium *w, const fw_effects_loads *loads)
         w->q0[3 * b + 1] = mechanism->body[b].y_m;
         w->q0[3 * b + 2] = mechanism->body[b].phi_rad;
     }
-    FW_TRY(fw_assembly_assemble(w->arena, mechanism, w->q0, &moved, w->diags));
+    FW_TRY(
+        fw_assembly_assemble_giving(w->arena, mechanism, loads->released, w->q0, &moved, w->diags));
     FW_TRY(fw_multibody_model_new(w->arena, mechanism, loads, w->q0, w->scene->duration_s, NULL,
                                   &w->model));
     FW_TRY(fw_multibody_system_new(w->arena, w->model, mechanism, w->diags, &w->system));

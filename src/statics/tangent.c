@@ -45,7 +45,7 @@ double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u,
             w->away[i] = w->y[i] + x * (u[i] - w->y[i]);
         const fw_multibody_pose *pose = fw_multibody_set_switches(sys, w->t, w->away);
         memset(w->pull, 0, (size_t)m->nq * sizeof *w->pull);
-        fw_multibody_element_driven(sys, pose, v, w->pull);
+        fw_multibody_element_driven(sys, pose, v, false, w->pull);
         for (int i = 0; i < m->nq; i++)
             along += w->pull[i] * (u[i] - w->y[i]);
         sum -= 0.5 * weight[k / 2] * along;

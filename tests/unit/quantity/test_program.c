@@ -3,6 +3,7 @@
    complex step gives the first derivative to round-off, and differences of eighth order of it the
    second. */
 #include "base/text.h"
+#include "quantity/program.h"
 #include "quantity/quantity_law.h"
 #include "test.h"
 #include <complex.h>
@@ -297,9 +298,29 @@ static double curvature(const forest *f, double t, double *error) {
     return sum[1];
 }
 
+/* ranges about t hold what the expression is within them, and are narrow where they are short; counts those of which
+   something is known */
+static int ranges(const fw_quantity_program *p, const char *text, double t) {
+    double f[2], d[2], wide = 1e-3;
+    int known = 0;
+    for (int i = 0; i < 2; i++, wide = 0.2) {
+        fw_quantity_program_range(p, t - wide, t + wide, f, d);
+        for (int k = -4; k <= 4; k++) {
+            double v[3];
+            fw_quantity_program_value(p, t + wide * k / 4, v);
+            if (isnan(v[0]) || isnan(v[1])) continue;
+            if (!(f[0] <= v[0] && v[0] <= f[1] && d[0] <= v[1] && v[1] <= d[1]))
+                fail_msg("%s at %g +- %g: %.17g in %.17g to %.17g, slope %.17g in %.17g to %.17g",
+                         text, t, wide, v[0], f[0], f[1], v[1], d[0], d[1]);
+        }
+        known += i == 0 && isfinite(f[0]) && isfinite(f[1]) && isfinite(d[0]) && isfinite(d[1]);
+    }
+    return known;
+}
+
 static void derivatives_of_random_expressions(void **state) {
     (void)state;
-    int curved = 0;
+    int curved = 0, known = 0;
     for (unsigned i = 0; i < 3000; i++) {
         fw_mark mark = fw_arena_mark(arena);
         forest f = {.seed = 12345 + i};
@@ -313,6 +334,7 @@ static void derivatives_of_random_expressions(void **state) {
             fw_quantity_program_value(p, t, v);
             double f0 = creal(eval(&f, 0, t)), f1 = slope(&f, t), f2 = curvature(&f, t, &error);
             double size = 1 + fabs(f0) + fabs(f1);
+            known += ranges(p, text.data, t);
             if (!(fabs(v[0] - f0) <= 1e-11 * size) || !(fabs(v[1] - f1) <= 1e-10 * size))
                 fail_msg("%s at %g: %.17g %.17g, not %.17g %.17g", text.data, t, v[0], v[1], f0,
                          f1);
@@ -324,6 +346,7 @@ static void derivatives_of_random_expressions(void **state) {
         fw_arena_rewind(arena, mark);
     }
     assert_true(curved > 9000); /* of 12000 */
+    assert_true(known > 9000);
 }
 
 /* ---- mistakes ---- */

@@ -174,6 +174,16 @@ static void expressions(void **state) {
     assert_true(fw_quantity_law_breaks_of(&fast, 1, NULL, 0) <= 1000);
     const fw_quantity_law wild = expression("1 s/(t - 0.5 s)");
     assert_true(isinf(fw_quantity_law_largest(&wild, 1)));
+    /* bounds from above, a few hundredths wide; of what has a pole there are none */
+    const fw_quantity_law slow = expression("(1 - cos(pi*t/(20 ms)))/2");
+    const fw_quantity_law_size size = fw_quantity_law_measure(&slow, 20e-3);
+    assert_true(size.most >= 1 && size.most < 1.001);
+    assert_true(size.slope >= 25 * pi && size.slope < 25.1 * pi);
+    assert_true(size.variation >= 1 && size.variation < 1.03);
+    const fw_quantity_law_size none = fw_quantity_law_measure(&wild, 1);
+    assert_true(isinf(none.most) && isinf(none.slope) && isinf(none.variation));
+    const fw_quantity_law_size pulse = fw_quantity_law_measure(&cut, 1);
+    assert_true(pulse.most >= 1 && pulse.most < 1.001 && pulse.variation < 1.1);
 }
 
 /* at rate w: all of a step, 2/(w rise) of a ramp, of a half sine pi/(w rise) (2 + 2) in sum, and of (1 - cos)/2
