@@ -116,7 +116,7 @@ fw_script_test(klayout.cells COMMAND /usr/bin/python3 tests/klayout/cells.py ${F
 # STEP as Open CASCADE reads it
 fw_script_test(accept.step COMMAND /usr/bin/python3 tests/accept/step.py ${FW_PROGRAM})
 set_tests_properties(accept.shapes klayout.package klayout.rules klayout.gdspy klayout.cells accept.step PROPERTIES SKIP_RETURN_CODE 77)
-fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
+fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM} TIMEOUT 1800)
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
 fw_script_test(docs.masks LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/mask_benchmarks.py)

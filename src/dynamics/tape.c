@@ -125,11 +125,6 @@ static fw_status put_problem(fw_dynamics_tapes *t, const fw_dynamics_problem *p)
                          p->system->projecting,
                          p->system->baumgarte};
     FW_TRY(put(t, of, sizeof of / sizeof of[0]));
-    if (p->options->hopeless_rad) {
-        const double most = (double)p->options->hopeless_rhs;
-        FW_TRY(put(t, &most, 1));
-        FW_TRY(put(t, p->options->hopeless_rad, (size_t)m->npin));
-    }
     FW_TRY(put(t, p->q0, (size_t)p->model->nq));
     FW_TRY(put(t, p->start, (size_t)p->model->ny));
     for (int i = 0; i < m->npin; i++) {
@@ -183,11 +178,18 @@ static bool may_be_kept(const fw_dynamics_run *r, const fw_maths_stepper *s,
            !o->reactions && !o->whole && !o->energies && r->control.trial == 0;
 }
 
-static kept *find(fw_dynamics_tapes *t) {
+/* Angles beyond which a run is hopeless differ with what a hinge bears, and nothing reads them before so many evaluations
+   were made: a pass of fewer is that of all of them. */
+static bool is_short_of_hopeless(const fw_dynamics_motion_options *o, long rhs) {
+    return !o->hopeless_rad || rhs <= o->hopeless_rhs;
+}
+
+static kept *find(fw_dynamics_tapes *t, const fw_dynamics_motion_options *o) {
     for (int i = 0; i < KEPT; i++) {
         kept *pass = &t->pass[i];
         if (pass->tape.arena && pass->nkey == t->nkey &&
-            memcmp(pass->key, t->key, t->nkey * sizeof *t->key) == 0)
+            memcmp(pass->key, t->key, t->nkey * sizeof *t->key) == 0 &&
+            is_short_of_hopeless(o, pass->ending.rhs))
             return pass;
     }
     return NULL;
@@ -349,13 +351,14 @@ static kept *begin(fw_dynamics_tapes *t) {
     return NULL;
 }
 
-/* computed, and kept unless it ended before its scene did, or in an error */
+/* computed, and kept unless it ended before its scene did, or in an error, or what is hopeless was asked */
 static fw_status record(kept *pass, fw_dynamics_run *r, fw_maths_stepper *s,
                         fw_dynamics_peaks *peaks) {
     if (pass) r->record.tape = &pass->tape;
     const fw_status status = fw_dynamics_run_pass(r, s, peaks);
     r->record.tape = NULL;
-    const bool whole = status == FW_OK && s->t >= fw_dynamics_end(&r->problem);
+    const bool whole = status == FW_OK && s->t >= fw_dynamics_end(&r->problem) &&
+                       is_short_of_hopeless(r->problem.options, s->rhs);
     if (pass && !(whole && !pass->tape.torn && keep_ending(pass, r, s, peaks) == FW_OK))
         forget(pass);
     return status;
@@ -368,6 +371,6 @@ fw_status fw_dynamics_tape_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dyna
     FW_TRY(put_model(t, r->problem.model));
     FW_TRY(put_problem(t, &r->problem));
     FW_TRY(put_pass(t, r, s, peaks));
-    kept *pass = find(t);
+    kept *pass = find(t, r->problem.options);
     return pass ? replay(pass, r, s, peaks) : record(was_seen(t) ? begin(t) : NULL, r, s, peaks);
 }

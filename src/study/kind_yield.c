@@ -78,7 +78,9 @@ static fw_status estimate(fw_study_yielding *y, bounds *out) {
             "shards: failures of study '%s' are so rare, and lie so, that subset simulation looks "
             "for "
             "them, and each of its points is chosen by the ones before; run it in one piece, in as "
-            "many threads as there are (--jobs)",
+            "many threads as there are (--jobs); or, for several machines, the same study on each "
+            "with a seed of "
+            "its own, of whose estimates the mean is the answer",
             study->asked->name);
     if (status == FW_INPUT)
         return fw_diag_error(&study->diags, 490, study->asked->place, "study '%s': %s",

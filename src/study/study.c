@@ -510,7 +510,9 @@ fw_status fw_study_check_apart(fw_study *study) {
     return fw_diag_error(
         &study->diags, 490, study->asked->place,
         "shards: a study of kind %s chooses each of its samples by the ones before; "
-        "run it in one piece, in as many threads as there are (--jobs)",
+        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
+        "a study on each "
+        "with a part of the ranges, of which the best is the answer",
         fw_device_study_kind_text(study->asked->kind));
 }
 

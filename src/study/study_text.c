@@ -302,6 +302,8 @@ static void say_share(fw_text *out, const fw_study_flow_yield *y) {
 /* of a number of devices that was asked for and is not the one that was judged */
 static void say_devices(fw_text *out, const fw_study *study, const fw_study_flow_yield *y) {
     fw_text_printf(out, "  %ld devices by %s: %s\n", y->evaluations, y->method, y->reason);
+    /* those of a size are devices that it tries */
+    if (study->asked->kind != FW_STUDY_IS_yield) return;
     if (study->asked->samples <= 0 || study->asked->samples == y->evaluations) return;
     fw_text_printf(out, "  samples=\"%d\" is the most for one estimate, and one took %ld",
                    study->asked->samples, y->each);

@@ -15,5 +15,5 @@ if(FW_CCX)
             set_tests_properties(whole.continuum.${name} PROPERTIES LABELS long TIMEOUT 600)
         endif()
     endforeach()
-    set_property(TEST cli.hinge PROPERTY ENVIRONMENT FW_CCX=${FW_CCX_KEPT}) # which ./test --all does not take
+    set_property(TEST cli.hinge cli.sizing PROPERTY ENVIRONMENT FW_CCX=${FW_CCX_KEPT}) # which ./test --all does not take
 endif()

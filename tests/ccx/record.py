@@ -28,7 +28,8 @@ def main():
         (bin_ / "ccx").chmod(0o700)
         environment = dict(os.environ, PATH=f"{bin_}:{os.environ['PATH']}", FW_CCX=str(bin_))
         for n, command in enumerate(([build / "tests/unit_continuum", "test_continuum"], [build / "tests/unit_continuum", "test_solid"],
-                                     [sys.executable, ROOT / "tests/cli/test_hinge.py", build / "flexwright"])):
+                                     [sys.executable, ROOT / "tests/cli/test_hinge.py", build / "flexwright"],
+                                     [sys.executable, ROOT / "tests/cli/test_sizing.py", build / "flexwright", "-k", "calculix"])):
             status |= subprocess.run(command, env=environment, cwd=ROOT, check=False).returncode != 0
             if n == 0:
                 for path in sorted(record.iterdir(), key=lambda p: p.stat().st_mtime_ns)[:SOLVED]:

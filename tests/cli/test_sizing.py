@@ -9,6 +9,8 @@ import math
 import os
 import pathlib
 import re
+import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -193,6 +195,83 @@ class Sizing(unittest.TestCase):
                 sets = [word for s in found[0]["set"] for word in ("--set", f"{s['path']}={s['value']}")]
                 done = run("check", self.place / "device.xml", "--corners", "none", "--quiet", *sets)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+def strains(frd, step):
+    """largest principal strain of all nodes in a step of a result file of CalculiX"""
+    blocks = re.split(r"^ {2}100CL", frd, flags=re.M)[1:]
+    most, steps = 0.0, [b for b in blocks if re.search(r"^ -4 {2}TOSTRAIN ", b, re.M)]
+    for row in re.findall(r"^ -1(.{10})(.*)$", steps[step], re.M):
+        xx, yy, zz, xy, yz, zx = (float(row[1][12 * i:12 * i + 12]) for i in range(6))
+        mean = (xx + yy + zz) / 3
+        x, y, z = xx - mean, yy - mean, zz - mean
+        p = math.sqrt((x * x + y * y + z * z + 2 * (xy * xy + yz * yz + zx * zx)) / 6)
+        det = x * (y * z - yz * yz) - xy * (xy * z - yz * zx) + zx * (xy * yz - y * zx)
+        phi = math.acos(max(-1.0, min(1.0, 0.5 * det / p**3 if p > 0 else 0.0))) / 3
+        most = max(most, abs(mean + 2 * p * math.cos(phi)), abs(mean + 2 * p * math.cos(phi + 2 * math.pi / 3)))
+    return most
+
+
+class LargestWorkspace(unittest.TestCase):
+    """docs/studies/largest-workspace.xml and what docs/tutorial.md says of it"""
+    FILE = ROOT / "docs/studies/largest-workspace.xml"
+    TEXT = (ROOT / "docs/tutorial.md").read_text()
+
+    def stated(self, study):
+        """the settings that the tutorial quotes of a study, as arguments"""
+        block = self.TEXT[self.TEXT.index(f"--study {study}"):]
+        return [w for line in re.findall(r'--set "([^"]*)"', block[:block.index("results:")]) for w in ("--set", line)]
+
+    def judged(self, sets, *more, status=0):
+        done = run("check", self.FILE, "--json", "--advice", "none", *sets, *more)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_the_sized_device_beats_the_one_made_by_hand(self):
+        """both are accepted as drawn and as made, and what the one made by hand falls short of is its own hinges' limit"""
+        sized, hand, gallery = (self.judged(s) for s in (self.stated("largest-workspace"), self.stated("hand-made"), []))
+        volume = [d["workspace"]["volume"] for d in (sized, hand, gallery)]
+        for d in (sized, hand):
+            self.assertEqual((d["verdict"], d["drawn"], d["workspace"]["certified"]), ("accept", "accept", True))
+        factors = [float(x) for x in re.findall(r"\*\*([0-9.]+) times\*\*", self.TEXT)]
+        self.assertEqual(factors, [round(volume[0] / volume[1], 2), round(volume[0] / volume[2], 2)])
+        self.assertGreater(factors[0], 1.2)
+        reach = float(re.search(r"reach=([0-9.]+) um", " ".join(self.stated("hand-made")))[1])
+        beyond = run("check", self.FILE, "--quiet", "--advice", "none", "--set", f"reach={1.02 * reach} um")
+        self.assertNotEqual(beyond.returncode, 0)
+
+    @unittest.skipUnless(ALL, "two sizes at a yield, two minutes of a processor")
+    def test_the_studies_end_where_the_tutorial_says(self):
+        for study in ("hand-made", "largest-workspace"):
+            with tempfile.TemporaryDirectory(prefix="fw-sizing-") as place:
+                done = run("study", self.FILE, "--study", study, "-o", place + "/o", "--no-progress")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                result = json.loads(pathlib.Path(place, "o/study.json").read_text())
+                self.assertEqual([f"{s['path']}={s['value']}" for s in result["found"][0]["set"]], self.stated(study)[1::2])
+                for y in result["yields"]:
+                    self.assertGreaterEqual(y["yield_range"][0], 0.99)
+
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")
+    def test_calculix_agrees_with_the_governing_hinge(self):
+        """the solid of its deck, turned to its limit: moment and strain are those of the flexure, within its stated errors"""
+        sets = self.stated("largest-workspace")
+        ruling = self.judged(sets)["governing"]["id"]
+        with tempfile.TemporaryDirectory(prefix="fw-sizing-") as name:
+            place = pathlib.Path(name)
+            done = run("hinge", self.FILE, "--json", "--level", "elastica", "--deck", place / "decks", *sets)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            row = next(h for h in json.loads(done.stdout)["hinges"] if h["id"] == ruling)["levels"][0]
+            shutil.copy(place / f"decks/hinge-{ruling}-al-masked-rie-large.inp", place / "large.inp")
+            kept = None if ALL else os.environ.get("FW_CCX")
+            subprocess.run([pathlib.Path(kept, "ccx") if kept else "ccx", "large"], cwd=place, check=True,
+                           stdout=subprocess.DEVNULL, env=dict(os.environ, OMP_NUM_THREADS="1"))
+            turned = float(re.findall(r"^\d+, 3, 3, ([0-9.e-]+)$", (place / "large.inp").read_text(), re.M)[-1])
+            # half of it is meshed; the last number printed is the moment in the last step
+            moment = 2e-12 * float((place / "large.dat").read_text().split()[-1])
+            self.assertAlmostEqual(turned / row["limit_angle_rad"], 1, delta=0.03)  # the deck's limit is of another level
+            self.assertLess(abs(row["stiffness_Nm_per_rad"] * turned / moment - 1), row["error"]["stiffness"])
+            strain = strains((place / "large.frd").read_text(), -1)
+            self.assertLess(abs(row["strain_per_rad"] * turned / strain - 1), row["error"]["strain"])
 
 
 if __name__ == "__main__":

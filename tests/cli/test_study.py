@@ -318,6 +318,7 @@ class Study(unittest.TestCase):
         done = run("study", self.write(study("s", "size", rows)), *FLOW, "--shard", "1/2", "-o", self.place / "o")
         self.assertEqual(done.returncode, 3)
         self.assertIn("run it in one piece", done.stderr)
+        self.assertIn("a study on each with a part of the ranges", " ".join(done.stderr.split()))
 
     def test_shards_of_yields_and_worst_cases_are_the_bytes_of_one_machine(self):
         path = self.write(ONE_LEAF, "one.xml")
@@ -511,6 +512,20 @@ class Study(unittest.TestCase):
         done = self.run_study(self.write(study("s", "size", none).replace("<study", '<study as="drawn" samples="20"')),
                               "none", status=1)
         self.assertIn("no device was found", done.stdout)
+
+    def test_few_dies_are_enough_where_hardly_one_fails(self):
+        """and the interval that is stated is that of these few"""
+        rows = ('<vary what="push" from="50 uN" to="60 uN"/><uncertain what="push" sd="2 uN"/>'
+                '<respond name="turned" value="hinges[A].peak_angle_rad" goal="minimise"/>')
+        text = study("s", "size", rows, self.write(ONE_LEAF, "one.xml"), samples=6, **{"as": "drawn", "yield": 0.9})
+        again = run("study", self.write(text), "-o", self.place / "few", *FLOW)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        result = json.loads((self.place / "few/study.json").read_text())
+        self.assertNotIn("is the most for one estimate", again.stdout)  # it is not of the dies
+        found = result["yields"][0]
+        self.assertEqual(result["found"][0]["verdict"], "accept")
+        self.assertLess(found["devices_of_one_estimate"], 150)  # 400 of a device that is near what is wanted
+        self.assertGreaterEqual(found["yield_range"][0], 0.925)
 
     @unittest.skipUnless(ALL, "two thousand dies")
     def test_a_size_at_a_wanted_yield_keeps_as_many_deviations_from_the_limit(self):

@@ -208,9 +208,45 @@ static void not_kept(void **state) {
     fw_arena_free(arena);
 }
 
+/* Devices that move alike bear different angles. These are looked at after many evaluations only: before, they are not part of a
+   motion, and a motion that reads them is that of its own device. */
+static void what_each_bears(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_dynamics_tapes *tapes;
+    assert_int_equal(fw_dynamics_tapes_new(arena, &tapes), FW_OK);
+    const rig six = rig_six_bar(arena, false);
+    double bears[PINS];
+    fw_dynamics_motion_options o = {
+        .rtol = 1e-7, .samples = 11, .hopeless_rad = bears, .hopeless_rhs = 1000000};
+    const double *first = NULL;
+    for (int k = 0; k < 5; k++) {
+        for (int i = 0; i < PINS; i++)
+            bears[i] = 0.001 * (k + i + 1);
+        const seen alone = move(arena, &six, o, 0, NULL), now = move(arena, &six, o, 0, tapes);
+        same_motions(&alone, &now);
+        assert_false(alone.motion->ended);
+        if (k > 2) assert_ptr_equal(now.fine.first, first);
+        first = now.fine.first;
+    }
+    o.hopeless_rhs = 50; /* what is kept took more */
+    for (int k = 0; k < 5; k++) {
+        bears[0] = k & 1 ? 10 : 0.001;
+        for (int i = 1; i < PINS; i++)
+            bears[i] = 10;
+        const seen alone = move(arena, &six, o, 0, NULL), now = move(arena, &six, o, 0, tapes);
+        same_motions(&alone, &now);
+        assert_int_equal(alone.motion->ended, !(k & 1));
+        assert_ptr_not_equal(now.fine.first, first);
+    }
+    fw_dynamics_tapes_free(tapes);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_bits),
                                        cmocka_unit_test(another_number),
-                                       cmocka_unit_test(not_kept)};
+                                       cmocka_unit_test(not_kept),
+                                       cmocka_unit_test(what_each_bears)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
