@@ -8,7 +8,7 @@ import { stretches } from "./exploring.js";
 import { ticks } from "./plotfile.js";
 
 const [LEFT, RIGHT, TOP, STRIP, BELOW] = [58, 14, 12, 12, 40];
-export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "cannot be made" };
+export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "refused" };
 const SIGNS = { // of about 6 pixels
     accept: "M-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0", reject: "M-3-3L3 3M3-3L-3 3", inconclusive: "M-2.6-2.6h5.2v5.2h-5.2z", run: "M-3 0h6", failed: "M-3-3L3 3M3-3L-3 3M0-4V4",
 };
@@ -137,6 +137,6 @@ function runs(points, has) {
 /** What colours and signs of a picture mean. */
 export function legendOf(kind) {
     const sign = (state) => h("span", { class: "explore-key" }, s("svg", { viewBox: "-5 -5 10 10", class: "explore-key-sign", "aria-hidden": "true" }, s("path", { class: `explore-sign ${state}`, d: SIGNS[state] })), WORDS[state]);
-    if (kind === "map") return [h("span", { class: "explore-key" }, "dark is little, yellow is the limit; hatched: rejected, a dash: inconclusive, crossed: cannot be made; lines: now")];
+    if (kind === "map") return [h("span", { class: "explore-key" }, "dark is little, yellow is the limit; hatched: rejected, a dash: inconclusive, crossed: refused; lines: now")];
     return [sign("accept"), sign("inconclusive"), sign("reject"), h("span", { class: "explore-key" }, h("i", { class: "explore-band-key" }), "error band"), h("span", { class: "explore-key" }, h("i", { class: "explore-now-key" }), "as it is now")];
 }
