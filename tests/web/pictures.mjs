@@ -10,6 +10,7 @@ const made = async (page) => {
     const told = page.locator("#banner:has-text('as it will be made')");
     await told.waitFor({ timeout: 20000 }).catch(() => page.click('button:has-text("Judge as fabricated"):visible'));
     await told.waitFor({ timeout: 300000 });
+    await page.waitForFunction(() => globalThis.flexwright.settled(true), null, { timeout: 300000 });
 };
 const save = (page, name) => page.screenshot({ path: join(source, "docs/pictures", name) });
 

@@ -80,7 +80,7 @@ export class ExplorePlot {
         points.forEach((p, i) => {
             const edge = points[i - 1]?.state !== p.state || points[i + 1]?.state !== p.state;
             if (i % step && !edge) return;
-            inside.append(s("path", { class: `explore-sign ${p.state}`, d: SIGNS[p.state], transform: `translate(${px(p.x)} ${Number.isFinite(p.value) ? py(Math.min(p.value, high)) : bottom - 8})` }));
+            inside.append(s("path", { class: `explore-sign ${p.state}`, d: SIGNS[p.state], transform: `translate(${px(p.x)} ${!Number.isFinite(p.value) ? bottom - 8 : p.value > high ? TOP + 5 : py(p.value)})` }));
         });
         if (Number.isFinite(x.now) && x.now >= x.from && x.now <= x.to) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}` }), s("text", { class: "explore-word", x: px(x.now) + (px(x.now) > right - 50 ? -5 : 5), y: bottom - 6, "text-anchor": px(x.now) > right - 50 ? "end" : "start" }, "now"));
         if (at !== null && at !== undefined) inside.append(s("path", { class: "explore-at", d: `M${px(at)} ${TOP}V${bottom}` }));

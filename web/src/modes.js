@@ -16,7 +16,7 @@ export class Modes extends Split {
     constructor(holder) {
         super(holder, { title: "Modes", label: "A mode shape of the mechanism, moving.", around: 0.08 });
         this.at = select("About", [["rest", "about rest"], ["equilibrium", "about the equilibrium"]], "rest", () => this.view.run());
-        this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture" });
+        this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture", oninput: () => this.draw() });
         this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
         this.pause = button(...this.#nextWord(), () => this.#toggle());
         this.card.append(h("div", { class: "row" }, this.at, this.pause, (this.film = filmMenu(() => this.#film(), () => `${deviceName()}-mode-${this.chosen + 1}`))), h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
