@@ -51,6 +51,7 @@ describe("a gripper from an empty page", () => {
         await page.click('.template:has-text("Empty page")');
         await page.waitForSelector("#panel-draw:not([hidden])"); // an empty page opens where it is drawn on
         await page.waitForSelector("#right .problems:has-text('Nothing is drawn yet')");
+        assert.equal(await page.locator(".old:visible, .old-note:visible, #banner:visible").count(), 0, "nothing of the device that was there is left, not even as a former answer");
         await shot(page, "draw-empty.png");
         await tool(page, "bar");
         await changed(page, () => drag(page, [-400, 0], [-400, 1000]));
@@ -73,6 +74,10 @@ describe("a gripper from an empty page", () => {
         await verdict(page, "accept");
         await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: 60000 });
         await shot(page, "draw-gripper.png");
+        await changed(page, () => setText(page, ['name="new-device"', 'name="new-device" wrong="yes"']));
+        await page.waitForSelector("#banner.old:visible"); // of this device: what was known before the mistake stays, and looks old
+        await page.click("#undo");
+        await verdict(page, "accept");
     });
 
     test("a jaw again as its mirror image is the same jaw: what it uses of its limit, and every point", async () => {

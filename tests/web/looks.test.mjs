@@ -62,6 +62,26 @@ const misplaced = (page) => page.evaluate(() => {
     return [...out];
 });
 
+describe("plots", () => {
+    test("each tells its unit, and the whole value under its cursor, from 1000 to 1440 pixels", async () => {
+        const server = await serve("comb-stage");
+        const page = await open(server);
+        for (const width of [1000, 1024, 1180, 1280, 1440]) {
+            await page.setViewportSize({ width, height: 900 });
+            await page.waitForTimeout(80);
+            const bad = await page.evaluate(() => [...document.querySelectorAll("#panel-motion .plot")].filter((p) => p.offsetParent).flatMap((p) => {
+                const [unit, value, toggle] = [".plot-unit", ".plot-value", ".toggle"].map((q) => p.querySelector(`.plot-title ${q}`));
+                const name = p.querySelector(".plot-title").textContent;
+                return [...(unit.offsetParent || (toggle && /%|°/.test(value.textContent)) ? [] : [`${name}: no unit`]),
+                    ...[unit, value].filter((e) => e.offsetParent && e.scrollWidth > e.clientWidth + 1).map((e) => `${name}: "${e.textContent}" is cut`)];
+            }));
+            assert.deepEqual(bad, [], `${width} pixels`);
+        }
+        await close(page);
+        await server.stop();
+    });
+});
+
 describe("controls", () => {
     for (const device of ["reference-six-bar", "comb-stage"])
         test(`none is cut off or covered in any view at 1000 to 1280 pixels, ${device}`, async () => {

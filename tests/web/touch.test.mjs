@@ -48,6 +48,17 @@ describe("on a phone", () => {
         }
     });
 
+    test("while something is computed every control of the header stays on the screen", async () => {
+        await page.route("**/api/explore", () => {}); // it never answers
+        await view(page, "explore");
+        await page.waitForSelector("#busy:visible");
+        const out = await page.evaluate(() => [...document.querySelectorAll("#top button, #busy, #busy button")].filter((e) => e.offsetParent !== null || e.id === "busy").map((e) => [e.id || e.textContent, e.getBoundingClientRect()]).filter(([, r]) => r.width && (r.left < 0 || r.right > innerWidth)).map(([id]) => id));
+        assert.deepEqual(out, []);
+        await page.click("#busy-cancel");
+        await page.unroute("**/api/explore");
+        await view(page, "motion");
+    });
+
     test("all of the decision is one tap away", async () => {
         const lines = page.locator("#banner .top-line:visible");
         const before = await lines.count();

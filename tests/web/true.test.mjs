@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, program, serve, SMALL, setText, source, theBrowser, verdict, view } from "./helper.mjs";
+import { answered, close, computed, finish, open, program, serve, SMALL, setText, source, theBrowser, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -205,4 +205,73 @@ describe("for everybody", () => {
         assert.match(await page.textContent("body"), /used already.*start it again/s);
         await context.close();
     });
+});
+
+describe("a device whose bodies' centres of mass are not where their frames are", () => {
+    let server, page;
+    before(async () => {
+        server = await serve("comb-stage");
+        page = await open(server);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+    /** Farthest that a body of this view stands from where it is drawn: um, and radians. */
+    const off = (id) => page.evaluate((p) => {
+        const { q, rest } = globalThis.flexwright.parts[p].mechanism;
+        return [0, 1].map((angle) => Math.max(...q.map((pose, i) => (angle ? Math.abs(pose[2] - rest[i][2]) : 1e6 * Math.hypot(pose[0] - rest[i][0], pose[1] - rest[i][1])))));
+    }, id);
+
+    test("assembled without a change they stand in the picture where they are drawn, and near it at the least amplitude of a mode", async () => {
+        await view(page, "assembly");
+        await computed(page, "assembly");
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.assembly.result.moved_m), 0);
+        assert.ok((await off("assembly")).every((x) => x < 1e-3), `${await off("assembly")}`);
+        await view(page, "modes");
+        await computed(page, "modes");
+        await page.fill('#panel-modes input[type="range"]', "1");
+        const [um, rad] = await off("modes");
+        assert.ok(um < 10 && rad < 0.005, `${um} um, ${rad} rad`); // 0.0045 rad about a hinge 0.8 mm away
+    });
+
+    test("a mode leaves what a flexure holds together at the flexure: its ends part by no more than the bend of a small motion", async () => {
+        await page.fill('#panel-modes input[type="range"]', "10");
+        const parted = await page.evaluate(() => {
+            const { mechanism } = globalThis.flexwright.parts.modes;
+            const { preview: p } = globalThis.flexwright.state;
+            const placed = (id, at) => { // a point of a body as it is drawn, where the mode has it
+                const i = p.bodies.findIndex((b) => b.id === id);
+                if (i < 0 || p.bodies[i].fixed) return at;
+                const [a, b] = [mechanism.rest[i], mechanism.q[i]];
+                const [x, y] = [at[0] - 1e6 * a[0], at[1] - 1e6 * a[1]], [c, s] = [Math.cos(b[2] - a[2]), Math.sin(b[2] - a[2])];
+                return [1e6 * b[0] + c * x - s * y, 1e6 * b[1] + s * x + c * y];
+            };
+            return p.pins.map((pin, k) => {
+                const [one, other] = p.flexures[k].between.map((id) => placed(id, pin.at_um));
+                return Math.hypot(one[0] - other[0], one[1] - other[1]);
+            });
+        });
+        assert.ok(parted.every((d) => d < 10), `hinges part by ${parted} um`);
+    });
+});
+
+test("masks: the flow can be chosen before any mask is made; workspace: at rest no hinge governs", async () => {
+    const server = await serve("reference-six-bar");
+    const page = await open(server, { width: 1000, height: 700 });
+    await page.route("**/api/jobs", (route) => new Promise((resolve) => setTimeout(resolve, 1500)).then(() => route.continue()));
+    await view(page, "masks");
+    assert.equal(await page.evaluate(() => globalThis.flexwright.parts.masks.result), undefined);
+    assert.deepEqual(await page.locator('#panel-masks select[aria-label="Flow"] option').allTextContents(), ["al-masked-rie", "copper-on-porous-silicon"]);
+    await page.selectOption('#panel-masks select[aria-label="Flow"]', "copper-on-porous-silicon");
+    await computed(page, "masks", 60000);
+    assert.equal(await page.inputValue('#panel-masks select[aria-label="Flow"]'), "copper-on-porous-silicon");
+    assert.ok((await page.locator("#panel-masks .file-list").first().textContent()).includes("copper-on-porous-silicon"));
+    await view(page, "workspace");
+    await page.waitForSelector('.pose-status:has-text("At rest: no hinge is bent.")');
+    await page.fill("#pose-x_m", "50");
+    await page.press("#pose-x_m", "Enter");
+    await page.waitForSelector('.pose-status:has-text("governs with")');
+    await close(page);
+    await server.stop();
 });

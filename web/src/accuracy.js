@@ -18,7 +18,7 @@ export class Accuracy {
         holder.append(box);
         const names = [["", "0.1 %"], ...ACCURACIES.map((a) => [a, percent(Number(a))])];
         const wanted = select("Accuracy wanted", names, "", (v) => setOption("accuracy", v));
-        box.append(h("label", { class: "option accuracy-wanted" }, h("span", {}, "error of the peak deflection that is good enough (--accuracy)"), wanted));
+        box.append(h("label", { class: "option accuracy-wanted" }, h("span", {}, "error of the peak deflection that is good enough"), wanted));
         on("options", () => {
             const now = state.options.accuracy ?? "";
             setOptions(wanted, names.some(([v]) => v === now) ? names : [...names, [now, now]], now);

@@ -3,6 +3,7 @@
 import { h, select, setOptions } from "./dom.js";
 import { degrees, micrometres } from "./format.js";
 import { JobView } from "./jobs.js";
+import { centred } from "./mechanism.js";
 import { Split } from "./split.js";
 import { state } from "./store.js";
 
@@ -29,11 +30,11 @@ export class Assembly extends Split {
         const f = result.freedom ?? {};
         into.replaceChildren(
             h("dl", { class: "facts-list" }, [
-                ["closed", result.closed ? "yes" : "no"], ["largest gap", result.gap_before_m === result.gap_after_m ? gap(result.gap_after_m) : `${gap(result.gap_before_m)} → ${gap(result.gap_after_m)}`],
+                ["joints closed", result.closed ? "yes" : "no"], ["largest gap", result.gap_before_m === result.gap_after_m ? gap(result.gap_after_m) : `${gap(result.gap_before_m)} → ${gap(result.gap_after_m)}`],
                 ["moved by", `${micrometres(result.moved_m)}, ${degrees(result.turned_rad)}`], ["iterations", `${result.iterations}, ${result.restarts} restarts`],
-                ["freedoms", `${f.dof}: ${f.unknowns} coordinates, ${f.rank === f.rows ? `${f.rows} conditions` : `${f.rank} of ${f.rows} conditions independent`}`], ["redundant", f.redundant?.length ? f.redundant.join(", ") : "none"],
+                ["freedom", `${f.dof}: ${f.unknowns} coordinates, ${f.rank === f.rows ? `${f.rows} conditions` : `${f.rank} of ${f.rows} conditions independent`}`], ["redundant", f.redundant?.length ? f.redundant.join(", ") : "none"],
             ].flatMap(([k, v]) => [h("dt", {}, k), h("dd", {}, v)])),
-            result.branches?.length ? h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["elbow", "guess", "found"].map((x) => h("th", { scope: "col" }, x)))),
+            result.branches?.length ? h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["elbow", "bends before", "after"].map((x) => h("th", { scope: "col" }, x)))),
                 h("tbody", {}, result.branches.map((b) => h("tr", {}, h("td", {}, b.elbow), h("td", {}, side(b.guess)), h("td", {}, side(b.found)))))) : "");
         this.draw();
     }
@@ -44,14 +45,13 @@ export class Assembly extends Split {
         const other = this.which.value === "found" ? null : this.result.alternatives?.[Number(this.which.value)];
         const after = other ? other.q : this.result.after;
         const t = Number(this.blend.value) / 100;
-        const rest = (b) => b.rest ?? [0, 0, 0];
-        const at = p.bodies.map((b) => {
-            const from = this.result.before?.[b.id] ?? rest(b);
-            const to = after?.[b.id] ?? rest(b);
-            return from.map((x, i) => x + t * (to[i] - x));
-        });
-        this.mechanism.pose(at);
-        this.mechanism.ghostAt(p.bodies.map((b) => this.result.before?.[b.id] ?? rest(b)));
+        const { before, after: found, com } = this.result;
+        const shown = (b, frame) => (frame && com?.[b.id] ? centred(frame, b.id, found, com) : b.rest ?? [0, 0, 0]);
+        this.mechanism.pose(p.bodies.map((b) => {
+            const [from, to] = [before?.[b.id], after?.[b.id]];
+            return shown(b, from && to && from.map((x, i) => x + t * (to[i] - x)));
+        }));
+        this.mechanism.ghostAt(p.bodies.map((b) => shown(b, before?.[b.id])));
     }
 }
 

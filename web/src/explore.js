@@ -213,7 +213,10 @@ export class Explore {
             if (spec.inputs.length === 2) await this.#askMap(spec, key, control.signal);
             else await this.#askLine(spec, key, control.signal);
             this.whole = control === this.control;
-            if (this.whole) announce(this.summary.textContent);
+            if (this.whole) {
+                this.#draw(); // "so far" no more
+                announce(this.summary.textContent);
+            }
         } catch (error) {
             if (control === this.control && !control.signal.aborted && !error.lost) this.#failed([error.message], key);
             else if (control === this.control && this.stopped !== "cancelled") this.tried = null;
@@ -332,11 +335,12 @@ export class Explore {
     }
 
     #lineWords(x) {
-        const list = stretches(this.#sorted()).map((r) => `${WORDS[r.state]} from ${number(r.from, 4)} to ${number(r.to, 4)}${x.unit ? ` ${x.unit}` : ""}`);
+        const list = stretches(this.#sorted(), this.whole).map((r) => `${WORDS[r.state]} ${r.from === r.to ? `at ${number(r.from, 4)}` : `from ${number(r.from, 4)} to ${number(r.to, 4)}`}${x.unit ? ` ${x.unit}` : ""}`);
         const words = list.length > 6 ? [...list.slice(0, 6), `and ${list.length - 6} more stretches`] : list;
         const text = words.join("; ");
         const why = [...this.done.values()].find((p) => p.why)?.why;
-        return `${text.charAt(0).toUpperCase()}${text.slice(1)}.${why ? ` ${why}` : ""}`;
+        const said = this.whole ? `${text.charAt(0).toUpperCase()}${text.slice(1)}` : `So far, by ${this.done.size} devices: ${text}`;
+        return `${said}.${why ? ` ${why}` : ""}`;
     }
 
     #mapWords() {

@@ -8,7 +8,7 @@ import { stretches } from "./exploring.js";
 import { ticks } from "./plotfile.js";
 
 const [LEFT, RIGHT, TOP, STRIP, BELOW] = [58, 14, 12, 12, 40];
-export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "cannot be made" };
+export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "refused" };
 const SIGNS = { // of about 6 pixels
     accept: "M-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0", reject: "M-3-3L3 3M3-3L-3 3", inconclusive: "M-2.6-2.6h5.2v5.2h-5.2z", run: "M-3 0h6", failed: "M-3-3L3 3M3-3L-3 3M0-4V4",
 };
@@ -80,7 +80,7 @@ export class ExplorePlot {
         points.forEach((p, i) => {
             const edge = points[i - 1]?.state !== p.state || points[i + 1]?.state !== p.state;
             if (i % step && !edge) return;
-            inside.append(s("path", { class: `explore-sign ${p.state}`, d: SIGNS[p.state], transform: `translate(${px(p.x)} ${Number.isFinite(p.value) ? py(Math.min(p.value, high)) : bottom - 8})` }));
+            inside.append(s("path", { class: `explore-sign ${p.state}`, d: SIGNS[p.state], transform: `translate(${px(p.x)} ${!Number.isFinite(p.value) ? bottom - 8 : p.value > high ? TOP + 5 : py(p.value)})` }));
         });
         if (Number.isFinite(x.now) && x.now >= x.from && x.now <= x.to) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}` }), s("text", { class: "explore-word", x: px(x.now) + (px(x.now) > right - 50 ? -5 : 5), y: bottom - 6, "text-anchor": px(x.now) > right - 50 ? "end" : "start" }, "now"));
         if (at !== null && at !== undefined) inside.append(s("path", { class: "explore-at", d: `M${px(at)} ${TOP}V${bottom}` }));
@@ -137,6 +137,6 @@ function runs(points, has) {
 /** What colours and signs of a picture mean. */
 export function legendOf(kind) {
     const sign = (state) => h("span", { class: "explore-key" }, s("svg", { viewBox: "-5 -5 10 10", class: "explore-key-sign", "aria-hidden": "true" }, s("path", { class: `explore-sign ${state}`, d: SIGNS[state] })), WORDS[state]);
-    if (kind === "map") return [h("span", { class: "explore-key" }, "dark is little, yellow is the limit; hatched: rejected, a dash: inconclusive, crossed: cannot be made; lines: now")];
+    if (kind === "map") return [h("span", { class: "explore-key" }, "dark is little, yellow is the limit; hatched: rejected, a dash: inconclusive, crossed: refused; lines: now")];
     return [sign("accept"), sign("inconclusive"), sign("reject"), h("span", { class: "explore-key" }, h("i", { class: "explore-band-key" }), "error band"), h("span", { class: "explore-key" }, h("i", { class: "explore-now-key" }), "as it is now")];
 }

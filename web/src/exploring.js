@@ -129,15 +129,16 @@ export function mapRounds() {
     });
 }
 
-/** Ranges of one decision, between points sorted by x: [{state, from, to}], the ends in the middle between two points. */
-export function stretches(points) {
+/** Ranges of one decision, between points sorted by x: [{state, from, to}], the ends in the middle between two points, or, where
+ *  more points are to come, at the points themselves. */
+export function stretches(points, middle = true) {
     const out = [];
     for (const p of points) {
         const last = out.at(-1);
         if (last?.state === p.state) last.to = p.x;
         else {
-            if (last) last.to = (last.to + p.x) / 2;
-            out.push({ state: p.state, from: last ? last.to : p.x, to: p.x });
+            if (last && middle) last.to = (last.to + p.x) / 2;
+            out.push({ state: p.state, from: last && middle ? last.to : p.x, to: p.x });
         }
     }
     return out;

@@ -67,6 +67,8 @@ function tellGone(why) {
     gone = notice({ kind: "warn", stay: true, text: `${state.file.name} ${why}. The text is kept here; Save writes it anew where nothing is in the way.` });
 }
 
+on("preview", () => delete document.body.dataset.another);
+
 /** event: what the server says of the file: {version}, or {version: null, why}. */
 export async function follow(editor, event) {
     if (!state.file) return;
@@ -168,6 +170,7 @@ export function openText(editor) {
 export function replaceAll(editor, text, words) {
     const go = () => {
         state.base = text;
+        document.body.dataset.another = ""; // what is known of the former device is no former answer to this one
         editor.open(text);
     };
     if (!unsaved()) return go();

@@ -104,9 +104,9 @@ export class Laboratory {
         const q = this.known.find((x) => x.id === id) ?? { id, name: id, unit: row.unit ?? "1", missing: "" };
         row.unit = q.unit;
         const words = `${q.name} (${q.id})`;
-        const field = (name, label) => h("input", { value: row[name], inputmode: "decimal", autocomplete: "off", "aria-label": `${words}: ${label}`, oninput: (e) => (row[name] = e.target.value), onkeydown: (e) => e.key === "Enter" && this.#use() });
+        const field = (name, label, short) => h("input", { value: row[name], placeholder: short, inputmode: "decimal", autocomplete: "off", "aria-label": `${words}: ${label}`, oninput: (e) => (row[name] = e.target.value), onkeydown: (e) => e.key === "Enter" && this.#use() });
         return h("tr", { "data-id": id }, h("th", { scope: "row" }, q.name, " ", h("span", { class: "code" }, id), q.missing ? h("span", { class: "doc" }, ` needed for ${q.missing}`) : ""),
-            h("td", {}, field("value", "value")), h("td", {}, field("u", "standard uncertainty")), h("td", {}, q.unit === "1" ? "–" : q.unit), h("td", {}, select(`${words}: how it is known`, STATUS, row.status, (v) => (row.status = v))));
+            h("td", {}, field("value", "value", "value")), h("td", {}, field("u", "standard uncertainty", "±")), h("td", {}, q.unit === "1" ? "–" : q.unit), h("td", {}, select(`${words}: how it is known`, STATUS, row.status, (v) => (row.status = v))));
     }
 
     #addRow(id) {

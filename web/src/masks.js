@@ -45,9 +45,13 @@ export class Masks {
     }
 
     #panel() {
-        this.flow = select("Flow", [], "", () => this.#draw());
+        this.flow = select("Flow", [], "", () => {
+            this.chosen = this.flow.value;
+            this.#draw();
+        });
         this.cell = select("Cell", [["", "device"], ["-coupons", "test die"]], "", () => this.#draw());
-        const card = h("section", { class: "card" }, h("h2", {}, "Masks"), h("div", { class: "row" }, this.flow, this.cell));
+        this.which = h("div", { class: "row", hidden: true }, this.flow, this.cell);
+        const card = h("section", { class: "card" }, h("h2", {}, "Masks"), this.which);
         this.layerList = h("section", { class: "card", hidden: true });
         this.violations = h("section", { class: "card", hidden: true });
         this.files = h("section", { class: "card", hidden: true });
@@ -81,6 +85,13 @@ export class Masks {
         this.drawn.take(state.previewOf);
         this.drawing.replaceChildren(...paths, ...p.flexures.map((f) => s("path", { d: f.path })));
         if (!this.box) this.#fitTo(p.box_um);
+        if (!this.result) this.#offer(p.flows.map((f) => [f.name, f.name]), p.flows[0]?.name);
+    }
+
+    /** Flows to choose from; which one it is unless a person chose. An empty box to choose from would ask for nothing. */
+    #offer(flows, first) {
+        setOptions(this.flow, flows, flows.some(([id]) => id === this.chosen) ? this.chosen : first);
+        this.which.hidden = flows.length === 0;
     }
 
     #fitTo(box) {
@@ -92,7 +103,7 @@ export class Masks {
         this.done = job;
         const flows = [...new Set([...job.result.masks.map((m) => m.flow), ...(job.result.violations ?? []).map((v) => v.flow)])];
         const broken = (f) => (job.result.violations ?? []).find((v) => v.flow === f)?.findings.length ?? 0;
-        setOptions(this.flow, flows.map((f) => [f, broken(f) ? `${f}: ${broken(f)} broken` : f]), this.flow.value || (flows.find(broken) ?? flows[0]));
+        this.#offer(flows.map((f) => [f, broken(f) ? `${f}: ${broken(f)} broken` : f]), flows.find(broken) ?? flows[0]);
         await this.#draw();
     }
 

@@ -23,6 +23,15 @@ const steady = (old, now) => (old[0] <= now[0] && old[1] <= now[1] && old[2] >= 
 export const posesOf = (preview, row) => preview.bodies.map((b, i) => (b.fixed ? REST : row.slice(3 * i, 3 * i + 3)));
 export const restOf = (preview) => preview.bodies.map((b) => b.rest ?? REST);
 
+/** A body's pose for the picture, which is drawn about the centre of mass, from that of its reference frame, which the results of
+ *  commands have. `frames` and `centres`: of one and the same pose, as such a result states them. */
+export function centred(frame, id, frames, centres) {
+    const [x, y, phi] = frames[id];
+    const [dx, dy] = [centres[id][0] - x, centres[id][1] - y];
+    const [c, sn] = [Math.cos(frame[2] - phi), Math.sin(frame[2] - phi)];
+    return [frame[0] + c * dx - sn * dy, frame[1] + sn * dx + c * dy, frame[2]];
+}
+
 const FAR_PIXELS = 60; // most that a hinge's number stands off its edge for its size
 
 /** Corners of an outline, from a point. */

@@ -4,6 +4,7 @@ import { button, h, select } from "./dom.js";
 import { deviceName, FRAMES_A_SECOND, filmMenu, record } from "./film.js";
 import { degrees, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
+import { centred } from "./mechanism.js";
 import { Split } from "./split.js";
 import { Statics } from "./statics.js";
 import { state } from "./store.js";
@@ -15,7 +16,7 @@ export class Modes extends Split {
     constructor(holder) {
         super(holder, { title: "Modes", label: "A mode shape of the mechanism, moving.", around: 0.08 });
         this.at = select("About", [["rest", "about rest"], ["equilibrium", "about the equilibrium"]], "rest", () => this.view.run());
-        this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture" });
+        this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture", oninput: () => this.draw() });
         this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
         this.pause = button(...this.#nextWord(), () => this.#toggle());
         this.card.append(h("div", { class: "row" }, this.at, this.pause, (this.film = filmMenu(() => this.#film(), () => `${deviceName()}-mode-${this.chosen + 1}`))), h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
@@ -42,11 +43,12 @@ export class Modes extends Split {
     #list(job, into) {
         this.modes = job.result.modes;
         this.q = job.result.q;
+        this.com = job.result.com;
         this.unit = job.result.unit_length_m;
         this.chosen = Math.min(this.chosen, Math.max(this.modes.length - 1, 0));
         const items = this.modes.map((m, i) => h("button", { type: "button", class: "mode", "aria-pressed": String(i === this.chosen), onclick: () => this.#choose(i) },
             h("strong", {}, `${i + 1}`), h("span", { class: "mode-f" }, m.kind === "free" ? "free" : m.kind === "unstable" ? "unstable" : si(m.f_Hz, "Hz", 4)),
-            h("span", { class: "mode-d" }, m.damping_ratio !== null ? `damping ${percent(m.damping_ratio, 2)}` : m.kind), h("span", { class: "mode-b" }, m.bodies)));
+            h("span", { class: "mode-d" }, m.damping_ratio !== null ? `damping ${percent(m.damping_ratio, 2).replace(" ", "\u00a0")}` : m.kind), h("span", { class: "mode-b" }, `moves most: ${m.bodies}`)));
         into.replaceChildren(h("div", { class: "mode-list" }, items),
             h("p", { class: "doc" }, `Scene ${job.result.scene}, about ${job.result.at === "rest" ? "rest" : "the equilibrium"}.${job.result.out_of_rest > RESTS ? ` The loads hold it elsewhere: it would go on from there by some ${degrees(job.result.out_of_rest, 2)} or ${si(job.result.out_of_rest * this.unit, "m", 2)}; choose the equilibrium.` : ""}`));
         this.draw();
@@ -65,9 +67,9 @@ export class Modes extends Split {
         if (!p || !mode) return;
         const size = (Number(this.amplitude.value) / 100) * 0.45 * Math.sin(phase);
         this.mechanism.pose(p.bodies.map((b) => {
-            const rest = this.q[b.id] ?? b.rest ?? [0, 0, 0];
-            const shape = mode.shape[b.id] ?? [0, 0, 0];
-            return rest.map((x, j) => x + size * shape[j]);
+            const shape = mode.shape[b.id];
+            if (!shape || !this.q[b.id]) return b.rest ?? [0, 0, 0];
+            return centred(this.q[b.id].map((x, j) => x + size * shape[j]), b.id, this.q, this.com);
         }));
     }
 

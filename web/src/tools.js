@@ -49,18 +49,18 @@ export const TOOLS = [
     },
     {
         id: "plate", label: "Plate", icon: "plate", points: two, words: "Draw from corner to corner.",
-        fields: [bodyField("the body below, or a new one"), cut, image],
+        fields: [bodyField("there, or new"), cut, image],
         make: (c, [p, q]) => (Math.min(Math.abs(p[0] - q[0]), Math.abs(p[1] - q[1])) < LEAST_UM ? { refuse: "A plate needs a width and a height." }
             : makePlate(c.places, { p, q, body: c.values.body === "new" ? null : c.values.body || c.places.bodiesUnder(p, q)[0], hole: c.values.hole === "yes", symmetry: c.values.symmetry })),
     },
     {
         id: "disc", label: "Disc", icon: "disc", points: two, words: "Draw from the middle to the edge.",
-        fields: [bodyField("the body below, or a new one"), cut, image],
+        fields: [bodyField("there, or new"), cut, image],
         make: (c, [p, q]) => tooSmall(p, q) ?? makeDisc(c.places, { p, q, body: c.values.body === "new" ? null : under(c, p), hole: c.values.hole === "yes", symmetry: c.values.symmetry }),
     },
     {
         id: "outline", label: "Outline", icon: "outline", points: null, least: 3, closes: true, words: "Click corner after corner; end with a double click, Enter, or a click on the first corner. Where the next side is an arc, click a point that it passes, then its end.",
-        fields: [{ key: "side", label: "next side", value: "line", choices: ["line", "arc"] }, bodyField("the body below, or a new one"), cut, image],
+        fields: [{ key: "side", label: "next side", value: "line", choices: ["line", "arc"] }, bodyField("there, or new"), cut, image],
         make: (c, list) => (list.length < 3 ? { refuse: "An outline has three corners at least." }
             : makeOutline(c.places, { points: list, sides: c.on, body: c.values.body === "new" ? null : c.values.body || list.flatMap((p) => c.places.bodiesAt(p, 0.01))[0], hole: c.values.hole === "yes", symmetry: c.values.symmetry })),
     },
@@ -76,7 +76,7 @@ export const TOOLS = [
     },
     {
         id: "force", label: "Force", icon: "force", points: two, words: "Draw from a point of a body to where it is pulled.",
-        fields: [size("size", "size", 10, "uN"), bodyField("the body below")],
+        fields: [size("size", "size", 10, "uN"), bodyField("body there")],
         make: (c, [p, q]) => {
             const body = under(c, p);
             return tooSmall(p, q) ?? (body ? makeForce(c.places, { p, q, body, size: c.values.size, scene: c.scene }) : noBody);
@@ -94,7 +94,7 @@ export const TOOLS = [
     },
     {
         id: "comb", label: "Electrodes", icon: "comb", points: two, words: "Draw from the middle of the overlap on a body to where it is pulled.",
-        fields: [size("fingers", "fingers", 10, ""), size("gap", "gap", 5), size("overlap", "overlap", 20), size("length", "length", 50), size("voltage", "voltage", 10, "V"), bodyField("the body below")],
+        fields: [size("fingers", "fingers", 10, ""), size("gap", "gap", 5), size("overlap", "overlap", 20), size("length", "length", 50), size("voltage", "voltage", 10, "V"), bodyField("body there")],
         make: (c, [p, q]) => {
             const body = under(c, p);
             return tooSmall(p, q) ?? (body ? makeComb(c.places, { ...c.values, p, q, body, scene: c.scene }) : noBody);

@@ -95,8 +95,13 @@ export class Verdict {
         const empty = errors.length === 1 && errors[0].code === "FW-D052" && /^<mechanism> has no <body>/.test(errors[0].message);
         const words = empty ? "Nothing is drawn yet" : `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
         this.problems.hidden = errors.length === 0;
-        this.problems.classList.toggle("none-yet", empty); // an empty page is no mistake
-        if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
+        const unheld = errors.length > 0 && errors.every((d) => d.code === "FW-D082" && / no hinge holds it yet/.test(d.message));
+        this.problems.classList.toggle("none-yet", empty || unheld); // an empty page is no mistake, nor is a link whose hinge comes next
+        if (unheld) {
+            this.problems.replaceChildren(h("h2", {}, "Not held yet"), h("p", {}, "No hinge holds it yet. Choose Hinge, and click where a link turns on the ground."),
+                button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")),
+                h("details", {}, h("summary", {}, `${words} in the description until then`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d)))));
+        } else if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
         else this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
         this.notes.hidden = rest.length === 0;
         this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));

@@ -13,6 +13,8 @@ import { zoomButtons } from "./motion.js";
 import { lookAt, on, state } from "./store.js";
 
 const HANDLE_PIXELS = 64; // from the platform to its handle of rotation
+const GRIP_PIXELS = 10; // of that handle, which must not leave the picture
+const RESTS = 1e-9; // share of a limit: less is none
 
 export class Workspace {
     constructor(holder) {
@@ -151,6 +153,7 @@ export class Workspace {
         const use = flow.utilisation ?? 0;
         const words = !answer.reachable ? `Out of reach: ${answer.reason ?? "the joints do not let it go there; the nearest pose is shown"}.`
             : flow.governing === null ? "No hinge of this device has a limit."
+            : use < RESTS ? "At rest: no hinge is bent."
             : use > 1 ? `Hinge ${flow.governing} would be beyond its limit: ${fixed(use * 100, 1)} %.` : `Within the limits; hinge ${flow.governing} governs with ${fixed(use * 100, 1)} %.`;
         if (this.status.textContent !== words) this.status.textContent = words;
         this.#good(answer.reachable && use <= 1);
@@ -181,8 +184,11 @@ export class Workspace {
         const [x, y] = this.mechanism.view.toScreen(c[0], c[1]);
         this.handle.setAttribute("transform", `translate(${x} ${y})`);
         const angle = c[2] + Math.PI / 2;
-        const dx = HANDLE_PIXELS * Math.cos(angle);
-        const dy = -HANDLE_PIXELS * Math.sin(angle);
+        const [w, height] = this.mechanism.view.size;
+        const inside = (sign) => [[x + sign * HANDLE_PIXELS * Math.cos(angle), w], [y - sign * HANDLE_PIXELS * Math.sin(angle), height]].every(([v, end]) => v > GRIP_PIXELS && v < end - GRIP_PIXELS);
+        const side = inside(1) || !inside(-1) ? 1 : -1; // where there is no room it stands on the other side
+        const dx = side * HANDLE_PIXELS * Math.cos(angle);
+        const dy = -side * HANDLE_PIXELS * Math.sin(angle);
         this.turner.setAttribute("transform", `translate(${x + dx} ${y + dy})`);
         const line = this.turner.querySelector("line");
         line.setAttribute("x2", -dx * 0.82);
