@@ -439,7 +439,9 @@ static void lint_looks(fw_process_pack *pack, const fw_process_step *s) {
 /* a chip is packaged when it is one */
 static void lint_packaged(fw_process_pack *pack, int at) {
     const fw_process_flow *f = pack->flow;
-    for (int i = at + 1; i < f->nstep && fw_process_step_is_op(&f->step[at], "package"); i++)
+    if (!fw_process_step_is_op(&f->step[at], "package") || fw_process_step_is_of_dies(f, at))
+        return;
+    for (int i = at + 1; i < f->nstep; i++)
         if (f->step[i].parts)
             fw_diag_error(pack->diags, 552, f->step[at].place,
                           "step %s packages chips, and the wafer is parted by step %s later; do it "
