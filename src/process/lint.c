@@ -199,6 +199,8 @@ static const struct {
     {"does a step take numbers and times of its own?", fw_process_lint_inputs, true},
     {"is it done at a tool that treats wafers, in a bath that is enough?", fw_process_lint_places,
      true},
+    {"does it say which wafer it wants, and is that one baked and flat enough?",
+     fw_process_lint_wanted, true},
     {"does no wafer drip with what etches on its way to another bench?", fw_process_lint_carried,
      false},
     {"is resist as thick as bakes and doses are computed for?", fw_process_lint_coats, true},
@@ -213,6 +215,7 @@ static const struct {
      false},
     {"is a wafer that is in pieces handled as dies?", fw_process_lint_parted, false},
     {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
+    {"does an etch take what it shall, and of the front alone?", fw_process_lint_chemistry, false},
 };
 
 fw_status fw_process_pack_lint(fw_process_pack *pack) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Does a step take what is its own? The numbers of its law, its plate, its tool, its bath, and its times among
-   themselves. */
+/* Does a step take what is its own? The numbers of its law, its plate, its tool, its bath, its times among themselves, and
+   the wafer that it wants. */
 #include "base/constants.h"
 #include "base/text.h"
 #include "process/films.h"
@@ -93,6 +93,18 @@ static void lint_overrun(fw_process_pack *pack, const fw_process_step *s) {
                   s->id, s->op, fw_number_text(share, sizeof share, 100.0 * s->overrun, 3));
 }
 
+/* No bath deposits all that its current could: without an efficiency the metal comes out thinner than the flow says. */
+static void lint_efficiency(fw_process_pack *pack, const fw_process_step *s) {
+    if (!s->law || strcmp(s->law, "faraday") != 0 || !fw_process_step_is_op(s, "plate") ||
+        fw_process_step_argument(s, "efficiency"))
+        return;
+    fw_diag_error(pack->diags, 627, s->place,
+                  "step %s plates by its charge and takes all of it for metal; add the bath's "
+                  "current efficiency: <arg name=\"efficiency\" q=\"...\"/>, unknown where nobody "
+                  "knows it",
+                  s->id);
+}
+
 /* ---- its times among themselves ---- */
 
 /* a step whose time somebody states is not shorter than what is done in it */
@@ -144,6 +156,7 @@ fw_status fw_process_lint_inputs(fw_process_pack *pack) {
         lint_opening(pack, s);
         lint_area(pack, s);
         lint_overrun(pack, s);
+        lint_efficiency(pack, s);
         lint_within(pack, s);
         lint_attended(pack, s);
     }
@@ -176,6 +189,65 @@ static void lint_instrument(fw_process_pack *pack, int at) {
                         "step %s (%s) is done at '%s' (%s), where steps as %s only look at wafers; "
                         "name the tool that does it",
                         s->id, s->op, s->equipment->id, s->equipment->class_, looks->id);
+}
+
+/* a pressure below half of that of a room is in a chamber that is pumped */
+static void lint_pumped(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_quantity_dimension pressure = FW_DIM(-1, 1, -2, 0, 0, 0, 0);
+    const double most_Pa = 5e4;
+    for (int k = 0; k < s->nsetting && s->equipment && !s->equipment->vacuum; k++) {
+        const fw_quantity *q = s->setting[k].q;
+        if (q->unknown || q->value >= most_Pa ||
+            !fw_quantity_dimension_equal(q->dimension, pressure))
+            continue;
+        fw_diag_error(pack->diags, 505, q->replaced ? q->place : s->place,
+                      "step %s (%s) sets a low pressure ('%s'), but '%s' (%s) does not say "
+                      "vacuum=\"yes\"; say it, or name the tool that is pumped",
+                      s->id, s->op, q->id, s->equipment->id, s->equipment->class_);
+    }
+}
+
+/* current comes to a wafer through a contact that somebody has put on it and looked at */
+static void lint_contact(fw_process_pack *pack, int at) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[at];
+    if (!fw_words_hold("anodise plate", " ", s->op)) return;
+    for (int i = at - 1; i >= 0 && f->step[i].equipment == s->equipment; i--)
+        if (fw_process_step_is_op(&f->step[i], "mount")) return;
+    fw_diag_warning(pack->diags, 631, s->place,
+                    "step %s (%s) lets a current through the wafer, and no step before it at '%s' "
+                    "mounts the wafer there: its contact and the area that is open are looked at "
+                    "by nobody; add a step with op=\"mount\"",
+                    s->id, s->op, s->equipment ? s->equipment->id : "");
+}
+
+/* has a layer come on since a mask was exposed that spans what was etched through it, as a bonded wafer does? */
+static const fw_process_change *hides(const fw_process_flow *f, int before, const char *mask) {
+    bool exposed = false;
+    for (int i = 0; i < before; i++) {
+        exposed = exposed || strcmp(f->step[i].mask, mask) == 0;
+        for (int k = 0; exposed && k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && c->spans && !c->back) return c;
+        }
+    }
+    return NULL;
+}
+
+/* marks on the other face, or below a wafer that was bonded on, are seen from below or not at all */
+static void lint_sees(fw_process_pack *pack, int at) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[at];
+    const fw_process_change *over = s->align.to ? hides(f, at, s->align.to) : NULL;
+    if (!s->align.to || !s->equipment || s->equipment->sees_back || (!s->align.back && !over))
+        return;
+    fw_diag_error(pack->diags, 626, s->align.place,
+                  "step %s aligns to marks %s%s%s, but '%s' (%s) does not say that it sees them; "
+                  "name an aligner with microscopes below the wafer or infrared light, and say "
+                  "sees-back=\"yes\" of it",
+                  s->id, s->align.back ? "of the other face" : "below '",
+                  s->align.back ? "" : over->material, s->align.back ? "" : "'", s->equipment->id,
+                  s->equipment->class_);
 }
 
 /* ---- its bath ---- */
@@ -224,6 +296,9 @@ fw_status fw_process_lint_places(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
         lint_instrument(pack, i);
+        lint_pumped(pack, s);
+        lint_contact(pack, i);
+        lint_sees(pack, i);
         for (int k = 0; k < s->nuse; k++)
             if (s->use[k].bath) lint_filling(pack, s, &s->use[k]);
     }
@@ -308,6 +383,22 @@ fw_status fw_process_lint_plates(fw_process_pack *pack) {
     return FW_OK;
 }
 
+/* ---- how well masks lie on each other ---- */
+
+fw_status fw_process_lint_overlay(fw_process_pack *pack) {
+    const double best_m = 1e-8, worst_m = 2e-4; /* a stepper's; a mask laid on by eye */
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        const fw_process_step *s = &pack->flow->step[i];
+        const fw_quantity *q = s->align.to ? s->align.overlay : NULL;
+        if (!q || q->unknown || (q->value >= best_m && q->value <= worst_m)) continue;
+        fw_diag_error(pack->diags, 278, q->replaced ? q->place : s->align.place,
+                      "step %s aligns its mask to %s um (%s), outside 0.01 to 200 um: no aligner "
+                      "is exact, and what is laid on by eye lies within tenths of a millimetre",
+                      s->id, fw_number_text((char[32]){0}, 32, 1e6 * q->value, 4), q->id);
+    }
+    return FW_OK;
+}
+
 /* ---- what it carries to another bench ---- */
 
 /* What etches goes on etching on its way, and drips: it is rinsed off where it stands. Water and solvents may be carried,
@@ -328,6 +419,134 @@ fw_status fw_process_lint_carried(fw_process_pack *pack) {
                       "<finish kind=\"rinse\"/> in step %s",
                       s->id, s->equipment ? s->equipment->id : "", before->liquid->id,
                       from->equipment ? from->equipment->id : "", from->id, from->id);
+    }
+    return FW_OK;
+}
+
+/* ---- the wafer that it wants ---- */
+
+/* What changes nothing says what must be there for it, or nobody knows when it comes too early or too late. */
+static void lint_looks(fw_process_pack *pack, const fw_process_step *s) {
+    if (s->nchange > 0 || s->nrequired > 0 || !fw_words_hold("inspect dice package", " ", s->op))
+        return;
+    fw_diag_warning(pack->diags, 628, s->place,
+                    "step %s (%s) changes nothing, and says nothing of the wafer that it wants: it "
+                    "could be done before there is anything to see, or after; add <requires "
+                    "material=\"...\"/> or <requires step=\"...\"/>",
+                    s->id, s->op);
+}
+
+/* a chip is packaged when it is one */
+static void lint_packaged(fw_process_pack *pack, int at) {
+    const fw_process_flow *f = pack->flow;
+    if (!fw_process_step_is_op(&f->step[at], "package") || fw_process_step_is_of_dies(f, at))
+        return;
+    for (int i = at + 1; i < f->nstep; i++)
+        if (f->step[i].parts)
+            fw_diag_error(pack->diags, 552, f->step[at].place,
+                          "step %s packages chips, and the wafer is parted by step %s later; do it "
+                          "after that",
+                          f->step[at].id, f->step[i].id);
+}
+
+/* cooler than this a bake does not what it is for */
+static void lint_cool(fw_process_pack *pack, int at, const fw_process_wafer *before) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[at];
+    const bool soft = before->is[FW_STATE_UNBAKED],
+               dries = !soft && at + 1 < f->nstep && fw_process_step_is_op(s + 1, "coat");
+    const double least_K = FW_ICE_POINT_K + (soft ? 75.0 : 95.0);
+    if (!fw_process_step_is_op(s, "bake") || (!soft && !dries)) return;
+    for (int k = 0; k < s->nsetting; k++) {
+        const fw_quantity *q = s->setting[k].q;
+        char is[32], least[32];
+        if (q->unknown || q->value >= least_K ||
+            !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1}))
+            continue;
+        fw_diag_warning(pack->diags, 593, q->replaced ? q->place : s->place,
+                        "step %s bakes at %s Cel (%s), and %s below %s Cel; bake hotter", s->id,
+                        fw_number_text(is, sizeof is, q->value - FW_ICE_POINT_K, 4), q->id,
+                        soft ? "solvent stays in the resist" : "water stays on the wafer",
+                        fw_number_text(least, sizeof least, least_K - FW_ICE_POINT_K, 4));
+    }
+}
+
+static bool spanned_by(const fw_process_flow *f, int before, const char *material) {
+    for (int i = 0; i < before; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            if (strcmp(f->step[i].change[k].material, material) == 0 && f->step[i].change[k].spans)
+                return true;
+    return false;
+}
+
+/* How deep the front goes below its highest place, m, above the last layer that spans what is below it; NaN: not known */
+static fw_status relief(fw_process_pack *pack, int at, double *depth_m) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_stack stack;
+    double least = (double)INFINITY, most = 0.0;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, at - 1, &stack, NULL));
+    for (int column = 0; column < stack.columns; column++) {
+        double sum = 0.0;
+        for (int i = stack.n[column] - 1; i >= 0; i--) {
+            const fw_process_cell *c = &stack.cell[column][i];
+            if (c->back) continue;
+            sum += c->thickness_m;
+            if (spanned_by(f, at, c->material)) break;
+        }
+        least = isnan(sum) ? sum : fmin(least, sum);
+        most = isnan(sum) ? sum : fmax(most, sum);
+        if (isnan(sum)) break;
+    }
+    *depth_m = most - least;
+    return FW_OK;
+}
+
+/* is the coat exposed before it is taken off as a whole? */
+static bool printed(const fw_process_flow *f, int from, const fw_process_change *coat) {
+    for (int i = from; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (strcmp(c->material, coat->material) != 0 || c->back != coat->back) continue;
+            if (strcmp(c->kind, "pattern") == 0) return true;
+            if (strcmp(c->kind, "remove") == 0) return false;
+        }
+    return false;
+}
+
+/* Resist runs off edges that are higher than twice its own thickness: streaks behind them, none upon them, and the dose is
+   none for what stands in the hollows. Test: test_lint.c, flows_of_wrong_steps. */
+static fw_status lint_covers(fw_process_pack *pack, int at) {
+    const double most = 2.0;
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[at];
+    for (int k = 0; k < s->nchange && fw_process_step_is_op(s, "coat"); k++) {
+        const fw_process_change *c = &s->change[k];
+        double deep_m;
+        char is[32], deep[32];
+        if (strcmp(c->kind, "add") != 0 || c->back || !c->thickness || c->thickness->unknown ||
+            !printed(f, at + 1, c))
+            continue;
+        FW_TRY(relief(pack, at, &deep_m));
+        if (!(deep_m > most * c->thickness->value)) continue;
+        fw_diag_warning(
+            pack->diags, 588, c->place,
+            "step %s spins %s um of '%s' over edges of %s um and prints it: it runs off "
+            "them, and streaks behind; print before they are etched, spray, or take "
+            "half as much at least",
+            s->id, fw_number_text(is, sizeof is, 1e6 * c->thickness->value, 4), c->material,
+            fw_number_text(deep, sizeof deep, 1e6 * deep_m, 4));
+    }
+    return FW_OK;
+}
+
+fw_status fw_process_lint_wanted(fw_process_pack *pack) {
+    fw_process_wafer now = {0};
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        lint_looks(pack, &pack->flow->step[i]);
+        lint_packaged(pack, i);
+        lint_cool(pack, i, &now);
+        FW_TRY(lint_covers(pack, i));
+        fw_process_wafer_pass(pack->flow, i, &now);
     }
     return FW_OK;
 }

@@ -97,7 +97,7 @@ static void lint_meniscus(fw_process_pack *pack, const fw_process_step *s,
     }
 }
 
-/* water and vibration of a saw tear off what moves */
+/* water and vibration of a saw tear off what moves, and a spinner throws it off with the resist */
 static void lint_sawn(fw_process_pack *pack, const fw_process_step *s,
                       const fw_process_wafer *before) {
     const bool wet = fw_process_step_takes_wet(s) || fw_process_step_liquid(s);
@@ -105,6 +105,11 @@ static void lint_sawn(fw_process_pack *pack, const fw_process_step *s,
         fw_diag_error(pack->diags, 337, s->place,
                       "step %s dices wafers whose devices are free already: water and shaking tear "
                       "them off; dice before they are released",
+                      s->id);
+    if (before->released && fw_process_step_is_op(s, "coat"))
+        fw_diag_error(pack->diags, 337, s->place,
+                      "step %s spins a liquid on devices that are free already: it tears them off, "
+                      "and pulls them down as it dries; coat before they are released",
                       s->id);
 }
 
@@ -424,10 +429,36 @@ static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer 
     return FW_OK;
 }
 
+/* Metal on a resist is lifted off with it: hard-baked, its edges have flowed to slopes that the metal closes over, and
+   solvents hardly take it. Test: test_lint.c, flows_of_wrong_steps. */
+static fw_status lint_lifted_hard(fw_process_pack *pack, int i, const baked *b) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[i];
+    fw_process_stack stack;
+    if (!b->resist || !b->hard || !b->developed || !fw_process_step_is_op(s, "deposit"))
+        return FW_OK;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
+    for (int k = 0; k < s->nchange; k++)
+        for (int column = 0; column < stack.columns; column++) {
+            const char *on = top(&stack, column, s->change[k].back);
+            if (strcmp(s->change[k].kind, "add") != 0 || !on || strcmp(on, b->resist) != 0 ||
+                !fw_process_where_holds(f, s->change[k].where, column))
+                continue;
+            fw_diag_warning(pack->diags, 630, s->change[k].place,
+                            "step %s puts '%s' on '%s' that was baked since it was developed: its "
+                            "edges have flowed, metal closes over them, and it lifts off badly; "
+                            "leave the hard bake out",
+                            s->id, s->change[k].material, b->resist);
+            return FW_OK;
+        }
+    return FW_OK;
+}
+
 fw_status fw_process_lint_bakes(fw_process_pack *pack) {
     fw_process_wafer now = {0};
     baked b = {0};
     for (int i = 0; i < pack->flow->nstep; i++) {
+        FW_TRY(lint_lifted_hard(pack, i, &b));
         FW_TRY(lint_bake(pack, i, &now, &b));
         fw_process_wafer_pass(pack->flow, i, &now);
     }
@@ -520,41 +551,6 @@ static void lint_end_below(fw_process_pack *pack, const fw_process_stack *stack)
             pack->diags, 338, f->place,
             "carrier=\"insulating\", but nothing that carries no current lies below the "
             "device when the flow ends: whatever it is put on must insulate");
-}
-
-/* does another step of the flow dry wafers before drops stand on them? by: how, NULL: none does */
-static const fw_process_step *dries(const fw_process_flow *f, const char **by) {
-    for (int i = 0; i < f->nstep; i++)
-        for (int k = 0; k < f->step[i].nfinish; k++) {
-            const fw_process_finish *d = &f->step[i].finish[k];
-            *by = d->by;
-            if (d->kind == FW_FINISH_DRY && fw_words_hold("spin nitrogen vapour", " ", d->by))
-                return &f->step[i];
-        }
-    return NULL;
-}
-
-/* Water that is left to dry in air leaves what it held where the last drop stood, and takes up what is in the air. Where the
-   laboratory has nothing else that is how it is done; where another step of the flow dries wafers it is a slip. Decision 98. */
-fw_status fw_process_lint_aired(fw_process_pack *pack) {
-    const fw_process_flow *f = pack->flow;
-    const char *by;
-    const fw_process_step *other = dries(f, &by);
-    for (int i = 0; other && i < f->nstep; i++) {
-        const fw_process_step *s = &f->step[i];
-        const fw_process_finish *rinse = NULL;
-        for (int k = 0; k < s->nfinish; k++) {
-            const fw_process_finish *d = &s->finish[k];
-            if (d->kind == FW_FINISH_RINSE) rinse = d;
-            if (d->kind != FW_FINISH_DRY || !rinse || rinse->with || strcmp(d->by, "air") != 0)
-                continue;
-            fw_diag_warning(pack->diags, 618, d->place,
-                            "step %s lets the water of its rinse dry in air: each drop leaves a "
-                            "ring of what it held; dry it by=\"%s\", as step %s does",
-                            s->id, by, other->id);
-        }
-    }
-    return FW_OK;
 }
 
 /* a finished wafer is dry and safe, has its device and no resist, and what <finished> says */

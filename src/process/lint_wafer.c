@@ -306,12 +306,17 @@ fw_status fw_process_lint_through(fw_process_pack *pack) {
    Test: test_lint.c */
 
 static const struct {
-    const char *op;
+    const char *op, *after, *does;
+    bool dry;
     double most_s;
     const char *why;
 } fresh[] = {
-    {"plate", 2 * 3600.0, "metal oxidises and takes up grease, and what is plated on it peels"},
-    {"bond", 8 * 3600.0, "a cleaned face gathers water and particles, and the bond has voids"},
+    {"plate", "clean", "cleans", false, 2 * 3600.0,
+     "metal oxidises and takes up grease, and what is plated on it peels"},
+    {"bond", "clean", "cleans", false, 8 * 3600.0,
+     "a cleaned face gathers water and particles, and the bond has voids"},
+    {"coat", "bake", "bakes dry", true, 24 * 3600.0,
+     "it takes up water again, and resist holds badly"},
 };
 
 /* The longest that the flow lets pass from the end of step `from` to the start of step `to`, times of steps between aside:
@@ -334,6 +339,12 @@ static fw_status longest_between(fw_process_pack *pack, int from, int to, double
     return FW_OK;
 }
 
+static bool wet_between(const fw_process_flow *f, int from, int to) {
+    for (int i = from + 1; i < to; i++)
+        if (fw_process_step_in_liquid(&f->step[i])) return true;
+    return false;
+}
+
 fw_status fw_process_lint_fresh(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
     FW_TRY(fw_process_flow_waits(pack->arena, pack->flow));
@@ -341,21 +352,22 @@ fw_status fw_process_lint_fresh(fw_process_pack *pack) {
         for (size_t r = 0; r < sizeof fresh / sizeof *fresh; r++) {
             int from = i - 1;
             if (!fw_process_step_is_op(&f->step[i], fresh[r].op)) continue;
-            while (from >= 0 && !fw_process_step_is_op(&f->step[from], "clean"))
+            while (from >= 0 && !fw_process_step_is_op(&f->step[from], fresh[r].after))
                 from--;
-            if (from < 0) continue; /* never cleaned: FW-D346 */
+            if (from < 0) continue; /* never cleaned or baked: FW-D346, FW-D341 */
+            if (fresh[r].dry && wet_between(f, from, i)) continue; /* FW-D341 */
             double longest;
             char is[32], most[32];
             FW_TRY(longest_between(pack, from, i, &longest));
             if (longest <= fresh[r].most_s) continue;
             fw_diag_warning(
                 pack->diags, 614, f->step[i].place,
-                "step %s (%s) may come %s%s after step %s, which cleans what it "
+                "step %s (%s) may come %s%s after step %s, which %s what it "
                 "works on: %s; add <lag from=\"%s\" max=\"...\"/> of %s h at most",
                 f->step[i].id, f->step[i].op,
                 isinf(longest) ? "at any time" : fw_number_text(is, sizeof is, longest / 3600.0, 3),
-                isinf(longest) ? "" : " h", f->step[from].id, fresh[r].why, f->step[from].id,
-                fw_number_text(most, sizeof most, fresh[r].most_s / 3600.0, 3));
+                isinf(longest) ? "" : " h", f->step[from].id, fresh[r].does, fresh[r].why,
+                f->step[from].id, fw_number_text(most, sizeof most, fresh[r].most_s / 3600.0, 3));
         }
     return FW_OK;
 }
@@ -494,22 +506,6 @@ fw_status fw_process_lint_accepted(fw_process_pack *pack) {
     return FW_OK;
 }
 
-/* ---- how well masks lie on each other ---- */
-
-fw_status fw_process_lint_overlay(fw_process_pack *pack) {
-    const double best_m = 1e-8, worst_m = 2e-4; /* a stepper's; a mask laid on by eye */
-    for (int i = 0; i < pack->flow->nstep; i++) {
-        const fw_process_step *s = &pack->flow->step[i];
-        const fw_quantity *q = s->align.to ? s->align.overlay : NULL;
-        if (!q || q->unknown || (q->value >= best_m && q->value <= worst_m)) continue;
-        fw_diag_error(pack->diags, 278, q->replaced ? q->place : s->align.place,
-                      "step %s aligns its mask to %s um (%s), outside 0.01 to 200 um: no aligner "
-                      "is exact, and what is laid on by eye lies within tenths of a millimetre",
-                      s->id, fw_number_text((char[32]){0}, 32, 1e6 * q->value, 4), q->id);
-    }
-    return FW_OK;
-}
-
 /* ---- wafers that are in pieces ----
    What a device's plate leaves of the field lies between all dies. Where nothing of any layer is left there, and the
    structure still is, what was a wafer is as many pieces as there are dies, whatever the plate is of. Test:
@@ -536,6 +532,37 @@ static bool takes_away(const fw_process_step *s) {
     return false;
 }
 
+/* What lies between the dies after a dry etch has gone through there: less than 100 um are film, wax or paste, which no
+   clamp holds and no helium presses on. Test: test_lint.c, flows_of_wrong_steps. */
+static void lint_carrier(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_stack *stack) {
+    const fw_process_flow *f = pack->flow;
+    const double least_m = 1e-4;
+    double most_m = 0.0;
+    fw_process_side field;
+    bool stands = false, gone = takes_away(s);
+    char is[32];
+    if (!fw_process_step_is_op(s, "dry-etch") || !fw_process_where_side(f, "field", &field)) return;
+    for (int column = 0; column < stack->columns; column++) {
+        double sum = 0.0;
+        if (!fw_process_side_holds(f, field, column)) {
+            stands = stands || stack->n[column] > 0;
+            continue;
+        }
+        for (int i = 0; i < stack->n[column]; i++)
+            sum += stack->cell[column][i].thickness_m;
+        for (int k = 0; k < s->nchange; k++)
+            gone = gone && !fw_process_stack_holds(stack, column, s->change[k].material);
+        most_m = isnan(sum) ? (double)INFINITY : fmax(most_m, sum);
+    }
+    if (stands && gone && most_m < least_m)
+        fw_diag_error(pack->diags, 625, s->place,
+                      "step %s etches through the wafer, and between the dies %s um are left of "
+                      "what lies below: that carries no wafer in its chamber; put it on a carrier "
+                      "before (op=\"mount\", a layer with side=\"back\")",
+                      s->id, fw_number_text(is, sizeof is, 1e6 * most_m, 3));
+}
+
 fw_status fw_process_lint_parted(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
     bool before = false;
@@ -545,6 +572,7 @@ fw_status fw_process_lint_parted(fw_process_pack *pack) {
         if (!s->parts && (before || !takes_away(s))) continue;
         FW_TRY(fw_process_flow_stack(pack->arena, f, i, &stack, NULL));
         bool pieces = in_pieces(f, &stack), dies = before || s->parts;
+        if (!dies && i + 1 < f->nstep) lint_carrier(pack, s, &stack);
         if (pieces && !dies && i + 1 < f->nstep) {
             fw_diag_warning(pack->diags, 552, s->place,
                             "after step %s nothing is left between the dies: the wafer is in "

@@ -110,7 +110,7 @@ fw_status fw_process_lint_hands(fw_process_pack *pack);
 fw_status fw_process_lint_longest(fw_process_pack *pack);
 fw_status fw_process_lint_lags(fw_process_pack *pack);
 fw_status fw_process_lint_rinses(fw_process_pack *pack);
-fw_status fw_process_lint_aired(fw_process_pack *pack); /* lint_state.c (FW-D618) */
+fw_status fw_process_lint_aired(fw_process_pack *pack); /* wafer_state.c (FW-D618) */
 fw_status fw_process_lint_critical(fw_process_pack *pack);
 fw_status fw_process_lint_lifted(fw_process_pack *pack);
 fw_status fw_process_lint_baths(fw_process_pack *pack);
@@ -131,6 +131,7 @@ fw_status fw_process_lint_through(fw_process_pack *pack);
 /* numbers, plate, tool and bath of its own: lint_inputs.c (FW-D373, FW-D559, FW-D561, FW-D606, FW-D608, FW-D609) */
 fw_status fw_process_lint_inputs(fw_process_pack *pack);
 fw_status fw_process_lint_places(fw_process_pack *pack);
+fw_status fw_process_lint_wanted(fw_process_pack *pack); /* FW-D588, FW-D593, FW-D628 */
 fw_status fw_process_lint_carried(fw_process_pack *pack);
 fw_status fw_process_lint_plates(fw_process_pack *pack);
 fw_status fw_process_lint_shrink(fw_process_pack *pack);
@@ -170,6 +171,7 @@ const char *fw_process_reaction(const fw_process_hazard *a, const fw_process_haz
 fw_status fw_process_lint_reactivity(fw_process_pack *pack);
 bool fw_process_only_dries(const fw_process_hazard *h);
 fw_status fw_process_lint_warmth(fw_process_pack *pack);
+fw_status fw_process_lint_chemistry(fw_process_pack *pack); /* reactivity.c (FW-D629, FW-D632) */
 
 /* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN
    when an input is not known */

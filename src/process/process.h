@@ -34,6 +34,7 @@ typedef struct fw_process_equipment {
     const char *brings; /* ids of hazards of whatever is done there; "" = none */
     fw_place place;
     bool vacuum;              /* wafers lie in a pumped chamber */
+    bool sees_back;           /* aligns to marks of the face that lies down, or below a layer */
     const fw_quantity *price; /* money per s; may be unknown */
 } fw_process_equipment;
 

@@ -107,15 +107,16 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
     } else if (fw_xml_is(e, "equipment")) {
         fw_process_equipment *q = &f->equipment[f->nequipment++];
         int capacity = (int)fw_process_pack_number(e, "capacity", 1.0);
-        *q =
-            (fw_process_equipment){.id = id->value,
-                                   .class_ = fw_process_pack_text(e, "class"),
-                                   .text = e->element->text,
-                                   .capacity = capacity,
-                                   .takes = fw_process_pack_text(e, "takes"),
-                                   .brings = fw_process_pack_text(e, "brings"),
-                                   .place = e->element->place,
-                                   .vacuum = strcmp(fw_process_pack_text(e, "vacuum"), "yes") == 0};
+        *q = (fw_process_equipment){.id = id->value,
+                                    .class_ = fw_process_pack_text(e, "class"),
+                                    .text = e->element->text,
+                                    .capacity = capacity,
+                                    .takes = fw_process_pack_text(e, "takes"),
+                                    .brings = fw_process_pack_text(e, "brings"),
+                                    .place = e->element->place,
+                                    .vacuum = strcmp(fw_process_pack_text(e, "vacuum"), "yes") == 0,
+                                    .sees_back =
+                                        strcmp(fw_process_pack_text(e, "sees-back"), "yes") == 0};
         enter(pack, id->value, FW_ID_EQUIPMENT, base, q, id->place);
     } else if (fw_xml_is(e, "hazard")) {
         fw_process_hazard *h = &f->hazard[f->nhazard++];

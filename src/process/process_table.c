@@ -81,6 +81,8 @@ static const fw_xml_attribute_row equipment_rows[] = {
     {"brings", TEXT, .datatype = "NMTOKENS",
      .sentence = "Hazards of whatever is done there: every step at it names them."},
     {"vacuum", WORD(yes_no), .fallback = "no", .sentence = "yes: wafers lie in a pumped chamber."},
+    {"sees-back", WORD(yes_no), .fallback = "no",
+     .sentence = "yes: an aligner that sees marks of the face that lies down."},
 };
 static const fw_xml_attribute_row hazard_rows[] = {
     ID,

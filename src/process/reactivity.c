@@ -11,6 +11,7 @@
    ammonia and hypochlorite with ammonia: common textbook knowledge. Test: test_lint.c liquids_react_by_their_groups. */
 #include "base/constants.h"
 #include "base/text.h"
+#include "process/films.h"
 #include "process/pack.h"
 #include <string.h>
 
@@ -211,4 +212,64 @@ bool fw_process_only_dries(const fw_process_hazard *h) {
         if (!fw_words_hold(mild, " ", of)) return false;
     }
     return true;
+}
+
+/* ---- does it take what it shall? ---- */
+
+static bool attacks(const fw_process_step *s, const char *material) {
+    for (int h = 0; h < s->nhazard; h++)
+        for (int m = 0; m < s->hazard[h]->nattacks; m++)
+            if (strcmp(s->hazard[h]->attacks[m], material) == 0) return true;
+    return false;
+}
+
+/* An etch or a strip in what takes nothing of what it shall: the wrong bath, or a pack that does not say what its own one
+   attacks, so that nobody is told what else it would take. What is lifted off goes with what is dissolved below it. */
+static void lint_taken(fw_process_pack *pack, const fw_process_step *s) {
+    const fw_process_change *first = NULL;
+    if (!fw_words_hold("wet-etch dry-etch strip", " ", s->op)) return;
+    for (int k = 0; k < s->nchange; k++) {
+        if (strcmp(s->change[k].kind, "remove") != 0) continue;
+        if (attacks(s, s->change[k].material)) return;
+        if (!first) first = &s->change[k];
+    }
+    if (!first) return;
+    const char *why = fw_arena_printf(
+        pack->arena,
+        "step %s (%s) takes off '%s', which none of its hazards attacks; name the bath or the "
+        "plasma that does, or say <attacks material=\"%s\"/> of it",
+        s->id, s->op, first->material, first->material);
+    if (s->nhazard > 0) /* else it may be a pack that knows of no hazards */
+        fw_diag_error(pack->diags, 629, first->place, "%s", why ? why : "");
+    else
+        fw_diag_warning(pack->diags, 629, first->place, "%s", why ? why : "");
+}
+
+/* a bath etches both faces: what is etched to a depth on the front, and lies open on the back, gets thinner from there, too */
+static fw_status lint_both(fw_process_pack *pack, int at) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[at];
+    fw_process_stack stack;
+    if (!fw_process_step_is_op(s, "wet-etch")) return FW_OK;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, at - 1, &stack, NULL));
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k];
+        if (strcmp(c->kind, "remove") != 0 || c->back || !c->thickness || c->reach ||
+            !fw_process_stack_open(f, &stack, c->material, true))
+            continue;
+        fw_diag_warning(pack->diags, 632, c->place,
+                        "step %s etches '%s' on the front, and it lies open on the back: the bath "
+                        "takes as much there; cover the back before, or add a <change> of it with "
+                        "side=\"back\"",
+                        s->id, c->material);
+    }
+    return FW_OK;
+}
+
+fw_status fw_process_lint_chemistry(fw_process_pack *pack) {
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        lint_taken(pack, &pack->flow->step[i]);
+        FW_TRY(lint_both(pack, i));
+    }
+    return FW_OK;
 }

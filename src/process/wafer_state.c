@@ -143,6 +143,41 @@ fw_process_drying fw_process_flow_drying(const fw_process_flow *flow) {
     return d;
 }
 
+/* does another step of the flow dry wafers before drops stand on them? by: how, NULL: none does */
+static const fw_process_step *dries(const fw_process_flow *f, const char **by) {
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nfinish; k++) {
+            const fw_process_finish *d = &f->step[i].finish[k];
+            *by = d->by;
+            if (d->kind == FW_FINISH_DRY && fw_words_hold("spin nitrogen vapour", " ", d->by))
+                return &f->step[i];
+        }
+    return NULL;
+}
+
+/* Water that is left to dry in air leaves what it held where the last drop stood, and takes up what is in the air. Where the
+   laboratory has nothing else that is how it is done; where another step of the flow dries wafers it is a slip. Decision 98. */
+fw_status fw_process_lint_aired(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    const char *by;
+    const fw_process_step *other = dries(f, &by);
+    for (int i = 0; other && i < f->nstep; i++) {
+        const fw_process_step *s = &f->step[i];
+        const fw_process_finish *rinse = NULL;
+        for (int k = 0; k < s->nfinish; k++) {
+            const fw_process_finish *d = &s->finish[k];
+            if (d->kind == FW_FINISH_RINSE) rinse = d;
+            if (d->kind != FW_FINISH_DRY || !rinse || rinse->with || strcmp(d->by, "air") != 0)
+                continue;
+            fw_diag_warning(pack->diags, 618, d->place,
+                            "step %s lets the water of its rinse dry in air: each drop leaves a "
+                            "ring of what it held; dry it by=\"%s\", as step %s does",
+                            s->id, by, other->id);
+        }
+    }
+    return FW_OK;
+}
+
 static bool finished_by(const fw_process_step *s, fw_process_finish_kind kind) {
     for (int i = 0; i < s->nfinish; i++)
         if (s->finish[i].kind == kind) return true;

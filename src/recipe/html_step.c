@@ -551,7 +551,7 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     if (quantities(flow, s, number, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
     if (!changes && endpoints(s, out) != FW_OK) out->failed = 1;
     fw_recipe_html_wafers(s, fw_process_step_is_of_dies(flow, index), header, out);
-    fw_recipe_html_outcome(s, fw_process_step_is_of_dies(flow, index), header, out);
+    fw_recipe_html_outcome(flow, index, header, out);
     parting(flow, s, out);
     waits(flow, index, out);
     fw_text_add(out, "</section>\n");

@@ -194,9 +194,23 @@ void fw_recipe_html_wafers(const fw_process_step *s, bool of_dies, const fw_reci
     if (wafers == 1) one_line(s, of_dies, out);
 }
 
+/* " of 6": how many the plan begins with, so that whoever counts sees at once what is missing; dies of all its wafers, where not
+   only some of them are tested or packaged */
+static void planned_count(const fw_process_flow *flow, int index, int wafers, fw_text *out) {
+    const fw_process_step *s = &flow->step[index];
+    const fw_quantity *dies = fw_process_flow_quantity(flow, "mask.dies");
+    const bool some = s->bears || strcmp(s->op, "package") == 0;
+    if (!fw_process_step_is_of_dies(flow, index))
+        fw_text_printf(out, " of %d", wafers);
+    else if (!some && dies && !dies->unknown && dies->value >= 1.0)
+        fw_text_printf(out, " of %.0f", dies->value * (double)wafers);
+}
+
 /* what to do where it went wrong and, of several wafers, what became of them, in one line */
-void fw_recipe_html_outcome(const fw_process_step *s, bool of_dies, const fw_recipe_header *header,
+void fw_recipe_html_outcome(const fw_process_flow *flow, int index, const fw_recipe_header *header,
                             fw_text *out) {
+    const fw_process_step *s = &flow->step[index];
+    const bool of_dies = fw_process_step_is_of_dies(flow, index);
     const bool counted = fw_recipe_wafers(header) > 1 && !fw_process_step_is_of_lot(s);
     if (s->non_fail == 0 && !counted) return;
     fw_text_add(out, "<div class=\"small outcome\"><div>");
@@ -214,11 +228,11 @@ void fw_recipe_html_outcome(const fw_process_step *s, bool of_dies, const fw_rec
         fw_text_escaped(out, f->text);
     }
     fw_text_add(out, s->non_fail ? ".</div>" : "</div>");
-    if (counted)
-        fw_text_printf(out,
-                       "<div class=\"counts\">%s in _____ out _____ scrapped _____ on hold _____ "
-                       "Deviation no. _____</div>",
-                       of_dies ? "Dies" : "Wafers");
+    if (counted) {
+        fw_text_printf(out, "<div class=\"counts\">%s in _____", of_dies ? "Dies" : "Wafers");
+        planned_count(flow, index, fw_recipe_wafers(header), out);
+        fw_text_add(out, " out _____ scrapped _____ on hold _____ Deviation no. _____</div>");
+    }
     fw_text_add(out, "</div>\n");
 }
 

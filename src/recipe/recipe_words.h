@@ -65,8 +65,8 @@ const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *fin
    deviated */
 void fw_recipe_html_wafers(const fw_process_step *step, bool of_dies,
                            const fw_recipe_header *header, fw_text *out);
-void fw_recipe_html_outcome(const fw_process_step *step, bool of_dies,
-                            const fw_recipe_header *header, fw_text *out);
+void fw_recipe_html_outcome(const fw_process_flow *flow, int index, const fw_recipe_header *header,
+                            fw_text *out);
 void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_step *step,
                                 fw_text *out);
 void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out);

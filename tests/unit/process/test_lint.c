@@ -47,6 +47,19 @@ static void mistakes_of_a_flow(void **state) {
          "<exposed material=\"aluminium\" rate=\"develop.t\"/>", 169, "length per time"},
         {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>",
          "<exposed material=\"aluminium\" selectivity=\"rie.R\"/>", 169, "has no unit"},
+        /* what carries, sees, conducts and takes: a carrier, an aligner, an efficiency, a bath */
+        {DOUBLE, "title=\"Align to the front and expose the windows, back\" equipment=\"back-aligner\"",
+         "title=\"Align to the front and expose the windows, back\" equipment=\"aligner\"", 626, "step B17 aligns to marks of the other face"},
+        {GLASS, " sees-back=\"yes\"", "", 626, "step G24 aligns to marks below 'silicon-100'"},
+        {COPPER, "<arg name=\"efficiency\" q=\"cu.eta\"/><arg name=\"area\" q=\"mask.plated-area\"/></time>",
+         "<arg name=\"area\" q=\"mask.plated-area\"/></time>", 627, "step C22 plates by its charge"},
+        {SILICON, "<hazard-ref ref=\"h.plasma\"/>", "<hazard-ref ref=\"h.plasma\"/><!-- --></step>"
+         "<step id=\"S16B\" op=\"strip\" title=\"t\" equipment=\"dry-bench\" in-source=\"no\" attended=\"5\"><purpose>p</purpose>"
+         "<change kind=\"remove\" material=\"aluminium\"/><time law=\"const\" overrun=\"0\" k=\"2\"><arg name=\"time\" q=\"strip.t\"/></time>"
+         "<endpoint>e</endpoint><accept measure=\"m\" lo=\"\" hi=\"0\" unit=\"1\" sites=\"1\" every=\"1\"/><hazard-ref ref=\"h.solvent\"/>"
+         "<on-fail if=\"x\" then=\"hold\">y</on-fail>", 629, "step S16B (strip) takes off 'aluminium'"},
+        {GLASS, "takes=\"gold\" vacuum=\"yes\">electrodes of graphite", "takes=\"gold\">electrodes of graphite", 505,
+         "step G19 (bond) sets a low pressure ('bond.p')"},
         /* what hands and benches do: attendance, times, waits, rinses, metal that lifts, what is read first */
         {SILICON, "mask=\"M1\" batch=\"1\" attended=\"8\"", "mask=\"M1\" batch=\"1\" attended=\"800\"", 577,
          "step S09 is attended for 800 min"},
@@ -621,6 +634,67 @@ static void steps_that_do_nothing(void **state) {
     assert_non_null(said_of(558, "step S02 is for 6 wafers at once, and clean-bench takes 4"));
 }
 
+static const char *step_text(const char *text, const char *id, size_t *n) {
+    const char *from = strstr(text, fw_arena_printf(arena, "  <step id=\"%s\"", id));
+    assert_non_null(from);
+    const char *to = strstr(from, "</step>\n") + strlen("</step>\n");
+    *n = (size_t)(to - from);
+    return fw_arena_strndup(arena, from, *n);
+}
+
+static const char *in_place(const char *text, const char *from, const char *to) {
+    const char *at = strstr(text, from);
+    if (!at) fail_msg("no '%s'", from);
+    return fw_arena_printf(arena, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+}
+
+/* the steps once more before another one, under ids of their own */
+static const char *again_before(const char *text, const char *before, const char *const *ids) {
+    const char *more = "";
+    size_t n;
+    for (; *ids; ids++) {
+        const char *s = step_text(text, *ids, &n), *lag = strstr(s, "    <lag ");
+        if (lag) s = in_place(s, fw_arena_strndup(arena, lag, (size_t)(strchr(lag, '\n') + 1 - lag)), "");
+        s = in_place(s, fw_arena_printf(arena, "id=\"%s\"", *ids), fw_arena_printf(arena, "id=\"%sB\"", *ids));
+        more = fw_arena_printf(arena, "%s%s", more, s);
+    }
+    const char *at = fw_arena_printf(arena, "  <step id=\"%s\"", before);
+    return in_place(text, at, fw_arena_printf(arena, "%s%s", more, at));
+}
+
+static void judged_as(const char *name, const char *text, int number, fw_severity severity, const char *says) {
+    size_t nb = 0;
+    const char *base = pack_text(arena, "base", &nb);
+    fw_process_flow *f = NULL;
+    diags = fw_diags_new(arena);
+    fw_process_flow_read(arena, "base.xml", base, nb, name, text, strlen(text), &diags, &f);
+    expect(number, says);
+    assert_int_equal(said_of(number, says)->severity, severity);
+}
+
+/* several changes at once: no carrier, a hard bake before lift-off, resist over a deep cut, coats of what is free, wires
+   before there are chips; each passed before its rule was there */
+static void flows_of_wrong_steps(void **state) {
+    (void)state;
+    size_t n = 0, length;
+    const char *silicon = pack_text(arena, SILICON, &n), *glass = pack_text(arena, GLASS, &n),
+               *soi = pack_text(arena, "soi-deep-rie", &n);
+    const char *thin = in_place(silicon, step_text(silicon, "S05", &length), "");
+    thin = in_place(thin, "    <requires step=\"S05\"/>\n", "");
+    thin = in_place(thin, "    <exposed material=\"carrier-wax\" rate=\"rie.R-wax\"/>\n", "");
+    thin = in_place(thin, "    <change kind=\"remove\" material=\"carrier-wax\"/>\n", "");
+    thin = in_place(thin, "    <change kind=\"remove\" material=\"carrier\"/>\n", "");
+    judged_as(SILICON, thin, 625, FW_ERROR, "step S18 etches through the wafer, and between the dies 50 um");
+    judged_as(GLASS, again_before(glass, "G26", (const char *const[]){"G36", NULL}), 630, FW_WARNING,
+              "step G26 puts 'lifted-metal' on 'resist'");
+    judged_as("soi-deep-rie", again_before(soi, "D11", (const char *const[]){"D03", "D04", "D05", "D06", "D07", NULL}),
+              588, FW_WARNING, "step D04B spins 2.5 um of 'resist' over edges of 50 um");
+    judged_as("soi-deep-rie", again_before(soi, "D13", (const char *const[]){"D04", "D05", NULL}), 337, FW_ERROR,
+              "step D04B spins a liquid on devices that are free");
+    judged_as(GLASS, again_before(glass, "G48", (const char *const[]){"G53", NULL}), 552, FW_ERROR,
+              "step G53B packages chips");
+}
+
 /* somebody is there from the first look to the stop time, and for no hours beyond a computed time */
 static void who_is_there(void **state) {
     (void)state;
@@ -748,6 +822,17 @@ static void what_is_told(void **state) {
         {SILICON, "<finish kind=\"rinse\" q=\"al-rinse.t\"/>\n    <finish kind=\"dry\" by=\"spin\"/>",
          "<finish kind=\"rinse\" q=\"al-rinse.t\"/>\n    <finish kind=\"dry\" by=\"air\"/>", 618,
          "step S14 lets the water of its rinse dry in air"},
+        {SILICON, "    <requires material=\"aluminium\"/>\n    <requires material=\"carrier\" is=\"absent\"/>\n", "", 628,
+         "step S04 (inspect) changes nothing"},
+        {SILICON, "id=\"bake.T\" value=\"100\" u=\"1\" unit=\"Cel\" status=\"typical\" src=\"microchemicals\"/>",
+         "id=\"bake.T\" value=\"60\" u=\"1\" unit=\"Cel\" status=\"typical\" src=\"microchemicals\"/>", 593,
+         "step S08 bakes at 60 Cel (bake.T), and solvent stays in the resist"},
+        {SILICON, "id=\"hmds.T\" value=\"150\"", "id=\"hmds.T\" value=\"50\"", 593, "water stays on the wafer below 95 Cel"},
+        {SILICON, "    <lag from=\"S06\" max=\"4\" unit=\"h\"/>\n", "", 614, "step S07 (coat) may come at any time after step S06, which bakes dry"},
+        {COPPER, "op=\"mount\" title=\"Plating jig", "op=\"hold\" title=\"Plating jig", 631, "step C22 (plate) lets a current through"},
+        {GLASS, "    <change kind=\"add\" material=\"back-metal\" thickness=\"mask-chromium.d\" side=\"back\"/>\n"
+                "    <change kind=\"add\" material=\"back-metal\" thickness=\"mask-gold.d\" side=\"back\"/>\n", "", 632,
+         "step G12 etches 'glass-carrier' on the front, and it lies open on the back"},
         {COPPER, "id=\"bath.volume\" value=\"100\" u=\"2\"", "id=\"bath.volume\" value=\"1\" u=\"0.1\"", 608,
          "step C05 uses a filling of 1 mL of bath 'anodising'"},
     };
@@ -813,6 +898,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(the_packs_own_wafer, setup, teardown),
         cmocka_unit_test_setup_teardown(steps_that_do_nothing, setup, teardown),
         cmocka_unit_test_setup_teardown(who_is_there, setup, teardown),
+        cmocka_unit_test_setup_teardown(flows_of_wrong_steps, setup, teardown),
         cmocka_unit_test_setup_teardown(sheets_go_over_to_dies, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
