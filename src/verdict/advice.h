@@ -27,6 +27,15 @@ typedef enum fw_verdict_look {
     FW_LOOK_WHOLE   /* as closely as any verdict */
 } fw_verdict_look;
 
+/* The corners of a flow that governed last, each once, the last of them first. One is not enough: where one requirement
+   fails of thin walls and another one of thick ones, a search that looks at one corner goes from the one to the other. */
+enum { FW_VERDICT_SUSPECTS = 3 };
+typedef struct fw_verdict_suspects {
+    int count;
+    double x[FW_VERDICT_SUSPECTS]
+            [FW_FABRICATION_INPUTS]; /* in the ranges of the device as described */
+} fw_verdict_suspects;
+
 typedef struct fw_verdict_trial_end { /* the device with one parameter at its min or max */
     const fw_device *device;          /* NULL: it cannot be read so */
     bool read;
@@ -43,9 +52,8 @@ typedef struct fw_verdict_trial {
     const fw_verdict *verdict;     /* of the device as described */
     fw_verdict_trial_hinge *hinge; /* (nhinge) of the last run */
     int nhinge;
-    double *suspect; /* (nvariant x FW_FABRICATION_INPUTS) corner of each flow that governed last */
-    bool *suspected; /* (nvariant) there is one */
-    double *share;   /* (device->nscene) of each scene's loads that is left */
+    fw_verdict_suspects *suspect; /* (nvariant) */
+    double *share;                /* (device->nscene) of each scene's loads that is left */
     fw_verdict_decision decision;
     int round;  /* of a change that is repeated; its caller's */
     bool ended; /* a change of one kind was, before it was done */

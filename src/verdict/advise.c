@@ -126,7 +126,7 @@ static fw_status add_verified(advice *a, fw_verdict_proposal proposal, bool *add
     return FW_OK;
 }
 
-/* the device as described once more; which corners govern stays known */
+/* the device as described once more; which corners governed stays known */
 static fw_status start_again(advice *a) {
     fw_verdict_trial *t = a->trial;
     const fw_verdict_trial was = *t;
@@ -134,8 +134,7 @@ static fw_status start_again(advice *a) {
     FW_TRY(fw_verdict_trial_start(t->arena, t->device, t->options, t->verdict, t));
     t->work = was.work, t->most_work = was.most_work;
     t->end = was.end, t->written = was.written;
-    memcpy(t->suspect, was.suspect, n * FW_FABRICATION_INPUTS * sizeof *t->suspect);
-    memcpy(t->suspected, was.suspected, n * sizeof *t->suspected);
+    memcpy(t->suspect, was.suspect, n * sizeof *t->suspect);
     return FW_OK;
 }
 

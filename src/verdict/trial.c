@@ -201,14 +201,40 @@ static void remember_fabricated(const fw_verdict_variant_verdict *v, fw_verdict_
     }
 }
 
-static void remember_suspect(fw_verdict_trial *trial, const fw_verdict *verdict) {
-    for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_verdict_variant_verdict *v = &verdict->variant[i];
-        if (!v->fabricated) continue; /* accepted: it is the tightest */
-        trial->suspected[i] = true;
+static bool same_corner(const double *a, const double *b, int n) {
+    for (int k = 0; k < n; k++)
+        if (fabs(a[k] - b[k]) > 1e-9 * fmax(fabs(a[k]), fabs(b[k]))) return false;
+    return true;
+}
+
+/* x becomes the first one; of too many that which governed longest ago goes */
+static void suspect_first(fw_verdict_suspects *s, const double *x, int n) {
+    int at = 0;
+    while (at < s->count && !same_corner(s->x[at], x, n))
+        at++;
+    if (at == s->count && s->count < FW_VERDICT_SUSPECTS) s->count++;
+    if (at == FW_VERDICT_SUSPECTS) at--;
+    for (int i = at; i > 0; i--)
+        memcpy(s->x[i], s->x[i - 1], sizeof s->x[i]);
+    memcpy(s->x[0], x, (size_t)n * sizeof *x);
+}
+
+/* a point of the ranges `from` at the same place of the ranges `to` */
+static double carried(const fw_verdict_fabrication_input *from,
+                      const fw_verdict_fabrication_input *to, double x) {
+    double wide = from->high - from->low;
+    return wide > 0 ? to->low + (x - from->low) / wide * (to->high - to->low) : to->nominal;
+}
+
+static void keep_suspects(fw_verdict_trial *trial, const fw_verdict_variant_verdict *variant) {
+    for (int i = 0; i < trial->verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &variant[i], *was = &trial->verdict->variant[i];
+        double x[FW_FABRICATION_INPUTS];
+        if (!v->fabricated || was->ninput != v->ninput) continue;
         for (int k = 0; k < v->ninput; k++)
-            trial->suspect[i * FW_FABRICATION_INPUTS + k] =
-                v->fabricated->corner[v->fabricated->at].x[k];
+            x[k] = carried(&v->input[k], &was->input[k],
+                           v->fabricated->corner[v->fabricated->at].x[k]);
+        suspect_first(&trial->suspect[i], x, v->ninput); /* of an accepted device the tightest */
     }
 }
 
@@ -279,14 +305,13 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
     size_t n = (size_t)verdict->nvariant;
     const int asked = device->nrequirement * (device->nscene + 1);
     size_t most = (size_t)device->nrevolute + n * (fw_verdict_reasons_most(device, asked) + 1);
-    FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_FABRICATION_INPUTS));
-    FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
+    FW_NEED(trial->suspect = fw_arena_array(arena, fw_verdict_suspects, n));
     FW_NEED(trial->hinge = fw_arena_array(arena, fw_verdict_trial_hinge, most));
     FW_NEED(trial->share = fw_arena_array(arena, double, (size_t)device->nscene));
     FW_TRY(checks_new(arena, trial));
     FW_TRY(fw_verdict_trial_reset(trial));
     remember(trial, verdict, verdict->layout);
-    remember_suspect(trial, verdict);
+    keep_suspects(trial, verdict->variant);
     trial->excess_as_described = fw_verdict_trial_excess(trial);
     return FW_OK;
 }
@@ -315,39 +340,25 @@ static fw_verdict_options options_of(fw_verdict_trial *trial, fw_verdict_look lo
 
 /* ---- the description read again ---- */
 
-/* a point of the ranges `from` at the same place of the ranges `to` */
-static double carried(const fw_verdict_fabrication_input *from,
-                      const fw_verdict_fabrication_input *to, double x) {
-    double wide = from->high - from->low;
-    return wide > 0 ? to->low + (x - from->low) / wide * (to->high - to->low) : to->nominal;
-}
-
 static const fw_dynamics_motion *const *motions_of(const fw_verdict_trial *trial, int i) {
     return (const fw_dynamics_motion *const *)trial->verdict->variant[i].motion;
 }
 
-/* ranges follow what was changed (a thickness), and so does the corner that governed last */
-static fw_status take_suspect(const fw_verdict_trial *trial, fw_arena *scratch, int i,
-                              fw_verdict_variant_verdict *v) {
+/* ranges follow what was changed (a thickness), and so do the corners that governed last */
+static fw_status take_suspects(const fw_verdict_trial *trial, fw_arena *scratch, int i,
+                               fw_verdict_variant_verdict *v) {
     const fw_verdict_variant_verdict *was = &trial->verdict->variant[i];
-    if (!trial->suspected[i] || was->ninput != v->ninput) return FW_OK;
-    double *x = fw_arena_array(scratch, double, FW_FABRICATION_INPUTS);
+    const fw_verdict_suspects *from = &trial->suspect[i];
+    if (from->count == 0 || was->ninput != v->ninput) return FW_OK;
+    const size_t n = (size_t)v->ninput;
+    double *x = fw_arena_array(scratch, double, (size_t)from->count *n);
     FW_NEED(x);
-    for (int k = 0; k < v->ninput; k++)
-        x[k] = carried(&was->input[k], &v->input[k], trial->suspect[i * FW_FABRICATION_INPUTS + k]);
+    for (int j = 0; j < from->count; j++)
+        for (size_t k = 0; k < n; k++)
+            x[(size_t)j * n + k] = carried(&was->input[k], &v->input[k], from->x[j][k]);
     v->suspect = x;
+    v->nsuspect = from->count;
     return FW_OK;
-}
-
-static void keep_suspect(fw_verdict_trial *trial, const fw_verdict_variant_verdict *variant) {
-    for (int i = 0; i < trial->verdict->nvariant; i++) {
-        const fw_verdict_variant_verdict *v = &variant[i], *was = &trial->verdict->variant[i];
-        if (!v->fabricated || was->ninput != v->ninput) continue; /* accepted: it is the tightest */
-        trial->suspected[i] = true;
-        for (int k = 0; k < v->ninput; k++)
-            trial->suspect[i * FW_FABRICATION_INPUTS + k] = carried(
-                &v->input[k], &was->input[k], v->fabricated->corner[v->fabricated->at].x[k]);
-    }
 }
 
 static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_device_set *set,
@@ -363,11 +374,11 @@ static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_de
     FW_TRY(r->with(r->context, scratch, set, nset, &device, again.variant));
     for (int i = 0; i < n; i++) {
         if (device->nscene == trial->device->nscene) again.variant[i].like = motions_of(trial, i);
-        FW_TRY(take_suspect(trial, scratch, i, &again.variant[i]));
+        FW_TRY(take_suspects(trial, scratch, i, &again.variant[i]));
     }
     FW_TRY(fw_verdict_run(scratch, device, options, &diags, &again, &layout));
     remember(trial, &again, layout);
-    keep_suspect(trial, again.variant);
+    keep_suspects(trial, again.variant);
     trial->drawn = layout && layout->drawn;
     return FW_OK;
 }
@@ -412,18 +423,19 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look) {
                         .variant = fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)n)};
     fw_status status = again.variant ? FW_OK : FW_NOMEM;
     for (int i = 0; status == FW_OK && i < n; i++)
-        again.variant[i] = (fw_verdict_variant_verdict){
-            .variant = trial->verdict->variant[i].variant,
-            .input = trial->verdict->variant[i].input,
-            .ninput = trial->verdict->variant[i].ninput,
-            .like = motions_of(trial, i),
-            .suspect = trial->suspected[i] ? trial->suspect + i * FW_FABRICATION_INPUTS : NULL};
+        again.variant[i] =
+            (fw_verdict_variant_verdict){.variant = trial->verdict->variant[i].variant,
+                                         .input = trial->verdict->variant[i].input,
+                                         .ninput = trial->verdict->variant[i].ninput,
+                                         .like = motions_of(trial, i)};
+    for (int i = 0; status == FW_OK && i < n; i++)
+        status = take_suspects(trial, scratch, i, &again.variant[i]);
     if (status == FW_OK)
         status = fw_verdict_run(scratch, trial->changed, &o, &diags, &again, &layout);
     trial->drawn = status == FW_OK && layout && layout->drawn;
     if (status == FW_OK) {
         remember(trial, &again, layout);
-        remember_suspect(trial, &again);
+        keep_suspects(trial, again.variant);
     } else {
         trial->decision = FW_REJECT;
     }

@@ -248,7 +248,9 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_mechanism_variant *variant;
     const fw_verdict_fabrication_input *input; /* (ninput) what the flow may make of it */
     int ninput;                                /* 0: as drawn only */
-    const double *suspect;                     /* (ninput) a corner to look at first, or NULL */
+    const double *
+        suspect; /* (nsuspect x ninput) corners to look at first, the likeliest before the others */
+    int nsuspect;
     /* (nscene) of a device much like it, or NULL: what acts there by far acts here
        (fw_effect_choice.like) */
     const fw_dynamics_motion *const *like;
@@ -368,7 +370,7 @@ typedef enum fw_verdict_corners {
     FW_CORNERS_AUTO,  /* as drawn, then as made */
     FW_CORNERS_NONE,  /* as drawn only */
     FW_CORNERS_FIRST, /* stop at the first corner that is not accepted: for trials */
-    FW_CORNERS_SUSPECT /* only that of `suspect`; where there is none, as FIRST: for looking around */
+    FW_CORNERS_SUSPECT /* only those of `suspect`; where there is none, as FIRST: for looking around */
 } fw_verdict_corners;
 
 /* The same description read again with nset more settings, for advice; this room does not read

@@ -518,34 +518,47 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
     return FW_OK;
 }
 
-/* a trial's suspect decides alone where it is not accepted, or nothing else is asked for */
-static fw_status try_suspect(fw_verdict_search *s, bool *decided) {
-    *decided = false;
-    bool alone = s->options.corners == FW_CORNERS_SUSPECT;
-    if (!s->v->suspect || !(alone || s->options.corners == FW_CORNERS_FIRST)) return FW_OK;
-    FW_TRY(fw_verdict_search_run(s, s->v->suspect, FW_NO_CORNER));
-    *decided = alone || s->fabricated->corner[0].decision != FW_ACCEPT;
-    if (*decided) return FW_OK;
+/* the search that follows may come to the corners that were run, and does not run them again */
+static fw_status know_all(fw_verdict_search *s) {
+    const size_t n = (size_t)s->fabricated->ncorner, m = (size_t)s->ncheck;
     fw_verdict_fabricated_corner *corner =
-        fw_arena_one(s->arena, fw_verdict_fabricated_corner); /* the search may come to it */
-    fw_verdict_known *known = fw_arena_one(s->arena, fw_verdict_known);
-    double *ln = fw_arena_array(s->arena, double, (size_t)s->ncheck);
+        fw_arena_array(s->arena, fw_verdict_fabricated_corner, n);
+    fw_verdict_known *known = fw_arena_array(s->arena, fw_verdict_known, n);
+    double *ln = fw_arena_array(s->arena, double, n *m);
     FW_NEED(known && corner && ln ? known : NULL);
-    *corner = s->fabricated->corner[0];
-    memcpy(ln, s->ln, (size_t)s->ncheck * sizeof *ln);
-    *known = (fw_verdict_known){fw_verdict_fabrication_at(s->v->input, s->v->ninput, s->v->suspect),
-                                corner, ln};
+    memcpy(ln, s->ln, n * m * sizeof *ln);
+    for (size_t i = 0; i < n; i++) {
+        corner[i] = s->fabricated->corner[i];
+        known[i] =
+            (fw_verdict_known){fw_verdict_fabrication_at(s->v->input, s->v->ninput, corner[i].x),
+                               &corner[i], ln + i * m};
+    }
     s->known = known;
-    s->nknown = 1;
+    s->nknown = (int)n;
     s->fabricated->ncorner = 0;
     return FW_OK;
+}
+
+/* A trial's suspects decide alone where one is not accepted, or nothing else is asked for. All are run where every check
+   is to have a value. */
+static fw_status try_suspects(fw_verdict_search *s, bool *decided) {
+    const bool alone = s->options.corners == FW_CORNERS_SUSPECT;
+    const fw_verdict_variant_verdict *v = s->v;
+    *decided = false;
+    if (v->nsuspect == 0 || !(alone || s->options.corners == FW_CORNERS_FIRST)) return FW_OK;
+    for (int i = 0; i < v->nsuspect && (!*decided || s->options.values); i++) {
+        FW_TRY(fw_verdict_search_run(s, v->suspect + i * v->ninput, FW_NO_CORNER));
+        *decided = *decided || s->fabricated->corner[i].decision != FW_ACCEPT;
+    }
+    *decided = *decided || alone;
+    return *decided ? FW_OK : know_all(s);
 }
 
 fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *v) {
     fw_verdict_search s;
-    bool decided, alone = options->corners == FW_CORNERS_SUSPECT && v->suspect;
+    bool decided, alone = options->corners == FW_CORNERS_SUSPECT && v->nsuspect > 0;
     bool quick = alone || options->corners != FW_CORNERS_AUTO;
     if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn == FW_REJECT)
         return FW_OK;
@@ -554,7 +567,7 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     if (!alone && v->drawn != FW_ACCEPT) return FW_OK;
     FW_TRY(fw_verdict_search_begin(arena, device, layout, options, v, &s));
     if (quick && !alone) s.options.corners = FW_CORNERS_FIRST;
-    FW_TRY(try_suspect(&s, &decided));
+    FW_TRY(try_suspects(&s, &decided));
     double *apart_most = fw_arena_array(arena, double, (size_t)v->nhinge);
     FW_NEED(apart_most);
     if (!decided) FW_TRY(fw_verdict_search_corners(&s));

@@ -133,7 +133,7 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
     fw_verdict_variant_verdict with = *v;
     with.input = input;
     with.ninput = ninput;
-    with.suspect = NULL;
+    with.nsuspect = 0;
     fw_arena *scratch = fw_arena_part(arena, 0);
     FW_NEED(scratch);
     fw_status status =
