@@ -62,6 +62,7 @@ typedef struct search {
     int refreshed;
     bool stale;          /* slopes are no more those of differences */
     double *slope, *off; /* (m x n), (m) */
+    double *sloped;      /* (n) z where slopes were differences last */
     point now, next, best;
     bool found;
 } search;
@@ -141,6 +142,7 @@ static void step_along(search *s, int i) {
 }
 
 static fw_status differences(search *s) {
+    memcpy(s->sloped, s->now.z, (size_t)s->n * sizeof *s->sloped);
     for (int i = 0; i < s->n && !spent(s); i++) {
         step_along(s, i);
         const double h = s->next.z[i] - s->now.z[i];
@@ -290,12 +292,14 @@ static fw_status promises(search *s, bool *promising) {
     return FW_OK;
 }
 
-/* slopes by differences once more, where the best is; *again false: that would change nothing, or
-   was done often enough */
+/* Slopes by differences once more, where the best is; *again false: that would change nothing, or was done often
+   enough. Where they are what they were, the steps that follow are those that failed. */
 static fw_status refresh(search *s, bool *again) {
     *again = s->stale && s->refreshed < MOST_REFRESHED && !spent(s);
     if (!*again) return FW_OK;
     if (s->found) copy(s, &s->now, &s->best);
+    *again = memcmp(s->sloped, s->now.z, (size_t)s->n * sizeof *s->sloped) != 0;
+    if (!*again) return FW_OK;
     FW_TRY(differences(s));
     s->trust = first_trust;
     s->stale = false;
@@ -309,7 +313,9 @@ static fw_status step(search *s, bool *stuck) {
     FW_TRY(look(s, FW_LOOK_VALUES, &s->next));
     correct(s);
     s->stale = true;
-    if (worst_of(s, &s->next) <= worth_judging && !s->next.rejected && !spent(s)) {
+    /* what corners added elsewhere they need not add here: the look at those that are known has said so */
+    const bool worth_it = s->next.accepted || worst_of(s, &s->next) <= worth_judging;
+    if (worth_it && !s->next.rejected && !spent(s)) {
         FW_TRY(judge(s, &better));
         judged = true;
     }
@@ -381,6 +387,7 @@ fw_status fw_verdict_change_several(fw_verdict_trial *trial, const fw_verdict_va
     *out = (fw_verdict_several){.accepted = false};
     FW_NEED(s.slope = fw_arena_array(arena, double, (size_t)s.m *(size_t)s.n));
     FW_NEED(s.off = fw_arena_array(arena, double, (size_t)s.m));
+    FW_NEED(s.sloped = fw_arena_array(arena, double, (size_t)s.n));
     FW_TRY(new_point(arena, s.n, s.m, &s.now));
     FW_TRY(new_point(arena, s.n, s.m, &s.next));
     FW_TRY(new_point(arena, s.n, s.m, &s.best));

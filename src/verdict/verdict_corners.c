@@ -521,37 +521,34 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
 /* the search that follows may come to the corners that were run, and does not run them again */
 static fw_status know_all(fw_verdict_search *s) {
     const size_t n = (size_t)s->fabricated->ncorner, m = (size_t)s->ncheck;
-    fw_verdict_fabricated_corner *corner =
-        fw_arena_array(s->arena, fw_verdict_fabricated_corner, n);
-    fw_verdict_known *known = fw_arena_array(s->arena, fw_verdict_known, n);
-    double *ln = fw_arena_array(s->arena, double, n *m);
-    FW_NEED(known && corner && ln ? known : NULL);
+    fw_verdict_fabricated_corner *corner;
+    fw_verdict_known *known;
+    double *ln;
+    FW_NEED(corner = fw_arena_array(s->arena, fw_verdict_fabricated_corner, n));
+    FW_NEED(known = fw_arena_array(s->arena, fw_verdict_known, n));
+    FW_NEED(ln = fw_arena_array(s->arena, double, n *m));
     memcpy(ln, s->ln, n * m * sizeof *ln);
-    for (size_t i = 0; i < n; i++) {
-        corner[i] = s->fabricated->corner[i];
+    memcpy(corner, s->fabricated->corner, n * sizeof *corner);
+    for (size_t i = 0; i < n; i++)
         known[i] =
             (fw_verdict_known){fw_verdict_fabrication_at(s->v->input, s->v->ninput, corner[i].x),
                                &corner[i], ln + i * m};
-    }
-    s->known = known;
-    s->nknown = (int)n;
+    s->known = known, s->nknown = (int)n;
     s->fabricated->ncorner = 0;
     return FW_OK;
 }
 
-/* A trial's suspects decide alone where one is not accepted, or nothing else is asked for. All are run where every check
-   is to have a value. */
+/* a trial's suspects decide alone where one is not accepted, or nothing else is asked for; all have values where asked */
 static fw_status try_suspects(fw_verdict_search *s, bool *decided) {
-    const bool alone = s->options.corners == FW_CORNERS_SUSPECT;
     const fw_verdict_variant_verdict *v = s->v;
+    const bool alone = s->options.corners == FW_CORNERS_SUSPECT;
     *decided = false;
     if (v->nsuspect == 0 || !(alone || s->options.corners == FW_CORNERS_FIRST)) return FW_OK;
     for (int i = 0; i < v->nsuspect && (!*decided || s->options.values); i++) {
         FW_TRY(fw_verdict_search_run(s, v->suspect + i * v->ninput, FW_NO_CORNER));
         *decided = *decided || s->fabricated->corner[i].decision != FW_ACCEPT;
     }
-    *decided = *decided || alone;
-    return *decided ? FW_OK : know_all(s);
+    return (*decided = *decided || alone) ? FW_OK : know_all(s);
 }
 
 fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,

@@ -195,6 +195,17 @@ class Proposals(unittest.TestCase):
         self.assertEqual(proposal["kind"], "several")
         self.assertGreaterEqual(len(proposal["set"]), 2)
 
+    def test_of_opposite_corners(self):
+        """a frequency fails of thin walls and a stroke of thick ones: a search that looks at one corner of the flow at a time goes
+        from the one to the other, and finds neither; 14 um and 200 uN is a device that holds both"""
+        device = self.changed(STAGE, ('min="400 Hz"', 'min="700 Hz"'))
+        self.assertEqual(self.judged(device, "width=14 um", "pull=200 uN"), 0)
+        document = self.follow(device, least=())
+        self.assertTrue(document["advice"], document["advice_note"])
+        proposal = document["advice"][0]
+        self.assertEqual((proposal["kind"], len(proposal["set"])), ("several", 2))
+        self.assertLess(proposal["change"], 0.12)
+
     def test_parameters_hold_what_hangs_on_them(self):
         """a width or a pull goes no farther than min and max of its parameter, by whichever name it is set; a length that hangs on
         none is free"""
