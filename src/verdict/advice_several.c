@@ -15,8 +15,8 @@
 
    b: what the corners, and the last whole verdict, add to a look, m: a small margin, d: the trust region,
    which shrinks where a step makes the worst check no better and grows where it does. What cannot
-   be held is exceeded as little as possible. Looks are coarse and at the corner that is worst so
-   far; where one may be accepted the whole verdict is asked for. Because the sum of sizes is
+   be held is exceeded as little as possible. Looks are coarse and at the corners that refused
+   last; where one may be accepted the whole verdict is asked for. Because the sum of sizes is
    minimised and not that of their squares, a solution changes no more values than there are checks
    at their limits: one where one is enough. In the end the straight way back from what is accepted
    to what is described is halved until less of it by 1.5 % is not accepted.
@@ -31,7 +31,7 @@
    Source: R. Fletcher, Practical Methods of Optimization (1987), ch. 14 (linear programmes in
    succession); C. G. Broyden, Math. Comp. 19 (1965) 577.
 
-   Test: tests/cli/test_advice.py, test_two_at_once, test_of_mixed_reasons. */
+   Test: tests/cli/test_advice.py, test_two_at_once, test_of_opposite_corners, test_of_mixed_reasons. */
 #include "verdict/advice.h"
 #include "maths/dense.h"
 #include <math.h>
