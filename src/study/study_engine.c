@@ -119,7 +119,7 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
     options->verdict.motion.late_rows = true;
     FW_TRY(fw_dynamics_tapes_new(e->arena, &e->tapes));
     options->verdict.motion.tapes = e->tapes;
-    FW_TRY(fw_workspace_proofs_new(e->arena, &options->verdict.proofs));
+    FW_TRY(fw_workspace_kept_new(e->arena, &options->verdict.kept));
     FW_TRY(wanted_of(e, &options->wanted));
     return fw_plan_keep(e->design, &e->kept);
 }

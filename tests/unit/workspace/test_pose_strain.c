@@ -284,7 +284,7 @@ static void bounds_hold_and_are_sharp(void **state) {
         fw_workspace_hold hold;
         fw_workspace_strain_proof proof;
         fw_workspace_proof_end end;
-        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
         assert_true(hold.ngrip > 0);
         assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 2e-3, 20000, &proof, &end),
                          FW_OK);
@@ -332,7 +332,7 @@ static void grips_of_the_scenes(void **state) {
         const fw_workspace_box3 box = {{-50e-6, -30e-6, -0.02}, {50e-6, 30e-6, 0.02}};
         fw_arena *arena = fw_arena_new(0);
         fw_workspace_hold hold;
-        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
         if (row[k].ngrip > 0) assert_int_equal(hold.ngrip, row[k].ngrip);
         assert_string_equal(hold.grip[0].name, row[k].first);
         fw_arena_free(arena);
@@ -354,7 +354,7 @@ static void force_nearly_along_an_axis(void **state) {
         const fw_workspace_box3 box = {{-50e-6, -30e-6, -0.02}, {50e-6, 30e-6, 0.02}};
         fw_arena *arena = fw_arena_new(0);
         fw_workspace_hold hold;
-        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
         assert_int_equal(hold.nactuator, 4); /* a torque, the force, and what the wrench has besides */
         assert_string_equal(hold.grip[0].name, "wrench on the platform");
         for (int g = 0; g < hold.ngrip; g++)
@@ -377,7 +377,7 @@ static void samples_agree_with_the_proof(void **state) {
     fw_workspace_hold hold;
     fw_workspace_strain_proof proof, few, samples;
     fw_workspace_proof_end end;
-    assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+    assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
     assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 1e-3, 20000, &proof, &end),
                      FW_OK);
     assert_int_equal(end, FW_PROVED);
