@@ -145,9 +145,10 @@ typedef struct search {
     cut_tree tree;
     const int *sample; /* (nsample) vertices at which cuts may end, in order */
     int nsample;
-    double wanted_dbu;        /* distance from all other vertices; 0: the larger, the better */
-    int least;                /* vertices that lie on either side at least */
-    int peel;                 /* 0; else one side has no more edges, the cut not counted */
+    double wanted_dbu; /* distance from all other vertices; 0: the larger, the better */
+    int least;         /* vertices that lie on either side at least */
+    int peel;          /* 0; else one side has no more edges, the cut not counted */
+    int tried; /* 0; else pairs with as many edges on either side were tried with the same distance in vain */
     int i, j;                 /* best so far; -1: none */
     double least2, clear_dbu; /* its length, its distance */
 } search;
@@ -205,6 +206,7 @@ static void search_cut(search *s) {
             far++;
         for (int m = far; m < s->nsample && s->sample[m] <= i + n - least; m++) {
             int j = s->sample[m];
+            if (s->tried && j - i >= s->tried && n - j + i >= s->tried) continue;
             if (s->peel && j - i > s->peel && n - j + i > s->peel) continue;
             double l2 = length2(at(s->p, i), at(s->p, j)), most = HUGE_VAL, more = s->clear_dbu;
             if (s->wanted_dbu > 0) {
@@ -297,6 +299,9 @@ static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double want
         int of = peel && 2 * most < p->count ? 2 * most : p->count;
         s->peel = peel ? most - 1 : 0;
         int least = of / (rounds[k].part * how.share);
+        const bool alike =
+            k > 0 && rounds[k].wanted == rounds[k - 1].wanted && rounds[k].all == rounds[k - 1].all;
+        s->tried = alike ? s->least : 0;
         s->least = least > 2 ? least : 2;
         s->wanted_dbu = rounds[k].wanted ? wanted_dbu : 0;
         s->least2 = HUGE_VAL;

@@ -18,7 +18,8 @@ log=$(mktemp)
 trap 'rm -rf "$FW_EDGES_TO" "$log"' EXIT
 tests/build/sanitized_beside.sh build-asan >"$log" 2>&1 &
 beside=$!
-ctest --test-dir build-asan -L 'quick|longer' --output-on-failure -j 2 -E "$sanitized_never"
+tests/build/sanitized_unit.sh build-asan "$sanitized_never"
+ctest --test-dir build-asan -L 'quick|longer' --output-on-failure -j 2 -E "^unit|$sanitized_never"
 wait "$beside" || {
     cat "$log"
     exit 1

@@ -12,7 +12,7 @@ import resource
 import tempfile
 import unittest
 
-from common import ROOT, run
+from common import ALL, ROOT, run
 
 PADDLE = """<device xmlns="urn:flexwright:device:1" name="paddle">
 <mechanism>
@@ -471,14 +471,15 @@ class Probe(unittest.TestCase):
 
     def test_rims_of_release_holes_are_part_of_the_verdict(self):
         """no holes: nothing to say; with holes less than what is allowed, also where a strip between two holes that bore
-        everything alone would have 121 % of it; narrow strips: undecided, and fewer holes are a way out that is accepted"""
+        everything alone would have 121 % of it; narrow strips: undecided, and fewer holes are a way out that is accepted (a minute
+        of a processor: with ./test --all)"""
         text = (ROOT / "docs/gallery/reference-six-bar/device.xml").read_text()
         text = re.sub(r'<scene name="gentle-step".*?</scene>|<workspace[^>]*/>|<flow ref="copper[^>]*/>', "", text, flags=re.S)
         text = text.replace("<die ", '<die tethers="no" ').replace('fx="0.25 mN"', 'fx="0.27 mN"')
         shares = []
         for holes in ("", 'release-pitch="40 um"', 'release-pitch="25 um" release-hole="12.5 um"', 'release-pitch="20 um" release-hole="10 um"'):
             result = run("check", self.file(text.replace("<die ", "<die %s " % holes)), "--corners", "none",
-                         "--advice", "auto" if "20" in holes else "none", "--json")
+                         "--advice", "auto" if "20" in holes and ALL else "none", "--json")
             verdict = json.loads(result.stdout)
             shares.append((verdict["hinge_model"][0]["hole_rims_least"], verdict["hinge_model"][0]["hole_rims"]))
             rims = [r for r in verdict["reasons"] if r["code"] == "FW-D575"]
@@ -489,7 +490,8 @@ class Probe(unittest.TestCase):
         self.assertTrue(0.1 < shares[1][1] < shares[2][1] < 1 < shares[3][1], shares)
         self.assertEqual((result.returncode, verdict["verdict"], rims[0]["verdict"]), (4, "inconclusive", "inconclusive"))
         self.assertRegex(rims[0]["text"], r"the rims of release holes of body \w+ are not known to bear what hinge \w brings")
-        posed = text.replace("<die ", "<die %s " % holes).replace(
+        wider = 'release-pitch="25 um" release-hole="12.5 um"'
+        posed = text.replace("<die ", "<die %s " % wider).replace(
             "<flow ", '<workspace x-min="-150 um" x-max="150 um" y-min="-60 um" y-max="60 um" phi-min="-2 deg" phi-max="2 deg"/>\n  <flow ', 1)
         for phi, decided in (("2 deg", ["workspace"]), ("0.2 deg", [])):
             small = posed.replace("150 um", "15 um").replace("60 um", "6 um") if not decided else posed
@@ -500,6 +502,8 @@ class Probe(unittest.TestCase):
             self.assertEqual(used > 1, bool(decided), used)
             for one in there["workspace"]["actuation"]:
                 self.assertGreaterEqual(one["joint_force_most_N"], one["joint_force_N"] * (1 - 1e-9), one)
+        if not ALL:
+            return
         changed = [a for a in verdict["advice"] if any(s["path"].startswith("die/@release-") for s in a["set"])]
         self.assertEqual({a["kind"] for a in changed}, {"holes"}, verdict["advice"])
         again = run("check", self.file(text.replace("<die ", "<die %s " % holes)), "--corners", "none", "--advice", "none",
