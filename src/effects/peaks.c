@@ -21,6 +21,8 @@
 enum { CELLS_LEAST = 256, CELLS_MOST = 16384, PIECES_MOST = 64, MODES_MOST = 120 };
 static const double step_rad = 0.25, followed_rad = 0.5, bend_most = 0.01;
 
+typedef double pair __attribute__((vector_size(16), aligned(8)));
+
 typedef struct walk {
     const fw_effects_modal *o;
     struct view *part; /* (modes) of what pins are deflected by */
@@ -28,10 +30,10 @@ typedef struct walk {
     fw_effects_peaks *out;
     size_t m, pins;
     double *left, *middle, *right, *sup; /* (modes) forces */
-    double *z, *next;                    /* (2 modes) */
+    double *z;                           /* (2 modes) */
     double *p, *slope;                   /* (modes) equilibrium that is followed, and its rate */
     double *leap, *power, *square;       /* (2 modes)^2 */
-    double *column;                      /* leap by columns: what one value gives to all */
+    pair *column, *rung;                 /* leap by columns, two rows at a time; leap z */
     double *rapid;              /* (modes) amplitude of a mode that is not followed, or 0 */
     double *start, *start_rate; /* (npin) followed part at the left of the cell */
     const fw_effects_peaks_source *source;
@@ -91,7 +93,7 @@ static void leap_of(walk *w, double h) {
     }
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
-            w->column[j * n + i] = w->leap[i * n + j];
+            w->column[(j * n + i) / 2][i % 2] = w->leap[i * n + j];
     w->h = h;
 }
 
@@ -118,29 +120,26 @@ static void enter(walk *w, double h) {
     w->begun = true;
 }
 
-typedef double pair __attribute__((vector_size(16), aligned(8), may_alias));
-
 /* leap z, each row summed in the order of its columns; eight rows at a time stay in registers */
 static void leave(walk *w, double h) {
     const size_t n = 2 * w->m;
-    size_t i = 0;
-    for (; i + 8 <= n; i += 8) {
+    size_t i = 0; /* in pairs */
+    for (; i + 4 <= w->m; i += 4) {
         pair a = {0}, b = {0}, c = {0}, d = {0};
-        for (size_t j = 0; j < n; j++) {
-            const pair *row = (const pair *)(const void *)(w->column + j * n + i);
+        const pair *row = w->column + i;
+        for (size_t j = 0; j < n; j++, row += w->m) {
             const double z = w->z[j];
             a += row[0] * z, b += row[1] * z, c += row[2] * z, d += row[3] * z;
         }
-        pair *out = (pair *)(void *)(w->next + i);
-        out[0] = a, out[1] = b, out[2] = c, out[3] = d;
+        w->rung[i] = a, w->rung[i + 1] = b, w->rung[i + 2] = c, w->rung[i + 3] = d;
     }
-    for (; i < n; i += 2) {
+    for (; i < w->m; i++) {
         pair a = {0};
         for (size_t j = 0; j < n; j++)
-            a += *(const pair *)(const void *)(w->column + j * n + i) * w->z[j];
-        *(pair *)(void *)(w->next + i) = a;
+            a += w->column[j * w->m + i] * w->z[j];
+        w->rung[i] = a;
     }
-    memcpy(w->z, w->next, n * sizeof *w->z);
+    memcpy(w->z, w->rung, n * sizeof *w->z);
     for (size_t j = 0; j < w->m; j++)
         w->p[j] += h * w->slope[j];
 }
@@ -280,12 +279,13 @@ static void walk_on(walk *w, const double *t_s, int count, double longest) {
 
 static fw_status room(fw_arena *arena, walk *w) {
     size_t m = w->m, n = 2 * m;
-    double **of[] = {&w->left, &w->middle, &w->right, &w->sup,   &w->p,      &w->slope,
-                     &w->z,    &w->next,   &w->leap,  &w->power, &w->square, &w->rapid,
-                     &w->load, &w->q,      &w->kept,  &w->column};
-    const size_t size[] = {m, m, m, m, m, m, n, n, n * n, n * n, n * n, m, m, m, n + 3 * m, n * n};
+    double **of[] = {&w->left, &w->middle, &w->right,  &w->sup,   &w->p,    &w->slope, &w->z,
+                     &w->leap, &w->power,  &w->square, &w->rapid, &w->load, &w->q,     &w->kept};
+    const size_t size[] = {m, m, m, m, m, m, n, n * n, n * n, n * n, m, m, m, n + 3 * m};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
         FW_NEED(*of[i] = fw_arena_array(arena, double, size[i]));
+    FW_NEED(w->column = fw_arena_array(arena, pair, n * m));
+    FW_NEED(w->rung = fw_arena_array(arena, pair, m));
     FW_NEED(w->part = fw_arena_array(arena, view, m));
     FW_NEED(w->start = fw_arena_array(arena, double, w->pins));
     FW_NEED(w->start_rate = fw_arena_array(arena, double, w->pins));
