@@ -255,6 +255,7 @@ fw_status fw_effects_hinge_sources_new(fw_arena *arena, const fw_effects_modal *
     const fw_mechanism *m = o->mechanism;
     *all = (fw_effects_hinge_sources){.modal = o, .slow = slow};
     FW_NEED(all->item = fw_arena_array(arena, fw_effects_hinge_source, (size_t)m->nhinge));
+    FW_NEED(all->at = fw_arena_array(arena, double, (size_t)o->modes));
     FW_NEED(all->force = fw_arena_array(arena, double, (size_t)o->modes));
     FW_NEED(all->rapid_rad = fw_arena_array(arena, double, (size_t)m->npin));
     for (int i = 0; i < m->nhinge; i++)
@@ -263,23 +264,26 @@ fw_status fw_effects_hinge_sources_new(fw_arena *arena, const fw_effects_modal *
     return FW_OK;
 }
 
-/* of a hinge at an instant: where its axes are */
+/* of a hinge at an instant: where its axes are, and its law at that rotation */
 typedef struct posture {
     double rotation, sense, c, s; /* c, s: of psi */
+    fw_flexure_hinge_rotated law;
 } posture;
 
-static posture posture_of(const fw_effects_hinge_source *h, double rotation, double turned) {
-    return (posture){rotation, h->sense, cos(turned), sin(turned)};
+static void posture_of(const fw_effects_hinge_source *h, double rotation, double turned,
+                       posture *at) {
+    at->rotation = rotation, at->sense = h->sense;
+    at->c = cos(turned), at->s = sin(turned);
+    fw_flexure_hinge_law_rotated(&h->hinge->law, &h->rest, h->sense * rotation, &at->law);
 }
 
 /* the parts under a force along e and n as drawn; infinite where the hinge cannot carry it */
 static void parts_at(const fw_effects_hinge_source *h, const posture *at, double fe, double fn,
                      double *part) {
-    const fw_flexure_hinge_law *law = &h->hinge->law;
     double o = at->sense, e = at->c * fe + at->s * fn, n = at->c * fn - at->s * fe; /* as turned */
     double u[2], moment, pull, th = o * at->rotation;
-    if (!fw_flexure_hinge_law_under(law, &h->rest, th, (const double[2]){o * e, o * n}, u, &moment,
-                                    &pull)) {
+    if (!fw_flexure_hinge_rotated_under(&at->law, (const double[2]){o * e, o * n}, u, &moment,
+                                        &pull)) {
         for (int k = 0; k < FW_HINGE_PARTS; k++)
             part[k] = (double)INFINITY;
         return;
@@ -287,13 +291,14 @@ static void parts_at(const fw_effects_hinge_source *h, const posture *at, double
     double w = o * u[0], y = o * u[1];
     part[0] = at->c * w - at->s * y - h->softness_m_per_N[0] * fe;
     part[1] = at->s * w + at->c * y - h->softness_m_per_N[1] * fn;
-    part[2] = -o * (moment - law->stiffness_Nm_per_rad * th);
+    part[2] = -o * (moment - h->hinge->law.stiffness_Nm_per_rad * th);
     part[3] = -0.5 * (e * y - n * w);
 }
 
 void fw_effects_hinge_source_parts(const fw_effects_hinge_source *h, double rotation, double turned,
                                    double fe, double fn, double *part) {
-    const posture p = posture_of(h, rotation, turned);
+    posture p;
+    posture_of(h, rotation, turned, &p);
     parts_at(h, &p, fe, fn, part);
 }
 
@@ -302,6 +307,7 @@ static void open_parts(fw_effects_hinge_source *h, const posture *at, double fe,
                        const double *now) {
     for (int d = 0; d < 2; d++) {
         double r = h->ring_N[d], plus[FW_HINGE_PARTS], minus[FW_HINGE_PARTS];
+        if (r == 0) continue; /* nothing rings */
         parts_at(h, at, fe + (d ? 0 : r), fn + (d ? r : 0), plus);
         parts_at(h, at, fe - (d ? 0 : r), fn - (d ? r : 0), minus);
         for (int k = 0; k < FW_HINGE_PARTS; k++) {
@@ -313,28 +319,10 @@ static void open_parts(fw_effects_hinge_source *h, const posture *at, double fe,
     h->lasting[3] = fmax(h->lasting[3], h->ring_N[0] * h->ring_N[1] * mixed);
 }
 
-void fw_effects_hinge_sources_at(void *data, const double *q, const double *load, bool there,
-                                 double *force) {
-    fw_effects_hinge_sources *all = data;
+/* the largest so far of the forces, and of what modes that follow at rest turn pins by */
+static void note_most(const fw_effects_hinge_sources *all, const double *force) {
     const fw_effects_modal *o = all->modal;
     size_t pins = (size_t)o->mechanism->npin;
-    for (int j = 0; j < o->modes; j++)
-        force[j] = 0;
-    for (int i = 0; i < all->count; i++) {
-        fw_effects_hinge_source *h = &all->item[i];
-        double fe = 0, fn = 0, angle = 0, turned = 0, part[FW_HINGE_PARTS];
-        for (int j = 0; j < o->modes; j++) {
-            double at = j < all->slow ? q[j] : load[j] / (o->omega[j] * o->omega[j]);
-            fe -= h->pull_e[j] * at, fn -= h->pull_n[j] * at;
-            angle += h->turn[j] * at, turned += 0.5 * h->both[j] * at;
-        }
-        posture p = posture_of(h, angle, turned);
-        parts_at(h, &p, fe, fn, part);
-        if (there) open_parts(h, &p, fe, fn, part);
-        for (int j = 0; j < o->modes; j++)
-            for (int k = 0; k < FW_HINGE_PARTS; k++)
-                force[j] += part[k] * fw_effects_hinge_source_mode(h, k, j);
-    }
     for (int j = 0; j < o->modes; j++)
         all->force[j] = isfinite(force[j]) ? fmax(all->force[j], fabs(force[j])) : (double)INFINITY;
     for (size_t i = 0; i < pins; i++) {
@@ -343,6 +331,33 @@ void fw_effects_hinge_sources_at(void *data, const double *q, const double *load
             sum += o->turn[(size_t)j * pins + i] * force[j] / (o->omega[j] * o->omega[j]);
         all->rapid_rad[i] = fmax(all->rapid_rad[i], fabs(sum));
     }
+}
+
+void fw_effects_hinge_sources_at(void *data, const double *q, const double *load, bool there,
+                                 double *force) {
+    fw_effects_hinge_sources *all = data;
+    const fw_effects_modal *o = all->modal;
+    posture p;
+    for (int j = 0; j < o->modes; j++) {
+        all->at[j] = j < all->slow ? q[j] : load[j] / (o->omega[j] * o->omega[j]);
+        force[j] = 0;
+    }
+    for (int i = 0; i < all->count; i++) {
+        fw_effects_hinge_source *h = &all->item[i];
+        double fe = 0, fn = 0, angle = 0, turned = 0, part[FW_HINGE_PARTS];
+        for (int j = 0; j < o->modes; j++) {
+            double at = all->at[j];
+            fe -= h->pull_e[j] * at, fn -= h->pull_n[j] * at;
+            angle += h->turn[j] * at, turned += 0.5 * h->both[j] * at;
+        }
+        posture_of(h, angle, turned, &p);
+        parts_at(h, &p, fe, fn, part);
+        if (there) open_parts(h, &p, fe, fn, part);
+        for (int j = 0; j < o->modes; j++)
+            force[j] = force[j] - part[0] * h->pull_e[j] - part[1] * h->pull_n[j] +
+                       part[2] * h->turn[j] + part[3] * h->both[j];
+    }
+    note_most(all, force);
 }
 
 /* The levels at which hinges can be taken, and the way from one to the next. Theory:

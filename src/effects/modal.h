@@ -229,6 +229,7 @@ typedef struct fw_effects_hinge_sources {
     const fw_effects_modal *modal;
     fw_effects_hinge_source *item;
     int count, slow; /* modes below `slow` are the motion; the others follow the loads at rest */
+    double *at;      /* (modes) where they are at an instant */
     /* largest over the motion so far: (modes) force; (npin) rad, answer at rest of the others */
     double *force, *rapid_rad;
 } fw_effects_hinge_sources;

@@ -21,15 +21,19 @@
 enum { CELLS_LEAST = 256, CELLS_MOST = 16384, PIECES_MOST = 64, MODES_MOST = 120 };
 static const double step_rad = 0.25, followed_rad = 0.5, bend_most = 0.01;
 
+typedef double pair __attribute__((vector_size(16), aligned(8)));
+
 typedef struct walk {
     const fw_effects_modal *o;
+    struct view *part; /* (modes) of what pins are deflected by */
     const fw_effects_modal_loads *modal_loads;
     fw_effects_peaks *out;
     size_t m, pins;
     double *left, *middle, *right, *sup; /* (modes) forces */
-    double *z, *next;                    /* (2 modes) */
+    double *z;                           /* (2 modes) */
     double *p, *slope;                   /* (modes) equilibrium that is followed, and its rate */
     double *leap, *power, *square;       /* (2 modes)^2 */
+    pair *column, *rung;                 /* leap by columns, two rows at a time; leap z */
     double *rapid;              /* (modes) amplitude of a mode that is not followed, or 0 */
     double *start, *start_rate; /* (npin) followed part at the left of the cell */
     const fw_effects_peaks_source *source;
@@ -87,6 +91,9 @@ static void leap_of(walk *w, double h) {
         multiply(n, w->leap, w->leap, w->square);
         memcpy(w->leap, w->square, n * n * sizeof *w->leap);
     }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            w->column[(j * n + i) / 2][i % 2] = w->leap[i * n + j];
     w->h = h;
 }
 
@@ -113,14 +120,26 @@ static void enter(walk *w, double h) {
     w->begun = true;
 }
 
+/* leap z, each row summed in the order of its columns; eight rows at a time stay in registers */
 static void leave(walk *w, double h) {
-    size_t n = 2 * w->m;
-    for (size_t i = 0; i < n; i++) {
-        w->next[i] = 0;
-        for (size_t j = 0; j < n; j++)
-            w->next[i] += w->leap[i * n + j] * w->z[j];
+    const size_t n = 2 * w->m;
+    size_t i = 0; /* in pairs */
+    for (; i + 4 <= w->m; i += 4) {
+        pair a = {0}, b = {0}, c = {0}, d = {0};
+        const pair *row = w->column + i;
+        for (size_t j = 0; j < n; j++, row += w->m) {
+            const double z = w->z[j];
+            a += row[0] * z, b += row[1] * z, c += row[2] * z, d += row[3] * z;
+        }
+        w->rung[i] = a, w->rung[i + 1] = b, w->rung[i + 2] = c, w->rung[i + 3] = d;
     }
-    memcpy(w->z, w->next, n * sizeof *w->z);
+    for (; i < w->m; i++) {
+        pair a = {0};
+        for (size_t j = 0; j < n; j++)
+            a += w->column[j * w->m + i] * w->z[j];
+        w->rung[i] = a;
+    }
+    memcpy(w->z, w->rung, n * sizeof *w->z);
     for (size_t j = 0; j < w->m; j++)
         w->p[j] += h * w->slope[j];
 }
@@ -166,16 +185,26 @@ typedef struct view {
     double still, all, followed, rate;
 } view;
 
+/* what modes have of each of these, the same for all pins */
+static void share_out(walk *w) {
+    const fw_effects_modal *o = w->o;
+    for (size_t j = 0; j < w->m; j++) {
+        double r = w->z[j] / o->omega[j];
+        bool followed = !(w->rapid[j] > 0);
+        w->part[j] = (view){w->p[j], w->p[j] + r, w->p[j] + (followed ? r : 0),
+                            w->slope[j] + (followed ? w->z[w->m + j] : 0)};
+    }
+}
+
 static view deflection_of(const walk *w, size_t pin) {
     const fw_effects_modal *o = w->o;
     double drawn = fw_effects_pin_deflection(o->mechanism, (int)pin);
     view v = {drawn, drawn, drawn, 0};
     for (size_t j = 0; j < w->m; j++) {
-        double turn = o->turn[j * w->pins + pin], r = w->z[j] / o->omega[j];
-        v.still += turn * w->p[j];
-        v.all += turn * (w->p[j] + r);
-        v.followed += turn * (w->p[j] + (w->rapid[j] > 0 ? 0 : r));
-        v.rate += turn * (w->slope[j] + (w->rapid[j] > 0 ? 0 : w->z[w->m + j]));
+        double turn = o->turn[j * w->pins + pin];
+        const view *part = &w->part[j];
+        v.still += turn * part->still, v.all += turn * part->all;
+        v.followed += turn * part->followed, v.rate += turn * part->rate;
     }
     return v;
 }
@@ -205,6 +234,7 @@ static void cell(walk *w, double t, double h, double piece) {
     if (w->source) add_source(w, h);
     enter(w, h);
     note_rings(w);
+    share_out(w);
     for (size_t i = 0; i < w->pins; i++) {
         view v = deflection_of(w, i);
         w->start[i] = v.followed, w->start_rate[i] = v.rate;
@@ -213,6 +243,7 @@ static void cell(walk *w, double t, double h, double piece) {
     }
     leave(w, h);
     note_rings(w);
+    share_out(w);
     for (size_t i = 0; i < w->pins; i++) {
         view v = deflection_of(w, i);
         double most = cubic_most(w->start[i], v.followed, h * w->start_rate[i], h * v.rate);
@@ -248,12 +279,14 @@ static void walk_on(walk *w, const double *t_s, int count, double longest) {
 
 static fw_status room(fw_arena *arena, walk *w) {
     size_t m = w->m, n = 2 * m;
-    double **of[] = {&w->left,   &w->middle, &w->right, &w->sup,  &w->p,
-                     &w->slope,  &w->z,      &w->next,  &w->leap, &w->power,
-                     &w->square, &w->rapid,  &w->load,  &w->q,    &w->kept};
-    const size_t size[] = {m, m, m, m, m, m, n, n, n * n, n * n, n * n, m, m, m, n + 3 * m};
+    double **of[] = {&w->left, &w->middle, &w->right,  &w->sup,   &w->p,    &w->slope, &w->z,
+                     &w->leap, &w->power,  &w->square, &w->rapid, &w->load, &w->q,     &w->kept};
+    const size_t size[] = {m, m, m, m, m, m, n, n * n, n * n, n * n, m, m, m, n + 3 * m};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
         FW_NEED(*of[i] = fw_arena_array(arena, double, size[i]));
+    FW_NEED(w->column = fw_arena_array(arena, pair, n * m));
+    FW_NEED(w->rung = fw_arena_array(arena, pair, m));
+    FW_NEED(w->part = fw_arena_array(arena, view, m));
     FW_NEED(w->start = fw_arena_array(arena, double, w->pins));
     FW_NEED(w->start_rate = fw_arena_array(arena, double, w->pins));
     return FW_OK;

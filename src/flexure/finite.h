@@ -83,6 +83,20 @@ void fw_flexure_hinge_law_bend(const fw_flexure_hinge_law *law, const fw_flexure
 bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                 double rotation_rad, const double force_N[2], double displaced_m[2],
                                 double *moment_Nm, double *pull);
+/* the same of many forces at one rotation: what does not depend on them is worked out once; the law is
+   to live as long */
+typedef struct fw_flexure_hinge_rotated {
+    const fw_flexure_hinge_law *law;
+    fw_flexure_hinge_soft soft;
+    fw_flexure_hinge_wound wound;
+    double rotation_rad, roots; /* roots: dL/6L of one, times the share of the strip */
+    double least_N, most_N;     /* forces across below and above which it buckles */
+} fw_flexure_hinge_rotated;
+void fw_flexure_hinge_law_rotated(const fw_flexure_hinge_law *law,
+                                  const fw_flexure_hinge_rest *rest, double rotation_rad,
+                                  fw_flexure_hinge_rotated *at);
+bool fw_flexure_hinge_rotated_under(const fw_flexure_hinge_rotated *at, const double force_N[2],
+                                    double displaced_m[2], double *moment_Nm, double *pull);
 /* (w, v) and the rest where w is known and the force along is not needed; false: pressed beyond the
    buckling load of clamped ends */
 bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,

@@ -133,7 +133,7 @@ INLINE double shorten(const terms *t, double F, shortening *s) {
 }
 
 /* and the rest, by w, h4 and g4 */
-static void shorten_more(const terms *t, double F, shortening *s) {
+INLINE void shorten_all(const terms *t, double F, shortening *s) {
     double l = shorten(t, F, s), over = 1 / l, z = t->w * over, z2 = z * z, z3 = z2 * z;
     double z4 = z2 * z2, h4 = t->x.h4.value, g4 = t->x.g4.value, L2 = t->length_m * t->length_m;
     s->h_w = z + 2 * h4 * z3, s->h_ww = (1 + 6 * h4 * z2) * over;
@@ -142,6 +142,10 @@ static void shorten_more(const terms *t, double F, shortening *s) {
     s->g_w = L2 * (2 * z + 4 * g4 * z3) * over, s->g_ww = L2 * (2 + 12 * g4 * z2) * over * over;
     s->g_wl = -L2 * (4 * z + 16 * g4 * z3) * over * over;
     s->g_4 = L2 * z4, s->g_4w = 4 * L2 * z3 * over, s->g_4l = -4 * L2 * z4 * over;
+}
+
+static void shorten_more(const terms *t, double F, shortening *s) {
+    shorten_all(t, F, s);
 }
 
 /* A, N and k from a, n and their q */
@@ -356,31 +360,52 @@ static void known(const fw_flexure_hinge_law *law, terms *t, state *s, double th
 
 /* The same from the other side: (w, v) and dU/dth under a force (along, across) that is given. The
    pull F is then known, so that only w is sought, by Newton's method; h and g make it stiffer as it
-   grows. in: rad, N; out: m, N m; false: no such equilibrium below the buckling load. Test:
-   test_finite_force.c under_a_force */
-bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
-                                double th, const double force_N[2], double displaced_m[2],
-                                double *moment_Nm, double *pull) {
+   grows. in: rad, N; out: m, N m; false: no such equilibrium below the buckling load. What does not
+   depend on the force is worked out once for many (`turned`). Test: test_finite_force.c
+   under_a_force, under_many_forces */
+void fw_flexure_hinge_law_rotated(const fw_flexure_hinge_law *law,
+                                  const fw_flexure_hinge_rest *rest, double th,
+                                  fw_flexure_hinge_rotated *out) {
     terms t;
-    state s;
-    double low, high, F = force_N[1], w = 0;
     prepare(law, rest, (const double[3]){th, 0, 0}, false, &t);
-    between_poles(&t, &low, &high);
-    if (!(F > low && F < high)) return false;
+    *out = (fw_flexure_hinge_rotated){
+        .law = law, .soft = t.c, .wound = t.x, .rotation_rad = th, .roots = t.e};
+    between_poles(&t, &out->least_N, &out->most_N);
+}
+
+bool fw_flexure_hinge_rotated_under(const fw_flexure_hinge_rotated *at, const double force_N[2],
+                                    double displaced_m[2], double *moment_Nm, double *pull) {
+    const double F = force_N[1];
+    if (!(F > at->least_N && F < at->most_N)) return false;
+    terms t = {.c = at->soft,
+               .x = at->wound,
+               .e = at->roots,
+               .length_m = at->law->length_m,
+               .free = 0 - at->soft.drift_m.value};
+    state s;
+    double w = 0;
     look(&t, F, &s);
     for (int i = 0; i < 40; i++) {
         t.w = w;
-        shorten_more(&t, F, &s.s);
+        shorten_all(&t, F, &s.s);
         double stiff = F * s.s.h_ww + 0.5 * s.k.v * s.s.g_ww;
         double step = (force_N[0] - F * s.s.h_w - 0.5 * s.k.v * s.s.g_w) / stiff;
-        if (!(stiff > 0) || !(fabs(w + step) < law->length_m)) return false;
+        if (!(stiff > 0) || !(fabs(w + step) < at->law->length_m)) return false;
         w += step;
         if (fabs(step) > 1e-12 * fabs(w)) continue;
         t.w = w;
-        known(law, &t, &s, th, F, displaced_m, moment_Nm, pull);
+        known(at->law, &t, &s, at->rotation_rad, F, displaced_m, moment_Nm, pull);
         return true;
     }
     return false;
+}
+
+bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                                double th, const double force_N[2], double displaced_m[2],
+                                double *moment_Nm, double *pull) {
+    fw_flexure_hinge_rotated at;
+    fw_flexure_hinge_law_rotated(law, rest, th, &at);
+    return fw_flexure_hinge_rotated_under(&at, force_N, displaced_m, moment_Nm, pull);
 }
 
 /* Where other flexures hold the bodies: the pull and w are given, not what it takes to keep them. in:

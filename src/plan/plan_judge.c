@@ -412,7 +412,7 @@ static fw_status one_flow(fw_plan *plan, const fw_plan_flow *pf, fw_report_works
     f->map = map, f->required = required, f->singular = singular;
     FW_TRY(fw_mechanism_build(plan->arena, d, plan->layout, &pf->variant, &plan->diags,
                               &f->mechanism));
-    FW_TRY(fw_workspace_required(plan->arena, f->mechanism, &plan->diags, required));
+    FW_TRY(fw_workspace_required(plan->arena, f->mechanism, NULL, &plan->diags, required));
     FW_TRY(fw_workspace_map_make(plan->arena, f->mechanism, fw_workspace_usual, map));
     for (int k = 0; k < d->nworkspace; k++) {
         const fw_workspace_proof *p = &required->proof[k];

@@ -462,7 +462,11 @@ fw_status fw_study_open_points(const fw_study_options *options, const fw_device_
     settle_options(study);
     FW_TRY(take_inputs(study));
     FW_TRY(take_responses(study));
-    return study->diags.errors > 0 ? FW_INPUT : FW_OK;
+    if (study->diags.errors > 0) return FW_INPUT;
+    /* nothing is asked of the description but its samples: the first thread works in it */
+    FW_TRY(fw_study_files_hash(study->arena, study->plan, &study->files));
+    fw_study_engines_lend(study);
+    return FW_OK;
 }
 
 void fw_study_free(fw_study *study) {

@@ -104,6 +104,8 @@ typedef struct fw_study {
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
     struct fw_study_engines *engines; /* what samples have in common */
+    const char *
+        files; /* hash of those that `design` was read from, where a thread works in it; else NULL */
     /* of a size at a wanted yield: the yield of a device, first of the description as it stands, then of what was found */
     struct fw_study *dies;
     /* how the yield of a chosen device is opened and given back (study.c, which a kind does not call) */

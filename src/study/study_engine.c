@@ -20,6 +20,7 @@ typedef struct engine { /* of one thread at a time */
     fw_arena *arena;    /* holds this */
     const fw_study *study;
     fw_design *design;
+    bool lent; /* the study frees it */
     fw_plan_kept kept;
     fw_dynamics_tapes *tapes; /* motions that devices have in common */
     fw_device_set *set;       /* those of the study's options, then those of the sample */
@@ -31,6 +32,8 @@ typedef struct engine { /* of one thread at a time */
 struct fw_study_engines {
     pthread_mutex_t lock; /* of what follows */
     engine *idle;
+    fw_design *
+        lent; /* the study's own, which nobody reads any more; NULL: there is none, or it is taken */
 };
 
 static double now_s(void) {
@@ -44,10 +47,14 @@ fw_status fw_study_engines_open(fw_study *study) {
     return pthread_mutex_init(&study->engines->lock, NULL) == 0 ? FW_OK : FW_NOMEM;
 }
 
+void fw_study_engines_lend(fw_study *study) {
+    study->engines->lent = study->design;
+}
+
 static void engine_free(engine *e) {
     if (!e) return;
     fw_plan_kept_free(&e->kept);
-    fw_design_free(e->design);
+    if (!e->lent) fw_design_free(e->design);
     fw_dynamics_tapes_free(e->tapes);
     fw_arena_free(e->arena);
 }
@@ -109,16 +116,24 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
     e->looked_s = now_s();
     FW_NEED(e->set = fw_arena_array(e->arena, fw_device_set,
                                     (size_t)(study->options.nset + study->ninput)));
-    FW_NEED(e->design = fw_study_design(study, cancel, NULL, &status));
-    if (status != FW_STATUS_OK) return (fw_status)status;
-    if (!fw_study_same_files(study, e->design)) {
-        *changed = true;
-        return FW_INPUT;
+    pthread_mutex_lock(&study->engines->lock);
+    e->design = study->engines->lent;
+    study->engines->lent = NULL;
+    pthread_mutex_unlock(&study->engines->lock);
+    e->lent = e->design != NULL;
+    if (!e->lent) {
+        FW_NEED(e->design = fw_study_design(study, cancel, NULL, &status));
+        if (status != FW_STATUS_OK) return (fw_status)status;
+        if (!fw_study_same_files(study, e->design)) {
+            *changed = true;
+            return FW_INPUT;
+        }
     }
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     options->verdict.motion.late_rows = true;
     FW_TRY(fw_dynamics_tapes_new(e->arena, &e->tapes));
     options->verdict.motion.tapes = e->tapes;
+    FW_TRY(fw_workspace_kept_new(e->arena, &options->verdict.kept));
     FW_TRY(wanted_of(e, &options->wanted));
     return fw_plan_keep(e->design, &e->kept);
 }

@@ -362,8 +362,13 @@ static double used_of(const fw_verdict *verdict, int decision) {
 bool fw_study_same_files(const fw_study *study, fw_design *design) {
     fw_plan *plan = fw_plan_design_plan(design);
     const char *was, *is;
-    return fw_study_files_hash(plan->arena, study->plan, &was) == FW_OK &&
-           fw_study_files_hash(plan->arena, plan, &is) == FW_OK && strcmp(was, is) == 0;
+    fw_status status = FW_OK;
+    if (study->files)
+        was = study->files;
+    else
+        status = fw_study_files_hash(plan->arena, study->plan, &was);
+    return status == FW_OK && fw_study_files_hash(plan->arena, plan, &is) == FW_OK &&
+           strcmp(was, is) == 0;
 }
 
 static void blank(const fw_study *study, fw_study_sample *sample) {

@@ -91,6 +91,9 @@ bool fw_study_same_files(const fw_study *study, fw_design *design);
 typedef struct fw_study_engines fw_study_engines;
 fw_status fw_study_engines_open(fw_study *study);
 void fw_study_engines_close(fw_study *study);
+/* the design that the study was opened with, as it was read: the first thread works in it, so that it is not read twice;
+   `files` is set and nothing else reads it from now on */
+void fw_study_engines_lend(fw_study *study);
 /* as fw_study_evaluate_alone, to the last bit, sharing what samples have in common */
 fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
                             bool *changed);

@@ -500,7 +500,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     if (!options->hinges_only)
         FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
-    FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
+    FW_TRY(fw_workspace_required(arena, m, options->kept, diags, &v->workspace));
     FW_TRY(fw_verdict_bending_judge_required(arena, v));
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));

@@ -407,6 +407,7 @@ typedef struct fw_verdict_options {
     bool
         hinges_only; /* nothing is judged but hinges, requirements and whether motions are to be relied on */
     bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
+    fw_workspace_kept *kept;      /* what devices of a study have in common; NULL: nothing */
     fw_verdict_restated restated; /* with NULL: no advice */
     fw_verdict_fabricated_of fabricated_of;
 } fw_verdict_options;

@@ -471,9 +471,10 @@ static fw_status choose(fw_arena *arena, gathering *g, choosing *c, const fw_wor
 
 fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *m,
                                const fw_workspace_loop *loop, const fw_workspace_box3 *box,
-                               fw_workspace_hold *hold) {
-    *hold = (fw_workspace_hold){.loop = loop};
+                               fw_workspace_poses *poses, fw_workspace_hold *hold) {
+    *hold = (fw_workspace_hold){.loop = loop, .poses = poses};
     FW_TRY(sections(arena, m, hold->section));
+    if (poses) fw_workspace_poses_are_of(poses, hold);
     fw_geometry_vec2 p[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
         p[i] = fw_mechanism_pin_place(m, &m->pin[i], 0);

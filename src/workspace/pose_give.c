@@ -25,7 +25,8 @@ enum {
     CORNERS = 8,
     ROUNDS = 30,
     STEPS = 8,
-    MOST_GRIPS = 64
+    MOST_GRIPS = 64,
+    STANCES = 128
 };
 
 /* relative: of the strain by the hinges' law; beyond the other first order says nothing */
@@ -361,35 +362,35 @@ static bool settle(const limber *l, const fw_workspace_grip *grip, standing *s) 
     return false;
 }
 
-/* as it stands with pins */
-static bool stiff(const limber *l, const double pose[3], standing *s) {
-    const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
+/* as it stands with pins, of which the load at that pose tells */
+static void stiff(const limber *l, const double pose[3], const fw_workspace_pose_load *o,
+                  standing *s) {
     const fw_workspace_hold *h = l->hold;
-    fw_workspace_pose_load o;
-    if (!fw_workspace_pose_load_over(h, &at, NULL, &o)) return false;
     for (int k = 0; k < LINKS; k++) {
         int side = k > PLATFORM;
         fw_geometry_vec2 base = h->loop->leg[side].base;
-        s->body[k][0] = k == PLATFORM ? pose[0] : base.x + o.a[side].x.v.m - h->at[k].x;
-        s->body[k][1] = k == PLATFORM ? pose[1] : base.y + o.a[side].y.v.m - h->at[k].y;
-        s->body[k][2] = atan2(o.turn[k].y.v.m, o.turn[k].x.v.m);
+        s->body[k][0] = k == PLATFORM ? pose[0] : base.x + o->a[side].x.v.m - h->at[k].x;
+        s->body[k][1] = k == PLATFORM ? pose[1] : base.y + o->a[side].y.v.m - h->at[k].y;
+        s->body[k][2] = atan2(o->turn[k].y.v.m, o->turn[k].x.v.m);
     }
-    return true;
 }
 
 /* from where it stands with pins, or along the way from the drawn pose, each step with what pins do
    in it */
 static bool stand(const limber *l, const fw_workspace_grip *grip, const double pose[3],
-                  standing *s) {
+                  const fw_workspace_pose_load *load, standing *s) {
     *s = (standing){0};
-    if (!stiff(l, pose, s)) return false;
+    stiff(l, pose, load, s);
     if (settle(l, grip, s)) return true;
     standing before = {0}, now;
     *s = (standing){0};
     for (int i = 0; i <= STEPS; i++) {
         const double part = (double)i / STEPS;
         const double way[3] = {part * pose[0], part * pose[1], part * pose[2]};
-        if (!stiff(l, way, &now)) return false;
+        const fw_workspace_box3 at = {{way[0], way[1], way[2]}, {way[0], way[1], way[2]}};
+        fw_workspace_pose_load o;
+        if (!fw_workspace_pose_load_over(l->hold, &at, NULL, &o)) return false;
+        stiff(l, way, &o, &now);
         for (int k = 0; k < LINKS; k++)
             for (int j = 0; j < 3; j++)
                 s->body[k][j] += now.body[k][j] - before.body[k][j];
@@ -440,13 +441,38 @@ static bool limber_of(const fw_workspace_hold *hold, const fw_mechanism *m, limb
 
 /* ---- over the poses that are looked at ---- */
 
+typedef struct stance { /* at a pose by a grip */
+    double pose[3];
+    int grip;
+    bool stands;
+    standing at;
+} stance;
+
 typedef struct looked {
     fw_workspace_response *response;
     double pins[FW_SIX], gives[FW_SIX]; /* largest strains */
     double apart;                       /* largest |gives/pins - 1| of large strains at one pose */
     fw_workspace_strain_extreme done[FW_SIX]; /* poses and grips that were looked at first */
     int ndone;
+    stance *stance; /* (STANCES) those that were found, the first ones */
+    int nstance;
 } looked;
+
+/* where it stands at a pose by a grip: most extremes lie in corners, which are then looked at, too */
+static bool stood(const limber *l, int g, const double pose[3], const fw_workspace_pose_load *load,
+                  looked *to, standing *s) {
+    for (int k = 0; k < to->nstance; k++) {
+        const stance *was = &to->stance[k];
+        if (was->grip != g || memcmp(was->pose, pose, sizeof was->pose)) continue;
+        *s = was->at;
+        return was->stands;
+    }
+    bool stands = stand(l, &l->hold->grip[g], pose, load, s);
+    if (to->nstance < STANCES)
+        to->stance[to->nstance++] =
+            (stance){.pose = {pose[0], pose[1], pose[2]}, .grip = g, .stands = stands, .at = *s};
+    return stands;
+}
 
 /* A pose by one grip, unless its strains with pins are far below the largest. `always`: of the first ones,
    which say how far strains with hinges that give may be from those with pins. */
@@ -465,7 +491,7 @@ static void look(const limber *l, const double pose[3], const fw_workspace_pose_
         any = any || matters[i];
     }
     if (!any) return;
-    bool stands = stand(l, grip, pose, &s);
+    bool stands = stood(l, g, pose, load, to, &s);
     if (stands && !holds(l, grip, &s)) return;
     for (int i = 0; i < FW_SIX; i++) {
         if (!matters[i]) continue;
@@ -501,6 +527,7 @@ fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, con
     if (!limber_of(hold, m, &l)) return FW_OK;
     FW_NEED(to.response =
                 fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    FW_NEED(to.stance = fw_arena_array(arena, stance, STANCES));
     for (int i = 0; i < FW_SIX; i++) {
         const fw_workspace_strain_extreme *most = &proof->most[i];
         if (hold->section[i].n == 0) continue;

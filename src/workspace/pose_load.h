@@ -197,8 +197,15 @@ typedef struct fw_workspace_grip { /* three actuators that hold the pose */
 } fw_workspace_grip;
 
 /* what is held by what: of one flow */
+/* where everything is at poses that were looked at before; of one loop and one way in which hinges lie */
+typedef struct fw_workspace_poses fw_workspace_poses;
+fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses);
+/* forgets them if they are of another mechanism than this hold, whose sections are set */
+void fw_workspace_poses_are_of(fw_workspace_poses *poses, const fw_workspace_hold *hold);
+
 struct fw_workspace_hold {
     const fw_workspace_loop *loop;
+    fw_workspace_poses *poses; /* where poses are looked up and kept; NULL: nowhere */
     fw_workspace_section section[FW_SIX];
     fw_geometry_vec2 at[5]; /* point of every body that moments are about, as drawn */
     double length_m;        /* of the platform, C to D: scale of torques */
@@ -214,7 +221,7 @@ struct fw_workspace_hold {
 /* which grips there are over a box: triples that hold all of it */
 fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_workspace_loop *loop, const fw_workspace_box3 *box,
-                               fw_workspace_hold *hold);
+                               fw_workspace_poses *poses, fw_workspace_hold *hold);
 
 /* ---- pose_load.c: statics over a box ---- */
 
@@ -232,7 +239,7 @@ typedef struct fw_workspace_pose_load {
     fw_workspace_jet gain[2];        /* 1/(a x b) */
     fw_workspace_jet theta[FW_SIX];  /* joint angles */
     fw_workspace_jet2 frame[FW_SIX]; /* (cos, sin) of every hinge's axis, half turned */
-    fw_workspace_response own;       /* to the hinges' moments */
+    fw_workspace_response own; /* to the hinges' moments; last: the rest is of the pose alone */
 } fw_workspace_pose_load;
 
 /* false: not every pose of the box is known to be reached. shift: what C and D are displaced by

@@ -261,14 +261,72 @@ static fw_workspace_peak peak_of(const fw_workspace_proof *proof, int hinge) {
     return (fw_workspace_peak){far, fw_up(fabs(far - near)), at->pose[0], at->pose[1], at->pose[2]};
 }
 
+/* ---- what devices have in common ---- */
+
+enum { PROVED = 8, TREE_MOST = 4096 };
+
+typedef struct proved {
+    fw_workspace_loop loop; /* doubles alone: compared as bytes */
+    fw_workspace_box3 box;
+    fw_workspace_proof proof; /* its tree is the one below */
+    char tree[TREE_MOST];
+} proved;
+
+struct fw_workspace_kept {
+    proved item[PROVED];
+    int next; /* to be replaced */
+    fw_workspace_poses *poses;
+};
+
+fw_status fw_workspace_kept_new(fw_arena *arena, fw_workspace_kept **kept) {
+    FW_NEED(*kept = fw_arena_one(arena, fw_workspace_kept));
+    return fw_workspace_poses_new(arena, &(*kept)->poses);
+}
+
+static const proved *find(const fw_workspace_kept *all, const fw_workspace_loop *loop,
+                          const fw_workspace_box3 *box) {
+    for (int i = 0; all && i < PROVED; i++) {
+        const proved *k = &all->item[i];
+        if (k->proof.proved && memcmp(&k->box, box, sizeof *box) == 0 &&
+            memcmp(&k->loop, loop, sizeof *loop) == 0)
+            return k;
+    }
+    return NULL;
+}
+
+static void keep(fw_workspace_kept *all, const fw_workspace_loop *loop,
+                 const fw_workspace_box3 *box, const fw_workspace_proof *proof) {
+    const size_t n = strlen(proof->tree) + 1;
+    if (!all || n > TREE_MOST) return;
+    proved *k = &all->item[all->next];
+    all->next = (all->next + 1) % PROVED;
+    k->loop = *loop, k->box = *box, k->proof = *proof;
+    memcpy(k->tree, proof->tree, n);
+}
+
+static fw_status certify(fw_arena *arena, const fw_workspace_loop *loop, fw_workspace_kept *kept,
+                         const fw_workspace_box3 *box, fw_workspace_proof *proof, double pose[3],
+                         fw_workspace_proof_end *end) {
+    const proved *known = find(kept, loop, box);
+    if (!known) {
+        FW_TRY(fw_workspace_certify_box(arena, loop, box, sharpness, MOST_BOXES, proof, pose, end));
+        if (*end == FW_PROVED) keep(kept, loop, box, proof);
+        return FW_OK;
+    }
+    *end = FW_PROVED;
+    *proof = known->proof;
+    FW_NEED(proof->tree = fw_arena_strdup(arena, known->tree));
+    return FW_OK;
+}
+
 /* strains over one box, and the worst pose so far of every hinge */
 static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_workspace_loop *loop,
-                            const fw_workspace_box3 *box, fw_workspace_strain_proof *proof,
-                            fw_workspace_result *result) {
+                            fw_workspace_kept *kept, const fw_workspace_box3 *box,
+                            fw_workspace_strain_proof *proof, fw_workspace_result *result) {
     fw_workspace_hold *hold = fw_arena_one(arena, fw_workspace_hold);
     fw_workspace_proof_end end;
     FW_NEED(hold);
-    FW_TRY(fw_workspace_hold_of(arena, m, loop, box, hold));
+    FW_TRY(fw_workspace_hold_of(arena, m, loop, box, kept ? kept->poses : NULL, hold));
     if (hold->badly_by && (!result->badly_by || hold->badly < result->badly))
         result->badly_by = hold->badly_by, result->badly = hold->badly;
     FW_TRY(
@@ -292,16 +350,16 @@ static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_wor
 
 /* one required box: proved where that can be, else sampled; false: not reachable */
 static fw_status one_box(fw_arena *arena, const fw_workspace_six_bar *k,
-                         const fw_workspace_loop *loop, const fw_device_workspace_box *asked,
-                         fw_workspace_proof *proof, fw_workspace_result *result, bool *whole) {
+                         const fw_workspace_loop *loop, fw_workspace_kept *kept,
+                         const fw_device_workspace_box *asked, fw_workspace_proof *proof,
+                         fw_workspace_result *result, bool *whole) {
     const fw_workspace_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
                                    {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
     result->volume_m2_rad +=
         (box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1]) * (box.hi[2] - box.lo[2]);
     fw_workspace_proof_end end = FW_UNDECIDED;
     double at[3];
-    if (loop)
-        FW_TRY(fw_workspace_certify_box(arena, loop, &box, sharpness, MOST_BOXES, proof, at, &end));
+    if (loop) FW_TRY(certify(arena, loop, kept, &box, proof, at, &end));
     *whole = end == FW_PROVED;
     if (end == FW_REFUTED) unreachable(result, at);
     if (end == FW_UNDECIDED) {
@@ -315,8 +373,8 @@ static fw_status one_box(fw_arena *arena, const fw_workspace_six_bar *k,
     return FW_OK;
 }
 
-fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags *diags,
-                                fw_workspace_result *result) {
+fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_workspace_kept *kept,
+                                fw_diags *diags, fw_workspace_result *result) {
     size_t n = (size_t)m->device->nworkspace;
     bool *in_flow = fw_arena_array(arena, bool, n), *whole = fw_arena_array(arena, bool, n);
     fw_workspace_proof *proof = fw_arena_array(arena, fw_workspace_proof, n);
@@ -356,11 +414,12 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
                                  held);
         result->required = true;
         in_flow[i] = true;
-        FW_TRY(one_box(arena, &k, provable ? loop : NULL, asked, &proof[i], result, &whole[i]));
+        FW_TRY(
+            one_box(arena, &k, provable ? loop : NULL, kept, asked, &proof[i], result, &whole[i]));
         if (whole[i] && provable && m->nhinge > 0) {
             const fw_workspace_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
                                            {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
-            FW_TRY(one_strain(arena, m, loop, &box, &strain[i], result));
+            FW_TRY(one_strain(arena, m, loop, kept, &box, &strain[i], result));
         }
         if (!whole[i] && result->reachable) {
             result->reachable = false;

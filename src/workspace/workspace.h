@@ -99,7 +99,14 @@ typedef struct fw_workspace_result {
     fw_workspace_peak peak[FW_SIX];
 } fw_workspace_result;
 
-fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *mechanism, fw_diags *diags,
+/* What is kept from one device to the next: proofs of rotations over boxes and where everything is at poses depend on
+   where the pins are drawn and how hinges lie, so that devices that differ in the rest have them in common. Compared
+   byte by byte. Of one thread at a time; lives as long as its arena; 5 MB. */
+typedef struct fw_workspace_kept fw_workspace_kept;
+fw_status fw_workspace_kept_new(fw_arena *arena, fw_workspace_kept **kept);
+/* kept: where this is looked up and added; NULL: nowhere. The result is the same to the last bit. */
+fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *mechanism,
+                                fw_workspace_kept *kept, fw_diags *diags,
                                 fw_workspace_result *result);
 
 #endif

@@ -292,12 +292,40 @@ static void held_by_others(void **state) {
     assert_true(beyond > 5);
 }
 
+/* what was worked out once at a rotation serves every force there: where it leads to, the law bears that force */
+static void under_many_forces(void **state) {
+    (void)state;
+    int held = 0;
+    for (int i = 0; i < 40; i++) {
+        strip s = strip_of(8.0 * i, 0.02, 0.3);
+        const double th = 0.4 * sin(i), at[3] = {th, 5e-6 * cos(3 * i), 1e-7 * sin(2 * i)};
+        fw_flexure_hinge_bent b;
+        fw_flexure_hinge_law_bend(&s.law, &s.rest, at, false, &b);
+        fw_flexure_hinge_rotated rotated;
+        fw_flexure_hinge_law_rotated(&s.law, &s.rest, th, &rotated);
+        for (int k = 0; k < 5; k++) {
+            const double force[2] = {b.gradient[1] * (1 - 0.4 * k), b.gradient[2] * (0.3 * k - 1)};
+            double u[2], moment, pull;
+            if (!fw_flexure_hinge_rotated_under(&rotated, force, u, &moment, &pull)) continue;
+            fw_flexure_hinge_bent is;
+            fw_flexure_hinge_law_bend(&s.law, &s.rest, (const double[3]){th, u[0], u[1]}, false, &is);
+            const double most = fabs(force[0]) + fabs(force[1]);
+            assert_near(is.gradient[1], force[0], 1e-7 * most);
+            assert_near(is.gradient[2], force[1], 1e-7 * most);
+            assert_near(is.gradient[0], moment, 1e-7 * (fabs(moment) + most * s.in.length_m));
+            held++;
+        }
+        fw_arena_free(s.arena);
+    }
+    assert_true(held > 120);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivatives),      cmocka_unit_test(wrench_and_tangent),
         cmocka_unit_test(small_forces),     cmocka_unit_test(against_the_exact_beam),
         cmocka_unit_test(at_random_states), cmocka_unit_test(guided_and_held),
-        cmocka_unit_test(held_by_others),
+        cmocka_unit_test(held_by_others),   cmocka_unit_test(under_many_forces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -284,7 +284,7 @@ static void bounds_hold_and_are_sharp(void **state) {
         fw_workspace_hold hold;
         fw_workspace_strain_proof proof;
         fw_workspace_proof_end end;
-        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
         assert_true(hold.ngrip > 0);
         assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 2e-3, 20000, &proof, &end),
                          FW_OK);
@@ -332,7 +332,7 @@ static void grips_of_the_scenes(void **state) {
         const fw_workspace_box3 box = {{-50e-6, -30e-6, -0.02}, {50e-6, 30e-6, 0.02}};
         fw_arena *arena = fw_arena_new(0);
         fw_workspace_hold hold;
-        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
         if (row[k].ngrip > 0) assert_int_equal(hold.ngrip, row[k].ngrip);
         assert_string_equal(hold.grip[0].name, row[k].first);
         fw_arena_free(arena);
@@ -354,7 +354,7 @@ static void force_nearly_along_an_axis(void **state) {
         const fw_workspace_box3 box = {{-50e-6, -30e-6, -0.02}, {50e-6, 30e-6, 0.02}};
         fw_arena *arena = fw_arena_new(0);
         fw_workspace_hold hold;
-        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
         assert_int_equal(hold.nactuator, 4); /* a torque, the force, and what the wrench has besides */
         assert_string_equal(hold.grip[0].name, "wrench on the platform");
         for (int g = 0; g < hold.ngrip; g++)
@@ -377,7 +377,7 @@ static void samples_agree_with_the_proof(void **state) {
     fw_workspace_hold hold;
     fw_workspace_strain_proof proof, few, samples;
     fw_workspace_proof_end end;
-    assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+    assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
     assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 1e-3, 20000, &proof, &end),
                      FW_OK);
     assert_int_equal(end, FW_PROVED);
@@ -392,12 +392,71 @@ static void samples_agree_with_the_proof(void **state) {
     fw_arena_free(arena);
 }
 
+static bool same(const void *a, const void *b, size_t n) {
+    return memcmp(a, b, n) == 0;
+}
+
+static void same_result(const fw_workspace_result *a, const fw_workspace_result *b) {
+    assert_int_equal(a->certified, b->certified);
+    assert_true(same(a->peak, b->peak, sizeof a->peak));
+    assert_true(same(a->proof->angle_rad, b->proof->angle_rad, sizeof a->proof->angle_rad));
+    assert_true(same(a->proof->most, b->proof->most, sizeof a->proof->most));
+    assert_int_equal(a->proof->boxes, b->proof->boxes);
+    assert_int_equal(a->proof->proved, b->proof->proved);
+    if (a->proof->proved) assert_string_equal(a->proof->tree, b->proof->tree);
+    assert_true(same(a->strain->strain, b->strain->strain, sizeof a->strain->strain));
+    assert_int_equal(a->strain->boxes, b->strain->boxes);
+    if (a->strain->proved) assert_string_equal(a->strain->tree, b->strain->tree);
+    for (int i = 0; i < 6; i++) {
+        const fw_workspace_load *x = &a->load[i], *y = &b->load[i];
+        const double is[] = {x->strain, x->error, x->give, x->relief, x->added, x->angle_rad},
+                     other[] = {y->strain, y->error, y->give, y->relief, y->added, y->angle_rad};
+        assert_true(same(is, other, sizeof is));
+    }
+}
+
+/* Devices whose pins, axes, springs, loads or boxes are others, in any order: with what is kept of those before each
+   is what it is by itself, to the last bit. */
+static void kept_from_device_to_device(void **state) {
+    (void)state;
+    fw_arena *keeps = fw_arena_new(0);
+    fw_workspace_kept *kept;
+    assert_int_equal(fw_workspace_kept_new(keeps, &kept), FW_OK);
+    int proved = 0, count = test_cases(24, 12);
+    for (int n = 0; n < count; n++) {
+        loaded_six_bar d = {0};
+        seed = (uint64_t)(n / 4 % 2 + 1); /* pins, hinges and loads of two devices, by turns */
+        make(&d, n % 4 == 3 ? 0.9 : 1, false, n / 2 % KINDS); /* hinges without a strip of their own */
+        for (int i = 0; i < 6 && n % 2; i++)
+            d.f.pin[i].stiffness_Nm_per_rad *= 1 + 0.01 * n;
+        const double far = n % 3 ? 1 : 0.7;
+        d.f.box = (fw_device_workspace_box){.x_min_m = -40e-6 * far,
+                                            .x_max_m = 40e-6 * far,
+                                            .y_min_m = -20e-6 * far,
+                                            .y_max_m = 20e-6 * far,
+                                            .phi_min_rad = -0.02,
+                                            .phi_max_rad = 0.02};
+        d.f.device.nworkspace = 1;
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        fw_workspace_result alone, with;
+        assert_int_equal(fw_workspace_required(arena, &d.f.mechanism, NULL, &diags, &alone), FW_OK);
+        assert_int_equal(fw_workspace_required(arena, &d.f.mechanism, kept, &diags, &with), FW_OK);
+        same_result(&alone, &with);
+        proved += with.proof->proved && with.strain->proved;
+        fw_arena_free(arena);
+    }
+    assert_true(proved >= count / 2);
+    fw_arena_free(keeps);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_sharp),
         cmocka_unit_test(grips_of_the_scenes),
         cmocka_unit_test(force_nearly_along_an_axis),
         cmocka_unit_test(samples_agree_with_the_proof),
+        cmocka_unit_test(kept_from_device_to_device),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,7 @@ static fw_workspace_result run(six_bar_fixture *f, double x, double y, double ph
                                        .phi_max_rad = phi};
     f->device.nworkspace = 1;
     fw_workspace_result result;
-    assert_int_equal(fw_workspace_required(arena, &f->mechanism, &diags, &result), FW_OK);
+    assert_int_equal(fw_workspace_required(arena, &f->mechanism, NULL, &diags, &result), FW_OK);
     fw_arena_free(arena);
     return result;
 }
@@ -118,7 +118,7 @@ static void riders(void **state) {
         fw_mechanism_mass mass[7] = {0};
         memcpy(mass, f.mechanism.body, 5 * sizeof mass[0]);
         m.body = mass;
-        assert_int_equal(fw_workspace_required(arena, &m, &diags, &result),
+        assert_int_equal(fw_workspace_required(arena, &m, NULL, &diags, &result),
                          held ? FW_INPUT : FW_OK);
         if (held) assert_int_equal(diags.item[0].number, 200);
         fw_arena_free(arena);
