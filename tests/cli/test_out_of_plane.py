@@ -153,8 +153,8 @@ class OutOfPlane(unittest.TestCase):
         self.assertAlmostEqual(all_["stiffness_N_per_m"] * 0.2983686, 1, 2)
 
     def test_a_law_that_nothing_bounds(self):
-        """forces beside the centre, and shocks, whose law is a formula: of its largest value nothing is proved"""
-        law = 'law="expression" factor="(1 - cos(pi*time/(20 ms)))/2"'
+        """forces beside the centre, and shocks, whose law is a formula of whose largest value nothing is proved"""
+        law = 'law="expression" factor="atan2(time, 20 ms)/(1 rad)"'
         whole, _, one = self.across(f'<force on="stage" x="0.1 mm" fx="1 uN" {law}/>')
         self.assertEqual(whole["verdict"], "accept")
         bounded = self.across('<force on="stage" x="0.1 mm" fx="1 uN" law="ramp" rise="15 ms"/>')[2]
@@ -162,6 +162,16 @@ class OutOfPlane(unittest.TestCase):
         shaken = self.across(f'<base-motion az="100 m/s^2" {law}/>', flow=GLASS)
         self.assertEqual(shaken[0]["verdict"], "inconclusive")
         self.assertIn("580", json.dumps(shaken[0]["reasons"]))
+
+    def test_a_law_that_is_bounded_by_intervals(self):
+        """a formula whose largest value is proved is judged as a ramp of that size is, and a shock of it is decided"""
+        law = 'law="expression" factor="(1 - cos(pi*time/(20 ms)))/2"'
+        whole, _, one = self.across(f'<force on="stage" x="0.1 mm" fx="1 uN" {law}/>')
+        self.assertEqual(whole["verdict"], "accept")
+        ramp = self.across('<force on="stage" x="0.1 mm" fx="1 uN" law="ramp" rise="15 ms"/>')[2]
+        self.assertAlmostEqual(one["tips_at"] / ramp["tips_at"], 1, delta=0.05)
+        shaken = self.across(f'<base-motion az="100 m/s^2" {law}/>', flow=GLASS)
+        self.assertNotIn("580", json.dumps(shaken[0]["reasons"]))
 
     def test_required_frequency_counts_both(self):
         thin = "6 um"
