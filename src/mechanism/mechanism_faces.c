@@ -277,6 +277,7 @@ static int look_within(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_
     return found;
 }
 
+/* near the wall first: what is found there is the nearest of all */
 static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n, double *gap) {
     int found = look_within(w, own, p, n, first_m, gap);
     return found >= 0 ? found : look_within(w, own, p, n, reach_m, gap);

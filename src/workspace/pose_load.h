@@ -196,13 +196,13 @@ typedef struct fw_workspace_grip { /* three actuators that hold the pose */
     const char *name; /* "torque on AB, force on CD" */
 } fw_workspace_grip;
 
-/* what is held by what: of one flow */
 /* where everything is at poses that were looked at before; of one loop and one way in which hinges lie */
 typedef struct fw_workspace_poses fw_workspace_poses;
 fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses);
 /* forgets them if they are of another mechanism than this hold, whose sections are set */
 void fw_workspace_poses_are_of(fw_workspace_poses *poses, const fw_workspace_hold *hold);
 
+/* what is held by what: of one flow */
 struct fw_workspace_hold {
     const fw_workspace_loop *loop;
     fw_workspace_poses *poses; /* where poses are looked up and kept; NULL: nowhere */
