@@ -458,8 +458,8 @@ fw_status fw_study_open_points(const fw_study_options *options, const fw_device_
     study->asked = asked;
     study->device_path = options->file;
     FW_TRY(fw_study_engines_open(study));
+    settle_options(study); /* before the device is opened: samples are judged in that very design */
     FW_TRY(open_device(study));
-    settle_options(study);
     FW_TRY(take_inputs(study));
     FW_TRY(take_responses(study));
     if (study->diags.errors > 0) return FW_INPUT;

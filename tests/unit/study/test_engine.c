@@ -311,11 +311,41 @@ static void changed_files(void **state) {
     room_free(&r);
 }
 
+/* nobody sees the advice of a point that Explore asks for: a refused one is judged, and no change of it is sought, which
+   would cost twenty times the judgement */
+static void points_without_advice(void **state) {
+    (void)state;
+    fw_device_vary vary = {.what = "push", .unit = "", .from = (double)NAN, .to = (double)NAN};
+    fw_device_respond respond = {.name = "U", .value = "governing.utilisation", .min = (double)NAN, .max = (double)NAN};
+    const fw_device_study asked = {.name = "points", .kind = FW_STUDY_IS_sweep, .judge = FW_JUDGE_MADE,
+                                   .nvary = 1, .vary = &vary, .nrespond = 1, .respond = &respond};
+    room r = room_new("");
+    fw_study_options o = {.design = fw_design_options_default(), .file = r.device, .jobs = 1};
+    o.design.data_directory = FW_TEST_SOURCE_DIR;
+    o.design.corners = "none";
+    fw_study *study;
+    assert_int_equal(fw_study_open_points(&o, &asked, &study), FW_OK);
+    fw_study_sample sample;
+    bool changed = false;
+    assert_int_equal(fw_study_sample_new(study->arena, study, &sample), FW_OK);
+    strcpy(sample.text[0], "0.9 mN");
+    assert_int_equal(fw_study_evaluate(study, NULL, &sample, &changed), FW_OK);
+    assert_true(sample.run);
+    assert_int_equal(sample.decision, 1);
+    const fw_verdict *v = &fw_plan_design_plan(study->design)->verdict;
+    assert_int_equal(v->decision, FW_REJECT); /* the point was judged in this design */
+    assert_int_equal(v->nproposal, 0);
+    assert_ptr_equal(v->advice_note, fw_verdict_not_searched);
+    fw_study_free(study);
+    room_free(&r);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_six_bars), cmocka_unit_test(flows_and_clearances),
         cmocka_unit_test(strange_ones),    cmocka_unit_test(of_the_gallery),
         cmocka_unit_test(changed_files),    cmocka_unit_test(hinges_alone),
+        cmocka_unit_test(points_without_advice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
