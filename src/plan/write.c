@@ -33,6 +33,8 @@ fw_report_input fw_plan_report_input(fw_plan *plan) {
                              .version = FW_VERSION,
                              .assumption = plan->assumption,
                              .nassumption = plan->nassumption,
+                             .outside = plan->outside,
+                             .noutside = plan->noutside,
                              .diags = &plan->diags,
                              .wanted = plan->options.wanted};
 }

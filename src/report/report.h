@@ -44,6 +44,8 @@ typedef struct fw_report_input {
     const char *version;
     const char **assumption; /* (nassumption) sentences */
     int nassumption;
+    const char **outside; /* (noutside) what moves it and is not of the chip: fw_verdict_outside */
+    int noutside;
     const fw_diags *diags;               /* NULL: none */
     const struct fw_report_hinge *hinge; /* (nhinge) the ladder, per flow */
     int nhinge;

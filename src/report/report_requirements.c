@@ -229,7 +229,7 @@ static void requirement_row(fw_text *out, const fw_verdict_requirement *r, const
     bound_text(out, r);
     fw_markup(out, "</td><td class=\"n\">{s}</td><td>{s}</td><td>{s}</td><td>{s}</td></tr>\n",
               r->why ? "" : fw_probe_text(value, r->margin, r->unit),
-              fw_verdict_decision_text(r->decision), r->scene ? r->scene : "at rest",
+              fw_verdict_decision_text(r->decision), r->scene ? r->scene : fw_verdict_at_rest,
               at ? at : "as drawn");
 }
 

@@ -131,21 +131,14 @@ static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary
 
 /* ---- why it is not accepted, each reason once ---- */
 
-static bool said_before(const fw_verdict *v, int variant, int reason) {
-    const char *text = v->variant[variant].reason[reason].text;
-    for (int i = 0; i <= variant; i++)
-        for (int k = 0; k < (i < variant ? v->variant[i].nreason : reason); k++)
-            if (strcmp(v->variant[i].reason[k].text, text) == 0) return true;
-    return false;
-}
-
 static fw_status reasons_of(fw_arena *arena, const fw_verdict *v, fw_verdict_decision decision,
                             const char *label, fw_report_summary *s) {
+    const char *words;
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nreason; k++) {
-            const fw_verdict_reason *r = &v->variant[i].reason[k];
-            if (r->decision != decision || said_before(v, i, k)) continue;
-            FW_TRY(add(s, label, fw_arena_printf(arena, "%s [FW-D%03d]", r->text, r->number)));
+            if (v->variant[i].reason[k].decision != decision) continue;
+            FW_TRY(fw_verdict_reason_words(arena, v, i, k, &words));
+            if (words) FW_TRY(add(s, label, words));
         }
     return FW_OK;
 }
@@ -271,13 +264,13 @@ static fw_status layout_faults(fw_arena *arena, const fw_layout *layout, fw_repo
 
 /* beside what is not guaranteed: what the verdict takes for granted, and the chip does not have */
 static fw_status outside(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
-    const char **text;
-    int n;
-    FW_TRY(fw_verdict_outside(arena, in->device, in->verdict, &text, &n));
-    if (n == 0) return FW_OK;
-    const char *more = n > 1 ? fw_arena_printf(arena, "; and %d more drivers", n - 1) : "";
+    if (in->noutside == 0) return FW_OK;
+    const char *more = in->noutside > 1
+                           ? fw_arena_printf(arena, "; and %d more driver%s", in->noutside - 1,
+                                             in->noutside > 2 ? "s" : "")
+                           : "";
     FW_NEED(more);
-    return add(s, "from outside", fw_arena_printf(arena, "%s [FW-D598]%s", text[0], more));
+    return add(s, "from outside", fw_arena_printf(arena, "%s [FW-D598]%s", in->outside[0], more));
 }
 
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {

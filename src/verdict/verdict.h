@@ -507,6 +507,11 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
    Test: tests/unit/verdict/test_governing.c */
 fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int kinds, bool made,
                                fw_verdict_check *check, bool *found);
+extern const char fw_verdict_at_rest[]; /* the scene of a reason that is of none */
+/* the reason with the scene and the flow that it is of, and its code; *words is NULL where the same
+   reason was said before. Test: tests/unit/verdict/test_governing.c */
+fw_status fw_verdict_reason_words(fw_arena *arena, const fw_verdict *verdict, int variant,
+                                  int reason, const char **words);
 /* why it is rejected, sentences, each once; none where it is not */
 fw_status fw_verdict_rejections(fw_arena *arena, const fw_verdict *verdict, const char ***text,
                                 int *n);

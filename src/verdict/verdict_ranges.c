@@ -216,7 +216,7 @@ static fw_verdict_check of_requirement(const fw_verdict_requirement *r, const ch
                               .low = r->utilisation_low,
                               .high = r->utilisation_high,
                               .flow = r->flow,
-                              .scene = r->scene ? r->scene : "at rest",
+                              .scene = r->scene ? r->scene : fw_verdict_at_rest,
                               .corner = corner,
                               .t_s = r->t_s,
                               .most = (double)NAN,
@@ -290,14 +290,57 @@ fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int k
     return FW_OK;
 }
 
-/* ---- why it is rejected ----
-   Each reason once: what stands on certificates, order sheets and run sheets
-   that are written all the same. */
+/* ---- why it is not accepted ----
+   Each reason once: what stands at the top of every result, on certificates, order sheets and run
+   sheets that are written all the same. */
 
-static bool said(const char *const *text, int n, const char *what) {
-    for (int i = 0; i < n; i++)
-        if (strcmp(text[i], what) == 0) return true;
+/* a requirement is of a scene, and its sentence is of its value alone */
+static bool is_of_scene(const fw_verdict_reason *r) {
+    return r->number == 330 || r->number == 331;
+}
+
+static bool is_same(const fw_verdict_reason *a, const fw_verdict_reason *b) {
+    return a->decision == b->decision && a->number == b->number && strcmp(a->text, b->text) == 0 &&
+           (!is_of_scene(a) || fw_text_same(a->scene, b->scene));
+}
+
+static bool says(const fw_verdict_variant_verdict *v, int n, const fw_verdict_reason *r) {
+    for (int k = 0; k < n; k++)
+        if (is_same(&v->reason[k], r)) return true;
     return false;
+}
+
+/* ", flow one and two": of those that say it; "" where all do, or the sentence names it itself */
+static void flows_of(fw_text *text, const fw_verdict *v, const fw_verdict_reason *r) {
+    int count = 0, named = 0;
+    for (int i = 0; i < v->nvariant; i++)
+        count += says(&v->variant[i], v->variant[i].nreason, r);
+    for (int i = 0; i < v->nvariant && count < v->nvariant; i++) {
+        const char *flow = v->variant[i].variant ? v->variant[i].variant->flow : NULL;
+        if (!flow || strstr(r->text, flow) || !says(&v->variant[i], v->variant[i].nreason, r))
+            continue;
+        fw_text_printf(text, "%s%s", named++ ? " and " : ", flow ", flow);
+    }
+}
+
+fw_status fw_verdict_reason_words(fw_arena *arena, const fw_verdict *verdict, int variant,
+                                  int reason, const char **words) {
+    const fw_verdict_variant_verdict *v = verdict->variant;
+    const fw_verdict_reason *r = &v[variant].reason[reason];
+    bool before = says(&v[variant], reason, r);
+    for (int i = 0; i < variant; i++)
+        before = before || says(&v[i], v[i].nreason, r);
+    *words = NULL;
+    if (before) return FW_OK;
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, r->text);
+    if (is_of_scene(r) && strcmp(r->scene, fw_verdict_at_rest) != 0)
+        fw_text_printf(&text, " in %s", r->scene);
+    flows_of(&text, verdict, r);
+    fw_text_printf(&text, " [FW-D%03d]", r->number);
+    FW_TRY(fw_text_end(&text));
+    *words = text.data;
+    return FW_OK;
 }
 
 static fw_status rejection_of_hinge(fw_arena *arena, const fw_verdict_hinge_verdict *h,
@@ -325,10 +368,9 @@ fw_status fw_verdict_rejections(fw_arena *arena, const fw_verdict *verdict, cons
     }
     for (int i = 0; i < verdict->nvariant; i++)
         for (int k = 0; k < verdict->variant[i].nreason; k++) {
-            const fw_verdict_reason *r = &verdict->variant[i].reason[k];
-            if (r->decision != FW_REJECT) continue;
-            FW_NEED(one = fw_arena_printf(arena, "%s [FW-D%03d]", r->text, r->number));
-            if (!said(*text, *n, one)) (*text)[(*n)++] = one;
+            if (verdict->variant[i].reason[k].decision != FW_REJECT) continue;
+            FW_TRY(fw_verdict_reason_words(arena, verdict, i, k, &one));
+            if (one) (*text)[(*n)++] = one;
         }
     return FW_OK;
 }

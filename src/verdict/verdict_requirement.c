@@ -374,6 +374,8 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
 
 /* ---- reasons ---- */
 
+const char fw_verdict_at_rest[] = "at rest";
+
 /* which bound is the trouble: the one that the band reaches over, of both the nearer one */
 static bool is_below(const fw_verdict_requirement *r) {
     bool under = r->low<r->min, over = r->high> r->max;
@@ -423,7 +425,7 @@ static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_ver
     double used = r->utilisation_high > 0 ? r->utilisation_high : 2;
     const char *text = fw_verdict_requirement_text(arena, r);
     FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = r->scene ? r->scene : "at rest",
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = r->scene ? r->scene : fw_verdict_at_rest,
                                                   .flow = r->flow,
                                                   .number = r->why ? 331 : 330,
                                                   .decision = r->decision,
@@ -460,7 +462,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
 /* as decision.c sees a hinge */
 static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
     double relative = r->value != 0 ? r->numeric / fabs(r->value) : 0;
-    return (fw_verdict_hinge_verdict){.scene = r->scene ? r->scene : "at rest",
+    return (fw_verdict_hinge_verdict){.scene = r->scene ? r->scene : fw_verdict_at_rest,
                                       .utilisation = r->utilisation,
                                       .utilisation_low = r->utilisation_low,
                                       .utilisation_high = r->utilisation_high,

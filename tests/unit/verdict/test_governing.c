@@ -139,11 +139,51 @@ static void a_requirement_governs_where_less_is_left_of_it(void **state) {
     fw_arena_free(e->arena);
 }
 
+/* Two flows that miss one bound by values of their own: each says which flow it is of. Where both say
+   the same it is said once, of no flow; a sentence that names its flow is left as it is. */
+static void a_reason_names_the_flow_that_it_is_of(void **state) {
+    (void)state;
+    example *e = example_new();
+    const fw_verdict_reason slow = {.scene = "push",
+                                    .flow = "one",
+                                    .number = 330,
+                                    .decision = FW_REJECT,
+                                    .text = "tip is 1 um, and at least 9 um is required"};
+    const fw_verdict_reason both = {.number = 204, .decision = FW_REJECT, .text = "jaws meet"};
+    const fw_verdict_reason self = {
+        .number = 237, .decision = FW_REJECT, .text = "in flow one it breaks"};
+    fw_verdict_reason one[4] = {slow, both, self, slow}, two[2] = {slow, both};
+    const char **text;
+    int n;
+    one[3].scene = fw_verdict_at_rest;
+    one[1].scene = "push"; /* it is the same in every scene */
+    two[0].flow = "two", two[0].text = "tip is 2 um, and at least 9 um is required";
+    e->variant[0].reason = one, e->variant[0].nreason = 4;
+    e->variant[1].reason = two, e->variant[1].nreason = 2;
+    assert_int_equal(fw_verdict_rejections(e->arena, &e->verdict, &text, &n), FW_OK);
+    assert_int_equal(n, 5);
+    assert_string_equal(
+        text[0], "tip is 1 um, and at least 9 um is required in push, flow one [FW-D330]");
+    assert_string_equal(text[1], "jaws meet [FW-D204]");
+    assert_string_equal(text[2], "in flow one it breaks [FW-D237]");
+    assert_string_equal(text[3],
+                        "tip is 1 um, and at least 9 um is required, flow one [FW-D330]");
+    assert_string_equal(
+        text[4], "tip is 2 um, and at least 9 um is required in push, flow two [FW-D330]");
+    two[0] = slow; /* of both alike, beside other numbers */
+    assert_int_equal(fw_verdict_rejections(e->arena, &e->verdict, &text, &n), FW_OK);
+    assert_int_equal(n, 4);
+    assert_string_equal(text[0],
+                        "tip is 1 um, and at least 9 um is required in push [FW-D330]");
+    fw_arena_free(e->arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_largest_share_of_every_flow_and_corner),
         cmocka_unit_test(a_worse_decision_goes_before_a_larger_share),
         cmocka_unit_test(nothing_that_was_run_governs_nothing),
-        cmocka_unit_test(a_requirement_governs_where_less_is_left_of_it)};
+        cmocka_unit_test(a_requirement_governs_where_less_is_left_of_it),
+        cmocka_unit_test(a_reason_names_the_flow_that_it_is_of)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
