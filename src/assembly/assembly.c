@@ -89,9 +89,10 @@ static fw_status too_far(const fw_mechanism *mechanism, const double *guess, fw_
     }
     const char *id = mechanism->body[far].id;
     return fw_diag_error(diags, 105, (fw_place){0},
-                         "the poses to assemble are too far away for double precision: body %s "
+                         "the poses to assemble are too far away for double precision: %s%s "
                          "stands at x = %s m, y = %s m, phi = %s rad; check units",
-                         fw_text_name(id), fw_number_text(x, sizeof x, guess[3 * far], 4),
+                         FW_NAMED("body", fw_text_name(id)),
+                         fw_number_text(x, sizeof x, guess[3 * far], 4),
                          fw_number_text(y, sizeof y, guess[3 * far + 1], 4),
                          fw_number_text(phi, sizeof phi, guess[3 * far + 2], 4));
 }

@@ -336,9 +336,10 @@ static fw_status lost(const state *s, const fw_device_scene *scene, double t) {
     char time[32];
     fw_status status = fw_diag_error(
         s->diags, 118, scene->place,
-        "the mechanism cannot follow its drivers in scene %s beyond %s s: no position near the "
+        "the mechanism cannot follow its drivers in %s%s beyond %s s: no position near the "
         "last one has the values that they prescribe",
-        scene_text(scene), fw_number_text(time, sizeof time, t * s->m->scale.time_s, 6));
+        FW_NAMED("scene", scene_text(scene)),
+        fw_number_text(time, sizeof time, t * s->m->scale.time_s, 6));
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 

@@ -253,10 +253,10 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_assembly_c
             fw_assembly_length_text(text[i], sizeof asked, shown[i], unit);
     return fw_diag_error(
         diags, 116, d->place,
-        "driver %s cannot have its prescribed value at the start: it prescribes %s, and the "
+        "%s%s cannot have its prescribed value at the start: it prescribes %s, and the "
         "nearest value that the joints allow from this initial guess is %s (%s off); correct "
         "its value or the positions of the bodies",
-        fw_text_name(d->id), asked, best, less);
+        FW_NAMED("driver", fw_text_name(d->id)), asked, best, less);
 }
 
 /* ---- joints ---- */
@@ -346,12 +346,12 @@ static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, fw_
     bool askew = gap_rad * m->scale.length_m > 1e-4 * gap_m;
     bool both = slide && far && askew, angle = b->rows == FW_ROWS_TURN || (slide && !far);
     return fw_diag_error(diags, 100, fw_multibody_block_place(mechanism, b),
-                         "%s: joint %s stays open by %s%s%s at best; %s",
+                         "%s: %s%s stays open by %s%s%s at best; %s",
                          cut ? "no assembly was found within the bound on the search, from this "
                                "guess"
                              : "the mechanism cannot be assembled",
-                         fw_multibody_block_name(mechanism, b), angle ? radian : metres,
-                         both ? " and " : "", both ? radian : "", advice);
+                         FW_NAMED("joint", fw_multibody_block_name(mechanism, b)),
+                         angle ? radian : metres, both ? " and " : "", both ? radian : "", advice);
 }
 
 fw_status fw_assembly_closure_explain(fw_arena *arena, const fw_mechanism *mechanism,

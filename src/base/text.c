@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 #include <locale.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -484,6 +485,17 @@ bool fw_words_hold(const char *words, const char *separators, const char *name) 
 
 bool fw_text_same(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* words of a kind stand with a space in it, and in ids with whatever may stand there */
+const char *fw_text_kind(const char *kind, const char *id) {
+    size_t n = strlen(kind) - 1;
+    for (size_t i = 0; id && i < n; i++) {
+        const bool same = kind[i] == ' ' ? id[i] == '-' || id[i] == '_' || id[i] == '.'
+                                         : tolower((unsigned char)id[i]) == kind[i];
+        if (!same) return kind;
+    }
+    return id && !isalpha((unsigned char)id[n]) ? "" : kind;
 }
 
 const char *fw_text_name(const char *id) {

@@ -50,8 +50,8 @@ static fw_status one_hinge(const writer *w, int h) {
     fw_continuum_shape shape;
     if (fw_flexure_input_varies(&hinge->input)) {
         fw_diag_warning(&plan->diags, 213, place,
-                        "no deck of hinge %s: solids are made of one arc or line of one width",
-                        w->mechanism->pin[hinge->pin].id);
+                        "no deck of %s%s: solids are made of one arc or line of one width",
+                        FW_NAMED("hinge", w->mechanism->pin[hinge->pin].id));
         return FW_OK;
     }
     fw_continuum_shape_of(&hinge->input, &shape);
@@ -80,8 +80,8 @@ static fw_status whole_mechanism(const writer *w, const fw_device_scene *scene) 
                                          &(fw_continuum_solid_options){.refinement = w->refinement},
                                          &own, &deck);
     if (status == FW_GEOMETRY && own.count > 0) {
-        fw_diag_warning(&plan->diags, 213, own.item[0].place, "scene %s: %s", scene->name,
-                        own.item[0].message);
+        fw_diag_warning(&plan->diags, 213, own.item[0].place, "%s%s: %s",
+                        FW_NAMED("scene", scene->name), own.item[0].message);
         return FW_OK;
     }
     FW_TRY(status);

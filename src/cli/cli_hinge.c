@@ -98,16 +98,16 @@ static void picked_text(fw_text *out, const fw_plan_ladders *all, const fw_plan_
     fw_text_printf(out, "  * %s\n", why);
     if (l->shared < 0) return;
     const fw_plan_ladder *from = &all->item[l->shared];
-    fw_text_printf(out, "    solved once with hinge %s%s%s, which is alike\n",
-                   fw_plan_ladder_id(from), from->flow ? ", flow " : "",
+    fw_text_printf(out, "    solved once with %s%s%s%s, which is alike\n",
+                   FW_NAMED("hinge", fw_plan_ladder_id(from)), from->flow ? ", flow " : "",
                    from->flow ? from->flow : "");
 }
 
 static void hinge_text(fw_text *out, const fw_plan_ladders *all, const fw_plan_ladder *l) {
     const fw_mechanism_hinge *h = l->hinge;
     const fw_flexure_result *c = &h->closed_form;
-    fw_text_printf(out, "  hinge %s%s%s: E ", fw_plan_ladder_id(l), l->flow ? ", flow " : "",
-                   l->flow ? l->flow : "");
+    fw_text_printf(out, "  %s%s%s%s: E ", FW_NAMED("hinge", fw_plan_ladder_id(l)),
+                   l->flow ? ", flow " : "", l->flow ? l->flow : "");
     fw_text_real(out, "%.2f", c->youngs_Pa * 1e-9);
     fw_text_add(out, " GPa, peak stress ");
     fw_text_real(out, "%.4g", c->stress_per_rad_Pa * 1e-6);
@@ -330,8 +330,9 @@ static void say(fw_plan *plan, const fw_plan_ladders *all) {
         fw_place place = plan->device->flexure[l->hinge->flexure].place;
         for (int k = 0; k < l->rows; k++)
             if (l->row[k].state != FW_LEVEL_SOLVED)
-                fw_diag_note(&plan->diags, 267, place, "hinge %s: no level %s: %s",
-                             fw_plan_ladder_id(l), l->row[k].name, l->row[k].why);
+                fw_diag_note(&plan->diags, 267, place, "%s%s: no level %s: %s",
+                             FW_NAMED("hinge", fw_plan_ladder_id(l)), l->row[k].name,
+                             l->row[k].why);
     }
 }
 

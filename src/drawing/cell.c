@@ -194,8 +194,9 @@ static fw_status merge_all(fw_drawing_flat *flat, fw_drawing_cell *out) {
         if (!flat->map[i].found)
             return fw_diag_error(flat->diags, 568, a->nmap ? a->layers_place : a->place,
                                  "%s has no polygon in %s%s%s%s", a->file,
-                                 flat->name ? "cell " : "it", flat->name ? flat->name : "",
-                                 a->nmap ? " on layer " : "", a->nmap ? flat->map[i].from : "");
+                                 flat->name ? fw_text_kind("cell ", flat->name) : "it",
+                                 flat->name ? flat->name : "", a->nmap ? " on layer " : "",
+                                 a->nmap ? flat->map[i].from : "");
     FW_NEED(out->layer = fw_arena_array(flat->arena, fw_drawing_cell_layer, (size_t)flat->nmap));
     for (int i = 0; i < flat->nmap; i++) {
         if (!is_first(flat, i)) continue;

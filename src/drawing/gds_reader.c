@@ -103,9 +103,10 @@ static bool is_layer(const reader *r, const element *e) {
 static fw_status settle_layer(reader *r, const element *e) {
     if (!r->asked->layer && r->layer >= 0 && (e->layer != r->layer || e->type != r->type))
         return fw_diag_error(r->diags, 314, r->asked->place,
-                             "cell %s of %s has polygons on the layers %d/%d and %d/%d; say which "
+                             "%s%s of %s has polygons on the layers %d/%d and %d/%d; say which "
                              "one with layer=\"...\"",
-                             r->cell, r->asked->file, r->layer, r->type, e->layer, e->type);
+                             FW_NAMED("cell", r->cell), r->asked->file, r->layer, r->type, e->layer,
+                             e->type);
     if (r->layer < 0) r->layer = e->layer, r->type = e->type;
     return FW_OK;
 }
@@ -163,8 +164,8 @@ static fw_status take_element(reader *r, const element *e, fw_drawing *out) {
     if (e->kind == FW_DRAWING_TEXT || !r->taken) return FW_OK;
     if (e->kind == FW_DRAWING_SREF || e->kind == FW_DRAWING_AREF)
         return fw_diag_error(r->diags, 315, place_of(r),
-                             "record %d: cell %s holds other cells, which are not read; flatten it",
-                             e->number, r->cell);
+                             "record %d: %s%s holds other cells, which are not read; flatten it",
+                             e->number, FW_NAMED("cell", r->cell));
     if (!is_layer(r, e) && (!area || r->asked->layer)) return FW_OK;
     if (!area)
         return fw_diag_error(
@@ -238,7 +239,7 @@ static fw_status nothing_there(const reader *r) {
         return fw_diag_error(r->diags, 314, asked->cell_place, "%s has no cell '%.64s'",
                              asked->file, asked->cell);
     return fw_diag_error(r->diags, 314, asked->layer ? asked->layer_place : asked->place,
-                         "%s has no polygon in cell %s%s%s", asked->file, r->chosen,
+                         "%s has no polygon in %s%s%s%s", asked->file, FW_NAMED("cell", r->chosen),
                          asked->layer ? " on layer " : "", asked->layer ? asked->layer : "");
 }
 

@@ -54,10 +54,10 @@ fw_status fw_dynamics_method_choose(fw_dynamics_run *r, const fw_effects_loads *
     const char *a = r->problem.mechanism->body[light].id, *b = r->problem.mechanism->body[heavy].id;
     FW_NEED(r->problem.why = fw_arena_printf(
                 r->problem.arena,
-                "not by chain, whose forces lose digits there: body %s between its joints is %s "
+                "not by chain, whose forces lose digits there: %s%s between its joints is %s "
                 "times lighter than %s",
-                fw_text_name(a), fw_number_text(ratio, sizeof ratio, r->problem.uneven, 2),
-                fw_text_name(b)));
+                FW_NAMED("body", fw_text_name(a)),
+                fw_number_text(ratio, sizeof ratio, r->problem.uneven, 2), fw_text_name(b)));
     return FW_OK;
 }
 

@@ -152,12 +152,12 @@ fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t) {
         return FW_OK;
     return solver_error(fw_diag_error(
         r->diags, 244, place,
-        "friction of joint %s in scene %s has no unique value at %s s: the normal force in the "
+        "friction of %s%s in %s%s has no unique value at %s s: the normal force in the "
         "joint rises with the friction force itself, so that the joint jams, or could stick as "
         "well as slide, and rigid bodies have no unique motion; lower the coefficient or the "
         "radius, move the load nearer to the joint, or give the joint a <contact>, whose "
         "stiffness determines the normal force",
-        id, fw_dynamics_scene_name(&r->problem),
+        FW_NAMED("joint", id), FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)),
         fw_number_text(time, sizeof time, t * r->problem.model->scale.time_s, 6)));
 }
 
@@ -179,27 +179,27 @@ fw_status fw_dynamics_run_stopped(const fw_dynamics_run *r, const fw_maths_stepp
     if (why == FW_ODE_NAN)
         return solver_error(fw_diag_error(
             r->diags, 102, r->problem.scene->place,
-            "the motion of scene %s overflows after %s s, at body %s: its accelerations are no "
+            "the motion of %s%s overflows after %s s, at %s%s: its accelerations are no "
             "finite numbers; check loads, masses and stiffnesses",
-            fw_dynamics_scene_name(&r->problem), time, id));
+            FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)), time, FW_NAMED("body", id)));
     /* a position that could not be closed within a billionth of the scene from here is the cause */
     double final = fw_dynamics_end(&r->problem);
     if (record->stuck >= 0 && fabs(record->stuck_time - s->t) < 1e-9 * final) {
         const fw_multibody_block *b = &m->block[record->stuck];
         return solver_error(fw_diag_error(
             r->diags, 101, r->problem.scene->place,
-            "the joints of scene %s contradict each other from %s s on: joint %s "
+            "the joints of %s%s contradict each other from %s s on: %s%s "
             "cannot be kept; %s",
-            fw_dynamics_scene_name(&r->problem), time,
-            fw_multibody_block_name(r->problem.mechanism, b),
+            FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)), time,
+            FW_NAMED("joint", fw_multibody_block_name(r->problem.mechanism, b)),
             m->driven ? "a driver prescribes a value that the other joints do not allow"
                       : "the mechanism cannot reach any farther"));
     }
     return solver_error(fw_diag_error(
         r->diags, 101, r->problem.scene->place,
-        "the steps of scene %s become too small at %s s, at body %s; the motion "
+        "the steps of %s%s become too small at %s s, at %s%s; the motion "
         "runs into a position it cannot pass%s, or rtol is too tight",
-        fw_dynamics_scene_name(&r->problem), time, id,
+        FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)), time, FW_NAMED("body", id),
         strcmp(m->method->name, "chain") == 0 ? "" : " by this method (--method chain may)"));
 }
 
@@ -211,10 +211,11 @@ static fw_status too_long(const fw_dynamics_run *r, const fw_maths_stepper *s) {
     double limit = (double)(steps ? most_steps(&r->problem) : fw_most_events);
     fw_status status = fw_diag_error(
         r->diags, 108, r->problem.scene->place,
-        "scene %s needs more than %s %s (steps are %s s, and %s s are reached): shorten it, or "
+        "%s%s needs more than %s %s (steps are %s s, and %s s are reached): shorten it, or "
         "check for a stiffness or damping that is extreme in relation to the masses",
-        fw_dynamics_scene_name(&r->problem), fw_number_text(count, sizeof count, limit, 9),
-        steps ? "steps" : "events", fw_number_text(step, sizeof step, s->h * unit, 2),
+        FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)),
+        fw_number_text(count, sizeof count, limit, 9), steps ? "steps" : "events",
+        fw_number_text(step, sizeof step, s->h * unit, 2),
         fw_number_text(at, sizeof at, s->t * unit, 3));
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
@@ -229,9 +230,9 @@ fw_status fw_dynamics_run_position_jumps(const fw_dynamics_run *r, double t) {
     char at[32];
     return solver_error(fw_diag_error(
         r->diags, 101, r->problem.scene->place,
-        "a driver or the temperature of scene %s jumps at %s s, but positions must "
+        "a driver or the temperature of %s%s jumps at %s s, but positions must "
         "change continuously; use law=\"ramp\" with a rise, or another law without jumps",
-        fw_dynamics_scene_name(&r->problem),
+        FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)),
         fw_number_text(at, sizeof at, t * r->problem.model->scale.time_s, 6)));
 }
 

@@ -70,19 +70,19 @@ static void warn_velocities(fw_dynamics_run *r, const bool *stated, const double
     char most[32], energy[32];
     (moved > fw_assembly_another_start * size ? fw_diag_unreliable : fw_diag_warning)(
         r->diags, 106, r->problem.scene->place,
-        "initial velocities of scene %s contradict the joints; they were changed by up "
+        "initial velocities of %s%s contradict the joints; they were changed by up "
         "to %s %% to fit, the kinetic energy by %s %%",
-        fw_dynamics_scene_name(&r->problem),
+        FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)),
         fw_number_text(most, sizeof most, 100 * moved / size, 3),
         fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
 }
 
 static fw_status cannot_start(const fw_dynamics_run *r) {
-    fw_status status =
-        fw_diag_error(r->diags, 109, r->problem.scene->place,
-                      "method %s cannot start scene %s: its equations are singular in the "
-                      "assembled position; use --method chain",
-                      r->problem.model->method->name, fw_dynamics_scene_name(&r->problem));
+    fw_status status = fw_diag_error(
+        r->diags, 109, r->problem.scene->place,
+        "method %s cannot start %s%s: its equations are singular in the "
+        "assembled position; use --method chain",
+        r->problem.model->method->name, FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)));
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 

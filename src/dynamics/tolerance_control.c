@@ -270,21 +270,22 @@ static void warn_inaccurate(const fw_dynamics_run *r) {
     char a[32], b[32], c[32];
     if (x.error_rad > fmax(nothing, wanted * relative_to(&r->record, &x)))
         fw_diag_warning(r->diags, 240, r->problem.scene->place,
-                        "scene %s: peaks are uncertain by %s deg where the largest is %s deg, and "
+                        "%s%s: peaks are uncertain by %s deg where the largest is %s deg, and "
                         "an accuracy of %s is wanted; no tolerance is tight enough: shorten the "
                         "scene, or judge by the stated errors",
-                        fw_text_name(r->problem.scene->name),
+                        FW_NAMED("scene", fw_text_name(r->problem.scene->name)),
                         fw_number_text(a, sizeof a, x.error_rad * degree, 3),
                         fw_number_text(b, sizeof b, x.angle_rad * degree, 3),
                         fw_number_text(c, sizeof c, accuracy, 3));
     else if (x.error_N > fmax(nothing * fw_multibody_newton(r->problem.model), wanted * x.force_N))
-        fw_diag_warning(
-            r->diags, 240, r->problem.scene->place,
-            "scene %s: joint forces are uncertain by %s N where the largest is %s N, "
-            "and an accuracy of %s is wanted; no tolerance is tight enough: shorten "
-            "the scene, or judge by the stated errors",
-            fw_text_name(r->problem.scene->name), fw_number_text(a, sizeof a, x.error_N, 3),
-            fw_number_text(b, sizeof b, x.force_N, 3), fw_number_text(c, sizeof c, accuracy, 3));
+        fw_diag_warning(r->diags, 240, r->problem.scene->place,
+                        "%s%s: joint forces are uncertain by %s N where the largest is %s N, "
+                        "and an accuracy of %s is wanted; no tolerance is tight enough: shorten "
+                        "the scene, or judge by the stated errors",
+                        FW_NAMED("scene", fw_text_name(r->problem.scene->name)),
+                        fw_number_text(a, sizeof a, x.error_N, 3),
+                        fw_number_text(b, sizeof b, x.force_N, 3),
+                        fw_number_text(c, sizeof c, accuracy, 3));
 }
 
 /* rtol is relative to the amplitude, or to the motion where that is larger; 100 times as much is
@@ -306,10 +307,11 @@ static void warn_energy(const fw_dynamics_run *r) {
     char a[32], b[32];
     if (!(off > energy_allowed(&r->record))) return;
     fw_diag_unreliable(r->diags, 241, r->problem.scene->place,
-                       "scene %s: the energy balance error is %s of the largest energy, far more "
+                       "%s%s: the energy balance error is %s of the largest energy, far more "
                        "than the tolerance %s explains; this motion is not reliable: use another "
                        "--method or --integrator",
-                       fw_text_name(r->problem.scene->name), fw_number_text(a, sizeof a, off, 2),
+                       FW_NAMED("scene", fw_text_name(r->problem.scene->name)),
+                       fw_number_text(a, sizeof a, off, 2),
                        fw_number_text(b, sizeof b, r->record.motion->stats.rtol, 2));
 }
 

@@ -392,9 +392,9 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
             const char *id = c->mechanism->body[b].id;
             if (!(fw_effects_air_face(c->mechanism, a, b).area_m2 > 0))
                 return fw_diag_error(diags, 253, a->place,
-                                     "body %s is not drawn, so the area that the air acts on is "
+                                     "%s%s is not drawn, so the area that the air acts on is "
                                      "not known: state it",
-                                     fw_text_name(id));
+                                     FW_NAMED("body", fw_text_name(id)));
         }
     }
     return FW_OK;

@@ -198,7 +198,8 @@ static double surface_stiffness(const fw_effect_case *c, const fw_mechanism_hing
 static fw_status unknown(const fw_effect_case *c, const fw_device_contact_use *use,
                          const char *what) {
     if (!c->diags) return FW_INPUT;
-    return fw_diag_error(c->diags, 246, use->place, "contact %s: %s", use->id ? use->id : "", what);
+    return fw_diag_error(c->diags, 246, use->place, "%s%s: %s",
+                         FW_NAMED("contact", use->id ? use->id : ""), what);
 }
 
 static double drawn_turn(const fw_mechanism *m, int body) {
@@ -329,10 +330,11 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
         char deep[32], far[32], at[32];
         if (!(past > drawn_closed)) continue;
         fw_diag_warning(diags, 134, use->place,
-                        "contact %s overlaps by %s um in the drawn pose: what touches is %s um "
+                        "%s%s overlaps by %s um in the drawn pose: what touches is %s um "
                         "apart and touches at a distance of %s um; correct the points, the "
                         "distance or the side",
-                        fw_text_name(use->id), fw_number_text(deep, sizeof deep, 1e6 * past, 4),
+                        FW_NAMED("contact", fw_text_name(use->id)),
+                        fw_number_text(deep, sizeof deep, 1e6 * past, 4),
                         fw_number_text(far, sizeof far, 1e6 * apart, 4),
                         fw_number_text(at, sizeof at, 1e6 * use->distance_m, 4));
     }

@@ -421,6 +421,6 @@ fw_status fw_effects_element_ended(const fw_effects_force_element *e, const char
                                    const char *at, const char *why, fw_diags *diags) {
     fw_status status = fw_diag_formula_ended(
         diags, 242, e->class_->closed_form ? FW_ENDED_CLOSED_FORM : FW_ENDED_FORMULA, e->place,
-        "%s of scene %s at %s: %s", e->id, scene, at, why);
+        "%s of %s%s at %s: %s", e->id, FW_NAMED("scene", scene), at, why);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }

@@ -344,10 +344,10 @@ static fw_status unknown_radius(const fw_effect_case *c, const fw_device_frictio
     const char *id = c->mechanism->pin[u->revolute].id;
     if (!c->diags) return FW_INPUT;
     return fw_diag_error(c->diags, 245, u->place,
-                         "friction of joint %s needs the radius of the sliding surface, and the "
+                         "friction of %s%s needs the radius of the sliding surface, and the "
                          "joint has no conjugate surfaces that define one; give radius on "
                          "<friction>",
-                         fw_text_name(id));
+                         FW_NAMED("joint", fw_text_name(id)));
 }
 
 static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {

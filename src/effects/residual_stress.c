@@ -131,11 +131,12 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     if (!(up > thickness) || said_already(diags, place)) return FW_OK;
     const char *id = c->mechanism->body[body].id;
     fw_diag_warning(diags, 251, place,
-                    "the gradient of the layer's stress lifts the end of body %s by %s um out "
+                    "the gradient of the layer's stress lifts the end of %s%s by %s um out "
                     "of the plane, more than the layer's thickness of %s um; the computed "
                     "motion in the plane neglects this; reduce the gradient, or judge whether "
                     "opposing walls still face each other",
-                    fw_text_name(id), fw_number_text(rises, sizeof rises, 1e6 * up, 3),
+                    FW_NAMED("body", fw_text_name(id)),
+                    fw_number_text(rises, sizeof rises, 1e6 * up, 3),
                     fw_number_text(thick, sizeof thick, 1e6 * thickness, 3));
     return FW_OK;
 }

@@ -72,18 +72,19 @@ static fw_status refuse_width(fw_layout_drawing *d, int body, int joint, double 
     if (length_m <= neck_m) /* with the neck of that width */
         fw_diag_error(
             d->diags, 137, b->width_place,
-            "%s: a bar %s um wide cannot be drawn: it ends %s um from hinge %s, whose "
+            "%s: a bar %s um wide cannot be drawn: it ends %s um from %s%s, whose "
             "neck is %s um long; write a narrower width, or none where all of the body is drawn "
             "by shapes inside it, or move the hinges apart (the bar of a body with one hinge ends "
             "at the body's x, y)",
-            label, wide, length, id, fw_layout_um(most, neck_m));
+            label, wide, length, FW_NAMED("hinge", id), fw_layout_um(most, neck_m));
     else
         fw_diag_error(
             d->diags, 137, b->width_place,
-            "%s: a bar %s um wide cannot be drawn: at hinge %s it has %s um, on which the "
+            "%s: a bar %s um wide cannot be drawn: at %s%s it has %s um, on which the "
             "layout widens it from the hinge's neck by 45 degrees at most and leaves half of "
             "the bar its full width; write a width below %s um, or move the hinges apart",
-            label, wide, id, length, fw_layout_um(most, ceil(most_m * 1e7) / 1e7));
+            label, wide, FW_NAMED("hinge", id), length,
+            fw_layout_um(most, ceil(most_m * 1e7) / 1e7));
     if (d->diags == d->own) {
         d->too_wide = body;
         d->fits_m = fmin(most_m, length_m > neck_m ? b->width_m : 0.9 * b->width_m);

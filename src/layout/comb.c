@@ -154,7 +154,7 @@ static fw_status list_obstacles(const fw_layout_drawing *d, int body, int before
     for (int b = 0; b < device->nbody; b++)
         if (b != body) FW_TRY(add_outline(d->arena, o, "", NULL, b, &d->plain[b], 0.0));
     for (int j = 0; j < device->nrevolute; j++)
-        o->item[o->n++] = (obstacle){.kind = "hinge ",
+        o->item[o->n++] = (obstacle){.kind = fw_text_kind("hinge ", device->revolute[j].id),
                                      .id = device->revolute[j].id,
                                      .centre = d->layout->hinge[j].centre,
                                      .radius_m = d->layout->hinge[j].keep_out_m};
@@ -163,7 +163,8 @@ static fw_status list_obstacles(const fw_layout_drawing *d, int body, int before
         if (d->comb[i].off) continue;
         const fw_geometry_contour *own[] = {&d->comb[i].rotor, &d->comb[i].stator};
         for (int k = 0; k < 2; k++)
-            FW_TRY(add_outline(d->arena, o, "comb drive ", id, FW_NONE, own[k], 0.0));
+            FW_TRY(add_outline(d->arena, o, fw_text_kind("comb drive ", id), id, FW_NONE, own[k],
+                               0.0));
     }
     return FW_OK;
 }
@@ -175,10 +176,12 @@ static fw_status list_for_stator(const fw_layout_drawing *d, int rotor, int befo
     for (int i = 0; i < d->neyelet; i++) {
         const fw_layout_eyelet_plan *e = &d->eyelet[i];
         if (!e->off)
-            o->item[o->n++] = (obstacle){.kind = "an eyelet of tendon ",
-                                         .id = e->tendon->id ? e->tendon->id : "",
-                                         .centre = e->at,
-                                         .radius_m = 0.5 * e->hole_m + e->ring_m + LEAST_M};
+            o->item[o->n++] =
+                (obstacle){.kind = *fw_text_kind("tendon ", e->tendon->id) ? "an eyelet of tendon "
+                                                                           : "an eyelet of ",
+                           .id = e->tendon->id ? e->tendon->id : "",
+                           .centre = e->at,
+                           .radius_m = 0.5 * e->hole_m + e->ring_m + LEAST_M};
     }
     if (fw_layout_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
         fw_geometry_contour *bar = fw_arena_one(d->arena, fw_geometry_contour);

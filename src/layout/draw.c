@@ -61,13 +61,14 @@ const char *fw_layout_body_label(fw_layout_drawing *d, int body) {
     if (body == FW_GROUND && d->base != FW_NONE) {
         const fw_geometry_vec2 at = fw_layout_joint_point(d->device, d->base);
         char x[32], y[32];
-        return fw_arena_printf(d->arena, "base of hinge %s at (%s, %s) um",
-                               d->device->revolute[d->base].id, fw_layout_um(x, at.x),
-                               fw_layout_um(y, at.y));
+        return fw_arena_printf(d->arena, "base of %s%s at (%s, %s) um",
+                               FW_NAMED("hinge", d->device->revolute[d->base].id),
+                               fw_layout_um(x, at.x), fw_layout_um(y, at.y));
     }
     if (body == FW_GROUND) return "base";
     const fw_device_body *b = &d->device->body[body];
-    return fw_arena_printf(d->arena, "%s %s", b->platform ? "platform" : "link", b->id);
+    return fw_arena_printf(d->arena, "%s%s",
+                           fw_text_kind(b->platform ? "platform " : "link ", b->id), b->id);
 }
 
 fw_place fw_layout_body_place(const fw_layout_drawing *d, int body) {

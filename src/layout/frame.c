@@ -106,9 +106,9 @@ static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int on
         return fw_layout_body_draw(d, FW_GROUND, only, &pedestal, 1);
     }
     fw_diag_error(d->diags, 128, d->device->revolute[joint[0]].place,
-                  "the base at ground hinge %s cannot reach the frame on any side without crossing "
+                  "the base at ground %s%s cannot reach the frame on any side without crossing "
                   "a moving part; move the ground hinges to the rim of the mechanism",
-                  d->device->revolute[joint[0]].id);
+                  FW_NAMED("hinge", d->device->revolute[joint[0]].id));
     fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint[0]));
     fault.body[fault.nbody++] = FW_GROUND;
     fault.joint[fault.njoint++] = joint[0];

@@ -76,13 +76,14 @@ static fw_status eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, cons
     e->off = true;
     e->cap.count = 0;
     return fw_layout_missing_add(
-        d, (fw_layout_missing){.number = 131,
-                               .eyelet = e->eyelet,
-                               .body = e->eyelet->body,
-                               .name = fw_arena_printf(d->arena, "eyelet of tendon %s", of),
-                               .at = e->at,
-                               .place = e->eyelet->place,
-                               .why = why});
+        d, (fw_layout_missing){
+               .number = 131,
+               .eyelet = e->eyelet,
+               .body = e->eyelet->body,
+               .name = fw_arena_printf(d->arena, "eyelet of %s%s", FW_NAMED("tendon", of)),
+               .at = e->at,
+               .place = e->eyelet->place,
+               .why = why});
 }
 
 static fw_status comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const char *why) {
@@ -91,13 +92,14 @@ static fw_status comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const ch
     p->why = why;
     p->rotor.count = p->stator.count = 0;
     return fw_layout_missing_add(
-        d, (fw_layout_missing){.number = 131,
-                               .comb = p->comb,
-                               .body = p->comb->body_b,
-                               .name = fw_arena_printf(d->arena, "comb drive %s", id),
-                               .at = p->local.origin,
-                               .place = p->comb->place,
-                               .why = why});
+        d,
+        (fw_layout_missing){.number = 131,
+                            .comb = p->comb,
+                            .body = p->comb->body_b,
+                            .name = fw_arena_printf(d->arena, "%s%s", FW_NAMED("comb drive", id)),
+                            .at = p->local.origin,
+                            .place = p->comb->place,
+                            .why = why});
 }
 
 /* ---- bodies ---- */
@@ -491,8 +493,8 @@ fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour
 /* ---- pieces ---- */
 
 static fw_status add_cap(fw_layout_drawing *d, const fw_layout_eyelet_plan *e) {
-    const char *label =
-        fw_arena_printf(d->arena, "ring of tendon %s", e->tendon->id ? e->tendon->id : "");
+    const char *label = fw_arena_printf(d->arena, "ring of %s%s",
+                                        FW_NAMED("tendon", e->tendon->id ? e->tendon->id : ""));
     return fw_layout_drawing_add(d, e->on_frame ? FW_ROLE_FRAME : FW_ROLE_STRUCTURE,
                                  e->eyelet->body, FW_NONE, label, &e->cap);
 }
@@ -507,10 +509,10 @@ static void report_masses(fw_layout_drawing *d) {
             drawn = drawn || (!d->eyelet[i].off && d->eyelet[i].eyelet->body == b);
         if (drawn && !isnan(body->mass_kg))
             fw_diag_note(d->diags, 255, body->place,
-                         "body %s states its mass, which holds as it is: electrodes and rings that "
+                         "%s%s states its mass, which holds as it is: electrodes and rings that "
                          "are drawn on it add nothing; leave mass and inertia out to have them "
                          "counted",
-                         body->id);
+                         FW_NAMED("body", body->id));
     }
 }
 
@@ -537,7 +539,7 @@ fw_status fw_layout_actuators_add(fw_layout_drawing *d) {
             (fw_layout_electrode){.comb = p->comb, .why_not = p->why, .at = p->local.origin};
         if (p->off) continue;
         const char *id = fw_text_name(p->comb->id),
-                   *label = fw_arena_printf(d->arena, "stator of comb drive %s", id);
+                   *label = fw_arena_printf(d->arena, "stator of %s%s", FW_NAMED("comb drive", id));
         FW_NEED(label);
         electrode[i].stator = label;
         electrode[i].routed = p->routed;

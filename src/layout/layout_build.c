@@ -22,13 +22,14 @@ static const char *missing(fw_arena *arena, const fw_device *device, bool *faile
                      isfinite(b->plate_x_m + b->plate_y_m + b->plate_angle_rad);
         bool shapes = fw_layout_only_shapes(device, i) && isfinite(b->x_m + b->y_m + b->phi_rad);
         if (!(b->width_m > 0.0 || plate || shapes))
-            why = fw_arena_printf(arena, "body %s has neither a width, a plate nor an outline",
-                                  b->id);
+            why = fw_arena_printf(arena, "%s%s has neither a width, a plate nor an outline",
+                                  FW_NAMED("body", b->id));
         else if (!isnan(b->plate_width_m) && !plate)
-            why = fw_arena_printf(arena, "the plate of body %s lacks its size or place", b->id);
+            why = fw_arena_printf(arena, "the plate of %s%s lacks its size or place",
+                                  FW_NAMED("body", b->id));
         else if (!plate && !shapes && (n == 0 || (n == 1 && !isfinite(b->x_m + b->y_m))))
-            why =
-                fw_arena_printf(arena, "body %s has a width, but no second hinge to reach", b->id);
+            why = fw_arena_printf(arena, "%s%s has a width, but no second hinge to reach",
+                                  FW_NAMED("body", b->id));
         else
             continue;
         *failed = !why;
@@ -36,9 +37,10 @@ static const char *missing(fw_arena *arena, const fw_device *device, bool *faile
     for (int i = 0; i < device->nrevolute && !why && !*failed; i++) {
         const fw_device_revolute *j = &device->revolute[i];
         if (j->flexure == FW_NONE)
-            why = fw_arena_printf(arena, "joint %s has no flexure", j->id);
+            why = fw_arena_printf(arena, "%s%s has no flexure", FW_NAMED("joint", j->id));
         else if (!isfinite(j->x_m + j->y_m))
-            why = fw_arena_printf(arena, "joint %s has no place in the drawing", j->id);
+            why = fw_arena_printf(arena, "%s%s has no place in the drawing",
+                                  FW_NAMED("joint", j->id));
         else
             continue;
         *failed = !why;
@@ -82,8 +84,8 @@ static fw_status add_bodies(fw_layout_drawing *d) {
     for (int i = 0; i < d->nattachment; i++)
         if (d->attachment[i].tether.count > 0) FW_TRY(add_tether(d, &d->attachment[i]));
     for (int j = 0; j < d->device->nrevolute; j++) {
-        const char *label =
-            fw_arena_printf(d->arena, "flexure of hinge %s", d->device->revolute[j].id);
+        const char *label = fw_arena_printf(d->arena, "flexure of %s%s",
+                                            FW_NAMED("hinge", d->device->revolute[j].id));
         FW_NEED(label);
         FW_TRY(fw_layout_drawing_add(d, FW_ROLE_FLEXURE, d->layout->hinge[j].lower, j, label,
                                      &d->hinge[j].flexure));
@@ -268,8 +270,9 @@ static fw_geometry_vec2 stated_at(const fw_device *device, int body, double x_m,
 
 /* "body cart" or "the ground" */
 static const char *holds_on(fw_layout_drawing *d, int body) {
-    return body == FW_GROUND ? "the ground"
-                             : fw_arena_printf(d->arena, "body %s", d->device->body[body].id);
+    return body == FW_GROUND
+               ? "the ground"
+               : fw_arena_printf(d->arena, "%s%s", FW_NAMED("body", d->device->body[body].id));
 }
 
 static const char *instead_of(fw_device_joint_kind kind) {
@@ -379,11 +382,11 @@ static void say_open_hinges(const fw_layout_drawing *d) {
         if (apart_m > grid_m)
             fw_diag_error(
                 d->diags, 206, r->place,
-                "joint %s does not close in the drawn position: its two bodies put it %s um "
+                "%s%s does not close in the drawn position: its two bodies put it %s um "
                 "apart (10 nm is allowed), which may be all that is wrong with the drawing; "
                 "correct the body positions or its coordinates; `flexwright assemble` prints "
                 "poses that close",
-                r->id, fw_number_text(gap, sizeof gap, apart_m * 1e6, 4));
+                FW_NAMED("joint", r->id), fw_number_text(gap, sizeof gap, apart_m * 1e6, 4));
     }
 }
 

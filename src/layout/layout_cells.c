@@ -40,7 +40,7 @@ fw_status fw_layout_cells_add(fw_arena *arena, const fw_device_cell *cell, int n
         for (int k = 0; k < cell[i].nlayer; k++) {
             const fw_device_cell_layer *from = &cell[i].layer[k];
             if (from->role == FW_CELL_ROLE_OPEN) continue; /* no flow, so no mask */
-            const char *label = fw_arena_printf(arena, "cell %s", cell[i].name);
+            const char *label = fw_arena_printf(arena, "%s%s", FW_NAMED("cell", cell[i].name));
             FW_NEED(label);
             list[layout->ncell++] = (fw_layout_cell){label, from->to, cell[i].biased, &cell[i]};
             for (int n = 0; n < from->drawn->n; n++) {

@@ -347,7 +347,8 @@ static fw_status tell(fw_layout_drawing *d, const part *p, const part *q, double
     char a[32], b[32], x[32], y[32];
     const char *label = p->label;
     if (p->joint != FW_NONE)
-        label = fw_arena_printf(d->arena, "flexure of hinge %s", d->device->revolute[p->joint].id);
+        label = fw_arena_printf(d->arena, "flexure of %s%s",
+                                FW_NAMED("hinge", d->device->revolute[p->joint].id));
     FW_NEED(label);
     FW_NEED(q->label);
     fw_diag_error(d->diags, 120, fw_layout_body_place(d, p->body >= 0 ? p->body : q->body),

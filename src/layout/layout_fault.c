@@ -121,7 +121,8 @@ static fw_status show_hinge(fw_layout_drawing *d, int j) {
         bool drawn = d->plain[fw_layout_drawing_slot(d, side->body, j)].count > 0;
         if (!drawn && side->head.count > 0) FW_TRY(add_outline(d, side->body, &side->head));
     }
-    const char *label = fw_arena_printf(d->arena, "flexure of hinge %s", d->device->revolute[j].id);
+    const char *label =
+        fw_arena_printf(d->arena, "flexure of %s%s", FW_NAMED("hinge", d->device->revolute[j].id));
     return fw_layout_drawing_add(d, FW_ROLE_FLEXURE, plan->side[0].body, j, label, &plan->flexure);
 }
 

@@ -207,12 +207,12 @@ static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layo
     }
     char x[32], y[32], r[32], least[32];
     fw_diag_error(d->diags, 317, j->place,
-                  "hinge %s at (%s, %s) um hangs in the air: no straight neck of %s um width finds "
-                  "what is drawn of body %s, starting from the hinge's free circle of radius %s "
+                  "%s%s at (%s, %s) um hangs in the air: no straight neck of %s um width finds "
+                  "what is drawn of %s%s, starting from the hinge's free circle of radius %s "
                   "um; draw the body nearer to the hinge, or give it a width for bars between its "
                   "hinges",
-                  j->id, fw_layout_um(x, w.x), fw_layout_um(y, w.y),
-                  fw_layout_um(least, 2.0 * to->half_m), device->body[body].id,
+                  FW_NAMED("hinge", j->id), fw_layout_um(x, w.x), fw_layout_um(y, w.y),
+                  fw_layout_um(least, 2.0 * to->half_m), FW_NAMED("body", device->body[body].id),
                   fw_layout_um(r, keep_out));
     return blame(d, 317, joint, body);
 }
@@ -277,9 +277,9 @@ static fw_status refuse(fw_layout_drawing *d, int joint, int number, const char 
     const fw_device_flexure *f = &d->device->flexure[j->flexure];
     char length[32], width[32], angle[32];
     bool turns = isfinite(f->angle_rad); /* not a leaf */
-    fw_diag_error(d->diags, number, f->place, "hinge %s (length %s um, width %s um%s%s%s): %s",
-                  j->id, fw_layout_um(length, f->length_m), fw_layout_um(width, f->width_m),
-                  turns ? ", angle " : "",
+    fw_diag_error(d->diags, number, f->place, "%s%s (length %s um, width %s um%s%s%s): %s",
+                  FW_NAMED("hinge", j->id), fw_layout_um(length, f->length_m),
+                  fw_layout_um(width, f->width_m), turns ? ", angle " : "",
                   turns ? fw_number_text(angle, sizeof angle, f->angle_rad * 180.0 / FW_PI, 5) : "",
                   turns ? " deg" : "", what);
     return blame(d, number, joint, FW_GROUND);
@@ -304,11 +304,11 @@ static bool fillet_fits(fw_layout_drawing *d, int joint, double most_m) {
                   fw_layout_um(flat, fw_layout_rule.root_flat_m));
     if (!rule) return false;
     fw_diag_error(d->diags, 129, f->fillet_place,
-                  "flexure %s: a fillet of %s um does not fit: the roots of this flexure have room "
+                  "%s%s: a fillet of %s um does not fit: the roots of this flexure have room "
                   "for %s um (layout rule: %s); write %s um or less, leave the fillet out, or make "
                   "the flexure longer",
-                  f->id ? f->id : "", fw_layout_um(wanted, f->fillet_m), fw_layout_um(most, most_m),
-                  rule, most);
+                  FW_NAMED("flexure", f->id ? f->id : ""), fw_layout_um(wanted, f->fillet_m),
+                  fw_layout_um(most, most_m), rule, most);
     return false;
 }
 

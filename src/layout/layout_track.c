@@ -320,12 +320,13 @@ static fw_status refuse(fw_layout_drawing *d, const fw_layout_comb_plan *p) {
     fault.body[fault.nbody++] = FW_ISLAND;
     fw_diag_error(
         d->diags, 440, p->comb->place,
-        "no way leads from the pad of comb drive %s at (%s, %s) um to the chip's edge: a track of "
+        "no way leads from the pad of %s%s at (%s, %s) um to the chip's edge: a track of "
         "40 um with 20 um on either side has to reach the left or the right bar of the frame, and "
         "190 um of it that nothing else holds on to. Moving parts, hinges and the base shut the "
         "pad in, or are too near: move the drive, give the die more clearance, or say "
         "pad=\"probed\"",
-        fw_text_name(p->comb->id), fw_layout_um(x, p->pad_at.x), fw_layout_um(y, p->pad_at.y));
+        FW_NAMED("comb drive", fw_text_name(p->comb->id)), fw_layout_um(x, p->pad_at.x),
+        fw_layout_um(y, p->pad_at.y));
     FW_TRY(fw_layout_fault_keep(d, fault));
     return FW_GEOMETRY;
 }

@@ -354,12 +354,12 @@ fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
         const char *label = fw_layout_body_label(d, body);
         FW_NEED(label);
         fw_diag_note(d->diags, 537, fw_layout_body_place(d, body),
-                     "%s is drawn into the round place of hinge %s, %s um about (%s, %s) um, and "
+                     "%s is drawn into the round place of %s%s, %s um about (%s, %s) um, and "
                      "%s um^2 of it are not on the masks; end what is drawn outside of that, or "
                      "move the hinge",
-                     label, d->device->revolute[j].id, fw_layout_um(r, h->keep_out_m),
-                     fw_layout_um(x, h->centre.x), fw_layout_um(y, h->centre.y),
-                     fw_number_text(um2, sizeof um2, 1e12 * area, 3));
+                     label, FW_NAMED("hinge", d->device->revolute[j].id),
+                     fw_layout_um(r, h->keep_out_m), fw_layout_um(x, h->centre.x),
+                     fw_layout_um(y, h->centre.y), fw_number_text(um2, sizeof um2, 1e12 * area, 3));
     }
     return FW_OK;
 }

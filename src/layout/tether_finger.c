@@ -242,7 +242,8 @@ static fw_status take_all(fw_layout_drawing *d, int body, way *w) {
         const fw_layout_hinge_layout *h = &l->hinge[j];
         const double r = h->keep_out_m + fw_layout_rule.strip_disc_m;
         double along = is_upright(w->side) ? h->centre.y : h->centre.x;
-        const char *name = fw_arena_printf(d->arena, "hinge %s", d->device->revolute[j].id);
+        const char *name =
+            fw_arena_printf(d->arena, "%s%s", FW_NAMED("hinge", d->device->revolute[j].id));
         FW_NEED(name);
         if (depth_of(l, w->side, h->centre) - r < w->deep)
             take_part(w, (extent){along - r, along + r}, 0.0, name);

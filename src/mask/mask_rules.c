@@ -206,15 +206,15 @@ const char *fw_mask_cause(fw_arena *arena, const fw_layout *layout, fw_geometry_
     return h->axis_stated
                ? fw_arena_printf(
                      arena,
-                     "; the place belongs to hinge %s, whose flexure bulges towards %s "
+                     "; the place belongs to %s%s, whose flexure bulges towards %s "
                      "deg because the file says so: its two sides have no room for each "
                      "other there, so turn its axis, or leave axis out to have one "
                      "chosen",
-                     h->id, axis)
+                     FW_NAMED("hinge", h->id), axis)
                : fw_arena_printf(arena,
-                                 "; the place belongs to hinge %s, whose flexure bulges towards %s "
+                                 "; the place belongs to %s%s, whose flexure bulges towards %s "
                                  "deg: state another axis for it, or move what is beside it",
-                                 h->id, axis);
+                                 FW_NAMED("hinge", h->id), axis);
 }
 
 /* ---- findings as messages ----

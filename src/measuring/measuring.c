@@ -166,7 +166,7 @@ static fw_status name_requirements(work *w) {
     FW_NEED(name);
     for (int i = 0; i < v->nrequirement; i++) {
         const fw_verdict_requirement *r = &v->requirement[i];
-        FW_NEED(name[i] = fw_arena_printf(w->arena, "requirement %s (%s)", r->probe,
+        FW_NEED(name[i] = fw_arena_printf(w->arena, "%s%s (%s)", FW_NAMED("requirement", r->probe),
                                           r->measure ? r->measure : r->kind));
     }
     w->out->requirement_name = name;
@@ -181,7 +181,8 @@ static fw_status find_most(work *w, const fw_verdict_ranges *r, fw_measuring_ite
     for (int k = 0; k < v->nhinge; k++) {
         if (isnan(r->hinge[k].high) || r->hinge[k].high <= item->most) continue;
         item->most = r->hinge[k].high;
-        FW_NEED(item->governs = fw_arena_printf(w->arena, "hinge %s", v->hinge[k].id));
+        FW_NEED(item->governs =
+                    fw_arena_printf(w->arena, "%s%s", FW_NAMED("hinge", v->hinge[k].id)));
     }
     for (int i = 0; i < v->nrequirement; i++) {
         if (isnan(r->requirement[i].high) || r->requirement[i].high <= item->most) continue;
@@ -202,7 +203,8 @@ static fw_status govern(work *w, const fw_verdict_ranges *r, int hinge) {
         out->hinge = hinge;
         out->band = r->hinge[hinge];
         most = out->band.high;
-        FW_NEED(out->what = fw_arena_printf(w->arena, "hinge %s", v->hinge[hinge].id));
+        FW_NEED(out->what =
+                    fw_arena_printf(w->arena, "%s%s", FW_NAMED("hinge", v->hinge[hinge].id)));
     }
     for (int i = 0; i < v->nrequirement; i++) {
         if (!(r->requirement[i].high > most)) continue;
@@ -252,7 +254,8 @@ static fw_status look_at_made(work *w) {
     if (hinge != FW_NONE) {
         find_shares(w, hinge);
         w->out->hinge = hinge;
-        FW_NEED(w->out->what = fw_arena_printf(w->arena, "hinge %s", v->hinge[hinge].id));
+        FW_NEED(w->out->what =
+                    fw_arena_printf(w->arena, "%s%s", FW_NAMED("hinge", v->hinge[hinge].id)));
     }
     w->out->banded = w->in->bands;
     return w->in->bands ? judge_items(w, hinge) : FW_OK;

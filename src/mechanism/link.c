@@ -196,21 +196,20 @@ fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i) {
         to->length_m};
     if (!two_bodies(b, to->body_a, to->body_b) || !fw_mechanism_all_finite(all, 7) || all[4] < 0 ||
         all[5] < 0 || all[6] < 0)
-        return fw_diag_error(
-            b->diags, 89, from->place,
-            "spring %s must join two different bodies, with finite points and with "
-            "stiffness, damping and length that are not negative",
-            fw_text_name(from->id));
+        return fw_diag_error(b->diags, 89, from->place,
+                             "%s%s must join two different bodies, with finite points and with "
+                             "stiffness, damping and length that are not negative",
+                             FW_NAMED("spring", fw_text_name(from->id)));
     fw_geometry_vec2 d = span(b, to->body_a, to->ax_m, to->ay_m, to->body_b, to->bx_m, to->by_m);
     /* a slack cable pushes in no direction, and so does a spring without a rest length */
     if (d.x == 0 && d.y == 0 && to->length_m > 0 && to->stiffness_N_per_m > 0 && !to->cable &&
         !fw_mechanism_said_already(b->diags, 91, from->place)) {
         char length[32];
         fw_diag_warning(b->diags, 91, from->place,
-                        "both ends of spring %s lie on the same point as drawn, and its length at "
+                        "both ends of %s%s lie on the same point as drawn, and its length at "
                         "rest is %s m: its force has no direction and is left out until they part; "
                         "move an end, or give length=\"0 um\"",
-                        fw_text_name(from->id),
+                        FW_NAMED("spring", fw_text_name(from->id)),
                         fw_number_text(length, sizeof length, to->length_m, 4));
     }
     return FW_OK;
@@ -230,8 +229,8 @@ fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i) {
     bool distance = to->kind == FW_JOINT_DISTANCE, prismatic = to->kind == FW_JOINT_PRISMATIC;
     if (!two_bodies(b, to->body_a, to->body_b))
         return fw_diag_error(b->diags, 90, from->place,
-                             "joint %s must join two different bodies of the mechanism",
-                             fw_text_name(from->id));
+                             "%s%s must join two different bodies of the mechanism",
+                             FW_NAMED("joint", fw_text_name(from->id)));
     if (distance && isnan(to->length_m)) {
         fw_geometry_vec2 d =
             span(b, to->body_a, to->ax_m, to->ay_m, to->body_b, to->bx_m, to->by_m);
@@ -259,18 +258,16 @@ fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i) {
                           to->damping_Ns_per_m};
     if (!fw_mechanism_all_finite(all, sizeof all / sizeof all[0]) || to->stiffness_N_per_m < 0 ||
         to->damping_Ns_per_m < 0)
-        return fw_diag_error(
-            b->diags, 90, from->place,
-            "points, axis, angle and lengths of joint %s must be finite, stiffness "
-            "and damping not negative",
-            fw_text_name(from->id));
+        return fw_diag_error(b->diags, 90, from->place,
+                             "points, axis, angle and lengths of %s%s must be finite, stiffness "
+                             "and damping not negative",
+                             FW_NAMED("joint", fw_text_name(from->id)));
     if (distance && !(to->length_m > 0))
-        return fw_diag_error(
-            b->diags, 90, from->place,
-            "the points of distance joint %s lie on the same point as drawn, and a "
-            "rod without length has no direction; give its length, or join the "
-            "bodies by a <revolute>",
-            fw_text_name(from->id));
+        return fw_diag_error(b->diags, 90, from->place,
+                             "the points of distance %s%s lie on the same point as drawn, and a "
+                             "rod without length has no direction; give its length, or join the "
+                             "bodies by a <revolute>",
+                             FW_NAMED("joint", fw_text_name(from->id)));
     return FW_OK;
 }
 
@@ -283,19 +280,18 @@ fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i) {
     double value[3] = {(double)NAN, (double)NAN, (double)NAN};
     if (revolute == joint || (revolute ? from->joint : from->revolute) != FW_NONE)
         return fw_diag_error(b->diags, 92, from->place,
-                             "driver %s must drive one revolute, prismatic or distance joint",
-                             fw_text_name(from->id));
+                             "%s%s must drive one revolute, prismatic or distance joint",
+                             FW_NAMED("driver", fw_text_name(from->id)));
     if (fw_quantity_law_is_ready(&from->law))
         fw_quantity_law_value(&from->law, 0, DBL_MIN, value); /* the piece that begins at 0 */
     if (!fw_mechanism_all_finite(value, 3))
-        return fw_diag_error(
-            b->diags, 92, from->value_place,
-            "the value of driver %s, its rate or its acceleration is not finite at the "
-            "start",
-            fw_text_name(from->id));
+        return fw_diag_error(b->diags, 92, from->value_place,
+                             "the value of %s%s, its rate or its acceleration is not finite at the "
+                             "start",
+                             FW_NAMED("driver", fw_text_name(from->id)));
     if (joint && b->device->joint[from->joint].kind == FW_JOINT_DISTANCE && !(value[0] > 0))
         return fw_diag_error(b->diags, 92, from->value_place,
-                             "driver %s gives its rod a length that is not above 0 at the start",
-                             fw_text_name(from->id));
+                             "%s%s gives its rod a length that is not above 0 at the start",
+                             FW_NAMED("driver", fw_text_name(from->id)));
     return FW_OK;
 }

@@ -81,10 +81,11 @@ static void compare_mass(const fw_mechanism_builder *b, const fw_device_body *fr
         return;
     char text[5][32];
     fw_diag_note(b->diags, 256, from->place,
-                 "body %s states %s kg and %s kg m2; what is drawn of it has %s kg and, about the "
+                 "%s%s states %s kg and %s kg m2; what is drawn of it has %s kg and, about the "
                  "same centre, %s kg m2, and its centroid is %s m from there: the stated values "
                  "hold; leave mass and inertia out to take those of the drawing",
-                 fw_text_name(from->id), fw_number_text(text[0], sizeof text[0], to->mass_kg, 4),
+                 FW_NAMED("body", fw_text_name(from->id)),
+                 fw_number_text(text[0], sizeof text[0], to->mass_kg, 4),
                  fw_number_text(text[1], sizeof text[1], to->inertia_kg_m2, 4),
                  fw_number_text(text[2], sizeof text[2], mass, 4),
                  fw_number_text(text[3], sizeof text[3], inertia, 4),
@@ -115,14 +116,14 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
     const bool sized = from->width_m > 0 || from->plate_width_m > 0 || from->nshape > 0;
     if (needs && !shape && sized && b->layout && !b->layout->drawn && b->layout->why_not)
         return fw_diag_error(b->diags, 82, from->place,
-                             "body %s takes its mass, inertia and position from the drawing, and "
+                             "%s%s takes its mass, inertia and position from the drawing, and "
                              "nothing is drawn: %s; mend that, or give mass, inertia, x and y",
-                             fw_text_name(from->id), b->layout->why_not);
+                             FW_NAMED("body", fw_text_name(from->id)), b->layout->why_not);
     if (needs && !shape)
         return fw_diag_error(b->diags, 82, from->place,
-                             "body %s has no shape that could give its mass, inertia and position; "
+                             "%s%s has no shape that could give its mass, inertia and position; "
                              "give mass, inertia, x and y, or a width",
-                             fw_text_name(from->id));
+                             FW_NAMED("body", fw_text_name(from->id)));
     if (isnan(to->mass_kg) || isnan(to->inertia_kg_m2)) {
         FW_TRY(
             need_property(b, &v->material.density, "density", "the mass of a body", from->place));
@@ -137,13 +138,13 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
     if (!(to->mass_kg > 0) || !(to->inertia_kg_m2 > 0) || !isfinite(to->mass_kg) ||
         !isfinite(to->inertia_kg_m2))
         return fw_diag_error(b->diags, 83, from->place,
-                             "body %s has mass %s kg and inertia %s kg m2; both must be above 0",
-                             fw_text_name(from->id),
+                             "%s%s has mass %s kg and inertia %s kg m2; both must be above 0",
+                             FW_NAMED("body", fw_text_name(from->id)),
                              fw_number_text(mass, sizeof mass, to->mass_kg, 4),
                              fw_number_text(inertia, sizeof inertia, to->inertia_kg_m2, 4));
     if (!fw_mechanism_all_finite(pose, 3))
-        return fw_diag_error(b->diags, 83, from->place, "the pose of body %s is not finite",
-                             fw_text_name(from->id));
+        return fw_diag_error(b->diags, 83, from->place, "the pose of %s%s is not finite",
+                             FW_NAMED("body", fw_text_name(from->id)));
     return FW_OK;
 }
 
@@ -188,8 +189,8 @@ static fw_status pin_points(const fw_mechanism_builder *b, const fw_device_revol
     const double all[4] = {a.x, a.y, c.x, c.y};
     if (!fw_mechanism_all_finite(all, 4))
         return fw_diag_error(b->diags, 84, from->place,
-                             "joint %s has no place; give x and y, or local points on its bodies",
-                             fw_text_name(from->id));
+                             "%s%s has no place; give x and y, or local points on its bodies",
+                             FW_NAMED("joint", fw_text_name(from->id)));
     return FW_OK;
 }
 
@@ -264,10 +265,11 @@ static void report_left_out(const fw_mechanism_builder *b, const fw_device_flexu
         return;
     fw_diag_warning(
         b->diags, 265, f->place,
-        "hinge %s: its path is not its own mirror image; up to %s deg the model of compliant "
+        "%s%s: its path is not its own mirror image; up to %s deg the model of compliant "
         "hinges neglects %s um of drift along its axis and a coupling of %s between the two "
         "directions of force; make the path symmetric if that matters",
-        fw_text_name(joint->id), fw_number_text(degrees, sizeof degrees, most * 180 / FW_PI, 3),
+        FW_NAMED("hinge", fw_text_name(joint->id)),
+        fw_number_text(degrees, sizeof degrees, most * 180 / FW_PI, 3),
         fw_number_text(um, sizeof um, 1e6 * drift, 2),
         fw_number_text(share, sizeof share, coupling, 2));
 }
@@ -298,10 +300,9 @@ static fw_status flexure_result(const fw_mechanism_builder *b, int j,
     fw_flexure_flare(&hinge->input, f->flare_m, result);
     double flared = result->strain_per_rad / result->stiffness_Nm_per_rad / drawn;
     if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
-        return fw_diag_error(
-            b->diags, 85, f->place,
-            "flexure %s has no finite stiffness; check its length, angle and width",
-            fw_text_name(f->id));
+        return fw_diag_error(b->diags, 85, f->place,
+                             "%s%s has no finite stiffness; check its length, angle and width",
+                             FW_NAMED("flexure", fw_text_name(f->id)));
     FW_TRY(fw_flexure_path_strain_new(b->arena, &hinge->input, result, &hinge->section));
     if (fw_flexure_input_varies(&hinge->input)) return varying(b, f, joint, flared, hinge);
     fw_flexure_hinge_law_of(&hinge->input, result, &hinge->law);
@@ -315,10 +316,10 @@ static void compare_stiffness(const fw_mechanism_builder *b, const fw_device_rev
         return;
     char g[32], o[32];
     fw_diag_warning(b->diags, 86, joint->place,
-                    "stiffness of joint %s is given as %s N m/rad, its flexure's geometry has %s; "
+                    "stiffness of %s%s is given as %s N m/rad, its flexure's geometry has %s; "
                     "they differ by more than 10 %%: check which of the two is meant",
-                    fw_text_name(joint->id), fw_number_text(g, sizeof g, given, 4),
-                    fw_number_text(o, sizeof o, own, 4));
+                    FW_NAMED("joint", fw_text_name(joint->id)),
+                    fw_number_text(g, sizeof g, given, 4), fw_number_text(o, sizeof o, own, 4));
 }
 
 static fw_status check_pin_bodies(const fw_mechanism_builder *b, const fw_device_revolute *joint) {
@@ -326,8 +327,8 @@ static fw_status check_pin_bodies(const fw_mechanism_builder *b, const fw_device
     if (x < FW_GROUND || y < FW_GROUND || x >= n || y >= n || x == y || joint->flexure < FW_NONE ||
         joint->flexure >= b->device->nflexure)
         return fw_diag_error(b->diags, 87, joint->place,
-                             "joint %s must join two different bodies of the mechanism",
-                             fw_text_name(joint->id));
+                             "%s%s must join two different bodies of the mechanism",
+                             FW_NAMED("joint", fw_text_name(joint->id)));
     return FW_OK;
 }
 
@@ -458,8 +459,8 @@ static fw_status build_pin(const fw_mechanism_builder *b, int j) {
     if (!fw_mechanism_all_finite(all, 5) || all[0] < 0 || all[1] < 0 || all[3] < 0 || all[4] < 0 ||
         isinf(to->stop_min_rad) || isinf(to->stop_max_rad))
         return fw_diag_error(b->diags, 88, from->place,
-                             "stiffness and damping of joint %s must be finite and not negative",
-                             fw_text_name(from->id));
+                             "stiffness and damping of %s%s must be finite and not negative",
+                             FW_NAMED("joint", fw_text_name(from->id)));
     return FW_OK;
 }
 

@@ -19,18 +19,18 @@ static fw_status missing(fw_arena *arena, const fw_mechanism *m, const char **wh
         *why = "no joint is a flexure";
     for (int i = 0; i < m->nbody && !*why; i++)
         if (!(m->shape && m->shape[i].area_m2 > 0))
-            FW_NEED(*why = fw_arena_printf(arena, "nothing is drawn of body %s",
-                                           fw_text_name(m->body[i].id)));
+            FW_NEED(*why = fw_arena_printf(arena, "nothing is drawn of %s%s",
+                                           FW_NAMED("body", fw_text_name(m->body[i].id))));
     for (int j = 0; j < m->npin && !*why; j++) {
         const fw_mechanism_pin *pin = &m->pin[j];
         bool known = pin->hinge != FW_NONE && isfinite(m->hinge[pin->hinge].axis_rad);
         if (!known)
-            FW_NEED(*why = fw_arena_printf(arena, "joint %s is no flexure that is drawn",
-                                           fw_text_name(pin->id)));
+            FW_NEED(*why = fw_arena_printf(arena, "%s%s is no flexure that is drawn",
+                                           FW_NAMED("joint", fw_text_name(pin->id))));
     }
     if (!*why && m->njoint > 0)
-        FW_NEED(*why =
-                    fw_arena_printf(arena, "joint %s is no flexure", fw_text_name(m->joint[0].id)));
+        FW_NEED(*why = fw_arena_printf(arena, "%s%s is no flexure",
+                                       FW_NAMED("joint", fw_text_name(m->joint[0].id))));
     return FW_OK;
 }
 

@@ -32,16 +32,16 @@ static fw_status check_joints(const fw_mechanism *m, fw_place place, fw_diags *d
         if (!finite_all(all, 10) || all[5] < 0 || all[6] < 0 || all[8] <= 0 ||
             !body_ok(m, t->body_a) || !body_ok(m, t->body_b) || t->body_a == t->body_b)
             return fw_diag_error(diags, 107, place,
-                                 "joint %s needs two different bodies and finite values",
-                                 fw_text_name(t->id));
+                                 "%s%s needs two different bodies and finite values",
+                                 FW_NAMED("joint", fw_text_name(t->id)));
     }
     for (int i = 0; i < m->ndriver; i++) {
         const fw_device_driver *d = &m->driver[i];
         bool pin = d->revolute >= 0 && d->revolute < m->npin && d->joint == FW_NONE;
         bool joint = d->joint >= 0 && d->joint < m->njoint && d->revolute == FW_NONE;
         if (!pin && !(joint && m->joint[d->joint].kind != FW_JOINT_WELD))
-            return fw_diag_error(diags, 107, place, "driver %s needs one joint that can move",
-                                 fw_text_name(d->id));
+            return fw_diag_error(diags, 107, place, "%s%s needs one joint that can move",
+                                 FW_NAMED("driver", fw_text_name(d->id)));
     }
     return FW_OK;
 }
@@ -53,8 +53,8 @@ static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags
         const double all[5] = {p->mass_kg, p->inertia_kg_m2, p->x_m, p->y_m, p->phi_rad};
         if (!finite_all(all, 5) || all[0] <= 0 || all[1] <= 0)
             return fw_diag_error(diags, 107, place,
-                                 "body %s needs a finite pose, and mass and inertia above 0",
-                                 fw_text_name(p->id));
+                                 "%s%s needs a finite pose, and mass and inertia above 0",
+                                 FW_NAMED("body", fw_text_name(p->id)));
     }
     for (int i = 0; i < m->npin; i++) {
         const fw_mechanism_pin *p = &m->pin[i];
@@ -68,8 +68,8 @@ static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags
         if (!finite_all(all, 7) || all[4] < 0 || all[5] < 0 || !body_ok(m, p->body_a) ||
             !body_ok(m, p->body_b) || p->body_a == p->body_b)
             return fw_diag_error(diags, 107, place,
-                                 "joint %s needs two different bodies and finite values",
-                                 fw_text_name(p->id));
+                                 "%s%s needs two different bodies and finite values",
+                                 FW_NAMED("joint", fw_text_name(p->id)));
     }
     for (int i = 0; i < m->nspring; i++) {
         const fw_device_spring *p = &m->spring[i];
@@ -79,8 +79,8 @@ static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags
         if (!finite_all(all, 7) || all[4] < 0 || all[5] < 0 || !body_ok(m, p->body_a) ||
             !body_ok(m, p->body_b) || p->body_a == p->body_b)
             return fw_diag_error(diags, 107, place,
-                                 "spring %s needs two different bodies and finite values",
-                                 fw_text_name(p->id));
+                                 "%s%s needs two different bodies and finite values",
+                                 FW_NAMED("spring", fw_text_name(p->id)));
     }
     return FW_OK;
 }
@@ -89,8 +89,8 @@ fw_status fw_multibody_check_motion(const fw_mechanism *m, const fw_device_scene
                                     fw_diags *diags) {
     char text[32];
     if (!(s->duration_s > 0) || !isfinite(s->duration_s))
-        return fw_diag_error(diags, 105, s->place, "scene %s lasts %s s; give a duration above 0",
-                             fw_text_name(s->name),
+        return fw_diag_error(diags, 105, s->place, "%s%s lasts %s s; give a duration above 0",
+                             FW_NAMED("scene", fw_text_name(s->name)),
                              fw_number_text(text, sizeof text, s->duration_s, 4));
     FW_TRY(check_mechanism(m, s->place, diags));
     FW_TRY(check_joints(m, s->place, diags));
@@ -108,11 +108,10 @@ fw_status fw_multibody_check_motion(const fw_mechanism *m, const fw_device_scene
         good = good && finite_all(all, 3) && body_ok(m, v->body);
     }
     if (good) return FW_OK;
-    return fw_diag_error(
-        diags, 105, s->place,
-        "loads and initial velocities of scene %s must be finite and act on bodies of "
-        "the mechanism",
-        fw_text_name(s->name));
+    return fw_diag_error(diags, 105, s->place,
+                         "loads and initial velocities of %s%s must be finite and act on bodies of "
+                         "the mechanism",
+                         FW_NAMED("scene", fw_text_name(s->name)));
 }
 
 /* ---- names ---- */

@@ -94,9 +94,9 @@ static fw_status through_joint(fw_plan *plan, fw_plan_flow *pf, int joint, fw_re
     cut->line = (fw_geometry_cut_line){vec_along(line.at, from, line.along), line.along};
     cut->length_m = to - from;
     cut->depth_m = DEPTH_PART * cut->length_m;
-    FW_NEED(cut->name =
-                fw_arena_printf(plan->arena, "hinge %s, %s", plan->device->revolute[joint].id,
-                                gap ? "radially through its gap" : "across its narrowest place"));
+    FW_NEED(cut->name = fw_arena_printf(
+                plan->arena, "%s%s, %s", FW_NAMED("hinge", plan->device->revolute[joint].id),
+                gap ? "radially through its gap" : "across its narrowest place"));
     return FW_OK;
 }
 

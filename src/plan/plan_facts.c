@@ -96,12 +96,13 @@ static fw_status name_gaps(fw_arena *arena, const fw_device *device, const fw_la
     for (int j = 0; j < device->nrevolute; j++) {
         if (!layout->hinge[j].drawn || !(layout->hinge[j].gap_m > 0.0)) continue;
         gap[n] = (fw_process_mask_gap){.kind = FW_GAP_HINGE, .gap_m = layout->hinge[j].gap_m};
-        FW_NEED(gap[n++].name = fw_arena_printf(arena, "gap of hinge %s", device->revolute[j].id));
+        FW_NEED(gap[n++].name = fw_arena_printf(arena, "gap of %s%s",
+                                                FW_NAMED("hinge", device->revolute[j].id)));
     }
     for (int i = 0; i < ndrive; i++) {
         gap[n] = (fw_process_mask_gap){.kind = FW_GAP_COMB, .gap_m = drive[i].gap_m};
-        FW_NEED(gap[n++].name =
-                    fw_arena_printf(arena, "gap of comb drive %s", fw_text_name(drive[i].id)));
+        FW_NEED(gap[n++].name = fw_arena_printf(arena, "gap of %s%s",
+                                                FW_NAMED("comb drive", fw_text_name(drive[i].id))));
     }
     facts->gap = gap;
     facts->ngap = n;

@@ -407,10 +407,12 @@ static fw_status travel(fw_plan *plan, const fw_plan_flow *pf, const fw_verdict_
     if (need <= reach) return FW_OK;
     const char *way =
         far.m > 0.0
-            ? fw_arena_printf(plan->arena, "link %s goes %s um in %s%s, and",
-                              plan->device->body[far.body].id,
+            ? fw_arena_printf(plan->arena, "%s%s goes %s um in %s%s, and",
+                              FW_NAMED("link", plan->device->body[far.body].id),
                               fw_number_text(goes, sizeof goes, far.m * 1e6, 4),
-                              far.scene == FW_NONE ? "a required workspace, at most" : "scene ",
+                              far.scene == FW_NONE
+                                  ? "a required workspace, at most"
+                                  : fw_text_kind("scene ", plan->device->scene[far.scene].name),
                               far.scene == FW_NONE ? "" : plan->device->scene[far.scene].name)
             : "what moves";
     FW_NEED(way);

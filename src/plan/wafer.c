@@ -97,7 +97,7 @@ static fw_status width_effect(fw_plan *plan, int flow, fw_wafer_width_effect *ou
     }
     if (isnan(out->per_m)) return FW_OK;
     out->used = made->most;
-    FW_NEED(out->what = fw_arena_printf(plan->arena, "hinge %s", v->hinge[h].id));
+    FW_NEED(out->what = fw_arena_printf(plan->arena, "%s%s", FW_NAMED("hinge", v->hinge[h].id)));
     return FW_OK;
 }
 

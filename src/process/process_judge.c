@@ -169,16 +169,16 @@ static fw_status insulation(fw_process_judge *j, const fw_process_drive_facts *d
     FW_TRY(drive_names(j, drive, n, &names));
     FW_TRY(fw_process_judge_reason(
         j, FW_ANSWER_NO,
-        "comb drive %s: nothing insulates its rotor from its stator. In this flow the device "
+        "%s%s: nothing insulates its rotor from its stator. In this flow the device "
         "is one conducting layer (%s), cut from one sheet or standing on a conducting wafer, "
         "so that every voltage is shorted. Nearest change: a carrier that insulates (glass, "
         "or an oxidised silicon handle) with anchors of rotor and stator apart on it, <flow "
         "ref=\"%s\" carrier=\"insulating\"/>",
-        names, layer, j->flow->id));
+        FW_NAMED("comb drive", names), layer, j->flow->id));
     fw_diag_warning(diags, 207, drive[0].place,
-                    "comb drive %s cannot work in flow %s: nothing insulates rotor from stator; "
+                    "%s%s cannot work in flow %s: nothing insulates rotor from stator; "
                     "carrier=\"insulating\" in <flow> says that the handle does",
-                    names, j->flow->id);
+                    FW_NAMED("comb drive", names), j->flow->id);
     return FW_OK;
 }
 
@@ -195,11 +195,12 @@ static fw_status widened(fw_process_judge *j, const fw_process_drive_facts *d) {
             double mild = 0.02 * depth, strong = 0.1 * depth; /* both sides, A = 0.99 and 0.95 */
             FW_TRY(fw_process_judge_reason(
                 j, FW_ANSWER_OPEN,
-                "the gap of comb drive %s, drawn %s um, is not known until the anisotropy A of "
+                "the gap of %s%s, drawn %s um, is not known until the anisotropy A of "
                 "step %s is measured: at its top edge it is %s um at A = 0.99 and %s um at A = "
                 "0.95, and the force at a given voltage %s and %s of the drawn one's",
-                fw_text_name(d->id), as_drawn, s->id, fw_process_judge_um(&t, g + mild),
-                fw_process_judge_um(&t, g + strong), fw_process_judge_number(&t, g / (g + mild), 3),
+                FW_NAMED("comb drive", fw_text_name(d->id)), as_drawn, s->id,
+                fw_process_judge_um(&t, g + mild), fw_process_judge_um(&t, g + strong),
+                fw_process_judge_number(&t, g / (g + mild), 3),
                 fw_process_judge_number(&t, g / (g + strong), 3)));
         }
     return FW_OK;
@@ -209,7 +210,8 @@ static fw_status drive_gap(fw_process_judge *j, const fw_process_drive_facts *d,
     fw_process_numbers t = {0};
     printing p;
     double on_mask = d->gap_m - 2.0 * j->flow->bias_m;
-    const char *what = fw_arena_printf(j->arena, "gap of comb drive %s", fw_text_name(d->id));
+    const char *what =
+        fw_arena_printf(j->arena, "gap of %s%s", FW_NAMED("comb drive", fw_text_name(d->id)));
     FW_NEED(what);
     bool limited = printing_of(j->flow, &p);
     if (on_mask <= 0.0) {

@@ -240,7 +240,8 @@ static fw_status walk(holder *h, int body, double reach_m, fw_release_body_hold 
             continue;
         }
         if (other == FW_GROUND) {
-            FW_TRY(add(h, out, fw_arena_printf(h->arena, "base at hinge %s", x->id)));
+            FW_TRY(
+                add(h, out, fw_arena_printf(h->arena, "base at %s%s", FW_NAMED("hinge", x->id))));
             continue;
         }
         next = part_of(h, FW_ROLE_STRUCTURE, other, FW_NONE);

@@ -103,7 +103,7 @@ static void modes_across(const fw_mechanism_plates *p, fw_text *out) {
 
 fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                const fw_statics_modes *modes, fw_text *out) {
-    fw_text_printf(out, "scene %s, %s\n", scene->name ? scene->name : "(none)",
+    fw_text_printf(out, "%s%s, %s\n", FW_NAMED("scene", scene->name ? scene->name : "(none)"),
                    modes->at_equilibrium ? "about the equilibrium under its loads"
                                          : "about the assembled pose, without its loads");
     rank_line(out, modes->count, &modes->rank);
@@ -215,12 +215,13 @@ static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
         fw_text_printf(out, "none, at whatever voltage: %s\n", p->why);
     else if (p->kind == FW_PULL_IN_NONE) {
         fw_text_number(out, p->voltage_V, 6);
-        fw_text_printf(out, " V at comb drive %s are stable, then %s\n", p->comb, p->why);
+        fw_text_printf(out, " V at %s%s are stable, then %s\n", FW_NAMED("comb drive", p->comb),
+                       p->why);
     } else {
         fw_text_number(out, p->voltage_V, 6);
-        fw_text_printf(out, " V at comb drive %s (%s): it %s", p->comb,
+        fw_text_printf(out, " V at %s%s (%s): it %s", FW_NAMED("comb drive", p->comb),
                        fw_statics_pull_in_kind_text(p->kind), how[p->kind]);
-        fw_text_printf(out, ", body %s moves most\n", fw_text_name(p->body));
+        fw_text_printf(out, ", %s%s moves most\n", FW_NAMED("body", fw_text_name(p->body)));
     }
     fw_text_add(out, "  the scene asks for up to ");
     fw_text_number(out, p->largest_V, 6);
@@ -269,7 +270,7 @@ static void friction(const fw_mechanism *m, const fw_statics_friction_range *f, 
 
 fw_status fw_report_statics_text(const fw_mechanism *m, const fw_device_scene *scene,
                                  const fw_statics *s, fw_text *out) {
-    fw_text_printf(out, "scene %s: equilibrium under its loads, ", scene->name);
+    fw_text_printf(out, "%s%s: equilibrium under its loads, ", FW_NAMED("scene", scene->name));
     stability(out, s);
     rank_line(out, s->dof, &s->rank);
     active(out, s);

@@ -246,7 +246,7 @@ void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict) {
             const fw_verdict_fabricated_hinge *m = &v->fabricated->hinge[k];
             const fw_verdict_fabricated_corner *c = &v->fabricated->corner[m->corner];
             const fw_verdict_hinge_verdict *h = &c->hinge[k];
-            fw_text_printf(out, "  tightest: hinge %s, ", h->id);
+            fw_text_printf(out, "  tightest: %s%s, ", FW_NAMED("hinge", h->id));
             fw_text_real(out, "%.1f %% ", 100.0 * h->utilisation);
             fw_text_real(out, "(%.1f..", 100.0 * h->utilisation_low);
             fw_text_real(out, "%.1f) ", 100.0 * h->utilisation_high);

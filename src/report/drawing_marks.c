@@ -108,9 +108,9 @@ static fw_status hinge(maker *k, const fw_verdict_hinge_verdict *h, int number, 
     m->number = number;
     m->joint[m->njoint++] = h->joint;
     fw_percent_text(used, sizeof used, h->utilisation);
-    FW_NEED(m->label =
-                fw_arena_printf(k->arena, "hinge %s uses %s %% of its limit in %s%s%s", h->id, used,
-                                h->scene, made ? ", as made by " : "", made ? made : ""));
+    FW_NEED(m->label = fw_arena_printf(k->arena, "%s%s uses %s %% of its limit in %s%s%s",
+                                       FW_NAMED("hinge", h->id), used, h->scene,
+                                       made ? ", as made by " : "", made ? made : ""));
     m->text = m->label;
     return FW_OK;
 }

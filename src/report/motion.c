@@ -341,7 +341,7 @@ static fw_status one(fw_report_page *page, const fw_verdict_variant_verdict *v, 
     const fw_device *device = page->in->device;
     const fw_device_scene *s = &device->scene[scene];
     const char *flow = v->variant ? v->variant->flow : NULL;
-    char *title = fw_arena_printf(page->arena, "Hinge angles in scene %s", s->name);
+    char *title = fw_arena_printf(page->arena, "Hinge angles in %s%s", FW_NAMED("scene", s->name));
     FW_NEED(title);
     fw_markup(out, "<figure class=\"motion\" id=\"motion-{i}\"><figcaption><h3>{s}{r}{s}</h3>\n",
               number, s->name, flow ? ", " : "", flow);

@@ -282,10 +282,10 @@ fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
                                const fw_device_scene *scene, const fw_verdict *verdict,
                                fw_text *out) {
     const char *flow = mechanism->variant ? mechanism->variant->flow : NULL;
-    char *title =
-        fw_arena_printf(arena, "%s%s, scene %s%s%s: hinge angles and their limits",
-                        fw_report_rejected(verdict), device->name ? device->name : "device",
-                        scene->name ? scene->name : "", flow ? ", " : "", flow ? flow : "");
+    char *title = fw_arena_printf(
+        arena, "%s%s, %s%s%s%s: hinge angles and their limits", fw_report_rejected(verdict),
+        device->name ? device->name : "device", FW_NAMED("scene", scene->name ? scene->name : ""),
+        flow ? ", " : "", flow ? flow : "");
     FW_NEED(title);
 
     const fw_report_figure figure = {3, 2 * FW_REPORT_CURVE, true, title};

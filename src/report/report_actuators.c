@@ -173,11 +173,14 @@ static void plates(const pen *p, const fw_device_comb *c, const frame *f) {
 
 /* are its electrodes part of the drawing? */
 static bool is_drawn(const pen *p, const fw_device_comb *c) {
-    static const char start[] = "stator of comb drive ";
+    static const char start[] = "stator of ";
     for (int i = 0; p->layout && c->id && i < p->layout->npiece; i++) {
         const fw_layout_piece *piece = &p->layout->piece[i];
-        if (piece->body == FW_ISLAND && strncmp(piece->label, start, sizeof start - 1) == 0 &&
-            strcmp(piece->label + sizeof start - 1, c->id) == 0)
+        if (piece->body != FW_ISLAND || strncmp(piece->label, start, sizeof start - 1) != 0)
+            continue;
+        const char *kind = fw_text_kind("comb drive ", c->id),
+                   *of = piece->label + sizeof start - 1;
+        if (strncmp(of, kind, strlen(kind)) == 0 && strcmp(of + strlen(kind), c->id) == 0)
             return true;
     }
     return false;

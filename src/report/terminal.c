@@ -91,7 +91,8 @@ fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_dev
     for (int i = 0; i < fw_probe_count(mechanism); i++) {
         char text[FW_PROBE_TEXT];
         if (!fw_report_probe_moves(&probe[i])) continue;
-        fw_text_printf(out, "probe %s (%s): %s\n", probe[i].asked->id, probe[i].kind->name,
+        fw_text_printf(out, "%s%s (%s): %s\n", FW_NAMED("probe", probe[i].asked->id),
+                       probe[i].kind->name,
                        fw_probe_text(text, fw_probe_at_equilibrium(&probe[i], scene, statics),
                                      probe[i].kind->unit));
     }
@@ -155,7 +156,7 @@ static void limit(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_repo
 
 /* more about the hinge that governs as drawn */
 static void governing(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_report_input *in) {
-    fw_text_printf(out, "\nhinge %s in %s:\n", h->id, h->scene);
+    fw_text_printf(out, "\n%s%s in %s:\n", FW_NAMED("hinge", h->id), h->scene);
     if (h->force_share > 0.0) {
         fw_text_real(out, "(its rotation alone would use %.1f %%, the force it carries the rest)\n",
                      100.0 * h->utilisation * (1.0 - h->force_share));
@@ -206,7 +207,7 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
             const fw_mechanism_variant *variant = v->variant[i].variant;
             fw_text_printf(out, "\npull-in in %s", in->device->scene[k].name);
             if (variant && variant->flow) fw_text_printf(out, " (%s)", variant->flow);
-            fw_text_printf(out, ": comb drive %s at ", p->comb);
+            fw_text_printf(out, ": %s%s at ", FW_NAMED("comb drive", p->comb));
             fw_text_number(out, p->voltage_V, 4);
             fw_text_printf(out, " V (%s); the scene asks for up to ",
                            fw_statics_pull_in_kind_text(p->kind));
@@ -247,7 +248,7 @@ static void out_of_plane(fw_text *out, const fw_verdict *v) {
         number(out, "swings from ", o->mode[0].f_Hz, " Hz on (");
         number(out, "", o->mode[0].low_Hz, " to ");
         number(out, "", o->mode[0].high_Hz, " Hz; ");
-        fw_text_printf(out, "body %s %s)", o->mode[0].body,
+        fw_text_printf(out, "%s%s %s)", FW_NAMED("body", o->mode[0].body),
                        o->mode[0].tilts ? "tilts" : "goes up and down");
         if (isfinite(o->ratio)) number(out, "; its stiffness is ", o->ratio, " of that in it");
         number(out, "; its weight lowers it by ", 1e9 * o->weight_m, " nm\n");
@@ -462,7 +463,7 @@ static void ledger(fw_text *out, const fw_effect_ledger *l) {
 
 fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechanism *m,
                                   const fw_dynamics_motion *motion, fw_text *out) {
-    fw_text_printf(out, "scene %s over ", scene->name);
+    fw_text_printf(out, "%s%s over ", FW_NAMED("scene", scene->name));
     const fw_report_magnitude time = fw_report_magnitude_of(FW_MEASURE_TIME, scene->duration_s);
     fw_text_real(out, "%g ", scene->duration_s * time.per_si);
     fw_text_printf(out, "%s, method %s, integrator %s (%s)\n", time.unit, motion->method,

@@ -367,29 +367,31 @@ const char *fw_statics_pull_in_explain(fw_arena *arena, const fw_statics_pull_in
     bool none = p->kind == FW_PULL_IN_NONE;
     if (!dynamic(p))
         return fw_arena_printf(arena,
-                               "static pull-in of comb drive %s %s %s V, below the %s V of the "
+                               "static pull-in of %s%s %s %s V, below the %s V of the "
                                "scene",
-                               p->comb, none ? "was not found up to" : "is at", at, asked);
+                               FW_NAMED("comb drive", p->comb),
+                               none ? "was not found up to" : "is at", at, asked);
     return fw_arena_printf(
         arena,
-        "this is dynamic pull-in: static pull-in of comb drive %s is %s %s V, above the %s V of "
+        "this is dynamic pull-in: static pull-in of %s%s is %s %s V, above the %s V of "
         "the "
         "scene, but a voltage or load that comes suddenly, or in step with an oscillation, throws "
         "the rotor further. Let it rise slowly, or use less",
-        p->comb, none ? "not below" : "at", isinf(p->voltage_V) ? "any" : at, asked);
+        FW_NAMED("comb drive", p->comb), none ? "not below" : "at",
+        isinf(p->voltage_V) ? "any" : at, asked);
 }
 
 static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags) {
     const fw_statics_pull_in *out = k->out;
     char at[32], asked[32], part[32];
-    fw_diag_warning(
-        diags, 248, out->place,
-        "scene %s may pull in: comb drive %s does so at %s V without fringe fields that "
-        "may add up to %s %% to its pull%s, and the scene asks for up to %s V",
-        scene, out->comb, fw_number_text(at, sizeof at, out->voltage_V, 5),
-        fw_number_text(part, sizeof part, 100 * out->fringe, 2),
-        out->fingers > 0.01 ? " and with stiff fingers" : "",
-        fw_number_text(asked, sizeof asked, out->largest_V, 5));
+    fw_diag_warning(diags, 248, out->place,
+                    "%s%s may pull in: %s%s does so at %s V without fringe fields that "
+                    "may add up to %s %% to its pull%s, and the scene asks for up to %s V",
+                    FW_NAMED("scene", scene), FW_NAMED("comb drive", out->comb),
+                    fw_number_text(at, sizeof at, out->voltage_V, 5),
+                    fw_number_text(part, sizeof part, 100 * out->fringe, 2),
+                    out->fingers > 0.01 ? " and with stiff fingers" : "",
+                    fw_number_text(asked, sizeof asked, out->largest_V, 5));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
@@ -400,10 +402,10 @@ static fw_status warn(const seeker *k, const fw_device_scene *scene, fw_diags *d
     char at[32], asked[32];
     if (fw_statics_pull_in_fingers_snap(out))
         fw_diag_warning(diags, 595, out->place,
-                        "scene %s: the fingers of a comb bend and may snap by themselves; up to %s "
+                        "%s%s: the fingers of a comb bend and may snap by themselves; up to %s "
                         "V they surely do not, "
                         "and the scene asks for %s times that",
-                        name, fw_number_text(at, sizeof at, out->fingers_V, 4),
+                        FW_NAMED("scene", name), fw_number_text(at, sizeof at, out->fingers_V, 4),
                         fw_number_text(asked, sizeof asked, sqrt(out->fingers), 3));
     if (out->margin >= 1)
         return out->kind != FW_PULL_IN_NONE && !fw_statics_pull_in_fingers_snap(out) &&
@@ -413,16 +415,17 @@ static fw_status warn(const seeker *k, const fw_device_scene *scene, fw_diags *d
     fw_number_text(at, sizeof at, out->voltage_V, 5);
     fw_number_text(asked, sizeof asked, out->largest_V, 5);
     if (out->kind == FW_PULL_IN_NONE)
-        fw_diag_warning(
-            diags, 249, out->place,
-            "the pull-in voltage of scene %s was not found: comb drive %s is stable up to "
-            "%s V of its %s V; then %s",
-            name, out->comb, at, asked, out->why);
+        fw_diag_warning(diags, 249, out->place,
+                        "the pull-in voltage of %s%s was not found: %s%s is stable up to "
+                        "%s V of its %s V; then %s",
+                        FW_NAMED("scene", name), FW_NAMED("comb drive", out->comb), at, asked,
+                        out->why);
     else
         fw_diag_warning(diags, 248, out->place,
-                        "scene %s pulls in: at %s V comb drive %s %s (body %s moves most), and the "
+                        "%s%s pulls in: at %s V %s%s %s (%s%s moves most), and the "
                         "scene asks for up to %s V",
-                        name, at, out->comb, how[out->kind], fw_text_name(out->body), asked);
+                        FW_NAMED("scene", name), at, FW_NAMED("comb drive", out->comb),
+                        how[out->kind], FW_NAMED("body", fw_text_name(out->body)), asked);
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
@@ -436,9 +439,9 @@ fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism
     if (!driven) return FW_OK;
     if (3 * mechanism->nbody > FW_PULL_IN_MOST) {
         fw_diag_note(diags, 249, scene->comb[0].place,
-                     "the pull-in voltage of scene %s was not computed: the mechanism has more "
+                     "the pull-in voltage of %s%s was not computed: the mechanism has more "
                      "than %d bodies",
-                     fw_text_name(scene->name), FW_PULL_IN_MOST / 3);
+                     FW_NAMED("scene", fw_text_name(scene->name)), FW_PULL_IN_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }
     seeker *k;

@@ -78,8 +78,8 @@ static fw_status cannot(fw_statics_quasi_static *r, double t, const char *what) 
 static fw_status too_many(const fw_statics_quasi_static *r, long most) {
     char count[32];
     fw_status status = fw_diag_error(r->w.diags, 108, r->w.scene->place,
-                                     "scene %s needs more than %s equilibria: shorten it",
-                                     fw_statics_equilibrium_scene_name(&r->w),
+                                     "%s%s needs more than %s equilibria: shorten it",
+                                     FW_NAMED("scene", fw_statics_equilibrium_scene_name(&r->w)),
                                      fw_number_text(count, sizeof count, (double)most, 9));
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
@@ -251,9 +251,9 @@ static void report_cost(const fw_device_scene *scene, const fw_effect_ledger *le
     if (!entry || entry->bound < accuracy) return;
     fw_number_text(text, sizeof text, 100 * entry->bound, 2);
     fw_diag_warning(diags, 254, scene->place,
-                    "scene %s is computed as a quasi-static sequence of equilibria, because "
+                    "%s%s is computed as a quasi-static sequence of equilibria, because "
                     "--effects excludes inertia: deflections may be wrong by %s%s",
-                    fw_text_name(scene->name),
+                    FW_NAMED("scene", fw_text_name(scene->name)),
                     isinf(entry->bound) ? "an amount that is not bounded" : text,
                     isinf(entry->bound) ? "; use --effects all or auto to include it" : " %");
 }
@@ -282,9 +282,9 @@ static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_d
             }
             if (options->effects.mode != FW_EFFECTS_AUTO)
                 fw_diag_warning(diags, 254, scene->place,
-                                "scene %s was computed with inertia, although --effects "
+                                "%s%s was computed with inertia, although --effects "
                                 "excludes it: %s",
-                                fw_text_name(scene->name), why);
+                                FW_NAMED("scene", fw_text_name(scene->name)), why);
         }
         keep_inertia(&ledger, &loads, why);
     }

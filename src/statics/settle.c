@@ -162,10 +162,11 @@ fw_status fw_statics_equilibrium_nowhere(const fw_statics_equilibrium *w) {
     bool turns = fabs(u[2]) >= hypot(u[0], u[1]);
     fw_status status = fw_diag_error(
         w->diags, 111, w->scene->place,
-        "no equilibrium of scene %s was found at load factor %s: body %s keeps moving (it had %s "
+        "no equilibrium of %s%s was found at load factor %s: %s%s keeps moving (it had %s "
         "by %s %s); nothing holds %s against the loads",
-        fw_statics_equilibrium_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4),
-        fw_text_name(w->mechanism->body[b].id), turns ? "turned" : "moved",
+        FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
+        fw_number_text(factor, sizeof factor, w->factor, 4),
+        FW_NAMED("body", fw_text_name(w->mechanism->body[b].id)), turns ? "turned" : "moved",
         fw_number_text(far, sizeof far, turns ? u[2] : way, 4), turns ? "rad" : "m", names);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
@@ -255,18 +256,19 @@ static fw_status cannot_follow(walker *k, double s) {
     fw_status status;
     if (count > 0)
         status = fw_diag_error(w->diags, 118, w->scene->place,
-                               "the drivers of scene %s contradict %s from load factor %s on: "
+                               "the drivers of %s%s contradict %s from load factor %s on: "
                                "%s prescribe%s values that the joints do not allow%s",
-                               fw_statics_equilibrium_scene_name(w),
+                               FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
                                count > 1 ? "each other" : "the joints", at, names.data,
                                count > 1 ? "" : "s", count > 1 ? " together" : "");
     else
         status = fw_diag_error(
             w->diags, 118, w->scene->place,
-            "the mechanism cannot follow its drivers in scene %s beyond load factor %s: joint "
+            "the mechanism cannot follow its drivers in %s%s beyond load factor %s: %s"
             "%s cannot be kept closed, because the mechanism cannot reach any farther",
-            fw_statics_equilibrium_scene_name(w), at,
-            stuck >= 0 ? fw_multibody_block_name(w->mechanism, &m->block[stuck]) : "(unnamed)");
+            FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)), at,
+            FW_NAMED("joint", stuck >= 0 ? fw_multibody_block_name(w->mechanism, &m->block[stuck])
+                                         : "(unnamed)"));
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 

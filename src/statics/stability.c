@@ -271,15 +271,15 @@ static fw_status say(looker *k, fw_diags *diags) {
     char at[32], fold[32], turned[32];
     fw_text text = fw_text_new(w->arena);
     fw_text_printf(&text,
-                   "scene %s stays on an unstable equilibrium (at %s ms): body %s leaves it at the "
+                   "%s%s stays on an unstable equilibrium (at %s ms): %s%s leaves it at the "
                    "smallest disturbance, which grows e-fold every %s ms",
-                   fw_statics_equilibrium_scene_name(w),
-                   fw_number_text(at, sizeof at, 1e3 * out->t_s, 4), out->body,
+                   FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
+                   fw_number_text(at, sizeof at, 1e3 * out->t_s, 4), FW_NAMED("body", out->body),
                    fw_number_text(fold, sizeof fold, 1e3 / out->rate_per_s, 3));
     if (out->pin != FW_NONE)
         fw_text_printf(
-            &text, ", and moves to an equilibrium with joint %s turned by %s deg",
-            w->mechanism->pin[out->pin].id,
+            &text, ", and moves to an equilibrium with %s%s turned by %s deg",
+            FW_NAMED("joint", w->mechanism->pin[out->pin].id),
             fw_number_text(turned, sizeof turned, degree * fabs(out->angle_rad[out->pin]), 4));
     else if (!out->angle_rad)
         fw_text_add(&text, ", and no stable equilibrium was found that it would move to");
@@ -318,9 +318,9 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
         return FW_OK;
     if (3 * mechanism->nbody > FW_STABILITY_MOST) {
         fw_diag_note(diags, 259, scene->place,
-                     "the stability of scene %s was not examined: the mechanism has more than "
+                     "the stability of %s%s was not examined: the mechanism has more than "
                      "%d bodies",
-                     fw_text_name(scene->name), FW_STABILITY_MOST / 3);
+                     FW_NAMED("scene", fw_text_name(scene->name)), FW_STABILITY_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }
     bool *steady = fw_dynamics_motion_steady(motion);

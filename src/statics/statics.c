@@ -48,8 +48,8 @@ static fw_status count_signs(const fw_statics_equilibrium *w, fw_statics *out) {
     if (out->neutral == 0) return FW_OK;
     FW_TRY(fw_statics_equilibrium_bodies(w, sum, &out->loose));
     fw_diag_warning(w->diags, 113, w->scene->place,
-                    "in scene %s nothing holds %s: its equilibrium is not unique",
-                    fw_statics_equilibrium_scene_name(w), out->loose);
+                    "in %s%s nothing holds %s: its equilibrium is not unique",
+                    FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)), out->loose);
     return FW_OK;
 }
 
@@ -82,10 +82,10 @@ static fw_status answer(const fw_statics_equilibrium *w, fw_statics *out) {
 static fw_status path_ends_early(const fw_statics_equilibrium *w, const fw_statics_path *path) {
     char text[32];
     fw_diag_warning(w->diags, 112, w->scene->place,
-                    "the load path of scene %s ends after %d points at load factor %s, before "
+                    "the load path of %s%s ends after %d points at load factor %s, before "
                     "the full load: the equilibrium reported is not connected to the unloaded "
                     "one",
-                    fw_statics_equilibrium_scene_name(w), path->count,
+                    FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)), path->count,
                     fw_number_text(text, sizeof text, path->factor[path->count - 1], 4));
     return FW_OK;
 }

@@ -302,11 +302,10 @@ static fw_status frames(fw_statics_equilibrium *w, fw_statics_mode *mode) {
 
 static fw_status not_found(const fw_statics_equilibrium *w) {
     if (w->invalid) return fw_statics_equilibrium_nowhere(w);
-    fw_status status =
-        fw_diag_error(w->diags, 111, w->scene->place,
-                      "the pose of scene %s could not be evaluated: its numbers are not "
-                      "finite; check loads, masses and stiffnesses",
-                      fw_statics_equilibrium_scene_name(w));
+    fw_status status = fw_diag_error(w->diags, 111, w->scene->place,
+                                     "the pose of %s%s could not be evaluated: its numbers are not "
+                                     "finite; check loads, masses and stiffnesses",
+                                     FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)));
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
@@ -344,12 +343,13 @@ static void report_free(const fw_statics_equilibrium *w, const fw_statics_modes 
         const fw_statics_mode *mode = &out->mode[k];
         if (mode->kind == FW_MODE_FREE)
             fw_diag_warning(w->diags, 113, w->scene->place,
-                            "nothing holds %s in scene %s: mode %d is a free motion of frequency 0",
-                            mode->bodies, fw_statics_equilibrium_scene_name(w), k + 1);
+                            "nothing holds %s in %s%s: mode %d is a free motion of frequency 0",
+                            mode->bodies, FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
+                            k + 1);
         else if (mode->kind == FW_MODE_UNSTABLE)
-            fw_diag_warning(w->diags, 113, w->scene->place,
-                            "the pose of scene %s is unstable: mode %d (%s) grows",
-                            fw_statics_equilibrium_scene_name(w), k + 1, mode->bodies);
+            fw_diag_warning(
+                w->diags, 113, w->scene->place, "the pose of %s%s is unstable: mode %d (%s) grows",
+                FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)), k + 1, mode->bodies);
     }
 }
 

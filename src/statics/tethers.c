@@ -460,7 +460,7 @@ static void say_hinge(fw_text *text, const fw_mechanism *m, const fw_statics_tet
     char used[32], most[32];
     const char *hinge = hinge_of(m, b->hinge);
     if (!hinge) return;
-    fw_text_printf(text, ", and hinge %s bears at most %s %% of its limit", hinge,
+    fw_text_printf(text, ", and %s%s bears at most %s %% of its limit", FW_NAMED("hinge", hinge),
                    number(used, 100.0 * b->hinge_used));
     if (all->high_Pa > all->strength_Pa)
         fw_text_printf(text, " (%s %% where the tether is as strong as its band allows)",
@@ -506,10 +506,10 @@ static void say_in_the_way(fw_text *text, const fw_statics_tethers *all) {
                     n++ ? "; "
                         : ". Then break these fingers off at the frame, too, for their bodies "
                           "move against what is left of them: ");
-        fw_text_printf(text, "the %s at (%s, %s) um (%s um in scene %s)", t->drawn->label,
+        fw_text_printf(text, "the %s at (%s, %s) um (%s um in %s%s)", t->drawn->label,
                        fw_number_text(x, 32, 1e6 * t->drawn->cut.x, 5),
                        fw_number_text(y, 32, 1e6 * t->drawn->cut.y, 5),
-                       number(by, 1e6 * t->toward_m), t->scene);
+                       number(by, 1e6 * t->toward_m), FW_NAMED("scene", t->scene));
     }
 }
 

@@ -102,9 +102,9 @@ static fw_status something_turns(fw_study_problem *p) {
         most = fmax(most, fabs(p->by_itself->peak[i].angle_rad));
     if (most > 1e-10) return FW_OK;
     return fw_diag_error(&p->plan->diags, 290, p->scene->place,
-                         "scene %s: no joint turns, so that there is no peak deflection whose "
+                         "%s%s: no joint turns, so that there is no peak deflection whose "
                          "error could be shown; choose another with --scene, or load it",
-                         fw_text_name(p->scene->name));
+                         FW_NAMED("scene", fw_text_name(p->scene->name)));
 }
 
 fw_status fw_study_problem_open(fw_plan *plan, double budget_s, fw_study_problem *p) {

@@ -57,7 +57,7 @@ static void percent(fw_text *out, double share) {
 
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     const fw_device_study *a = study->asked;
-    fw_text_printf(out, "study %s of %s: %s, ", a->name, study->device_name,
+    fw_text_printf(out, "%s%s of %s: %s, ", FW_NAMED("study", a->name), study->device_name,
                    fw_device_study_kind_text(a->kind));
     if (a->judge == FW_JUDGE_HINGES)
         fw_text_add(out, "hinges and requirements of each device judged as drawn, and nothing of "
@@ -337,8 +337,8 @@ static void say_yield(fw_text *out, const fw_study *study) {
 }
 
 fw_status fw_study_text(const fw_study *study, fw_text *out) {
-    fw_text_printf(out, "study %s of %s: %s%s\n", study->asked->name, study->device_name,
-                   fw_device_study_kind_text(study->asked->kind),
+    fw_text_printf(out, "%s%s of %s: %s%s\n", FW_NAMED("study", study->asked->name),
+                   study->device_name, fw_device_study_kind_text(study->asked->kind),
                    study->asked->judge == FW_JUDGE_HINGES
                        ? ", of hinges and requirements as drawn alone (not of clearances, plates, "
                          "adhesion)"

@@ -169,8 +169,8 @@ static fw_status own(fw_study_problem *p, fw_study_tradeoff *t) {
     t->npoint = 1;
     FW_TRY(fw_study_problem_run(p, &s, &t->point[0]));
     if (t->point[0].state == FW_TRADEOFF_DONE) return FW_OK;
-    fw_diag_error(&p->plan->diags, 290, p->scene->place, "scene %s: %s",
-                  fw_text_name(p->scene->name), t->point[0].why);
+    fw_diag_error(&p->plan->diags, 290, p->scene->place, "%s%s: %s",
+                  FW_NAMED("scene", fw_text_name(p->scene->name)), t->point[0].why);
     return FW_SOLVER;
 }
 

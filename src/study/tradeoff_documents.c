@@ -56,9 +56,9 @@ static void row(const fw_study_tradeoff_point *p, const char *mark, fw_text *out
 
 static void answer(const fw_study_tradeoff *t, fw_text *out) {
     const fw_study_tradeoff_point *c = &t->point[0];
-    fw_text_printf(out, "%s, scene %s%s%s: simulate takes %s + %s by itself", t->device,
-                   fw_text_name(t->scene->name), t->flow ? ", flow " : "", t->flow ? t->flow : "",
-                   c->method, c->integrator);
+    fw_text_printf(out, "%s, %s%s%s%s: simulate takes %s + %s by itself", t->device,
+                   FW_NAMED("scene", fw_text_name(t->scene->name)), t->flow ? ", flow " : "",
+                   t->flow ? t->flow : "", c->method, c->integrator);
     fw_text_add(out, "; peak deflection off by ");
     number(out, c->error, "%.1e", 1);
     fw_text_add(out, " where ");

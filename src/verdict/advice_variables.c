@@ -338,7 +338,8 @@ static fw_status add_attribute(fw_verdict_trial *trial, int flexure, const char 
     FW_NEED(path);
     *v = (fw_verdict_variable){.kind = FW_PROPOSE_FLEXURES};
     FW_TRY(fw_verdict_value_of_length(trial, path, of(f), least, most, &v->value));
-    FW_NEED(v->name = fw_arena_printf(trial->arena, "%s of flexure %s", attribute, f->id));
+    FW_NEED(v->name =
+                fw_arena_printf(trial->arena, "%s of %s%s", attribute, FW_NAMED("flexure", f->id)));
     FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, of}, &v->value, &ok));
     *count += ok;
     return FW_OK;
@@ -368,7 +369,8 @@ static fw_status add_length_and_radius(fw_verdict_trial *trial, int flexure,
     FW_NEED(part[1].path = fw_arena_printf(trial->arena, "flexure[%s]/@radius", f->id));
     FW_TRY(as_written(trial, &part[0]));
     FW_TRY(as_written(trial, &part[1]));
-    FW_NEED(v->name = fw_arena_printf(trial->arena, "length and radius of flexure %s", f->id));
+    FW_NEED(v->name = fw_arena_printf(trial->arena, "length and radius of %s%s",
+                                      FW_NAMED("flexure", f->id)));
     v->part = part;
     FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, length_of}, &v->value, &length));
     FW_TRY(keep_between(trial, &(subject){FW_NONE, flexure, radius_of}, &v->value, &radius));
@@ -412,7 +414,7 @@ fw_status fw_verdict_variable_of_loads(fw_verdict_trial *trial, int scene, fw_ve
         FW_TRY(as_written(trial, &part[i]));
     }
     v->part = part, v->npart = values->count;
-    FW_NEED(v->name = fw_arena_printf(trial->arena, "loads of scene %s", s->name));
+    FW_NEED(v->name = fw_arena_printf(trial->arena, "loads of %s%s", FW_NAMED("scene", s->name)));
     if (*ok) FW_TRY(keep_between(trial, &(subject){scene, FW_NONE, NULL}, &v->value, ok));
     return FW_OK;
 }

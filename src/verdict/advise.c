@@ -311,13 +311,14 @@ static void report_scene(fw_text *text, const fw_device_scene *s, double share, 
         for (int i = 0; others > 0 && i < loads.count; i++)
             if (!loads.item[i].squared)
                 fw_text_printf(text, named++ ? ", %s" : " (%s", loads.item[i].name);
-        fw_text_printf(text, "%s of scene %s to ", others > 0 ? ")" : "", s->name);
+        fw_text_printf(text, "%s of %s%s to ", others > 0 ? ")" : "", FW_NAMED("scene", s->name));
         add_share(text, share);
         *join = ", ";
     }
     for (int i = 0; i < loads.count; i++) {
         if (!loads.item[i].squared) continue;
-        fw_text_printf(text, "%sthe %s of scene %s to ", *join, loads.item[i].name, s->name);
+        fw_text_printf(text, "%sthe %s of %s%s to ", *join, loads.item[i].name,
+                       FW_NAMED("scene", s->name));
         add_share(text, rounded_down(sqrt(share)));
         *join = ", ";
     }

@@ -131,12 +131,12 @@ static fw_status change_flexure(fw_arena *arena, const fw_verdict_fabrication *f
     if (!(f->width_m > fabs(f->flare_m))) {
         fw_number_text(now, sizeof now, 1e6 * (f->width_m - fabs(f->flare_m)), 3);
         FW_NEED(*gone = fw_arena_printf(
-                    arena, "flexure %s, %s um wide as drawn, is cut through (%s um are left)",
-                    f->id, was, now));
+                    arena, "%s%s, %s um wide as drawn, is cut through (%s um are left)",
+                    FW_NAMED("flexure", f->id), was, now));
     } else if (gap && !(f->gap_m > fabs(f->flare_m))) {
         FW_NEED(*gone = fw_arena_printf(
-                    arena, "the gap of flexure %s closes, so that its surfaces are one piece",
-                    f->id));
+                    arena, "the gap of %s%s closes, so that its surfaces are one piece",
+                    FW_NAMED("flexure", f->id)));
     }
     return FW_OK;
 }
@@ -311,9 +311,10 @@ static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fab
         change_comb(fabricated, d, comb);
         bool apart = comb->kind == FW_ELECTRODES_COMB && !(comb->overlap_m > 0.0);
         if (apart || !(comb->gap_m > least))
-            FW_NEED(*gone = fw_arena_printf(
-                        arena, "%s of comb drive %s %s", apart ? "the fingers" : "the gap",
-                        fw_text_name(comb->id), apart ? "no longer reach each other" : "closes"));
+            FW_NEED(*gone =
+                        fw_arena_printf(arena, "%s of %s%s %s", apart ? "the fingers" : "the gap",
+                                        FW_NAMED("comb drive", fw_text_name(comb->id)),
+                                        apart ? "no longer reach each other" : "closes"));
     }
     for (size_t i = 0; i < a; i++) {
         if (s->air[i].kind != FW_AIR_SQUEEZE) continue;
@@ -324,8 +325,8 @@ static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fab
         fw_device_contact_use *contact = &s->contact[i];
         change_contact(fabricated->edge_m, d, layout, contact);
         if (contact->distance_m <= 0.0)
-            FW_NEED(*gone = fw_arena_printf(arena, "the gap of contact %s closes",
-                                            fw_text_name(contact->id)));
+            FW_NEED(*gone = fw_arena_printf(arena, "the gap of %s%s closes",
+                                            FW_NAMED("contact", fw_text_name(contact->id))));
     }
     return FW_OK;
 }

@@ -373,15 +373,16 @@ static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, fw
     const char *use = posed ? "at most"
                             : fw_arena_printf(arena, "%s to",
                                               fw_number_text(low, sizeof low, 100 * band.low, 2)),
-               *where = posed ? "required poses" : fw_arena_printf(arena, "scene %s", scene);
+               *where = posed ? "required poses"
+                              : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", scene));
     FW_NEED(use && where ? use : NULL);
     const char *text = fw_arena_printf(
         arena,
-        "in %s the rims of release holes of body %s %s what hinge %s brings: they use %s "
+        "in %s the rims of release holes of %s%s %s what %s%s brings: they use %s "
         "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
         "smaller holes (release-hole), a wider body there or %s lowers it",
-        where, m->device->body[i % 2 ? pin->body_b : pin->body_a].id,
-        breaks ? "do not bear" : "are not known to bear", pin->id, use,
+        where, FW_NAMED("body", m->device->body[i % 2 ? pin->body_b : pin->body_a].id),
+        breaks ? "do not bear" : "are not known to bear", FW_NAMED("hinge", pin->id), use,
         fw_number_text(high, sizeof high, 100 * band.high, 4),
         fw_number_text(x, sizeof x, 1e6 * arm->rim.x, 4),
         fw_number_text(y, sizeof y, 1e6 * arm->rim.y, 4),
@@ -459,12 +460,12 @@ static fw_status say_weak(fw_arena *arena, const char *scene, const weak *w,
     char high[32], wide[32], x[32], y[32];
     const char *text = fw_arena_printf(
         arena,
-        "in %s%s body %s is not known to bear what %s%s%s brings: at most %s %% of what is "
+        "in %s%s %s%s is not known to bear what %s%s%s brings: at most %s %% of what is "
         "allowed, where it is %s um wide, near (%s, %s) um, corners counted three times; make it "
         "wider there, or %s",
-        scene ? "scene " : "required poses", scene ? scene : "", m->device->body[w->body].id,
-        w->what, w->id ? " " : "", w->id ? w->id : "",
-        fw_number_text(high, sizeof high, 100 * w->share, 3),
+        scene ? fw_text_kind("scene ", scene) : "required poses", scene ? scene : "",
+        FW_NAMED("body", m->device->body[w->body].id), w->what, w->id ? " " : "",
+        w->id ? w->id : "", fw_number_text(high, sizeof high, 100 * w->share, 3),
         fw_number_text(wide, sizeof wide, 1e6 * w->arm->edge_wide_m, 3),
         fw_number_text(x, sizeof x, 1e6 * w->arm->edge.x, 4),
         fw_number_text(y, sizeof y, 1e6 * w->arm->edge.y, 4),

@@ -216,9 +216,10 @@ static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *m
     for (int i = 0; i < motion->npin; i++)
         most = fmax(most, fabs(motion->peak[i].angle_rad));
     fw_diag_warning(diags, 205, scene->place,
-                    "scene %s was ended after %s ms, when a joint had turned by %s deg: the load "
+                    "%s%s was ended after %s ms, when a joint had turned by %s deg: the load "
                     "is far beyond what these hinges can take; lower it",
-                    scene->name, fw_number_text(t, sizeof t, motion->end_s * 1e3, 4),
+                    FW_NAMED("scene", scene->name),
+                    fw_number_text(t, sizeof t, motion->end_s * 1e3, 4),
                     fw_number_text(turned, sizeof turned, most * 180 / FW_PI, 3));
 }
 
@@ -334,10 +335,11 @@ static void warn_touching(const fw_device *device, const fw_layout_hinge_layout 
     char peak[32], free_turn[32];
     double degrees = 180.0 / FW_PI;
     fw_diag_warning(diags, 204, device->revolute[h->joint].place,
-                    "hinge %s turns by %s deg in %s (%s), but its drawn solids touch at %s deg: "
+                    "%s%s turns by %s deg in %s (%s), but its drawn solids touch at %s deg: "
                     "use a smaller subtended angle, a longer arc or a smaller load",
-                    h->id, fw_number_text(peak, sizeof peak, h->peak_angle_rad * degrees, 3),
-                    h->scene, h->flow ? h->flow : "the device's own material",
+                    FW_NAMED("hinge", h->id),
+                    fw_number_text(peak, sizeof peak, h->peak_angle_rad * degrees, 3), h->scene,
+                    h->flow ? h->flow : "the device's own material",
                     fw_number_text(free_turn, sizeof free_turn, drawn->free_rad * degrees, 3));
 }
 

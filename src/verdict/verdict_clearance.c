@@ -329,10 +329,10 @@ static void warn_jump(const fw_device_scene *scene, const fw_clearance_path *pat
     char t[32], by[32];
     fw_diag_warning(
         diags, 296, scene->place,
-        "scene %s goes at once, after %s ms, from one equilibrium to another (%s um of a "
+        "%s%s goes at once, after %s ms, from one equilibrium to another (%s um of a "
         "body's centre of mass): between them clearances are those of the straight way, "
         "and the real one is not known without inertia",
-        scene->name, fw_number_text(t, sizeof t, 1e3 * path->jump_s, 4),
+        FW_NAMED("scene", scene->name), fw_number_text(t, sizeof t, 1e3 * path->jump_s, 4),
         fw_number_text(by, sizeof by, 1e6 * path->jump_m, 3));
 }
 
@@ -375,7 +375,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
         c->least.given_up = true;
     }
     char t[32];
-    const char *where = fw_arena_printf(arena, "scene %s after %s ms", scene->name,
+    const char *where = fw_arena_printf(arena, "%s%s after %s ms", FW_NAMED("scene", scene->name),
                                         fw_number_text(t, sizeof t, 1e3 * c->least.t_s, 4));
     FW_NEED(where);
     return give_reason(arena, c, where, v);
@@ -390,10 +390,10 @@ static fw_status say_open(fw_arena *arena, const fw_device *device, int body,
     FW_NEED(
         text = fw_arena_printf(
             arena,
-            "how near body %s comes in the required workspace is not known: it rides on the "
+            "how near %s%s comes in the required workspace is not known: it rides on the "
             "six-bar by a joint without a flexure or is pulled by a spring, so that its pose does "
             "not follow from the platform's: hold it by a flexure or a weld",
-            device->body[body].id));
+            FW_NAMED("body", device->body[body].id)));
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
                                                   .flow = v->mechanism->variant->flow,
                                                   .number = 295,

@@ -452,17 +452,17 @@ static fw_status explain(fw_verdict_search *s) {
     if (!h || c->why) {
         const char *why = fw_verdict_ends_why(s, fabricated->at);
         FW_NEED(why);
-        FW_NEED(fabricated->reason =
-                    fw_arena_printf(s->arena, "as %s makes it (%s): %s", flow, c->what, why));
-        return FW_OK;
+        why = fw_arena_printf(s->arena, "as %s makes it (%s): %s", flow, c->what, why);
+        return (fabricated->reason = why) ? FW_OK : FW_NOMEM;
     }
     char used[32], drawn[32];
     fw_percent_text(used, sizeof used, h->utilisation);
     fw_percent_text(drawn, sizeof drawn, s->v->hinge[fabricated->governing].utilisation);
     FW_NEED(fabricated->reason = fw_arena_printf(
                 s->arena,
-                "as %s makes it%s (%s) hinge %s uses %s %% of its limit in %s, as drawn %s %%",
-                flow, fabricated->at ? " at worst" : "", c->what, h->id, used, h->scene, drawn));
+                "as %s makes it%s (%s) %s%s uses %s %% of its limit in %s, as drawn %s %%", flow,
+                fabricated->at ? " at worst" : "", c->what, FW_NAMED("hinge", h->id), used,
+                h->scene, drawn));
     return FW_OK;
 }
 

@@ -134,16 +134,15 @@ static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_sc
     if (!below->known || below->open || !(-to->lowest_m > below->low_m)) return FW_OK;
     bool sure = -to->sure_m / (1 + is->rigid.error) > below->high_m;
     to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
-    return add(
-        v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
-        fw_arena_printf(
-            arena,
-            "body %s comes down by %s%s um in scene %s, and below it are %s um (%s): it %s its "
-            "carrier; a thicker layer, shorter or wider flexures, or less weight hold it up",
-            to->body ? to->body : "(none)", sure ? "" : "up to ",
-            fw_number_text(down, sizeof down, -1e6 * (sure ? to->sure_m : to->lowest_m), 3),
-            s->name, fw_number_text(has, sizeof has, 1e6 * below->m, 3), below->words,
-            sure ? "touches" : "may touch"));
+    return add(v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
+               fw_arena_printf(
+                   arena,
+                   "%s%s comes down by %s%s um in %s%s, and below it are %s um (%s): it %s its "
+                   "carrier; a thicker layer, shorter or wider flexures, or less weight hold it up",
+                   FW_NAMED("body", to->body ? to->body : "(none)"), sure ? "" : "up to ",
+                   fw_number_text(down, sizeof down, -1e6 * (sure ? to->sure_m : to->lowest_m), 3),
+                   FW_NAMED("scene", s->name), fw_number_text(has, sizeof has, 1e6 * below->m, 3),
+                   below->words, sure ? "touches" : "may touch"));
 }
 
 static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scene *s,
@@ -183,10 +182,11 @@ static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags
     char up[32], share[32];
     fw_diag_warning(
         diags, 596, first->place,
-        "scene %s: over a carrier of their own potential the electrodes may lift body %s "
+        "%s%s: over a carrier of their own potential the electrodes may lift %s%s "
         "by up to %s um, %s %% of the layer (levitation), which the motion leaves out: they "
         "then pull less",
-        fw_text_name(s->name), fw_text_name(m->body[r.high].id),
+        FW_NAMED("scene", fw_text_name(s->name)),
+        FW_NAMED("body", fw_text_name(m->body[r.high].id)),
         fw_number_text(up, sizeof up, 1e6 * to->lift_m, 3),
         fw_number_text(share, sizeof share, 100 * to->lift_m / m->variant->thickness_m, 2));
     return diags->failed ? FW_NOMEM : FW_OK;
@@ -247,12 +247,12 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
         v, s, 582, FW_INCONCLUSIVE, 0.95 * sure,
         fw_arena_printf(
             arena,
-            "the forces of scene %s may tip the device out of its plane: that they do not is "
-            "sure up to %s times them%s%s; a thicker layer, wider or shorter flexures, or less "
+            "the forces of %s%s may tip the device out of its plane: that they do not is "
+            "sure up to %s times them%s%s%s; a thicker layer, wider or shorter flexures, or less "
             "load keep it flat",
-            s->name, fw_number_text(by, sizeof by, sure, 2),
-            to->hinge ? ", and the least sure by itself is hinge " : "",
-            to->hinge ? to->hinge : ""));
+            FW_NAMED("scene", s->name), fw_number_text(by, sizeof by, sure, 2),
+            to->hinge ? ", and the least sure by itself is " : "",
+            to->hinge ? fw_text_kind("hinge ", to->hinge) : "", to->hinge ? to->hinge : ""));
 }
 
 /* ---- all of it ---- */
@@ -305,12 +305,12 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
         fw_verdict_across *to = &out->scene[out->nscene++];
         *to = (fw_verdict_across){.scene = s->name, .scene_index = i, .tips = (double)NAN};
         if (out->why && (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)))
-            FW_TRY(add(
-                v, s, 581, FW_INCONCLUSIVE, 0.5,
-                fw_arena_printf(arena,
-                                "scene %s acts across the plane, and what the device does out of "
-                                "its plane is not known: %s",
-                                s->name, out->why)));
+            FW_TRY(
+                add(v, s, 581, FW_INCONCLUSIVE, 0.5,
+                    fw_arena_printf(arena,
+                                    "%s%s acts across the plane, and what the device does out of "
+                                    "its plane is not known: %s",
+                                    FW_NAMED("scene", s->name), out->why)));
         if (out->why) continue;
         if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, &is, s, v, to));
         if (!brief) FW_TRY(judge_tipping(arena, &is, s, v->motion[i], v, to));

@@ -282,9 +282,9 @@ fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int k
     if (!*found) return FW_OK;
     if (made && check->hinge) check->most = most_of(verdict);
     const fw_verdict_requirement *r = check->requirement;
-    check->what = r ? fw_arena_printf(arena, "requirement %s (%s)", r->probe,
+    check->what = r ? fw_arena_printf(arena, "%s%s (%s)", FW_NAMED("requirement", r->probe),
                                       r->measure ? r->measure : r->kind)
-                    : fw_arena_printf(arena, "hinge %s", check->hinge->id);
+                    : fw_arena_printf(arena, "%s%s", FW_NAMED("hinge", check->hinge->id));
     FW_NEED(check->what);
     if (r) FW_NEED(check->of = fw_verdict_requirement_text(arena, r));
     return FW_OK;
@@ -335,7 +335,7 @@ fw_status fw_verdict_reason_words(fw_arena *arena, const fw_verdict *verdict, in
     fw_text text = fw_text_new(arena);
     fw_text_add(&text, r->text);
     if (is_of_scene(r) && strcmp(r->scene, fw_verdict_at_rest) != 0)
-        fw_text_printf(&text, " in %s", r->scene);
+        fw_text_printf(&text, r->number == 331 ? ", in %s" : " in %s", r->scene);
     flows_of(&text, verdict, r);
     fw_text_printf(&text, " [FW-D%03d]", r->number);
     FW_TRY(fw_text_end(&text));
@@ -347,9 +347,9 @@ static fw_status rejection_of_hinge(fw_arena *arena, const fw_verdict_hinge_verd
                                     const char **text) {
     char used[32];
     fw_percent_text(used, sizeof used, h->utilisation);
-    FW_NEED(*text =
-                fw_arena_printf(arena, "hinge %s uses %s %% of its limit in %s%s%s", h->id, used,
-                                h->scene, h->flow ? ", flow " : "", h->flow ? h->flow : ""));
+    FW_NEED(*text = fw_arena_printf(arena, "%s%s uses %s %% of its limit in %s%s%s",
+                                    FW_NAMED("hinge", h->id), used, h->scene,
+                                    h->flow ? ", flow " : "", h->flow ? h->flow : ""));
     return FW_OK;
 }
 

@@ -326,18 +326,18 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
         if (gap > grid)
             status = fw_diag_error(
                 diags, 206, pin ? device->revolute[i].place : m->joint[i - m->npin].place,
-                "joint %s does not close in the drawn position: its two bodies put it "
+                "%s%s does not close in the drawn position: its two bodies put it "
                 "%s um apart (10 nm is allowed); correct the body positions or its "
                 "coordinates, since masks are drawn there; `flexwright assemble` prints poses "
                 "that close",
-                id, fw_number_text(text, sizeof text, gap * 1e6, 4));
+                FW_NAMED("joint", id), fw_number_text(text, sizeof text, gap * 1e6, 4));
         else if (fabs(tilt) > tilt_rad)
             status = fw_diag_error(
                 diags, 206, m->joint[i - m->npin].place,
-                "joint %s does not close in the drawn position: its bodies are turned against "
+                "%s%s does not close in the drawn position: its bodies are turned against "
                 "each other by %s deg more than its angle; correct the angle or the bodies, since "
                 "masks are drawn there",
-                id, fw_number_text(text, sizeof text, tilt * 180 / FW_PI, 4));
+                FW_NAMED("joint", id), fw_number_text(text, sizeof text, tilt * 180 / FW_PI, 4));
     }
     return status;
 }

@@ -111,15 +111,17 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
     const char *text =
         p->margin < 1
             ? fw_arena_printf(arena,
-                              "scene %s asks for up to %s V, beyond the pull-in voltage %s V of "
-                              "comb drive %s; it is over before the rotor has snapped, and whether "
+                              "%s%s asks for up to %s V, beyond the pull-in voltage %s V of "
+                              "%s%s; it is over before the rotor has snapped, and whether "
                               "that holds on a wafer is not known",
-                              scene->name, asked, at, p->comb)
+                              FW_NAMED("scene", scene->name), asked, at,
+                              FW_NAMED("comb drive", p->comb))
             : fw_arena_printf(arena,
-                              "scene %s asks for up to %s V: comb drive %s pulls in at %s V, or at "
+                              "%s%s asks for up to %s V: %s%s pulls in at %s V, or at "
                               "less: fringe fields that the model leaves out add up to %s %% to "
                               "its pull",
-                              scene->name, asked, p->comb, at, part);
+                              FW_NAMED("scene", scene->name), asked,
+                              FW_NAMED("comb drive", p->comb), at, part);
     return add(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
 }
 
@@ -136,11 +138,12 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
     char part[32];
     const char *text = fw_arena_printf(
         arena,
-        "scene %s may throw the rotor of comb drive %s to its stator (dynamic pull-in): it does so "
+        "%s%s may throw the rotor of %s%s to its stator (dynamic pull-in): it does so "
         "in "
         "a run with the fringe fields that the model leaves out, which add up to %s %% to the "
         "pull",
-        scene->name, p->comb, fw_number_text(part, sizeof part, 100 * p->fringe, 2));
+        FW_NAMED("scene", scene->name), FW_NAMED("comb drive", p->comb),
+        fw_number_text(part, sizeof part, 100 * p->fringe, 2));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
     v->beyond_pull_in = true;
@@ -153,9 +156,10 @@ static fw_status fingers_snap(fw_arena *arena, const fw_device_scene *scene,
     return add(
         v, scene, 595, FW_INCONCLUSIVE, 0.98 / ((1 + p->fringe) * p->fingers),
         fw_arena_printf(arena,
-                        "scene %s: the fingers of a comb bend and may snap by themselves; "
+                        "%s%s: the fingers of a comb bend and may snap by themselves; "
                         "up to %s V they surely do not, and the scene asks for %s times that",
-                        scene->name, fw_number_text(holds, sizeof holds, p->fingers_V, 4),
+                        FW_NAMED("scene", scene->name),
+                        fw_number_text(holds, sizeof holds, p->fingers_V, 4),
                         fw_number_text(times, sizeof times, sqrt(p->fingers), 3)));
 }
 
@@ -198,11 +202,11 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
     if (!step || !step->unknown) return FW_OK;
     return add(v, scene, 293, FW_INCONCLUSIVE, 0.5,
                fw_arena_printf(arena,
-                               "what the model of the hinges (%s) is off by in scene %s is not "
+                               "what the model of the hinges (%s) is off by in %s%s is not "
                                "known: %s; lower the load, or ask for exact beams with "
                                "--hinge-model elastica",
-                               fw_effects_hinge_model_text(step->used), scene->name,
-                               step->why_not));
+                               fw_effects_hinge_model_text(step->used),
+                               FW_NAMED("scene", scene->name), step->why_not));
 }
 
 /* what no motion has and nothing bounds */
@@ -210,7 +214,8 @@ static fw_status judge_beside(fw_arena *arena, const fw_device_scene *scene,
                               const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
     if (!motion->ledger.undecided) return FW_OK;
     return add(v, scene, 607, FW_INCONCLUSIVE, 0.7,
-               fw_arena_printf(arena, "in scene %s %s", scene->name, motion->ledger.undecided));
+               fw_arena_printf(arena, "in %s%s %s", FW_NAMED("scene", scene->name),
+                               motion->ledger.undecided));
 }
 
 /* an instant without a strain: a peak that nobody saw may be there */
@@ -226,9 +231,9 @@ static fw_status judge_strains(fw_arena *arena, const fw_device_scene *scene,
     return add(v, scene, 597, FW_INCONCLUSIVE, 0.5,
                fw_arena_printf(
                    arena,
-                   "the strain of hinge %s in scene %s at %s ms is not known: %s; lower the load "
+                   "the strain of %s%s in %s%s at %s ms is not known: %s; lower the load "
                    "or the displacement that bends it",
-                   m->pin[m->hinge[k].pin].id, scene->name,
+                   FW_NAMED("hinge", m->pin[m->hinge[k].pin].id), FW_NAMED("scene", scene->name),
                    fw_number_text(at, sizeof at, 1e3 * saw->hinge[k].lost_s, 4),
                    motion->ledger.hinge.used == FW_HINGE_ELASTICA
                        ? "no exact beam was found that bears its force in its place"
@@ -337,10 +342,11 @@ fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_
         const char *id = turns ? device->revolute[d->revolute].id : device->joint[d->joint].id;
         FW_NEED((*text)[*n] = fw_arena_printf(
                     arena,
-                    "driver %s moves and holds %s %s, whatever that takes, and nothing on the chip "
+                    "%s%s moves and holds %s%s, whatever that takes, and nothing on the chip "
                     "does: the verdict is of a device beside which something else does so; "
                     "`simulate` says with what force",
-                    fw_text_name(d->id), turns ? "hinge" : "joint", fw_text_name(id)));
+                    FW_NAMED("driver", fw_text_name(d->id)),
+                    fw_text_kind(turns ? "hinge " : "joint ", id), fw_text_name(id)));
     }
     return FW_OK;
 }
@@ -386,12 +392,12 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
     const double most_share = b->body_J[most] / b->hinges_J;
     fw_diag_warning(
         diags, 510, m->device->body[most].place,
-        "bodies are taken as rigid, and in scene %s they may give by up to %s %s what "
-        "the hinges give, body %s by %s %s it: what is probed may move that much further, and the "
+        "bodies are taken as rigid, and in %s%s they may give by up to %s %s what "
+        "the hinges give, %s%s by %s %s it: what is probed may move that much further, and the "
         "bands allow for it. It is narrowest, %s um, at (%s, %s) um: make it wider "
         "there, or shorter",
-        scene->name, number_of(all, share), unit_of(share), m->device->body[most].id,
-        number_of(one, most_share), unit_of(most_share),
+        FW_NAMED("scene", scene->name), number_of(all, share), unit_of(share),
+        FW_NAMED("body", m->device->body[most].id), number_of(one, most_share), unit_of(most_share),
         fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
         fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
         fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));

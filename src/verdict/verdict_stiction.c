@@ -236,17 +236,17 @@ static fw_status judge_stuck(fw_arena *arena, const fw_mechanism *m, const fw_ve
                              fw_verdict_variant_verdict *v) {
     char holds[32], opens[32];
     if (s->decision == FW_ACCEPT) return FW_OK;
-    return say(
-        m, s->scene, 586, s->decision,
-        fw_arena_printf(
-            arena,
-            "the surfaces of hinge %s may meet in scene %s and stay closed: adhesion may hold "
-            "them with up to %s uN, and the flexure opens them with %s uN; a wider gap, a "
-            "stiffer flexure or surfaces that hold less (surface.adhesion of the flow) let "
-            "them go",
-            s->hinge, s->scene, fw_number_text(holds, sizeof holds, 1e6 * s->holds_N, 3),
-            fw_number_text(opens, sizeof opens, 1e6 * s->opens_N, 3)),
-        v);
+    return say(m, s->scene, 586, s->decision,
+               fw_arena_printf(
+                   arena,
+                   "the surfaces of %s%s may meet in %s%s and stay closed: adhesion may hold "
+                   "them with up to %s uN, and the flexure opens them with %s uN; a wider gap, a "
+                   "stiffer flexure or surfaces that hold less (surface.adhesion of the flow) let "
+                   "them go",
+                   FW_NAMED("hinge", s->hinge), FW_NAMED("scene", s->scene),
+                   fw_number_text(holds, sizeof holds, 1e6 * s->holds_N, 3),
+                   fw_number_text(opens, sizeof opens, 1e6 * s->opens_N, 3)),
+               v);
 }
 
 static fw_status stuck(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,

@@ -201,20 +201,21 @@ static fw_status judge_drive(fw_arena *arena, const fw_wiring *w, const fw_layou
     const char *stator = e ? e->stator : NULL;
     if (!e || (!stator && d->comb->body_a < 0)) {
         d->fault = FW_WIRING_NOT_DRAWN;
-        FW_NEED(
-            d->why = fw_arena_printf(
-                arena,
-                "comb drive %s is not on the mask, so that nothing of what the scenes ask of it "
-                "can be made: %s. Move it, or leave it out of the scenes of this flow",
-                d->id, e && e->why_not ? e->why_not : "nothing is drawn for it"));
+        FW_NEED(d->why = fw_arena_printf(
+                    arena,
+                    "%s%s is not on the mask, so that nothing of what the scenes ask of it "
+                    "can be made: %s. Move it, or leave it out of the scenes of this flow",
+                    FW_NAMED("comb drive", d->id),
+                    e && e->why_not ? e->why_not : "nothing is drawn for it"));
     } else if (d->comb->body_a >= 0 || d->rotor == d->stator || d->stator < 0) {
         d->fault = FW_WIRING_SHORTED;
         FW_NEED(d->why = fw_arena_printf(
                     arena,
-                    "comb drive %s is shorted: its rotor and its stator are one net%s%s%s, at %s. "
+                    "%s%s is shorted: its rotor and its stator are one net%s%s%s, at %s. "
                     "%s",
-                    d->id, d->rotor >= 0 ? " (" : "", d->rotor >= 0 ? w->net[d->rotor].name : "",
-                    d->rotor >= 0 ? ")" : "", place(at, d->at),
+                    FW_NAMED("comb drive", d->id), d->rotor >= 0 ? " (" : "",
+                    d->rotor >= 0 ? w->net[d->rotor].name : "", d->rotor >= 0 ? ")" : "",
+                    place(at, d->at),
                     d->comb->body_a >= 0
                         ? "Let its stator stand on the ground"
                         : "Take a carrier that insulates, carrier=\"insulating\" in <flow>"));
@@ -226,10 +227,11 @@ static fw_status judge_drive(fw_arena *arena, const fw_wiring *w, const fw_layou
         FW_NEED(
             d->why = fw_arena_printf(
                 arena,
-                "comb drive %s has no contact for its %s: %s at %s has no square of 80 um, 10 "
+                "%s%s has no contact for its %s: %s at %s has no square of 80 um, 10 "
                 "um clear of its edges and of lettering, on a part that is held. Make a base or "
                 "its pad wider",
-                d->id, side ? "stator" : "rotor", net >= 0 ? w->net[net].name : "its net",
+                FW_NAMED("comb drive", d->id), side ? "stator" : "rotor",
+                net >= 0 ? w->net[net].name : "its net",
                 place(at, net >= 0 ? w->net[net].at : d->at)));
     }
     return FW_OK;

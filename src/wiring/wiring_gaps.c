@@ -100,15 +100,16 @@ static fw_status say_gap(fw_arena *arena, const fw_wiring *w, const fw_wiring_ga
     char gap[32], volts[32], field[32], low[32], high[32], x[32], y[32];
     FW_NEED(*out = fw_arena_printf(
                 arena,
-                "between %s and %s there are up to %s V across %s um (%s V/um) at (%s, %s) um%s%s, "
+                "between %s and %s there are up to %s V across %s um (%s V/um) at (%s, %s) "
+                "um%s%s%s, "
                 "and air breaks down between %s and %s V",
                 w->net[g->a].name, g->b < w->nnet ? w->net[g->b].name : "the handle",
                 fw_number_text(volts, sizeof volts, g->volts, 4),
                 fw_number_text(gap, sizeof gap, 1e6 * g->made_m, 4),
                 fw_number_text(field, sizeof field, 1e-6 * g->field_V_per_m, 3),
                 fw_number_text(x, sizeof x, 1e6 * g->at[0].x, 5),
-                fw_number_text(y, sizeof y, 1e6 * g->at[0].y, 5), g->scene ? " in scene " : "",
-                g->scene ? g->scene : "",
+                fw_number_text(y, sizeof y, 1e6 * g->at[0].y, 5), g->scene ? " in " : "",
+                g->scene ? fw_text_kind("scene ", g->scene) : "", g->scene ? g->scene : "",
                 fw_number_text(low, sizeof low, g->breakdown_V[0],
                                fw_number_plain(g->breakdown_V[0], 3)),
                 fw_number_text(high, sizeof high, g->breakdown_V[1],
@@ -121,11 +122,12 @@ static fw_status judge_gap(fw_arena *arena, fw_wiring *w, const fw_wiring_gap *g
     if (!(g->volts > 0.0)) return FW_OK;
     if (!(g->made_m > 0.0)) {
         FW_NEED(what = fw_arena_printf(arena,
-                                       "%s and %s touch%s%s while they are at different "
+                                       "%s and %s touch%s%s%s while they are at different "
                                        "potentials, which shorts the drive: let them move less, or "
                                        "draw them further apart",
-                                       w->net[g->a].name, w->net[g->b].name,
-                                       g->scene ? " in scene " : "", g->scene ? g->scene : ""));
+                                       w->net[g->a].name, w->net[g->b].name, g->scene ? " in " : "",
+                                       g->scene ? fw_text_kind("scene ", g->scene) : "",
+                                       g->scene ? g->scene : ""));
         return fw_wiring_say(arena, &w->refusal, &w->nrefusal, what);
     }
     if (g->volts < g->breakdown_V[0]) return FW_OK;

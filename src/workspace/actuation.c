@@ -213,7 +213,7 @@ static fw_status one_tendon(gathering *g, const fw_device_tendon *t) {
                                .point = p,
                                .npoint = t->neyelet,
                                .pulls = true};
-    FW_NEED(a.id = fw_arena_printf(g->arena, "tendon %s", t->id ? t->id : "?"));
+    FW_NEED(a.id = fw_arena_printf(g->arena, "%s%s", FW_NAMED("tendon", t->id ? t->id : "?")));
     keep(g, a);
     return FW_OK;
 }

@@ -73,12 +73,27 @@ static void unknown_directive_is_noticed(void **state) {
     fw_arena_free(arena);
 }
 
+static void an_id_that_says_its_kind_stands_alone(void **state) {
+    (void)state;
+    static const struct {
+        const char *kind, *id, *said;
+    } row[] = {{"hinge ", "A", "hinge "},       {"hinge ", "hinge-2", ""},
+               {"hinge ", "Hinge2", ""},        {"hinge ", "hinge", ""},
+               {"hinge ", "hinges", "hinge "},  {"hinge ", "hi", "hinge "},
+               {"hinge ", "", "hinge "},        {"hinge ", NULL, "hinge "},
+               {"comb drive ", "comb-drive-1", ""}, {"comb drive ", "comb_drive.up", ""},
+               {"comb drive ", "comb-1", "comb drive "}, {"comb drive ", "combs", "comb drive "}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        assert_string_equal(fw_text_kind(row[i].kind, row[i].id), row[i].said);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(units_for_people),
         cmocka_unit_test(coordinates_are_always_numbers),
         cmocka_unit_test(text_is_escaped),
         cmocka_unit_test(unknown_directive_is_noticed),
+        cmocka_unit_test(an_id_that_says_its_kind_stands_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
