@@ -330,7 +330,7 @@ fw_status fw_chance_estimate_run(fw_arena *arena, const fw_chance_limit *limit,
 
 /* ---- inputs of which only an interval is known: a range of probabilities ---- */
 
-enum { UNKNOWNS_MOST = 10, HALVINGS = 4 };
+enum { HALVINGS = 4 };
 
 typedef struct hunt {
     fw_arena *arena;
@@ -342,7 +342,7 @@ typedef struct hunt {
 } hunt;
 
 static fw_status check(const fw_chance_unknowns *u, const char **why) {
-    if (u->count > UNKNOWNS_MOST)
+    if (u->count > FW_CHANCE_UNKNOWNS_MOST)
         *why = "more than 10 inputs are unknown, which makes more than 1024 settings of their ends";
     for (size_t i = 0; i < u->count; i++)
         if (!isfinite(u->low[i]) || !isfinite(u->high[i]) || u->low[i] > u->high[i])

@@ -94,6 +94,9 @@ fw_status fw_chance_estimate_run(fw_arena *arena, const fw_chance_limit *limit,
 /* sets the unknown inputs (count) that the following calls of g use */
 typedef void fw_chance_set(void *context, const double *unknown);
 
+/* inputs of which only an interval is known, at most: 1024 settings of their ends */
+enum { FW_CHANCE_UNKNOWNS_MOST = 10 };
+
 typedef enum fw_chance_search {
     FW_CHANCE_ENDS,  /* all corners: exact where the probability is monotone in each unknown */
     FW_CHANCE_INSIDE /* corners, then a pattern search inside from the best of them */

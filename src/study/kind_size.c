@@ -386,7 +386,7 @@ static fw_status round_at_yield(sizing *s, const aim *a, int most, long *first, 
     fw_status status = s->study->open_dies(s->study, &s->kept[*b], &dies);
     if (status == FW_OK) status = look_for_dies(s, dies, &worse);
     if (status == FW_OK && !worse) status = estimate_of(s, dies, a, *b, c);
-    s->study->free_dies(dies);
+    s->study->close_dies(s->study, dies, status);
     FW_TRY(status);
     return c->over || s->ndie == 0 ? FW_OK : search_with_dies(s, a, most, first, b);
 }
@@ -409,10 +409,10 @@ static fw_status confirm_by(sizing *s, const fw_study_sample *sample, int most, 
     fw_status status = study->open_dies(study, sample, &dies);
     if (status == FW_OK) status = estimate_by(dies, most);
     if (status != FW_OK) {
-        study->free_dies(dies);
+        study->close_dies(study, dies, status);
         return status;
     }
-    study->free_dies(study->dies);
+    study->close_dies(study, study->dies, FW_OK);
     study->dies = dies;
     s->result->yield = dies->result->yield;
     s->result->nyield = dies->result->nyield;

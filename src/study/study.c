@@ -396,16 +396,17 @@ static fw_status open_dies_of(const fw_study *of, const fw_study_sample *chosen,
     return add_made_inputs(study);
 }
 
+static void close_dies_of(fw_study *of, fw_study *dies, fw_status status) {
+    if (dies && status != FW_OK) take_errors(of, &dies->diags);
+    fw_study_free(dies);
+}
+
 /* rows that say how dies differ are looked up before anything is run */
 static fw_status open_dies(fw_study *study) {
-    study->open_dies = open_dies_of, study->free_dies = fw_study_free;
+    study->open_dies = open_dies_of, study->close_dies = close_dies_of;
     fw_status status = open_dies_of(study, NULL, &study->dies);
     FW_NEED(study->dies);
-    for (int i = 0; status == FW_OK && i < study->dies->plan->nflow; i++) {
-        fw_study_yielding y; /* does anything differ? */
-        status = fw_study_yielding_begin(study->dies, i, 0, &y);
-        fw_arena_free(y.chance);
-    }
+    if (status == FW_OK) status = fw_study_yielding_check(study->dies);
     if (status == FW_INPUT) take_errors(study, &study->dies->diags);
     return status;
 }
@@ -432,9 +433,12 @@ static fw_status open_all(fw_study *study) {
     }
     FW_TRY(responses);
     if (study->diags.errors > 0) return FW_INPUT;
-    if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(judge_device(study));
-    if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(fw_study_scatter_check(study));
-    if (study->asked->kind == FW_STUDY_IS_yield) FW_TRY(add_made_inputs(study));
+    if (study->asked->kind == FW_STUDY_IS_yield) {
+        FW_TRY(judge_device(study));
+        FW_TRY(fw_study_scatter_check(study));
+        FW_TRY(add_made_inputs(study));
+        FW_TRY(fw_study_yielding_check(study));
+    }
     if (study->asked->yield > 0) FW_TRY(open_dies(study));
     FW_TRY(find_hash(study));
     return run_as_it_stands(study);

@@ -108,10 +108,11 @@ typedef struct fw_study {
         files; /* hash of those that `design` was read from, where a thread works in it; else NULL */
     /* of a size at a wanted yield: the yield of a device, first of the description as it stands, then of what was found */
     struct fw_study *dies;
-    /* how the yield of a chosen device is opened and given back (study.c, which a kind does not call) */
+    /* how the yield of a chosen device is opened and closed (study.c, which a kind does not call) */
     fw_status (*open_dies)(const struct fw_study *of, const fw_study_sample *chosen,
                            struct fw_study **out);
-    void (*free_dies)(struct fw_study *dies);
+    /* status: what came of it; where it failed, the errors that say why become those of `of` */
+    void (*close_dies)(struct fw_study *of, struct fw_study *dies, fw_status status);
 } fw_study;
 
 /* Reads, runs the description as it stands, resolves inputs and responses. What is wrong is in

@@ -317,6 +317,24 @@ fw_status fw_study_yielding_begin(fw_study *study, int flow, int first_input,
                              "<uncertain>",
                              study->asked->name, v->variant->flow ? " in flow " : "",
                              v->variant->flow ? v->variant->flow : "");
+    if (y->scatter.joint.unknowns > FW_CHANCE_UNKNOWNS_MOST)
+        return fw_diag_error(
+            &study->diags, 490, study->asked->place,
+            "study '%s': of %d inputs nothing is known but their ends "
+            "(spread=\"interval\", or assumed by the pack), and all settings of the "
+            "ends of at most %d are looked at; state spread=\"uniform\" or an sd of "
+            "some, or leave those out that matter least",
+            study->asked->name, (int)y->scatter.joint.unknowns, FW_CHANCE_UNKNOWNS_MOST);
     FW_NEED(y->chance = fw_arena_part(study->arena, 0));
     return FW_OK;
+}
+
+fw_status fw_study_yielding_check(fw_study *yield) {
+    fw_status status = FW_OK;
+    for (int i = 0; status == FW_OK && i < yield->plan->nflow; i++) {
+        fw_study_yielding y;
+        status = fw_study_yielding_begin(yield, i, 0, &y);
+        fw_arena_free(y.chance);
+    }
+    return status;
 }

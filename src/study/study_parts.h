@@ -260,6 +260,8 @@ typedef struct fw_study_yielding {
 
 /* of a flow of the study's plan; y->chance is freed by the caller. FW_INPUT: nothing differs (FW-D491) */
 fw_status fw_study_yielding_begin(fw_study *study, int flow, int first_input, fw_study_yielding *y);
+/* before anything is run or written: does anything differ, and can it be looked at? */
+fw_status fw_study_yielding_check(fw_study *yield);
 /* one device; x: a point of the scatter */
 fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
                                   fw_verdict_made *made);

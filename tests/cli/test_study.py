@@ -239,6 +239,9 @@ class Study(unittest.TestCase):
     def test_mistakes_are_said_at_their_places(self):
         vary = '<vary what="arc" from="200 deg" to="260 deg"/>'
         respond = '<respond name="U" value="governing.utilisation"/>'
+        ends = '<uncertain what="link" mean="130 um" sd="1 um"/>' + "".join(
+            f'<uncertain what="flexure[{h}]/@{what}" spread="interval" from="{low} um" to="{high} um"/>'
+            for h in "ABCDEF" for what, low, high in (("width", 7, 8), ("gap", 9, 10)))
         cases = (
             ("sweep", vary.replace("260", "160") + respond, "FW-D490", "from must be below to"),
             ("sweep", vary.replace("260 deg", "260 um") + respond, "FW-D025", ""),
@@ -296,6 +299,9 @@ class Study(unittest.TestCase):
             ("yield", '<uncertain what="arc" spread="table"/>', "FW-D491", "needs table"),
             ("yield", '<uncertain what="arc" table="230 deg 0; 240 deg 1" mean="240 deg" sd="1 deg"/>', "FW-D491", "belongs to"),
             ("sweeep", vary + respond, "FW-D048", "sweep"),
+            ("yield", ends, "FW-D490", "of at most 10 are looked at"),
+            ("size\" yield=\"0.9", vary + respond.replace("/>", ' goal="minimise"/>') + ends, "FW-D490",
+             "of at most 10 are looked at"),
         )
         for kind, rows, code, says in cases:
             done = run("study", self.write(study("s", kind, rows)), "-o", self.place / "bad", *FLOW)
