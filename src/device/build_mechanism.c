@@ -265,7 +265,10 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
                         .inner_corner_m = fw_xml_number_or(record, "inner-corner", 0.0),
                         .inner_corner_place = fw_xml_place_of(record, "inner-corner"),
                         .place = record->element->place,
-                        .width_place = fw_xml_place_of(record, "width")};
+                        .width_place = fw_xml_place_of(record, "width"),
+                        .shape_failed = fw_xml_failed(record, "width") ||
+                                        fw_xml_failed(record, "plate-width") ||
+                                        fw_xml_failed(record, "plate-height")};
     for (int k = 0; k < 2; k++)
         if (fw_xml_given(record, centre[k]) && !fw_xml_given(record, "mass"))
             fw_diag_error(

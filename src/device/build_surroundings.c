@@ -262,7 +262,8 @@ static void check_air_face(fw_device_reader *r, const fw_xml_record *record,
         fw_device_refused(r, record, 79, area, 1, "is that of one body; name it with on");
     if (fw_xml_given(record, "area")) return;
     for (int i = 0; i < d->nbody; i++) {
-        if (fw_device_body_drawn(&d->body[i]) || (air->body != FW_NONE && air->body != i)) continue;
+        if (fw_device_body_drawn(&d->body[i]) || d->body[i].shape_failed) continue;
+        if (air->body != FW_NONE && air->body != i) continue;
         fw_diag_error(r->diags, 79, record->element->place,
                       "%s kind=\"%s\": body '%s' is not drawn, so that its face is not known; %s",
                       fw_xml_label(record, label), fw_xml_text_of(record, "kind"),

@@ -93,6 +93,7 @@ typedef struct fw_device_body { /* <body>, or a link of <six-bar> */
     fw_place inner_corner_place;
     bool platform;
     fw_place place, width_place;
+    bool shape_failed; /* a size of it was given and could not be read, which was said */
 } fw_device_body;
 
 typedef struct fw_device_revolute { /* <revolute>, or a hinge of <six-bar> */

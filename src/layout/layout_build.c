@@ -37,7 +37,9 @@ static const char *missing(fw_arena *arena, const fw_device *device, bool *faile
     for (int i = 0; i < device->nrevolute && !why && !*failed; i++) {
         const fw_device_revolute *j = &device->revolute[i];
         if (j->flexure == FW_NONE)
-            why = fw_arena_printf(arena, "%s%s has no flexure", FW_NAMED("joint", j->id));
+            why =
+                fw_arena_printf(arena, "%s%s has no flexure: give it hinge=\"...\", the id of one",
+                                FW_NAMED("joint", j->id));
         else if (!isfinite(j->x_m + j->y_m))
             why = fw_arena_printf(arena, "%s%s has no place in the drawing",
                                   FW_NAMED("joint", j->id));

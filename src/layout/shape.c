@@ -235,7 +235,7 @@ static bool hole_fits(const fw_layout_drawing *d, int body, const fw_geometry_re
         *why = "a hole meets the edge of what is drawn, or comes nearer to it than 4 um";
         return false;
     }
-    *why = "a hole lies outside of what is drawn";
+    *why = "a hole lies outside of what is drawn: move it into the body, or leave hole=\"yes\" out";
     if (around != 1) return false;
     *why = "a hole reaches into what belongs to a hinge";
     return is_clear_of_hinges(d, body, hole, at);

@@ -98,7 +98,9 @@ const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d)
 
 const char *fw_quantity_dimension_phrase(fw_arena *arena, fw_quantity_dimension d) {
     const char *name = fw_quantity_dimension_text(arena, d);
-    const char *phrase = fw_arena_printf(arena, "%s %s", strchr("ae", name[0]) ? "an" : "a", name);
+    const char *phrase =
+        find(d) ? fw_arena_printf(arena, "%s %s", strchr("ae", name[0]) ? "an" : "a", name)
+                : fw_arena_printf(arena, "a quantity in '%s'", name);
     return phrase ? phrase : name;
 }
 

@@ -109,6 +109,30 @@ class Manners(unittest.TestCase):
         # within them what few want is folded once more
         self.assertRegex(main, r"<details><summary><h3>The hinges by models")
 
+    def test_one_mistake_is_one_message(self):
+        """and what it says is what a user may do; each a change of the gallery's straight stage or gripper"""
+        gallery = {d: (ROOT / f"docs/gallery/{d}/device.xml").read_text() for d in ("straight-stage", "free-form-gripper")}
+        cases = (
+            ("straight-stage", 'width="120 um"', 'width="120 N"', "FW-D025", "a length is wanted"),
+            ("straight-stage", 'plate-width="0.9 mm"', 'plate-width="-0.9 mm"', "FW-D047", "must be at least 1 um"),
+            ("straight-stage", 'b-x="-0.75 mm" hinge="leaf"', 'b-x="-0.75 mm"', "FW-D082",
+             'joint B has no flexure: give it hinge="..."'),
+            ("straight-stage", 'width="120 um"', 'width="120 V/m"', "FW-D025", "this is a quantity in 'm kg s^-3 A^-1', and a"),
+            ("free-form-gripper", '<disc x="20 um" y="820 um"', '<disc x="900 um" y="820 um"', "FW-D316",
+             "move it into the body"),
+        )
+        with tempfile.TemporaryDirectory() as place:
+            for device, was, now, code, says in cases:
+                self.assertIn(was, gallery[device])
+                path = pathlib.Path(place) / "d.xml"
+                path.write_text(gallery[device].replace(was, now, 1))
+                done = run("check", str(path), "--corners", "none")
+                said = [line for line in done.stderr.splitlines() if " error: " in line]
+                self.assertEqual(len(said), 1, said)
+                self.assertIn(f"[{code}]", said[0])
+                self.assertIn(says, said[0])
+                self.assertRegex(said[0], r"d\.xml:\d+:\d+: error: ")
+
     def test_explain(self):
         want = run("explain", "FW-D204").stdout
         for code in ("fw-d204", "Fw-D204", "D204", "d204", "204"):
