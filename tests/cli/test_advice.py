@@ -63,6 +63,30 @@ class Parameters(unittest.TestCase):
         self.assertEqual([p["found"] for p in said], sorted(p["found"] for p in said))
         return {p["set"]: p for p in said}
 
+    def test_how_far_each_parameter_comes(self):
+        """of a stroke that no change reaches: what was tried, and the value that comes nearest, which another run finds too"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text()
+        text = re.sub(r'<require .*?/>', "", text).replace(
+            "  <scene ", '  <require probe="stroke" measure="final" min="3 mm"/>\n  <scene ', 1)
+        with tempfile.TemporaryDirectory() as place:
+            path = pathlib.Path(place) / "d.xml"
+            path.write_text(text)
+            found = json.loads(run("check", path, "--json", "--corners", "none").stdout)
+            self.assertEqual(found["advice"], [])
+            told = 0
+            for p in found["advice_parameters"]:
+                nearest = re.search(r"the nearest that was looked at, (.*?), misses what is asked by a factor of (\S+) "
+                                    r"\(now (\S+)\)$", p["text"])
+                if not nearest:
+                    self.assertRegex(p["text"], "none that was looked at comes nearer|does not go with it|was tried")
+                    continue
+                told += 1
+                self.assertLess(float(nearest[2]), float(nearest[3]))
+                at = json.loads(run("check", path, "--json", "--corners", "none", "--advice", "none", "--set",
+                                    f"{p['set']}={nearest[1]}").stdout)["requirements"][0]["value"]
+                self.assertAlmostEqual(3e-3 / at, float(nearest[2]), delta=0.1 * float(nearest[2]))
+            self.assertGreater(told, 0)
+
     def test_of_a_design_that_tires(self):
         said = self.follow(NODDER)
         self.assertEqual(said["leaf"]["found"], "none")
