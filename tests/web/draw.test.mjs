@@ -51,6 +51,7 @@ describe("a gripper from an empty page", () => {
         await page.click('.template:has-text("Empty page")');
         await page.waitForSelector("#panel-draw:not([hidden])"); // an empty page opens where it is drawn on
         await page.waitForSelector("#right .problems:has-text('Nothing is drawn yet')");
+        assert.equal(await page.locator('button:has-text("Judge as fabricated")').isVisible(), false); // of nothing
         assert.equal(await page.locator(".old:visible, .old-note:visible, #banner:visible").count(), 0, "nothing of the device that was there is left, not even as a former answer");
         await shot(page, "draw-empty.png");
         await tool(page, "bar");

@@ -40,7 +40,8 @@ export class Verdict {
         const cards = [use, this.required, card("flows", "Flows", this.flows)];
         const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
         this.compare = new Compare(() => this.judged);
-        holder.append(this.old, this.banner, this.problems, this.compare.card, ...cards, card("full", "As fabricated", full), ...last, this.notes);
+        this.made = card("full", "As fabricated", full);
+        holder.append(this.old, this.banner, this.problems, this.compare.card, ...cards, this.made, ...last, this.notes);
         this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
         this.ofAnswer = [this.problems, this.notes].map((element) => new Shown(element));
         this.full = new JobView(full, {
@@ -94,6 +95,7 @@ export class Verdict {
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
         const empty = errors.length === 1 && errors[0].code === "FW-D052" && /^<mechanism> has no <body>/.test(errors[0].message);
         const words = empty ? "Nothing is drawn yet" : `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
+        this.made.hidden = empty; // there is nothing that could be made
         this.problems.hidden = errors.length === 0;
         const unheld = errors.length > 0 && errors.every((d) => d.code === "FW-D082" && / no hinge holds it yet/.test(d.message));
         this.problems.classList.toggle("none-yet", empty || unheld); // an empty page is no mistake, nor is a link whose hinge comes next
