@@ -94,14 +94,6 @@ static void compare_mass(const fw_mechanism_builder *b, const fw_device_body *fr
 
 /* explicit values scaled by the variant's scales; NaN ones from the outline: m = rho h A,
    J = rho h I_p, centre of mass = centroid */
-/* why nothing is drawn is said of the first body that needs it; of the others it is the same */
-static bool said_not_drawn(const fw_mechanism_builder *b) {
-    for (size_t i = 0; i < b->diags->count; i++)
-        if (b->diags->item[i].number == 82 && strstr(b->diags->item[i].message, b->layout->why_not))
-            return true;
-    return false;
-}
-
 static fw_status build_body(const fw_mechanism_builder *b, int i) {
     const fw_device_body *from = &b->device->body[i];
     const fw_layout_body_layout *shape =
@@ -123,13 +115,10 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
         isnan(to->mass_kg) || isnan(to->inertia_kg_m2) || isnan(from->x_m) || isnan(from->y_m);
     const bool sized = from->width_m > 0 || from->plate_width_m > 0 || from->nshape > 0;
     if (needs && !shape && sized && b->layout && !b->layout->drawn && b->layout->why_not)
-        return said_not_drawn(b)
-                   ? FW_INPUT
-                   : fw_diag_error(
-                         b->diags, 82, from->place,
-                         "%s%s takes its mass, inertia and position from the drawing, and "
-                         "nothing is drawn: %s; mend that, or give mass, inertia, x and y",
-                         FW_NAMED("body", fw_text_name(from->id)), b->layout->why_not);
+        return fw_diag_error(b->diags, 82, from->place,
+                             "%s%s takes its mass, inertia and position from the drawing, and "
+                             "nothing is drawn: %s; mend that, or give mass, inertia, x and y",
+                             FW_NAMED("body", fw_text_name(from->id)), b->layout->why_not);
     if (needs && !shape)
         return fw_diag_error(b->diags, 82, from->place,
                              "%s%s has no shape that could give its mass, inertia and position; "
