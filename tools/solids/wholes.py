@@ -107,7 +107,7 @@ class Solid:
 
     def solve(self, folder, name, *deck):
         (folder / f"{name}.inp").write_text(self.deck(*deck))
-        done = subprocess.run(["nice", "-n", "10", "ccx", name], cwd=folder, capture_output=True, text=True, check=False)
+        done = subprocess.run(["ccx", name], cwd=folder, capture_output=True, text=True, check=False)
         text = (folder / f"{name}.dat").read_text() if (folder / f"{name}.dat").exists() else ""
         (folder / f"{name}.log").write_text(done.stdout)
         if done.returncode or not text or "*ERROR" in done.stdout:
