@@ -104,4 +104,6 @@ def compared(program, rows):
             problems.append(f"{name}: the solid has no {q}: run tools/solids/gallery {name}")
         why = [f"- {q}: {text}" for (d, q), text in KNOWN.items() if d == name]
         out += ["\nOutside, and why:\n", *why] if why else []
+    left = sorted({p.parent.name for p in said.GALLERY.glob("*/device.xml")} - set(of))
+    out += [f"\nNot solved yet: {', '.join(left)}."] if left else []
     return problems, "\n".join(out) + "\n"
