@@ -34,6 +34,10 @@ fw_flexure_depth fw_flexure_depth_at(double depth_over_root_of_radius_and_width,
 /* of a crystal's strip, E of its mean compliance */
 fw_flexure_depth fw_flexure_depth_crystal(double depth_over_root_of_radius_and_width,
                                           const fw_flexure_crystal *crystal, double youngs_Pa);
+/* stress between the roots over what the hoop strain of the mean modulus says; curved: t/3R */
+double fw_flexure_depth_stress(double depth_over_root_of_radius_and_width,
+                               const fw_flexure_crystal *crystal, double psi_rad, double youngs_Pa,
+                               double curved);
 
 typedef struct fw_flexure_end_loss {
     double reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */

@@ -108,9 +108,14 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
         fw_geometry_pose at = {0, 0.5 * u * in->length_m, 0.5 * FW_PI};
         if (arc)
             at = (fw_geometry_pose){in->radius_m * cos(b), in->radius_m * sin(b), 0.5 * FW_PI + b};
+        double stress = 1;
+        if (arc && in->crystal.known)
+            stress = fw_flexure_depth_stress(in->depth_m / sqrt(in->radius_m * in->width_m),
+                                             &in->crystal, b, c->youngs_Pa,
+                                             in->width_m / (3 * in->radius_m));
         out->point[out->n++] =
             place_of(in, at, in->width_m, (double)k / LAST,
-                     root ? per_Nm : per_Nm * c->fibre / c->concentration, soft, root);
+                     root ? per_Nm : per_Nm * c->fibre / c->concentration * stress, soft, root);
         if (root && arc) outer_fillet(in, in->width_m / (3 * in->radius_m), &out->point[k]);
     }
     return FW_OK;

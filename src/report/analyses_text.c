@@ -73,7 +73,7 @@ static void frequencies_off(const fw_statics_modes *modes, fw_text *out) {
     fw_percent_text(stiffness, sizeof stiffness, modes->stiffness_error);
     fw_text_printf(out,
                    "frequencies off by up to %s %%: the model of the hinges %s %%, and half of %s "
-                   "%%, the error of a flexure's stiffness%s\n",
+                   "%%, the error of a flexure's stiffness%s; bodies that bend make them lower\n",
                    all, model, stiffness,
                    modes->stiffness_error > 0 ? "" : " (stated ones are taken as they are)");
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tools/solids/gallery takes from a device: its description without loads, and its outlines as points (of solid_whole, whose
+"""What tools/solids takes from a device: its description without loads, and its outlines as points (of solid_whole, whose
 head says what it prints). Needs nothing but Python, so that tests/docs/solids.py can look at it."""
 import math
 import re
@@ -25,18 +25,23 @@ def rotors_of(text):
     return "".join(re.sub(r'voltage="[^"]*"', 'voltage="1 mV"', c) for c in re.findall(r"<comb-drive[^>]*?/>", first[0] if first else ""))
 
 
-def arc(x0, y0, x1, y1, cx, cy, sweep):
+def close(radius):
+    """the angle of a chord"""
+    return min(math.radians(9), math.sqrt(8 * CHORD / radius))
+
+
+def arc(x0, y0, x1, y1, cx, cy, sweep, step=close):
     radius, start = math.hypot(x0 - cx, y0 - cy), math.atan2(y0 - cy, x0 - cx)
-    n = max(2, math.ceil(abs(sweep) / min(math.radians(9), math.sqrt(8 * CHORD / radius))))
+    n = max(2, math.ceil(abs(sweep) / step(radius)))
     return [(cx + radius * math.cos(start + sweep * i / n), cy + radius * math.sin(start + sweep * i / n)) for i in range(1, n)]
 
 
-def outlines(program, device):
-    """layer; bodies' names; [(body, joint, points in um)]"""
-    return outlines_in(subprocess.run([program, device], capture_output=True, text=True, check=True).stdout)
+def outlines(program, device, step=close, arcs=None):
+    """layer; bodies' names; [(body, joint, points in um)]; step: angle of a chord by its radius; arcs: gets (cx, cy, radius) of all"""
+    return outlines_in(subprocess.run([program, device], capture_output=True, text=True, check=True).stdout, step, arcs)
 
 
-def outlines_in(text):
+def outlines_in(text, step=close, arcs=None):
     """of what solid_whole has printed"""
     layer, bodies, pieces = None, {}, []
     for line in text.splitlines():
@@ -52,7 +57,9 @@ def outlines_in(text):
             points = pieces[-1][2]
             points.append((v[0], v[1]))
             if word == "arc":
-                points += arc(*v[:6], float(rest[6]))
+                points += arc(*v[:6], float(rest[6]), step)
+                if arcs is not None:
+                    arcs.append((v[4], v[5], math.hypot(v[0] - v[4], v[1] - v[5])))
     return layer, bodies, pieces
 
 
