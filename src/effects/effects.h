@@ -121,7 +121,7 @@ typedef enum fw_effect_mode {
 } fw_effect_mode;
 /* How flexures enter the mechanism, the cheapest first. AUTO: pins where the bound on what they
    change is below the accuracy, else compliance, and elastica where the step there is computed to
-   change more than the accuracy (statics/level.h). */
+   change more than the accuracy (statics/statics.h). */
 typedef enum fw_effects_hinge_model {
     FW_HINGE_AUTO,
     FW_HINGE_REVOLUTE,   /* pins at the elastic centres */

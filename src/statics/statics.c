@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics.h"
-#include "statics/level.h"
 #include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>

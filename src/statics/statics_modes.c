@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "statics/level.h"
-#include "base/constants.h"
 #include "statics/statics.h"
+#include "base/constants.h"
 #include "statics/statics_equilibrium.h"
 #include "maths/dense.h"
 #include <float.h>
