@@ -81,7 +81,9 @@ typedef struct fw_statics {
     double *reaction_N; /* (2 npin) force on body b, world axes */
     double *joint_N;    /* (3 njoint) force on body b, torque on it about its point b (N m) */
     double *driver_N;   /* (ndriver) N or N m along the driven coordinate */
-    double *eigenvalue_per_s2; /* (dof) of the reduced tangent stiffness, ascending: omega^2 */
+    /* (eigenvalues) of the reduced tangent stiffness, ascending: omega^2; all dof, or the lowest of a large mechanism */
+    double *eigenvalue_per_s2;
+    int eigenvalues;
     int negative, neutral;     /* how many are below 0, and 0 within round-off */
     const char *loose;         /* bodies that nothing holds, or NULL */
     bool left_unstable;        /* the way there led over an unstable equilibrium */
@@ -202,7 +204,8 @@ typedef struct fw_statics_mode {
 } fw_statics_mode;
 
 typedef struct fw_statics_modes {
-    int nbody, npin, count; /* count = degrees of freedom */
+    int nbody, npin, count,
+        dof; /* count: modes; of a large mechanism fewer than degrees of freedom */
     bool at_equilibrium;
     double *q;             /* (3 nbody) the pose */
     double unit_length_m;  /* of the shapes */
