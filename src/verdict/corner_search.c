@@ -129,6 +129,13 @@ static const char *last_error(const fw_diags *diags) {
     return "it could not be run";
 }
 
+static bool closer_numbers_may_decide(const fw_verdict_variant_verdict *now) {
+    fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
+    if (refinement == FW_REFINE_NOTHING)
+        refinement = fw_verdict_requirements_refinement(now->requirement, now->nrequirement);
+    return refinement == FW_REFINE_NUMBERS;
+}
+
 /* a hinge's verdict with everything that it points to */
 static fw_status take_hinge(const fw_verdict_search *s, const fw_verdict_hinge_verdict *now,
                             fw_verdict_hinge_verdict *kept) {
@@ -166,6 +173,7 @@ static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdi
     for (int k = 0; k < s->v->nhinge; k++)
         FW_TRY(take_hinge(s, &now->hinge[k], &corner->hinge[k]));
     corner->decision = now->decision;
+    corner->unsure = now->decision != FW_ACCEPT && closer_numbers_may_decide(now);
     FW_TRY(take_requirements(s, now, corner));
     FW_TRY(take_reason(s, now, corner));
     take_checks(s, now, ln);
@@ -186,15 +194,12 @@ static bool refine(const fw_verdict_search *s, const fw_verdict_variant_verdict 
     double asked = wanted(&s->options), had = wanted(options);
     /* else the caller has set the tolerances of the integrator, and no accuracy goes with them */
     bool steered = s->options.motion.rtol == 0;
-    fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
-    if (refinement == FW_REFINE_NOTHING)
-        refinement = fw_verdict_requirements_refinement(now->requirement, now->nrequirement);
-    if (options->at_a_glance || refinement != FW_REFINE_NUMBERS) return false;
+    if (options->at_a_glance || !closer_numbers_may_decide(now)) return false;
     if (options->motion.rtol == 0 && had <= fw_verdict_tightest) return false;
     bool coarse = steered && had > asked;
     double next = fmin(0.1 * had, fw_verdict_enough(now->hinge, now->nhinge, had));
     next = fmin(next, fw_verdict_requirements_enough(now->requirement, now->nrequirement, had));
-    *options = coarse ? s->options : fw_verdict_tighter(&s->options, refinement);
+    *options = coarse ? s->options : fw_verdict_tighter(&s->options, FW_REFINE_NUMBERS);
     if (steered && had == asked && next > 3 * fw_verdict_tightest) options->motion.accuracy = next;
     return true;
 }
@@ -209,12 +214,13 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
     options.values = s->nearest;
     options.ways = s->clearances;
     if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_accuracy);
+    int looks = 0;
     do {
         *now = (fw_verdict_variant_verdict){
             .variant = &device->variant, .like = like, .corner = true, .arm = s->v->arm};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
-    } while (refine(s, now, &options));
+    } while (++looks != s->most_looks && refine(s, now, &options));
     return FW_OK;
 }
 
@@ -360,51 +366,91 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     return FW_OK;
 }
 
-/* the same without keeping it as a corner: is it accepted? */
-static fw_status point_accepts(const fw_verdict_search *from, const double *x,
-                               const signed char *sign, bool *accepted) {
-    fw_verdict_fabricated_corner corner;
-    fw_verdict_search at = *from, *s = &at;
-    double *ln;
-    s->sign = sign;
-    FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->ncheck));
-    FW_TRY(fw_verdict_search_point(s, x, &corner, ln));
-    *accepted = corner.decision == FW_ACCEPT;
-    return FW_OK;
-}
-
 /* ---- what would have to be held ----
    What would have to be known or held better so that everything a flow may make is accepted: the
    one input that does it alone, by how much; else the share of all ranges. */
 
-enum { HALVINGS = 8 }; /* to 1/256 of a range: what is said is rounded to about a hundredth */
+/* Bisected in turn by one look at every device, by two, and by as many as its decision needs, each of which may cost
+   a hundred times as much as the one before: a motion with its inertia in place of a row of equilibria. So closer ones
+   leave more of a range open between what is refused for certain and what is accepted. */
+enum { STAGES = 3 };
+static const int looks_of[STAGES] = {1, 2, 0};
+static const double left_open[STAGES] = {1.0 / 256, 1.0 / 24, 1.0 / 6}; /* of the range */
 
 typedef struct box { /* the ranges, made narrower */
     double low[FW_FABRICATION_INPUTS], high[FW_FABRICATION_INPUTS];
 } box;
 
-static box whole(const fw_verdict_variant_verdict *v) {
-    box b = {{0}, {0}};
-    for (int i = 0; i < v->ninput; i++)
-        b.low[i] = v->input[i].low, b.high[i] = v->input[i].high;
-    return b;
+typedef enum answer { ACCEPTED, UNSURE, REFUSED } answer; /* unsure: closer numbers may decide */
+
+/* a device at a point of the ranges, not kept as a corner */
+static fw_status ask_point(const fw_verdict_search *from, const double *x, const signed char *sign,
+                           int most_looks, answer *out) {
+    fw_verdict_fabricated_corner corner;
+    fw_verdict_search at = *from, *s = &at;
+    double *ln;
+    s->sign = sign;
+    s->most_looks = most_looks;
+    FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->ncheck));
+    FW_TRY(fw_verdict_search_point(s, x, &corner, ln));
+    *out = corner.decision == FW_ACCEPT      ? ACCEPTED
+           : most_looks > 0 && corner.unsure ? UNSURE
+                                             : REFUSED;
+    return FW_OK;
 }
 
 /* Is all of a smaller box accepted? Every device that was not is moved to where the box ends and is
    run there. One that was accepted is not run again: the search takes utilisations to be monotone
    in each input, so that moving it inwards does not make it the worst one. The governing device is
    the first: it is the likeliest to fail again. */
-static fw_status box_accepts(const fw_verdict_search *s, const box *b, bool *accepted) {
+static fw_status ask_box(const fw_verdict_search *s, const box *b, int most_looks, answer *out) {
     const fw_verdict_fabricated_verdict *fabricated = s->fabricated;
-    *accepted = true;
-    for (int turn = -1; turn < fabricated->ncorner && *accepted; turn++) {
+    *out = ACCEPTED;
+    for (int turn = -1; turn < fabricated->ncorner && *out != REFUSED; turn++) {
         int c = turn < 0 ? fabricated->at : turn;
         if ((turn >= 0 && c == fabricated->at) || fabricated->corner[c].decision == FW_ACCEPT)
             continue;
         double x[FW_FABRICATION_INPUTS];
+        answer a;
         for (int i = 0; i < s->v->ninput; i++)
             x[i] = fmin(fmax(fabricated->corner[c].x[i], b->low[i]), b->high[i]);
-        FW_TRY(point_accepts(s, x, fabricated->corner[c].sign, accepted));
+        FW_TRY(ask_point(s, x, fabricated->corner[c].sign, most_looks, &a));
+        if (a != ACCEPTED) *out = a == REFUSED || *out == REFUSED ? REFUSED : UNSURE;
+    }
+    return FW_OK;
+}
+
+typedef struct narrowing { /* the box at a number t */
+    int input; /* one end of it is at t; FW_NONE: every range is t times as wide about its nominal value */
+    bool low_is_bad;
+} narrowing;
+
+static box box_at(const fw_verdict_variant_verdict *v, narrowing by, double t) {
+    box b = {{0}, {0}};
+    for (int i = 0; i < v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &v->input[i];
+        const bool all = by.input == FW_NONE;
+        b.low[i] = all ? in->nominal + t * (in->low - in->nominal) : in->low;
+        b.high[i] = all ? in->nominal + t * (in->high - in->nominal) : in->high;
+        if (i == by.input) *(by.low_is_bad ? &b.low[i] : &b.high[i]) = t;
+    }
+    return b;
+}
+
+/* between t = bad, where it is not accepted, and *good, where it is: *good comes nearer */
+static fw_status narrow(const fw_verdict_search *s, narrowing by, double bad, double *good) {
+    const double whole = fabs(*good - bad);
+    double refused = bad;
+    for (int i = 0; i < STAGES; i++) {
+        double open = refused;
+        while (fabs(*good - open) > left_open[i] * whole * (1 + 1e-9)) {
+            const double t = 0.5 * (open + *good);
+            const box b = box_at(s->v, by, t);
+            answer a;
+            FW_TRY(ask_box(s, &b, looks_of[i], &a));
+            *(a == ACCEPTED ? good : &open) = t;
+            if (a == REFUSED) refused = t;
+        }
     }
     return FW_OK;
 }
@@ -447,25 +493,18 @@ static double rounded(double x, double range, bool up) {
     return unit * (up ? ceil(x / unit - 1e-9) : floor(x / unit + 1e-9));
 }
 
-/* Moves the bad end of input i towards its good one, by bisection, until all is accepted. *done
-   false: not even the good end alone is enough. */
+/* Moves the bad end of input i towards its good one until all is accepted. *done false: not even the
+   good end alone is enough. */
 static fw_status hold_one(fw_verdict_search *s, int i, bool low_is_bad, bool *done) {
     const fw_verdict_fabrication_input *in = &s->v->input[i];
+    const narrowing by = {i, low_is_bad};
     double bad = low_is_bad ? in->low : in->high, good = low_is_bad ? in->high : in->low;
     if (in->local != 0.0) good = in->nominal; /* all alike */
-    box b = whole(s->v);
-    double *end = low_is_bad ? &b.low[i] : &b.high[i];
-    *end = good;
-    FW_TRY(box_accepts(s, &b, done));
-    for (int k = 0; *done && k < HALVINGS; k++) {
-        bool accepted;
-        *end = 0.5 * (bad + good);
-        FW_TRY(box_accepts(s, &b, &accepted));
-        if (accepted)
-            good = *end;
-        else
-            bad = *end;
-    }
+    const box end = box_at(s->v, by, good);
+    answer a;
+    FW_TRY(ask_box(s, &end, 0, &a));
+    *done = a == ACCEPTED;
+    if (*done) FW_TRY(narrow(s, by, bad, &good));
     if (!*done) return FW_OK;
     good = rounded(good, in->high - in->low, low_is_bad);
     s->fabricated->held = i;
@@ -492,7 +531,7 @@ static fw_status report_one(fw_verdict_search *s, bool low_is_bad) {
 
 /* the share of all ranges, about the nominal values, at which everything is accepted */
 static fw_status hold_all(fw_verdict_search *s) {
-    double bad = 1.0, good = 0.0;
+    double good = 0.0;
     /* corner 0 is the nominal device: where it is not accepted no share of the ranges is */
     if (s->fabricated->corner[0].decision != FW_ACCEPT) {
         s->fabricated->control =
@@ -500,21 +539,7 @@ static fw_status hold_all(fw_verdict_search *s) {
             "acceptable: give the flexures more margin";
         return FW_OK;
     }
-    for (int k = 0; k < HALVINGS; k++) {
-        double share = 0.5 * (bad + good);
-        bool accepted;
-        box b;
-        for (int i = 0; i < s->v->ninput; i++) {
-            const fw_verdict_fabrication_input *in = &s->v->input[i];
-            b.low[i] = in->nominal + share * (in->low - in->nominal);
-            b.high[i] = in->nominal + share * (in->high - in->nominal);
-        }
-        FW_TRY(box_accepts(s, &b, &accepted));
-        if (accepted)
-            good = share;
-        else
-            bad = share;
-    }
+    FW_TRY(narrow(s, (narrowing){.input = FW_NONE}, 1.0, &good));
     char percent[32];
     s->fabricated->held_share = 0.01 * floor(100.0 * good);
     fw_number_text(percent, sizeof percent, 100.0 * s->fabricated->held_share, 3);

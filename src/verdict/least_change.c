@@ -76,6 +76,8 @@ typedef struct way { /* from the device as described to `full` */
     const fw_device *full;
     double *share; /* (full->nscene) */
     double most_work;
+    double
+        bias; /* ln of what a whole judgement found over what a glance does there; 0: not known */
 } way;
 
 static bool spent(const way *w) {
@@ -88,9 +90,9 @@ typedef struct place { /* on the way */
     double over;
 } place;
 
-/* by what the trial's last run says */
-static place place_of(const fw_verdict_trial *trial, double s, bool *may) {
-    const double over = log(fw_verdict_trial_excess(trial));
+/* by what the trial's last run says, which is off by `bias` */
+static place place_of(const fw_verdict_trial *trial, double s, double bias, bool *may) {
+    const double over = log(fw_verdict_trial_excess(trial)) + bias;
     *may = trial->decision != FW_REJECT && trial->drawn && !(over > 0);
     return (place){s, *may == (over <= 0) && isfinite(over) ? over : (double)NAN};
 }
@@ -98,7 +100,20 @@ static place place_of(const fw_verdict_trial *trial, double s, bool *may) {
 static fw_status glance(const way *w, double s, place *out, bool *may) {
     FW_TRY(go_to(w->trial, w->full, w->share, s));
     FW_TRY(fw_verdict_trial_run(w->trial, FW_LOOK_GLANCE));
-    *out = place_of(w->trial, s, may);
+    *out = place_of(w->trial, s, w->bias, may);
+    return FW_OK;
+}
+
+/* After a whole judgement at s: what glances are off by there, at the corner that governs now. Else the same place would
+   be judged wholly again and again, a hundredth of the way further each time. */
+static fw_status learn(way *w, double s) {
+    const double most = 0.5; /* beyond, both are about different things */
+    const double whole = log(fw_verdict_trial_excess(w->trial));
+    place coarse;
+    bool may;
+    w->bias = 0;
+    FW_TRY(glance(w, s, &coarse, &may));
+    if (fabs(whole - coarse.over) < most) w->bias = whole - coarse.over; /* NaN is passed */
     return FW_OK;
 }
 
@@ -135,7 +150,7 @@ fw_status fw_verdict_least_change(fw_verdict_trial *trial, double most_work,
     for (int i = 0; i < w.full->nscene; i++)
         w.share[i] = trial->share[i];
     bool may;
-    const place full = place_of(trial, 1, &may);
+    const place full = place_of(trial, 1, 0, &may);
     place low = {0, log(trial->excess_as_described)};
     double step = known_to;
     *added = false;
@@ -145,6 +160,7 @@ fw_status fw_verdict_least_change(fw_verdict_trial *trial, double most_work,
         if (!last) FW_TRY(approach(&w, low, &at));
         FW_TRY(go_to(trial, w.full, w.share, at.s));
         FW_TRY(propose(context, added));
+        if (!*added && !last) FW_TRY(learn(&w, at.s));
         low = (place){last ? 1 : fmin(at.s * (1 + step), 1), (double)NAN};
         step *= 2;
         trial->ended = spent(&w);

@@ -146,9 +146,10 @@ typedef struct fw_verdict_search {
     const fw_verdict_known *known; /* (nknown) */
     int nknown;
     const signed char *sign; /* how hinges differ at what is run now; NULL: not at all */
-    int judged;              /* points that were run, and not known */
-    int first;               /* how many points there were when the slopes were known */
-    double *slope;           /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
+    int most_looks; /* at a point, each closer than the one before; 0: as many as its decision needs */
+    int judged;     /* points that were run, and not known */
+    int first;      /* how many points there were when the slopes were known */
+    double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
     /* of each input: that whose slopes were taken, scaled by the edges, and the point where it was off
        its nominal value; FW_NONE: no range */
     int slope_like[FW_FABRICATION_INPUTS], slope_point[FW_FABRICATION_INPUTS];
