@@ -35,7 +35,7 @@ static const double fw_longest_step = 0.5; /* rad, or scaled lengths */
 static const double fw_far = 32;
 enum { FW_NEWTON_STEPS = 400, FW_ESCAPES = 20 };
 
-/* M^1/2 times the step, with the least shift of 0, 1e-9, 1e-8 ... of the largest stiffness over mass that leaves no negative
+/* M^1/2 times the step, with the least shift of 0 and powers of 4, of the largest stiffness over mass, that leaves no negative
    one, and none of nothing where forces push along it: Newton's where all stiffnesses are positive, a descent always.
    Source: Nocedal and Wright, Numerical Optimization 2006, ch. 3.4. NaN: there is no memory, or no such shift. */
 static double sparse_newton(fw_statics_equilibrium *w, double *step) {
@@ -43,7 +43,11 @@ static double sparse_newton(fw_statics_equilibrium *w, double *step) {
     const fw_statics_sparse *s = r->sparse;
     double most = 0;
     int negative;
-    for (double shift = 0; shift<1e6; shift = shift> 0 ? 10 * shift : 1e-9) {
+    /* from what the last step needed on, which is 0 most of the time */
+    const double first = fmax(1e-14, s->shift / 64);
+    enum { TRIES = 60 };
+    for (int k = 0; k < TRIES; k++) {
+        const double shift = k == 0 ? 0 : ldexp(first, 2 * (k - 1));
         if (fw_statics_sparse_factor(r, shift, &negative) != FW_OK) return (double)NAN;
         if (negative > 0 || (shift > 0 && s->zero > 0)) continue;
         for (int i = 0; i < r->n; i++)

@@ -309,7 +309,8 @@ static fw_status frames(fw_statics_equilibrium *w, fw_statics_mode *mode) {
         if (i == FW_MODE_FRAMES - 1) phase = 0;
         for (size_t k = 0; k < n; k++)
             u[k] = w->y[k] + fw_visible * phase * mode->shape[k] / (k % 3 == 2 ? 1 : length);
-        if (!fw_statics_equilibrium_close(w, u)) /* too far for the joints: as it is */
+        /* too far for the joints, or so many that they would take most of the time: as it is */
+        if (w->sparse || !fw_statics_equilibrium_close(w, u))
             for (size_t k = 0; k < n; k++)
                 u[k] = w->y[k] + fw_visible * phase * mode->shape[k] / (k % 3 == 2 ? 1 : length);
         fw_statics_equilibrium_pose(w, u, mode->frame + (size_t)i * n, NULL);
