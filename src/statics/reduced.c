@@ -246,7 +246,7 @@ static void take_mode(fw_statics_reduced *r, int k) {
    the last know) it is asked again. Error: that of the system, eps over the lowest stiffness in `unit`. Cost: some 4 count
    solves. Test: tests/cli/test_large.py */
 static fw_status below_all(fw_statics_reduced *r) {
-    enum { CLOSER = 4 };
+    enum { HALVINGS = 4 };
     int negative;
     FW_TRY(fw_statics_sparse_factor(r, 0, &negative));
     if (negative == 0 && r->sparse->zero == 0) return FW_OK;
@@ -256,7 +256,7 @@ static fw_status below_all(fw_statics_reduced *r) {
         FW_TRY(fw_statics_sparse_factor(r, high, &negative));
         if (negative == 0 && r->sparse->zero == 0) break;
     }
-    for (int i = 0; i < CLOSER && low > 1e-9;
+    for (int i = 0; i < HALVINGS && low > 1e-9;
          i++) { /* near the lowest they lie far apart in the inverse */
         const double middle = sqrt(low * high);
         FW_TRY(fw_statics_sparse_factor(r, middle, &negative));
@@ -282,6 +282,26 @@ fw_status fw_statics_sparse_lowest(fw_arena *arena, fw_statics_reduced *r, int c
     for (int k = 0; k < r->modes; k++)
         take_mode(r, k);
     return FW_OK;
+}
+
+/* u onto the joints by Newton's method with a factor at every pose: of thousands of links the way that motions take, with
+   one factor for small corrections, does not get there */
+bool fw_statics_sparse_close(fw_statics_equilibrium *w, double *u) {
+    const fw_multibody_model *m = w->model;
+    double before = (double)INFINITY;
+    const double round_off = fmax(1e-12, 8 * DBL_EPSILON * m->size);
+    for (int i = 0; i < 20; i++) {
+        const fw_multibody_pose *pose = fw_multibody_pose_at(w->system, w->t, u);
+        const double norm = fw_multibody_residual(w->system, pose, w->psi);
+        if (!isfinite(norm) || norm > 1e3 * before) return false;
+        if (norm <= round_off && norm > 0.25 * before) return true;
+        before = norm;
+        if (fw_statics_reduced_null(m, pose, &w->reduced) != FW_OK) return false;
+        fw_statics_reduced_correct(m, &w->reduced, w->psi, w->step);
+        for (int k = 0; k < m->nq; k++)
+            u[k] += w->step[k];
+    }
+    return before <= round_off;
 }
 
 /* ---- a new one ---- */

@@ -6,28 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- large mechanisms ---- */
-
-/* u onto the joints by Newton's method with a factor at every pose: of thousands of links the way that motions take, with
-   one factor for small corrections, does not get there */
-bool fw_statics_sparse_close(fw_statics_equilibrium *w, double *u) {
-    const fw_multibody_model *m = w->model;
-    double before = (double)INFINITY;
-    const double round_off = fmax(1e-12, 8 * DBL_EPSILON * m->size);
-    for (int i = 0; i < 20; i++) {
-        const fw_multibody_pose *pose = fw_multibody_pose_at(w->system, w->t, u);
-        const double norm = fw_multibody_residual(w->system, pose, w->psi);
-        if (!isfinite(norm) || norm > 1e3 * before) return false;
-        if (norm <= round_off && norm > 0.25 * before) return true;
-        before = norm;
-        if (fw_statics_reduced_null(m, pose, &w->reduced) != FW_OK) return false;
-        fw_statics_reduced_correct(m, &w->reduced, w->psi, w->step);
-        for (int k = 0; k < m->nq; k++)
-            u[k] += w->step[k];
-    }
-    return before <= round_off;
-}
-
 /* ---- from a state to a stable equilibrium nearby ---- */
 
 static const double fw_longest_step = 0.5; /* rad, or scaled lengths */
@@ -215,7 +193,8 @@ fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_u
         status = FW_SOLVER; /* until it is settled */
         if (too_far(w->model, w->y)) break;
     }
-    fw_arena_rewind(w->arena, mark);
+    /* what the sparse system has grown by meanwhile stays */
+    if (!w->sparse) fw_arena_rewind(w->arena, mark);
     return status;
 }
 

@@ -189,7 +189,7 @@ double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u,
 fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w);
 /* sparse: the `count` lowest modes of an evaluated state, with gradient and noise. Dense: all are there */
 fw_status fw_statics_equilibrium_lowest(fw_statics_equilibrium *w, int count);
-/* settle.c: u onto the joints of a large mechanism, likewise */
+/* reduced.c: u onto the joints of a large mechanism, likewise */
 bool fw_statics_sparse_close(fw_statics_equilibrium *w, double *u);
 /* settle.c: Newton step along the modes at an evaluated state: step (n), largest component
    returned */

@@ -76,7 +76,7 @@ static void signs_and_solutions_are_those_of_dense_ones(void **state) {
         memcpy(a, d.a, sizeof a);
         assert_true(fw_maths_jacobi(d.n, a, value, vector));
         int negative = 0, nothing = 0;
-        double least = INFINITY;
+        double least = (double)INFINITY;
         for (int i = 0; i < d.n; i++) {
             bool none = fabs(value[i]) < 1e-12;
             nothing += none, negative += !none && value[i] < 0;
