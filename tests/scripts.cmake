@@ -179,10 +179,10 @@ target_compile_options(fault_preload PRIVATE -fvisibility=default)
 target_link_libraries(fault_preload PRIVATE dl)
 set(FW_LOOPS ${Python3_EXECUTABLE} tests/faults/loops.py ${FW_PROGRAM} $<TARGET_FILE:fault_preload>)
 if(NOT FW_SANITIZE) # a sanitizer has an allocator of its own
-    fw_first_part_of(fault.calls COMMAND ${FW_LOOPS} FIRST --most 2 --runs 3 --case check plan statics hinge simulate calibrate log report doctor
+    fw_first_part_of(fault.calls COMMAND ${FW_LOOPS} FIRST --most 2 --runs 3 --case check plan statics hinge simulate calibrate log report study doctor
                      WHOLE --most 12)
     fw_first_part_of(fault.kill COMMAND ${FW_LOOPS} --kill --kind open write fsync rename close mkdir unlink
-                     FIRST --most 2 --runs 3 --case plan log statics WHOLE --most 8)
+                     FIRST --most 2 --runs 3 --case plan log statics study WHOLE --most 8)
 endif()
 fw_script_test(fault.instead COMMAND ${Python3_EXECUTABLE} tests/faults/instead.py ${FW_PROGRAM})
 fw_script_test(hostile.documents COMMAND ${Python3_EXECUTABLE} tests/hostile/hostile.py ${FW_PROGRAM} TIMEOUT 600)

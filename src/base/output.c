@@ -138,7 +138,8 @@ void fw_output_remove_leftovers(fw_arena *arena, const char *path) {
         long pid = strtol(e->d_name + strlen(prefix), &end, 10);
         char proc[64];
         snprintf(proc, sizeof proc, "/proc/%ld", pid);
-        bool ours = *end == '\0' || strcmp(end, "-old") == 0;
+        /* SQLite has a journal beside what it writes */
+        bool ours = *end == '\0' || strcmp(end, "-old") == 0 || strcmp(end, "-journal") == 0;
         if (ours && pid > 0 && access(proc, F_OK) != 0)
             fw_output_remove_tree(dirfd(dir), e->d_name);
     }

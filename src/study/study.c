@@ -447,7 +447,7 @@ static fw_status open_in(fw_study *study) {
 fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
     *study = new_study(options);
     FW_NEED(*study);
-    return open_all(*study);
+    return fw_study_said(*study, open_all(*study));
 }
 
 fw_status fw_study_open_points(const fw_study_options *options, const fw_device_study *asked,
@@ -544,7 +544,7 @@ fw_status fw_study_run(fw_study *study) {
     case FW_STUDY_KINDS:
         break;
     }
-    FW_TRY(status);
+    FW_TRY(fw_study_said(study, status));
     study->result = result;
     if (!study->store) return FW_OK;
     FW_TRY(fw_study_store_finish(study->store));

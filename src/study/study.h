@@ -104,6 +104,7 @@ typedef struct fw_study {
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
     struct fw_study_engines *engines; /* what samples have in common */
+    struct fw_study_failure *failure; /* why a design, which is gone, could not be read */
     const char *
         files; /* hash of those that `design` was read from, where a thread works in it; else NULL */
     /* of a size at a wanted yield: the yield of a device, first of the description as it stands, then of what was found */

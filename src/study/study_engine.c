@@ -36,7 +36,7 @@ struct fw_study_engines {
         lent; /* the study's own, which nobody reads any more; NULL: there is none, or it is taken */
 };
 
-static double now_s(void) {
+double fw_study_now_s(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
@@ -44,6 +44,7 @@ static double now_s(void) {
 
 fw_status fw_study_engines_open(fw_study *study) {
     FW_NEED(study->engines = fw_arena_one(study->arena, fw_study_engines));
+    FW_TRY(fw_study_failure_open(study));
     return pthread_mutex_init(&study->engines->lock, NULL) == 0 ? FW_OK : FW_NOMEM;
 }
 
@@ -66,6 +67,7 @@ void fw_study_engines_close(fw_study *study) {
         study->engines->idle = e->next;
         engine_free(e);
     }
+    fw_study_failure_close(study);
     pthread_mutex_destroy(&study->engines->lock);
 }
 
@@ -113,7 +115,7 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
                             bool *changed) {
     int status;
     e->study = study;
-    e->looked_s = now_s();
+    e->looked_s = fw_study_now_s();
     FW_NEED(e->set = fw_arena_array(e->arena, fw_device_set,
                                     (size_t)(study->options.nset + study->ninput)));
     pthread_mutex_lock(&study->engines->lock);
@@ -141,13 +143,13 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
 /* the files once more */
 static fw_status look_again(const fw_cancel *cancel, engine *e, bool *changed) {
     int status;
-    if (now_s() - e->looked_s < look_again_s) return FW_OK;
+    if (fw_study_now_s() - e->looked_s < look_again_s) return FW_OK;
     fw_design *design = fw_study_design(e->study, cancel, NULL, &status);
     FW_NEED(design);
     const bool final = fw_plan_is_final((fw_status)status);
     *changed = !final && (status != FW_STATUS_OK || !fw_study_same_files(e->study, design));
     fw_design_free(design);
-    e->looked_s = now_s();
+    e->looked_s = fw_study_now_s();
     return final ? (fw_status)status : *changed ? FW_INPUT : FW_OK;
 }
 
@@ -194,7 +196,9 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     for (int i = 0; i < study->ninput; i++)
         if (sample->text[i][0])
             e->set[n++] = (fw_device_set){study->input[i].what, sample->text[i]};
-    FW_TRY(fw_plan_kept_again(&e->kept, e->set, n, done));
+    const fw_status read = fw_plan_kept_again(&e->kept, e->set, n, done);
+    fw_study_note_error(study, e->design, (int)read);
+    FW_TRY(read);
     if (!*done) return FW_OK;
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     options->verdict.bounded = may_be_bounded(e);

@@ -8,6 +8,7 @@
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -188,6 +189,15 @@ const char *fw_study_state_text(bool run, int decision) {
                            : "run";
 }
 
+void fw_study_state_take(const char *state, fw_study_sample *sample) {
+    static const int decisions[] = {0, 1, 4};
+    sample->run = strcmp(state, fw_study_state_text(false, -1)) != 0;
+    sample->decision = -1;
+    for (int i = 0; i < 3; i++)
+        if (strcmp(state, fw_study_state_text(true, decisions[i])) == 0)
+            sample->decision = decisions[i];
+}
+
 void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
     to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
     memcpy(to->why, from->why, FW_STUDY_WHY);
@@ -205,6 +215,49 @@ fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char *
     fw_sha256(all.data, all.length, digits);
     FW_NEED(*hash = fw_arena_strdup(arena, digits));
     return FW_OK;
+}
+
+/* ---- what ended a study ---- */
+
+struct fw_study_failure {
+    pthread_mutex_t lock;
+    int number; /* of the first error of a file, whose design is gone; 0: there was none */
+    char file[256], message[512];
+    int line, column;
+};
+
+fw_status fw_study_failure_open(fw_study *study) {
+    FW_NEED(study->failure = fw_arena_one(study->arena, struct fw_study_failure));
+    return pthread_mutex_init(&study->failure->lock, NULL) == 0 ? FW_OK : FW_NOMEM;
+}
+
+void fw_study_failure_close(fw_study *study) {
+    if (study->failure) pthread_mutex_destroy(&study->failure->lock);
+    study->failure = NULL;
+}
+
+void fw_study_note_error(const fw_study *study, fw_design *design, int status) {
+    if (status != FW_STATUS_IO || !study->failure) return;
+    const fw_diags *from = &fw_plan_design_plan(design)->diags;
+    pthread_mutex_lock(&study->failure->lock);
+    struct fw_study_failure *e = study->failure;
+    for (size_t i = 0; i < from->count && e->number == 0; i++) {
+        const fw_diag *d = &from->item[i];
+        if (d->severity != FW_ERROR) continue;
+        e->number = d->number, e->line = d->place.line, e->column = d->place.column;
+        snprintf(e->file, sizeof e->file, "%s", d->place.file ? d->place.file : "");
+        snprintf(e->message, sizeof e->message, "%s", d->message);
+    }
+    pthread_mutex_unlock(&study->failure->lock);
+}
+
+fw_status fw_study_said(fw_study *study, fw_status status) {
+    if (status != FW_IO || !study->failure || study->diags.errors > 0) return status;
+    const struct fw_study_failure *e = study->failure;
+    if (e->number == 0) return status;
+    const fw_place place = {e->file[0] ? e->file : NULL, e->line, e->column};
+    return fw_diag_error(&study->diags, e->number, place, "%s", e->message) == FW_NOMEM ? FW_NOMEM
+                                                                                        : status;
 }
 
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
@@ -227,6 +280,7 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
                                         study->options.length);
     else if (*status == FW_STATUS_OK)
         *status = fw_design_read(design, study->device_path);
+    fw_study_note_error(study, design, *status);
     return design;
 }
 
@@ -381,6 +435,7 @@ static void blank(const fw_study *study, fw_study_sample *sample) {
 int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample) {
     blank(study, sample);
     int status = fw_study_stages_run(design, study->stages);
+    fw_study_note_error(study, design, status);
     if (status == FW_STATUS_OK)
         status = fw_study_responses_take(study, design, sample->response, NULL);
     sample->run = status == FW_STATUS_OK;

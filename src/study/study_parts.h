@@ -86,9 +86,17 @@ fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char *
 /* is what a design was read from what the study was? */
 bool fw_study_same_files(const fw_study *study, fw_design *design);
 
+fw_status fw_study_failure_open(fw_study *study);
+void fw_study_failure_close(fw_study *study);
+/* A file that could not be read or written ends a study, in whatever thread and design that is: the first such error is
+   kept, and said where the study ends. status: what the design gave; only FW_STATUS_IO counts */
+void fw_study_note_error(const fw_study *study, struct fw_design *design, int status);
+fw_status fw_study_said(fw_study *study, fw_status status); /* status, or FW_NOMEM */
+
 /* ---- study_engine.c: what samples have in common ---- */
 
 typedef struct fw_study_engines fw_study_engines;
+double fw_study_now_s(void); /* of a clock that nobody sets */
 fw_status fw_study_engines_open(fw_study *study);
 void fw_study_engines_close(fw_study *study);
 /* the design that the study was opened with, as it was read: the first thread works in it, so that it is not read twice;
@@ -158,6 +166,7 @@ fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample);
 bool fw_study_is_due(const fw_study *study, long i);
 /* "accept", "reject", "inconclusive", "run" (not judged), "failed" */
 const char *fw_study_state_text(bool run, int decision);
+void fw_study_state_take(const char *state, fw_study_sample *sample); /* the reverse of it */
 /* by their numbers */
 void fw_study_sort_samples(fw_study_sample *sample, int n);
 /* the largest share by which a limit of a <respond> is missed; <= 0: all hold; NaN: it was not run, or

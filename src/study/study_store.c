@@ -17,11 +17,10 @@
 
 enum {
     APPLICATION = 0x46775374, /* "FwSt": PRAGMA application_id of a store of ours */
-    ROWS_AT_ONCE = 512        /* of one transaction; a reader sees them then */
+    ROWS_AT_ONCE = 512,       /* of one transaction; a reader sees them then */
+    PATIENCE_MS = 20000       /* with a program that reads the store and keeps a lock of it */
 };
 static const double commit_s = 0.5; /* and not later than so */
-static const int patience_ms =
-    20000; /* with a program that reads the store just now and keeps a lock of it */
 
 struct fw_study_store {
     fw_study *study;
@@ -31,24 +30,37 @@ struct fw_study_store {
     fw_study_sample row;
     int open;      /* rows of the transaction */
     int directory; /* its lock: whoever has it writes there; -1: none */
-    struct timespec begun;
+    double begun_s;
 };
 
-static void take_state(const char *state, fw_study_sample *sample) {
-    static const int decisions[] = {0, 1, 4};
-    sample->run = strcmp(state, fw_study_state_text(false, -1)) != 0;
-    sample->decision = -1;
-    for (int i = 0; i < 3; i++)
-        if (strcmp(state, fw_study_state_text(true, decisions[i])) == 0)
-            sample->decision = decisions[i];
+/* SQLite tries other ways to open a file where one fails, so that the system's last reason may be of another try: whether
+   it can be opened at all is asked again. 0: nothing is known */
+static int reason_of(const fw_study_store *store) {
+    const int code = sqlite3_errcode(store->db);
+    if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY) return sqlite3_system_errno(store->db);
+    const int at = open(store->path, O_RDWR | O_CLOEXEC);
+    if (at >= 0) close(at);
+    if (at >= 0 || (errno == ENOENT && access(store->study->options.output, W_OK) == 0)) return 0;
+    return errno;
 }
 
+/* what SQLite has to say, and the system's reason where it knows one: a full disk, no permission */
 static fw_status failed(const fw_study_store *store, const char *doing) {
-    return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
-                         "%s: %s; what was kept before is whole, and --resume goes on from it",
-                         doing, store->db ? sqlite3_errmsg(store->db) : "out of memory") == FW_NOMEM
-               ? FW_NOMEM
-               : FW_IO;
+    if (!store->db || sqlite3_errcode(store->db) == SQLITE_NOMEM) return FW_NOMEM;
+    const int number = reason_of(store);
+    const fw_status status = fw_diag_error(
+        &store->study->diags, 496, (fw_place){.file = store->path},
+        "%s: %s%s%s; what was kept before is whole, and --resume goes on from it", doing,
+        sqlite3_errmsg(store->db), number ? ": " : "", number ? strerror(number) : "");
+    return status == FW_NOMEM ? FW_NOMEM : FW_IO;
+}
+
+/* of a call of the system, whose errno is as it left it */
+static fw_status not_done(const fw_study_store *store, const char *doing) {
+    const fw_status status =
+        fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path}, "%s: %s", doing,
+                      strerror(errno));
+    return status == FW_NOMEM ? status : FW_IO;
 }
 
 static fw_status run(const fw_study_store *store, const char *sql, const char *doing) {
@@ -73,13 +85,11 @@ static void add_name(fw_text *sql, const char *name) {
 }
 
 static void add_columns(fw_text *sql, const fw_study *study, bool types) {
-    for (int k = 0; k < study->ninput; k++) {
-        add_name(sql, study->input[k].what);
-        if (types) fw_text_add(sql, study->input[k].ntext > 0 ? "" : " REAL");
-    }
-    for (int k = 0; k < study->nresponse; k++) {
-        add_name(sql, study->response[k].asked->name);
-        if (types) fw_text_add(sql, " REAL");
+    for (int k = 0; k < study->ninput + study->nresponse; k++) {
+        const bool input = k < study->ninput;
+        add_name(sql,
+                 input ? study->input[k].what : study->response[k - study->ninput].asked->name);
+        if (types && !(input && study->input[k].ntext > 0)) fw_text_add(sql, " REAL");
     }
 }
 
@@ -124,34 +134,36 @@ static fw_status make_tables(fw_study_store *store) {
     return run(store, "COMMIT", "the store could not be begun");
 }
 
+/* its first row, to be finalized; NULL: it has none, or cannot be read */
+static sqlite3_stmt *first_row(sqlite3 *db, const char *sql, const char *key) {
+    sqlite3_stmt *s = NULL;
+    if (sqlite3_prepare_v2(db, sql, -1, &s, NULL) != SQLITE_OK) return NULL;
+    if (key) sqlite3_bind_text(s, 1, key, -1, SQLITE_TRANSIENT);
+    if (sqlite3_step(s) == SQLITE_ROW) return s;
+    sqlite3_finalize(s);
+    return NULL;
+}
+
 /* what the store says under a key, of *db; NULL: nothing, or it is no store */
 static const char *said(fw_arena *arena, sqlite3 *db, const char *key) {
-    sqlite3_stmt *s;
-    const char *value = NULL;
-    if (sqlite3_prepare_v2(db, "SELECT value FROM study WHERE key = ?", -1, &s, NULL) != SQLITE_OK)
-        return NULL;
-    sqlite3_bind_text(s, 1, key, -1, SQLITE_TRANSIENT);
-    if (sqlite3_step(s) == SQLITE_ROW)
-        value = fw_arena_strdup(arena, (const char *)sqlite3_column_text(s, 0));
+    sqlite3_stmt *s = first_row(db, "SELECT value FROM study WHERE key = ?", key);
+    const char *value = s ? fw_arena_strdup(arena, (const char *)sqlite3_column_text(s, 0)) : NULL;
     sqlite3_finalize(s);
     return value;
 }
 
 static bool is_ours(sqlite3 *db) {
-    sqlite3_stmt *s;
-    bool ours = false;
-    if (sqlite3_prepare_v2(db, "PRAGMA application_id", -1, &s, NULL) == SQLITE_OK &&
-        sqlite3_step(s) == SQLITE_ROW)
-        ours = sqlite3_column_int(s, 0) == APPLICATION;
+    sqlite3_stmt *s = first_row(db, "PRAGMA application_id", NULL);
+    const bool ours = s && sqlite3_column_int(s, 0) == APPLICATION;
     sqlite3_finalize(s);
     return ours;
 }
 
 /* Opens a store. Whoever looks at the samples of a study that runs (sqlite3, a notebook) keeps a lock for as long as it
-   reads; that is waited for, patience_ms long, and does not end the study. */
+   reads; that is waited for, PATIENCE_MS long, and does not end the study. */
 static bool open_database(const char *path, int how, sqlite3 **db) {
     if (sqlite3_open_v2(path, db, how, NULL) != SQLITE_OK) return false;
-    sqlite3_busy_timeout(*db, patience_ms);
+    sqlite3_busy_timeout(*db, PATIENCE_MS);
     return true;
 }
 
@@ -163,12 +175,12 @@ fw_status fw_study_store_said(fw_arena *arena, fw_diags *diags, const char *dire
     *value = NULL;
     bool there = open_database(path, SQLITE_OPEN_READONLY, &db) && is_ours(db);
     if (there) *value = said(arena, db, key);
-    fw_status status = FW_OK;
-    if (!there)
-        status = fw_diag_error(
-            diags, 497, (fw_place){.file = path}, "it is no store of a study: %s",
-            db && sqlite3_errcode(db) != SQLITE_OK ? sqlite3_errmsg(db)
-                                                   : "it was made by another program");
+    const fw_status status =
+        there ? FW_OK
+              : fw_diag_error(diags, 497, (fw_place){.file = path}, "it is no store of a study: %s",
+                              db && sqlite3_errcode(db) != SQLITE_OK
+                                  ? sqlite3_errmsg(db)
+                                  : "it was made by another program");
     sqlite3_close(db);
     return status;
 }
@@ -205,17 +217,34 @@ static fw_status check_same(const fw_study_store *store) {
                          name ? name : "?", store->study->asked->name);
 }
 
-/* what an earlier study left beside its store: nothing of it is of the one that begins */
-static void remove_results(const char *directory) {
-    static const char *const name[] = {"study.json",       "study.csv",
-                                       "study.html",       "study.sqlite-wal",
-                                       "study.sqlite-shm", "study.sqlite-journal"};
+/* results of what the store held before; they are written anew at the end */
+static fw_status remove_results(const fw_study_store *store) {
+    static const char *const name[] = {"study.json", "study.csv", "study.html", "pictures"};
+    const char *directory = store->study->options.output;
     int at = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (at < 0) return;
-    for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
-        unlinkat(at, name[i], 0);
-    fw_output_remove_tree(at, "pictures");
-    close(at);
+    bool gone = at >= 0;
+    for (size_t i = 0; i < sizeof name / sizeof name[0] && gone; i++) {
+        fw_output_remove_tree(at, name[i]);
+        gone = faccessat(at, name[i], F_OK, AT_SYMLINK_NOFOLLOW) != 0 && errno == ENOENT;
+    }
+    const fw_status status =
+        gone ? FW_OK
+             : not_done(store, "results of an earlier study beside it could not be removed");
+    if (at >= 0) close(at);
+    return status;
+}
+
+/* The logs of a store that another file is to take the place of: they would be read into that one. The store is closed, and
+   has taken from them what was in them. *gone false: errno has the reason */
+static fw_status remove_logs(const fw_study_store *store, bool *gone) {
+    static const char *const end[] = {"-wal", "-shm", "-journal"};
+    *gone = true;
+    for (size_t i = 0; i < sizeof end / sizeof end[0] && *gone; i++) {
+        const char *path = fw_arena_printf(store->study->arena, "%s%s", store->path, end[i]);
+        FW_NEED(path);
+        *gone = unlink(path) == 0 || errno == ENOENT;
+    }
+    return FW_OK;
 }
 
 /* One process at a time writes into a directory. Where a task of a cluster was put in the queue again and the one before it
@@ -248,32 +277,56 @@ static bool is_empty(fw_study_store *store) {
     return stat(store->path, &info) == 0 && info.st_size == 0;
 }
 
+/* its tables are made beside the store of an earlier study, which stays until the new one can begin */
+static fw_status begin_anew(fw_study_store *store) {
+    const char *path = store->path;
+    const char *beside = fw_arena_printf(store->study->arena, "%s.tmp-%ld", path, (long)getpid());
+    bool gone = false;
+    FW_NEED(beside);
+    store->path = beside;
+    unlink(beside);
+    fw_status status = open_database(beside, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, &store->db)
+                           ? make_tables(store)
+                           : failed(store, "the store could not be made");
+    sqlite3_close(store->db);
+    store->db = NULL, store->path = path;
+    if (status == FW_OK) status = remove_logs(store, &gone);
+    if (status == FW_OK && (!gone || rename(beside, path) != 0))
+        status = not_done(store, "the store could not be made");
+    if (status != FW_OK) {
+        unlink(beside);
+        return status;
+    }
+    FW_TRY(remove_results(store));
+    return open_database(path, SQLITE_OPEN_READWRITE, &store->db)
+               ? FW_OK
+               : failed(store, "the store could not be opened");
+}
+
 static fw_status open_file(fw_study_store *store, bool resume) {
     if (access(store->path, F_OK) == 0) {
         bool open = open_database(store->path, SQLITE_OPEN_READWRITE, &store->db);
         bool ours = open && is_ours(store->db), empty = open && !ours && is_empty(store);
         resume = resume && ours && said(store->study->arena, store->db, "hash");
+        const int code = sqlite3_errcode(store->db);
+        if (!ours && !empty &&
+            (code == SQLITE_CANTOPEN || code == SQLITE_IOERR || code == SQLITE_NOMEM))
+            return failed(store, "the store could not be opened");
         if (!ours && !empty)
             return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
                                  "there is a file of this name that is no store of a study; name "
                                  "another directory with -o");
-        if (resume) {
-            FW_TRY(check_same(store));
-            return run(store, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL",
-                       "the store could not be opened");
+        if (!resume) {
+            sqlite3_close(store->db);
+            store->db = NULL;
         }
-        sqlite3_close(store->db);
-        store->db = NULL;
-        if (unlink(store->path) != 0)
-            return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
-                                 "the store of an earlier run could not be removed");
-        remove_results(store->study->options.output);
+    } else {
+        resume = false;
     }
-    if (!open_database(store->path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, &store->db))
-        return failed(store, "the store could not be made");
-    FW_TRY(make_tables(store));
+    if (resume) FW_TRY(check_same(store));
+    FW_TRY(resume ? remove_results(store) : begin_anew(store));
     return run(store, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL",
-               "the store could not be made");
+               "the store could not be opened");
 }
 
 fw_status fw_study_store_open(fw_study *study, fw_study_store **out) {
@@ -313,12 +366,6 @@ void fw_study_store_close(fw_study_store *store) {
 
 /* ---- rows ---- */
 
-static double seconds_since(struct timespec then) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)(now.tv_sec - then.tv_sec) + 1e-9 * (double)(now.tv_nsec - then.tv_nsec);
-}
-
 static void bind_number(sqlite3_stmt *s, int at, double value) {
     if (isnan(value))
         sqlite3_bind_null(s, at);
@@ -332,15 +379,12 @@ fw_status fw_study_store_add(fw_study_store *store, const fw_study_sample *sampl
     int at = 1;
     if (store->open == 0) {
         FW_TRY(run(store, "BEGIN", "samples could not be written"));
-        clock_gettime(CLOCK_MONOTONIC, &store->begun);
+        store->begun_s = fw_study_now_s();
     }
     sqlite3_bind_int64(s, at++, sample->i);
     sqlite3_bind_text(s, at++, fw_study_state_text(sample->run, sample->decision), -1,
                       SQLITE_STATIC);
-    if (sample->run)
-        sqlite3_bind_null(s, at++);
-    else
-        sqlite3_bind_text(s, at++, sample->why, -1, SQLITE_TRANSIENT);
+    sqlite3_bind_text(s, at++, sample->run ? NULL : sample->why, -1, SQLITE_TRANSIENT);
     bind_number(s, at++, sample->used);
     for (int k = 0; k < study->ninput; k++, at++)
         if (study->input[k].ntext > 0)
@@ -357,8 +401,9 @@ fw_status fw_study_store_add(fw_study_store *store, const fw_study_sample *sampl
         return status;
     }
     store->open++;
-    return store->open >= ROWS_AT_ONCE || seconds_since(store->begun) > commit_s ? commit(store)
-                                                                                 : FW_OK;
+    return store->open >= ROWS_AT_ONCE || fw_study_now_s() - store->begun_s > commit_s
+               ? commit(store)
+               : FW_OK;
 }
 
 static double column(sqlite3_stmt *s, int at) {
@@ -373,7 +418,7 @@ static const char *text_column(sqlite3_stmt *s, int at) {
 static void take_row(const fw_study *study, sqlite3_stmt *s, fw_study_sample *sample) {
     int at = 4;
     sample->i = (long)sqlite3_column_int64(s, 0);
-    take_state(text_column(s, 1), sample);
+    fw_study_state_take(text_column(s, 1), sample);
     snprintf(sample->why, FW_STUDY_WHY, "%s", text_column(s, 2));
     sample->used = column(s, 3);
     for (int k = 0; k < study->ninput; k++, at++) {
@@ -396,11 +441,8 @@ fw_status fw_study_store_get(fw_study_store *store, long i, fw_study_sample *sam
 }
 
 long fw_study_store_count(fw_study_store *store) {
-    sqlite3_stmt *s;
-    long n = 0;
-    if (sqlite3_prepare_v2(store->db, "SELECT count(*) FROM sample", -1, &s, NULL) == SQLITE_OK &&
-        sqlite3_step(s) == SQLITE_ROW)
-        n = (long)sqlite3_column_int64(s, 0);
+    sqlite3_stmt *s = first_row(store->db, "SELECT count(*) FROM sample", NULL);
+    const long n = s ? (long)sqlite3_column_int64(s, 0) : 0;
     sqlite3_finalize(s);
     return n;
 }
@@ -430,14 +472,11 @@ fw_status fw_study_store_finish(fw_study_store *store) {
     FW_TRY(commit(store));
     FW_NEED(last.path = fw_arena_printf(study->arena, "%s.tmp-%ld", store->path, (long)getpid()));
     unlink(last.path);
-    if (sqlite3_open_v2(last.path, &last.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL) !=
-        SQLITE_OK) {
-        fw_status status = failed(&last, "the store could not be completed");
-        sqlite3_close(last.db);
-        return status;
-    }
-    fw_status status = run(&last, "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF",
-                           "the store could not be completed");
+    fw_status status =
+        open_database(last.path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, &last.db)
+            ? run(&last, "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF",
+                  "the store could not be completed")
+            : failed(&last, "the store could not be completed");
     if (status == FW_OK) status = make_tables(&last);
     sqlite3_close(last.db);
     last.db = NULL;
@@ -460,15 +499,13 @@ fw_status fw_study_store_finish(fw_study_store *store) {
         return status;
     }
     let_go(store);
-    const char *wal = fw_arena_printf(study->arena, "%s-wal", store->path),
-               *shm = fw_arena_printf(study->arena, "%s-shm", store->path);
-    FW_NEED(wal && shm ? wal : NULL);
-    unlink(wal), unlink(shm);
-    if (rename(last.path, store->path) != 0) {
+    bool gone;
+    FW_TRY(remove_logs(store, &gone));
+    if (!gone || rename(last.path, store->path) != 0) {
+        status = not_done(store,
+                          "the completed store could not take the place of the one it was made of");
         unlink(last.path);
-        return fw_diag_error(
-            &study->diags, 496, (fw_place){.file = store->path},
-            "the completed store could not take the place of the one it was made of");
+        return status;
     }
     if (sqlite3_open_v2(store->path, &store->db, SQLITE_OPEN_READONLY, NULL) != SQLITE_OK)
         return failed(store, "the store could not be read again");

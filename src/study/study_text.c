@@ -3,6 +3,7 @@
 #include "base/output.h"
 #include "study/study_parts.h"
 #include "study/study.h"
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -423,16 +424,18 @@ fw_status fw_study_csv_save(fw_study *study, const char *path) {
     const char *aside = fw_arena_printf(study->arena, "%s.tmp-%ld", path, (long)getpid());
     FW_NEED(aside);
     table t = {.study = study, .line = fw_text_new(study->arena), .arena = study->arena};
+    fw_output_remove_leftovers(study->arena, path);
     t.file = fopen(aside, "wb");
     fw_status status = t.file ? write_table(&t) : FW_IO;
-    if (t.file && (fflush(t.file) != 0 || fsync(fileno(t.file)) != 0)) status = FW_IO;
-    if (t.file && fclose(t.file) != 0) status = FW_IO;
-    if (status == FW_OK && rename(aside, path) != 0) status = FW_IO;
+    if (status == FW_OK && (fflush(t.file) != 0 || fsync(fileno(t.file)) != 0)) status = FW_IO;
+    int why = errno;
+    if (t.file && fclose(t.file) != 0 && status == FW_OK) status = FW_IO, why = errno;
+    if (status == FW_OK && rename(aside, path) != 0) status = FW_IO, why = errno;
     if (status == FW_OK) return FW_OK;
     unlink(aside);
-    if (status != FW_IO) return status;
-    return fw_diag_error(&study->diags, 222, (fw_place){.file = path}, "could not be written") ==
-                   FW_NOMEM
+    if (status != FW_IO || study->diags.errors > 0) return status;
+    return fw_diag_error(&study->diags, 222, (fw_place){.file = path}, "could not be written: %s",
+                         strerror(why)) == FW_NOMEM
                ? FW_NOMEM
                : FW_IO;
 }

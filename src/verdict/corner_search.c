@@ -129,7 +129,7 @@ static const char *last_error(const fw_diags *diags) {
     return "it could not be run";
 }
 
-static bool closer_numbers_may_decide(const fw_verdict_variant_verdict *now) {
+static bool refinement_may_decide(const fw_verdict_variant_verdict *now) {
     fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
     if (refinement == FW_REFINE_NOTHING)
         refinement = fw_verdict_requirements_refinement(now->requirement, now->nrequirement);
@@ -173,7 +173,7 @@ static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdi
     for (int k = 0; k < s->v->nhinge; k++)
         FW_TRY(take_hinge(s, &now->hinge[k], &corner->hinge[k]));
     corner->decision = now->decision;
-    corner->unsure = now->decision != FW_ACCEPT && closer_numbers_may_decide(now);
+    corner->undecided = now->decision != FW_ACCEPT && refinement_may_decide(now);
     FW_TRY(take_requirements(s, now, corner));
     FW_TRY(take_reason(s, now, corner));
     take_checks(s, now, ln);
@@ -194,7 +194,7 @@ static bool refine(const fw_verdict_search *s, const fw_verdict_variant_verdict 
     double asked = wanted(&s->options), had = wanted(options);
     /* else the caller has set the tolerances of the integrator, and no accuracy goes with them */
     bool steered = s->options.motion.rtol == 0;
-    if (options->at_a_glance || !closer_numbers_may_decide(now)) return false;
+    if (options->at_a_glance || !refinement_may_decide(now)) return false;
     if (options->motion.rtol == 0 && had <= fw_verdict_tightest) return false;
     bool coarse = steered && had > asked;
     double next = fmin(0.1 * had, fw_verdict_enough(now->hinge, now->nhinge, had));
@@ -381,7 +381,11 @@ typedef struct box { /* the ranges, made narrower */
     double low[FW_FABRICATION_INPUTS], high[FW_FABRICATION_INPUTS];
 } box;
 
-typedef enum answer { ACCEPTED, UNSURE, REFUSED } answer; /* unsure: closer numbers may decide */
+typedef enum answer {
+    ACCEPTED,
+    UNDECIDED,
+    REFUSED
+} answer; /* undecided: closer numbers may decide */
 
 /* a device at a point of the ranges, not kept as a corner */
 static fw_status ask_point(const fw_verdict_search *from, const double *x, const signed char *sign,
@@ -393,9 +397,9 @@ static fw_status ask_point(const fw_verdict_search *from, const double *x, const
     s->most_looks = most_looks;
     FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->ncheck));
     FW_TRY(fw_verdict_search_point(s, x, &corner, ln));
-    *out = corner.decision == FW_ACCEPT      ? ACCEPTED
-           : most_looks > 0 && corner.unsure ? UNSURE
-                                             : REFUSED;
+    *out = corner.decision == FW_ACCEPT         ? ACCEPTED
+           : most_looks > 0 && corner.undecided ? UNDECIDED
+                                                : REFUSED;
     return FW_OK;
 }
 
@@ -415,7 +419,7 @@ static fw_status ask_box(const fw_verdict_search *s, const box *b, int most_look
         for (int i = 0; i < s->v->ninput; i++)
             x[i] = fmin(fmax(fabricated->corner[c].x[i], b->low[i]), b->high[i]);
         FW_TRY(ask_point(s, x, fabricated->corner[c].sign, most_looks, &a));
-        if (a != ACCEPTED) *out = a == REFUSED || *out == REFUSED ? REFUSED : UNSURE;
+        if (a != ACCEPTED) *out = a == REFUSED || *out == REFUSED ? REFUSED : UNDECIDED;
     }
     return FW_OK;
 }

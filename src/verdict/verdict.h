@@ -200,7 +200,7 @@ typedef struct fw_verdict_fabricated_corner {
     bool not_by_loads, not_by_width;     /* of `why`, as in fw_verdict_reason */
     fw_verdict_requirement *requirement; /* (nrequirement) of the variant; NULL: nothing was run */
     fw_verdict_decision decision;
-    bool unsure; /* it is not accepted, and closer numbers might decide that */
+    bool undecided; /* it is not accepted, and closer numbers might decide that */
 } fw_verdict_fabricated_corner;
 
 typedef struct fw_verdict_fabricated_hinge {

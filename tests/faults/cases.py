@@ -43,6 +43,7 @@ class Case:
     def __init__(self, name, command, earlier=(), status=0, files=None):
         self.name, self.command, self.earlier, self.status, self.files = name, command, earlier, status, files or {}
         self.environment = {}
+        self.resumes = name == "study"  # what it has come to is kept, and gone on with
         self.grows = name == "log"  # done twice it is another file
         self.without = {"doctor": {"stat", "opendir"}}.get(name, set())  # says what it cannot look at
 
@@ -73,6 +74,11 @@ cd-lines,space,10,12.1,0.1,um
 etch-rate,pan.R,,0.90,0.02,um,20,0.1,min
 """
 
+STUDY = """<study xmlns="urn:flexwright:study:1" name="s" kind="sweep" points="sobol" samples="5" as="hinges" device="d.xml">
+  <vary what="arc" from="200 deg" to="250 deg"/>
+  <respond name="U" value="governing.utilisation"/>
+</study>
+"""
 D = {"d.xml": SIX_BAR}
 L = {"d.xml": LEAF}
 OTHER = ["--accuracy", "1e-2"]
@@ -107,6 +113,9 @@ CASES = [
          files={"lot.csv": lambda: COUPONS, "less.csv": lambda: COUPONS[:COUPONS.index("etch-rate")]}),
     Case("log", [*ENTRY, "2"], [[*ENTRY, "1", "--lot", "L7", "--wafers", "6"]], files=D),
     Case("report", [*LOG, "--report", "page.html", "--json"], [[*ENTRY, "1", "--lot", "L7", "--wafers", "6"]], files=D),
+    # samples are kept in a data base, so that a study that was stopped goes on
+    Case("study", ["study", "s.xml", "-o", "out", "--jobs", "1"], [["study", "s.xml", "-o", "out", "--jobs", "1", "--set", "link=125 um"]],
+         files={**D, "s.xml": lambda: STUDY}),
     Case("init", ["init", "mine"]),
     Case("explain", ["explain", "FW-D204"]),
     Case("doctor", ["doctor"]),

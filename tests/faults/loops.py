@@ -33,7 +33,7 @@ import subprocess
 import sys
 import tempfile
 
-from cases import CASES, Room, without_times
+from cases import CASES, Case, Room, without_times
 
 ERRORS = {
     "memory": ["ENOMEM"],
@@ -55,7 +55,7 @@ ERRORS = {
 }
 MEMORY = ("memory", "pictures")
 SECONDS = 120  # far above what any of these commands takes: beyond is a hang
-LEFTOVER = re.compile(r"\.tmp-\d+(-old)?$")
+LEFTOVER = re.compile(r"\.tmp-\d+(-old|-journal)?$")
 
 
 class Program:
@@ -115,14 +115,32 @@ class Loop:
         reason = "out of memory" if kind in MEMORY else os.strerror(getattr(errno, error))
         if kind in MEMORY and reason not in said or kind not in MEMORY and not re.search(r"error: .*\S", said):
             return f"status {status} without a reason: {brief(said)!r}"
-        if kind not in (*MEMORY, "short") and reason not in said and "[FW-D2" not in said:
+        # SQLite has another try where a file cannot be opened, and its last reason is of that; of other calls it keeps none
+        sqlite = "disk I/O error" in said or "could not be removed" in said or not ever and re.search("unable to open database file|readonly database", said)
+        if kind not in (*MEMORY, "short") and reason not in said and "[FW-D2" not in said and not sqlite:
             return f"does not say {reason!r}: {brief(said)!r}"
         state = self.swept(kind, ever, state)
         if "could not be taken back" in said or "could not be taken away" in said:
             return None if ever else "an error that came once was not made up for"
         if state == self.before or state == self.after and "standard output" in said:
             return None
+        if self.case.resumes and "could not be removed" in said:
+            return None
+        if self.case.resumes:
+            return self.not_resumed(room)
         return "files are not those of before: " + differ(self.before, state)
+
+    def not_resumed(self, room):
+        """of a study that is kept as far as it came: nothing beside its store is of another one, and it goes on to its end"""
+        others = {n: h for n, h in room.state().items() if not n.startswith("out/study.sqlite")}
+        for name, digest in others.items():
+            if digest != self.after.get(name):
+                return f"{name} is of another study, or torn"
+        resumed = Case(self.case.name, [*self.case.command, "--resume"])
+        status, _, said, _ = self.program.run(resumed, room)
+        if status != self.status:
+            return f"does not go on: status {status}: {brief(said)}"
+        return None if room.state() == self.after else "went on to something else: " + differ(self.after, room.state())
 
     def swept(self, kind, ever, state):
         """where the error stays, or hits the removal itself, leftovers are allowed that the next run sweeps: without them"""
@@ -142,7 +160,11 @@ class Loop:
             what = f"was not killed: {result[0]}"
         elif whole and state not in (self.before, self.after):
             what = "neither the earlier nor the new: " + differ(self.before, state)
-        elif any(h not in (self.before.get(f), self.after.get(f)) for f, h in state.items()) or set(self.before) - set(state):
+        elif self.case.resumes and any(h not in (self.before.get(f), self.after.get(f)) for f, h in state.items()
+                                       if not f.startswith("out/study.sqlite")):
+            what = "torn: " + differ(self.before, state)
+        elif not self.case.resumes and (any(h not in (self.before.get(f), self.after.get(f)) for f, h in state.items())
+                                        or set(self.before) - set(state)):
             what = "torn: " + differ(self.before, state)
         else:
             status, out, said, _ = self.program.run(self.case, room)

@@ -18,6 +18,13 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from common import ALL, GALLERY, PROGRAM, run  # noqa: E402
 
 
+STUDY = f"""<study xmlns="urn:flexwright:study:1" name="s" kind="sweep" points="sobol" samples="5" as="hinges" device="{GALLERY}">
+  <vary what="arc" from="200 deg" to="250 deg"/>
+  <respond name="U" value="governing.utilisation"/>
+</study>
+"""
+
+
 def intact(out):
     """every file that the manifest lists is there with its hash, and no other"""
     manifest = json.loads((out / "manifest.json").read_text())
@@ -106,6 +113,78 @@ class Faults(unittest.TestCase):
             self.assertTrue(intact(self.out))
         self.assertEqual(run("plan", GALLERY, "-o", self.out).returncode, 0)
         self.left_alone()  # and the leftovers of the killed are gone
+
+    def at_once(self, *arguments, runs=10):
+        """exit statuses and messages of so many runs of a command that begin together"""
+        processes = [subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                     for _ in range(runs)]
+        said = [p.communicate(timeout=120)[1] for p in processes]
+        return [p.returncode for p in processes], said
+
+    def test_ten_plans_at_once(self):
+        """into one directory: one result, whole, and nothing beside it"""
+        status, said = self.at_once("plan", GALLERY, "-o", self.out)
+        self.assertEqual(set(status), {0}, said)
+        self.left_alone()
+
+    def test_ten_studies_at_once(self):
+        """one writes, the others say so; with --resume they wait for it, and find nothing left to do"""
+        study = self.here / "s.xml"
+        study.write_text(STUDY)
+        status, said = self.at_once("study", study, "-o", self.out, "--jobs", "1")
+        self.assertIn(0, status)
+        self.assertLessEqual(set(status), {0, 3}, said)
+        self.assertTrue(all("another process writes" in text for s, text in zip(status, said) if s == 3), said)
+        alone = {p.name: p.read_bytes() for p in self.out.rglob("*") if p.is_file()}
+        status, said = self.at_once("study", study, "-o", self.out, "--jobs", "1", "--resume")
+        self.assertEqual(set(status), {0}, said)
+        self.assertEqual(alone, {p.name: p.read_bytes() for p in self.out.rglob("*") if p.is_file()})
+
+    def test_ten_entries_at_once(self):
+        """each is in the log once, and their chain holds"""
+        log = self.here / "lot.log"
+        base = ["log", GALLERY, "--flow", "al-masked-rie", "--run", log]
+        entry = "S18; start=2026-11-01T08:00; end=2026-11-01T10:05; by=AB; second=CD"
+        begun = run(*base, "--lot", "L7", "--wafers", "12", "--entry", entry, "--instrument", "profilometer 2", "--wafer", "1")
+        self.assertEqual(begun.returncode, 0, begun.stderr)
+        processes = [subprocess.Popen([PROGRAM, *map(str, base), "--entry", entry, "--instrument", "profilometer 2", "--wafer", str(w)],
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for w in range(2, 12)]
+        said = [p.communicate(timeout=120)[1] for p in processes]
+        self.assertEqual({p.returncode for p in processes}, {0}, said)
+        self.assertEqual(log.read_text().count("S18"), 11)
+        self.assertEqual(run(*base, "--report", self.here / "page.html").returncode, 0)
+
+    def test_disks_of_their_own(self):
+        """a full one and a read-only one: the earlier result stays, and what went wrong is said"""
+        self.assertEqual(run("plan", GALLERY, "-o", self.out).returncode, 0)
+        size = sum(p.stat().st_size for p in self.out.rglob("*") if p.is_file())
+        disk = self.here / "disk"
+        disk.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={int(1.6 * size)}", "tmpfs", disk], capture_output=True, check=False)
+        if mounted.returncode:
+            self.skipTest("file systems cannot be mounted here")
+        self.addCleanup(subprocess.run, ["umount", disk], check=False)
+        study = self.here / "s.xml"
+        study.write_text(STUDY)
+        out = disk / "out"
+        self.assertEqual(run("plan", GALLERY, "-o", out).returncode, 0)
+        before = (out / "manifest.json").read_bytes()
+        self.assertEqual(run("study", study, "-o", disk / "s", "--jobs", "1").returncode, 0)
+        (disk / "filled").write_bytes(b"x" * max(os.statvfs(disk).f_bavail * os.statvfs(disk).f_bsize - 8192, 0))
+        for arguments in (["plan", GALLERY, "-o", out], ["study", study, "-o", disk / "other", "--jobs", "1"],
+                          ["study", study, "-o", disk / "s", "--jobs", "1"]):
+            full = run(*arguments)
+            self.assertEqual(full.returncode, 5, full.stderr)
+            self.assertRegex(full.stderr, "No space left on device|disk is full")
+        self.assertEqual(before, (out / "manifest.json").read_bytes())
+        self.assertTrue(intact(out))
+        self.assertTrue((disk / "s/study.html").exists())
+        subprocess.run(["mount", "-o", "remount,ro", disk], check=True)
+        for arguments in (["plan", GALLERY, "-o", out], ["study", study, "-o", disk / "s", "--jobs", "1"]):
+            refused = run(*arguments)
+            self.assertEqual(refused.returncode, 5, refused.stderr)
+            self.assertRegex(refused.stderr, "[Rr]ead-only|readonly")
+        self.assertTrue(intact(out))
 
     def test_interrupt(self):
         long_scene = self.here / "long.xml"
