@@ -54,6 +54,7 @@ fw_script_test(cli.shapes COMMAND ${Python3_EXECUTABLE} tests/cli/test_shapes.py
 fw_script_test(cli.frames COMMAND ${Python3_EXECUTABLE} tests/cli/test_frames.py ${FW_PROGRAM})
 fw_script_test(cli.out_of_plane COMMAND ${Python3_EXECUTABLE} tests/cli/test_out_of_plane.py ${FW_PROGRAM})
 fw_script_test(cli.stiction COMMAND ${Python3_EXECUTABLE} tests/cli/test_stiction.py ${FW_PROGRAM})
+fw_script_test(cli.large COMMAND ${Python3_EXECUTABLE} tests/cli/test_large.py ${FW_PROGRAM})
 fw_script_test(cli.apart COMMAND ${Python3_EXECUTABLE} tests/cli/test_apart.py ${FW_PROGRAM})
 fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/cli/test_probe.py ${FW_PROGRAM})
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})

@@ -179,7 +179,7 @@ typedef struct fw_dynamics_motion {
     const fw_effects_loads *loads; /* what acted, for those who look at it again */
     fw_dynamics_tapes *tapes;      /* that it was shown from; NULL: it was computed */
     long again;                    /* which of them */
-    /* statics/level.h; NULL: not looked for, or no hinges */
+    /* statics/statics.h; NULL: not looked for, or no hinges */
     const struct fw_statics_level_step *level;
 } fw_dynamics_motion;
 
@@ -194,7 +194,7 @@ fw_status fw_dynamics_simulate(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_dynamics_motion_options *options, fw_diags *diags,
                                const fw_dynamics_motion **motion);
 
-/* the same with effects that were compiled before (statics/quasi.h decides between the two kinds of
+/* the same with effects that were compiled before (statics/statics.h decides between the two kinds of
    motion by them) */
 fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
                                         const fw_device_scene *scene,

@@ -141,13 +141,14 @@ static fw_status give_way(fw_dynamics_run *r, const bool *stated, const double *
     int *place, *pivot, count = 0;
     FW_NEED(K = fw_arena_array(r->problem.arena, double, n *n));
     FW_NEED(still = fw_arena_array(r->problem.arena, double, n));
+    const fw_effects_matrix to_k = {.n = m->nq, .dense = K};
     FW_NEED(a = fw_arena_array(r->problem.arena, double, n *n));
     FW_NEED(b = fw_arena_array(r->problem.arena, double, n));
     FW_NEED(place = fw_arena_array(r->problem.arena, int, n));
     FW_NEED(pivot = fw_arena_array(r->problem.arena, int, n));
     const fw_multibody_pose *pose = fw_multibody_close_position(sys, 0, r->problem.start);
     if (!pose) return FW_OK;
-    fw_multibody_element_tangent(sys, pose, still, K, NULL);
+    fw_multibody_element_tangent(sys, pose, still, &to_k, NULL);
     for (int i = 0; i < m->nq; i++) {
         double inverse = i % 3 == 2 ? m->jinv[i / 3] : m->minv[i / 3];
         most = fmax(most, fabs(K[(size_t)i * n + (size_t)i]) * inverse);
@@ -187,6 +188,7 @@ static fw_status settle(fw_dynamics_run *r) {
     double *K, *Q, *still, *u = r->problem.start, before = HUGE_VAL;
     int *pivot;
     FW_NEED(K = fw_arena_array(r->problem.arena, double, n *n));
+    const fw_effects_matrix to_k = {.n = m->nq, .dense = K};
     FW_NEED(Q = fw_arena_array(r->problem.arena, double, n));
     FW_NEED(still = fw_arena_array(r->problem.arena, double, n));
     FW_NEED(pivot = fw_arena_array(r->problem.arena, int, n));
@@ -195,7 +197,7 @@ static fw_status settle(fw_dynamics_run *r) {
         const fw_multibody_pose *pose = fw_multibody_close_position(sys, 0, u);
         if (!pose) break;
         memset(K, 0, n * n * sizeof(double)), memset(Q, 0, n * sizeof(double));
-        fw_multibody_element_tangent(sys, pose, still, K, NULL);
+        fw_multibody_element_tangent(sys, pose, still, &to_k, NULL);
         fw_multibody_element_driven(sys, pose, still, true, Q);
         for (size_t i = 0; i < n; i++) {
             double inverse = i % 3 == 2 ? m->jinv[i / 3] : m->minv[i / 3];

@@ -103,12 +103,26 @@ void fw_effects_element_place_ports(const fw_effects_force_element *e, const dou
 /* generalised forces (3 nbody): += those of f (3 ports) at poses q */
 void fw_effects_element_add_forces(const fw_effects_force_element *e, const double *q,
                                    const double *f, double *force);
-/* generalised stiffness and damping (n x n, n = 3 nbody; damping may be NULL): += J^T K J and the
+/* where entries of a matrix go: into a dense one (n x n, row-major), or to whoever takes them */
+typedef struct fw_effects_matrix {
+    int n;
+    double *dense;
+    void (*add)(void *to, int row, int column, double value);
+    void *to;
+} fw_effects_matrix;
+static inline void fw_effects_matrix_add(const fw_effects_matrix *m, int row, int column,
+                                         double value) {
+    if (m->dense)
+        m->dense[(size_t)row * (size_t)m->n + (size_t)column] += value;
+    else
+        m->add(m->to, row, column, value);
+}
+/* generalised stiffness and damping of 3 nbody coordinates (damping may be NULL): += J^T K J and the
    turning of the arms under f */
-void fw_effects_element_spread(const fw_effects_force_element *e, int nbody, const double *q,
-                               const double *v, const double *f, const double *stiffness,
-                               const double *damping, double *whole_stiffness,
-                               double *whole_damping);
+void fw_effects_element_spread(const fw_effects_force_element *e, const double *q, const double *v,
+                               const double *f, const double *stiffness, const double *damping,
+                               const fw_effects_matrix *whole_stiffness,
+                               const fw_effects_matrix *whole_damping);
 
 /* ---- effects ---- */
 
@@ -121,7 +135,7 @@ typedef enum fw_effect_mode {
 } fw_effect_mode;
 /* How flexures enter the mechanism, the cheapest first. AUTO: pins where the bound on what they
    change is below the accuracy, else compliance, and elastica where the step there is computed to
-   change more than the accuracy (statics/level.h). */
+   change more than the accuracy (statics/statics.h). */
 typedef enum fw_effects_hinge_model {
     FW_HINGE_AUTO,
     FW_HINGE_REVOLUTE,   /* pins at the elastic centres */

@@ -125,7 +125,9 @@ fw_status fw_effects_loads_element_tangent_at(fw_arena *arena, const fw_mechanis
     place_as_drawn(m, e, t_s, piece_s, &s);
     *valid = !e->class_->valid || e->class_->valid(&s.e, &s.state, &why);
     e->class_->tangent(&s.e, &s.state, k, c);
-    fw_effects_element_spread(e, m->nbody, q, NULL, s.f, k, c, stiffness, damping);
+    const fw_effects_matrix to_k = {.n = 3 * m->nbody, .dense = stiffness},
+                            to_c = {.n = 3 * m->nbody, .dense = damping};
+    fw_effects_element_spread(e, q, NULL, s.f, k, c, &to_k, damping ? &to_c : NULL);
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }
@@ -182,8 +184,8 @@ void fw_effects_element_add_forces(const fw_effects_force_element *e, const doub
 }
 
 /* whole += J_i^T block J_j for ports i, j; J = [1 0 -ry; 0 1 rx; 0 0 1] */
-static void spread_block(int n, int bi, int bj, fw_geometry_vec2 ri, fw_geometry_vec2 rj,
-                         const double *block, int stride, double *whole) {
+static void spread_block(int bi, int bj, fw_geometry_vec2 ri, fw_geometry_vec2 rj,
+                         const double *block, int stride, const fw_effects_matrix *whole) {
     double right[3][3], both[3][3];
     for (int k = 0; k < 3; k++) {
         const double *row = block + k * stride;
@@ -196,41 +198,41 @@ static void spread_block(int n, int bi, int bj, fw_geometry_vec2 ri, fw_geometry
     }
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
-            whole[(size_t)(3 * bi + k) * (size_t)n + (size_t)(3 * bj + l)] += both[k][l];
+            fw_effects_matrix_add(whole, 3 * bi + k, 3 * bj + l, both[k][l]);
 }
 
 /* column phi_j of the stiffness: damping forces that change because the arm of port j turns */
-static void spread_turning(int n, int bi, int bj, fw_geometry_vec2 ri, fw_geometry_vec2 rj,
-                           double omega, const double *block, int stride, double *whole) {
+static void spread_turning(int bi, int bj, fw_geometry_vec2 ri, fw_geometry_vec2 rj, double omega,
+                           const double *block, int stride, const fw_effects_matrix *whole) {
     double f[3];
     for (int k = 0; k < 3; k++)
         f[k] = -omega * (block[k * stride] * rj.x + block[k * stride + 1] * rj.y);
     f[2] += ri.x * f[1] - ri.y * f[0];
     for (int k = 0; k < 3; k++)
-        whole[(size_t)(3 * bi + k) * (size_t)n + (size_t)(3 * bj + 2)] += f[k];
+        fw_effects_matrix_add(whole, 3 * bi + k, 3 * bj + 2, f[k]);
 }
 
-void fw_effects_element_spread(const fw_effects_force_element *e, int nbody, const double *q,
-                               const double *v, const double *f, const double *stiffness,
-                               const double *damping, double *whole_stiffness,
-                               double *whole_damping) {
-    int n = 3 * nbody, stride = 3 * e->ports;
+void fw_effects_element_spread(const fw_effects_force_element *e, const double *q, const double *v,
+                               const double *f, const double *stiffness, const double *damping,
+                               const fw_effects_matrix *whole_stiffness,
+                               const fw_effects_matrix *whole_damping) {
+    int stride = 3 * e->ports;
     for (int i = 0; i < e->ports; i++) {
         int bi = e->port[i].body;
         if (bi == FW_GROUND) continue;
         fw_geometry_vec2 ri = arm_of(&e->port[i], q);
-        whole_stiffness[(size_t)(3 * bi + 2) * (size_t)n + (size_t)(3 * bi + 2)] +=
-            ri.x * f[3 * i] + ri.y * f[3 * i + 1];
+        fw_effects_matrix_add(whole_stiffness, 3 * bi + 2, 3 * bi + 2,
+                              ri.x * f[3 * i] + ri.y * f[3 * i + 1]);
         for (int j = 0; j < e->ports; j++) {
             int bj = e->port[j].body, at = 3 * i * stride + 3 * j;
             if (bj == FW_GROUND) continue;
             fw_geometry_vec2 rj = arm_of(&e->port[j], q);
-            spread_block(n, bi, bj, ri, rj, stiffness + at, stride, whole_stiffness);
+            spread_block(bi, bj, ri, rj, stiffness + at, stride, whole_stiffness);
             if (!damping) continue;
             if (v)
-                spread_turning(n, bi, bj, ri, rj, v[3 * bj + 2], damping + at, stride,
+                spread_turning(bi, bj, ri, rj, v[3 * bj + 2], damping + at, stride,
                                whole_stiffness);
-            if (whole_damping) spread_block(n, bi, bj, ri, rj, damping + at, stride, whole_damping);
+            if (whole_damping) spread_block(bi, bj, ri, rj, damping + at, stride, whole_damping);
         }
     }
 }

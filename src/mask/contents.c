@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What plates draw besides the device: each content with its drawing, its judgement and its row. */
 #include "mask/mask_table.h"
-#include "release/release_cavity.h"
+#include "release/release.h"
 #include <math.h>
 
 /* ---- hollows ----

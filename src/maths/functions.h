@@ -28,7 +28,7 @@ double fw_maths_beta_quantile(double p, double a, double b);
 /* Student's t, for means of few readings */
 double fw_maths_student_quantile(double p, double n);
 
-/* ---- cycles of a history, for fatigue: turning points on the fly, rainflow counting behind (rainflow.c) ---- */
+/* ---- cycles of a history, for fatigue: turning points on the fly, rainflow counting behind ---- */
 
 typedef struct fw_maths_cycle {
     double range, mean, count; /* peak to valley; middle; 1 or 0.5 */

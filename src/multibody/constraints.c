@@ -321,9 +321,9 @@ void fw_multibody_apply(const fw_multibody_model *m, const fw_multibody_pose *po
     }
 }
 
-/* Jacobian of block i, side 0 or 1, also where only arms are kept */
-static void side_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
-                          int side, double g[6]) {
+/* also where only arms are kept */
+void fw_multibody_side_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                                int side, double g[6]) {
     if (!m->plain) {
         memcpy(g, pose->jac + 12 * i + 6 * side, 6 * sizeof *g);
         return;
@@ -434,7 +434,7 @@ void fw_multibody_dense_jacobian(const fw_multibody_model *m, const fw_multibody
             int body = m->body[2 * i + side];
             double part[6];
             if (body == m->nbody) continue;
-            side_jacobian(m, pose, i, side, part);
+            fw_multibody_side_jacobian(m, pose, i, side, part);
             for (int k = 0; k < count; k++)
                 for (int c = 0; c < 3; c++)
                     g[(size_t)(row + k) * (size_t)m->nq + (size_t)(3 * body + c)] +=

@@ -224,7 +224,8 @@ static void scale_tangent(const fw_multibody_system *sys, int n) {
 }
 
 void fw_multibody_element_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                                  const double *v, double *stiffness, double *damping) {
+                                  const double *v, const fw_effects_matrix *stiffness,
+                                  const fw_effects_matrix *damping) {
     const fw_multibody_model *m = sys->model;
     const fw_multibody_ports *k = &sys->work->port;
     for (int i = 0; i < m->nq; i++)
@@ -235,8 +236,8 @@ void fw_multibody_element_tangent(const fw_multibody_system *sys, const fw_multi
         e->own->class_->force(e->own, &state, k->f);
         e->own->class_->tangent(e->own, &state, k->stiffness, k->damping);
         scale_tangent(sys, 3 * e->own->ports);
-        fw_effects_element_spread(&e->scaled, m->nbody, k->pose, v, k->f, k->stiffness, k->damping,
-                                  stiffness, damping);
+        fw_effects_element_spread(&e->scaled, k->pose, v, k->f, k->stiffness, k->damping, stiffness,
+                                  damping);
     }
 }
 

@@ -131,7 +131,10 @@ fw_status fw_multibody_system_new(fw_arena *arena, const fw_multibody_model *mod
 
 /* ---- positions onto Psi(q, t) = 0 and velocities onto G v = -Psi_t ---- */
 
-static const double fw_position_limit = 1e-12; /* scaled: what every accepted state satisfies */
+/* scaled: what every accepted state satisfies; of a mechanism of thousands of lengths its round-off */
+static double position_limit(const fw_multibody_model *m) {
+    return fmax(1e-12, 8 * DBL_EPSILON * m->size);
+}
 
 static void move(const fw_multibody_system *sys, double *x) {
     for (int i = 0; i < sys->model->nq; i++)
@@ -167,7 +170,7 @@ static const fw_multibody_pose *close_by_method(fw_multibody_system *sys, double
     if (!pose) return NULL;
     double norm = fw_multibody_residual(sys, pose, NULL);
     sys->record.worst_position = fmax(sys->record.worst_position, norm);
-    return norm <= fw_position_limit ? pose : NULL;
+    return norm <= position_limit(sys->model) ? pose : NULL;
 }
 
 /* Newton u += d, G d = -Psi with the factor at hand (of a pose a step's error away); it is renewed
@@ -179,7 +182,7 @@ static const fw_multibody_pose *project_position(fw_multibody_system *sys, doubl
     const fw_multibody_model *m = sys->model;
     const fw_multibody_pose *pose = NULL;
     double before = (double)INFINITY, norm = 0, *psi = sys->work->right;
-    const double round_off = fmin(1e-13 * m->size, fw_position_limit);
+    const double round_off = fmin(1e-13 * m->size, position_limit(m));
     if (m->method->close) return close_by_method(sys, t, u);
     for (int i = 0; i < 20; i++) {
         pose = fw_multibody_pose_at(sys, t, u);
@@ -195,7 +198,7 @@ static const fw_multibody_pose *project_position(fw_multibody_system *sys, doubl
         move(sys, u);
     }
     sys->work->epsilon = fw_epsilon;
-    if (norm <= fw_position_limit) {
+    if (norm <= position_limit(m)) {
         sys->record.worst_position = fmax(sys->record.worst_position, norm);
         return pose;
     }

@@ -102,6 +102,9 @@ void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose 
 /* r = G' v + Psi_tt, so that G a = -r; gamma of the text books is -r */
 void fw_multibody_gamma(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                         const double *v, double *r);
+/* rows of block i in G by the coordinates of its body a (side 0) or b (1): 2 x 3 */
+void fw_multibody_side_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                                int side, double g[6]);
 /* G without its empty rows, row-major (rows x nq), and vectors of its rows <-> of blocks */
 void fw_multibody_dense_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose,
                                  double *g);
@@ -150,7 +153,8 @@ double fw_multibody_element_energy(const fw_multibody_system *sys, const fw_mult
                                    const double *v, bool driven);
 /* -dQ/du and -dQ/dv (nq x nq; the latter may be NULL): += */
 void fw_multibody_element_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                                  const double *v, double *stiffness, double *damping);
+                                  const double *v, const fw_effects_matrix *stiffness,
+                                  const fw_effects_matrix *damping);
 /* the first element whose formula does not hold, with what it says; NULL: all hold */
 const fw_effects_force_element *fw_multibody_element_invalid(const fw_multibody_system *sys,
                                                              const fw_multibody_pose *pose,

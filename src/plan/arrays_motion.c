@@ -353,7 +353,7 @@ fw_status fw_plan_numbers_statics(fw_design *d, fw_plan_arrays *to) {
              (fw_plan_array_name){"eigenvalue", "1/s^2",
                                   "of the tangent stiffness over the mass, ascending; "
                                   "below 0: unstable"},
-             0, (fw_plan_axis){(size_t)s->dof, NULL}, s->eigenvalue_per_s2);
+             0, (fw_plan_axis){(size_t)s->eigenvalues, NULL}, s->eigenvalue_per_s2);
     int32_t *stable = fw_plan_array_whole(to, (fw_plan_array_name){"stable", "1", "0: it is not"},
                                           FW_ARRAY_TRUTH, one);
     if (stable) *stable = s->negative == 0;

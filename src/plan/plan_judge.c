@@ -5,7 +5,6 @@
 #include "plan/stages.h"
 #include "probe/probe.h"
 #include "process/process.h"
-#include "statics/quasi.h"
 #include "statics/statics.h"
 #include "workspace/survey.h"
 #include <math.h>

@@ -5,7 +5,6 @@
 #define FW_PROBE_PROBE_H
 #include "clearance/clearance.h"
 #include "dynamics/dynamics.h"
-#include "statics/level.h"
 #include "statics/statics.h"
 
 /* ---- at one instant ---- */

@@ -2,7 +2,7 @@
 /* Hollows below what moves and the ground that is left, on square cells over the drawing. */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "release/release_cavity.h"
+#include "release/release.h"
 #include "release/release_field.h"
 #include <math.h>
 #include <stdint.h>

@@ -26,8 +26,13 @@ static void rank_line(fw_text *out, int dof, const fw_statics_row_rank *r) {
         fw_text_add(out, "no joints\n");
         return;
     }
-    fw_text_printf(out, "%d of %d constraint rows are independent (singular values from 1 to ",
-                   r->rank, r->rows);
+    fw_text_printf(out, "%d of %d constraint rows are independent", r->rank, r->rows);
+    if (!isfinite(r->kept)) { /* of a large mechanism, whose singular values are not computed */
+        if (r->joints) fw_text_printf(out, ": %s repeat each other", r->joints);
+        fw_text_add(out, "\n");
+        return;
+    }
+    fw_text_add(out, " (singular values from 1 to ");
     fw_text_number(out, r->kept, 2);
     if (r->joints) {
         fw_text_add(out, ", then ");
@@ -106,7 +111,7 @@ fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_sc
     fw_text_printf(out, "%s%s, %s\n", FW_NAMED("scene", scene->name ? scene->name : "(none)"),
                    modes->at_equilibrium ? "about the equilibrium under its loads"
                                          : "about the assembled pose, without its loads");
-    rank_line(out, modes->count, &modes->rank);
+    rank_line(out, modes->dof, &modes->rank);
     if (modes->count == 0) return fw_text_end(out);
     fw_text_add(out, "\n  mode          f Hz   omega rad/s       damping  eigenvalue 1/s"
                      "             bodies\n");
@@ -373,7 +378,8 @@ fw_status fw_report_load_path_csv(const fw_mechanism *m, const fw_statics *s, fw
     const fw_statics_path *p = s->path;
     size_t n = 3 * (size_t)m->nbody, pins = (size_t)m->npin;
     if (!p) {
-        lead(out, 1, s->dof > 0 ? s->eigenvalue_per_s2[0] : (double)NAN, s->negative, FW_PATH_END);
+        lead(out, 1, s->eigenvalues > 0 ? s->eigenvalue_per_s2[0] : (double)NAN, s->negative,
+             FW_PATH_END);
         row(m, s->q, s->angle_rad, s->reaction_N, s->joint_N, s->driver_N, out);
     }
     for (size_t i = 0; p && i < (size_t)p->count; i++) {

@@ -519,7 +519,7 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_
     rest_drivers(&json, mechanism, s->driver_N);
     actives(&json, s);
     FW_TRY(probes_of_statics(&json, mechanism, scene, s, out->arena));
-    fw_report_json_reals(&json, "eigenvalues_per_s2", s->eigenvalue_per_s2, s->dof);
+    fw_report_json_reals(&json, "eigenvalues_per_s2", s->eigenvalue_per_s2, s->eigenvalues);
     friction_range(&json, mechanism, s->friction);
     pull_ins(&json, s->pull_in);
     load_path(&json, mechanism, s);

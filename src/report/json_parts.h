@@ -6,7 +6,6 @@
 #include "base/json.h"
 #include "dynamics/dynamics.h"
 #include "report/report.h"
-#include "statics/level.h"
 #include "statics/statics.h"
 
 /* [a, b] */

@@ -5,7 +5,7 @@
 #define FW_REPORT_REPORT_PAGE_H
 #include "base/svg.h"
 #include "report/report.h"
-#include "statics/level.h"
+#include "statics/statics.h"
 
 /* ---- drawing.c: colours; Okabe and Ito's, which colour-blind readers tell apart ---- */
 const char *fw_report_utilisation_colour(double utilisation);

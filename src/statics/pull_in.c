@@ -308,7 +308,8 @@ static fw_status seek(seeker *k, const fw_mechanism *mechanism, const fw_effect_
                       fw_diags *silent) {
     fw_statics_equilibrium *w = &k->w;
     bool unstable;
-    FW_TRY(fw_statics_equilibrium_new(k->arena, mechanism, &k->scene, effects, silent, w));
+    FW_TRY(fw_statics_equilibrium_new(k->arena, mechanism, &k->scene, effects, FW_STATICS_DENSE,
+                                      silent, w));
     if (!(least_gap(k) < (double)INFINITY)) return FW_OK; /* left out on request */
     FW_NEED(k->out = fw_arena_one(k->arena, fw_statics_pull_in));
     w->reach = least_gap(k) / w->model->scale.length_m;

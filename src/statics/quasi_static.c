@@ -5,8 +5,7 @@
 #include "assembly/assembly.h"
 #include "base/sort.h"
 #include "quantity/law_kind.h"
-#include "statics/quasi.h"
-#include "statics/level.h"
+#include "statics/statics.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

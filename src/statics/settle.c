@@ -13,13 +13,40 @@ static const double fw_longest_step = 0.5; /* rad, or scaled lengths */
 static const double fw_far = 32;
 enum { FW_NEWTON_STEPS = 400, FW_ESCAPES = 20 };
 
+/* M^1/2 times the step, with the least shift of 0 and powers of 4, of the largest stiffness over mass, that leaves no negative
+   one, and none of nothing where forces push along it: Newton's where all stiffnesses are positive, a descent always.
+   Source: Nocedal and Wright, Numerical Optimization 2006, ch. 3.4. NaN: there is no memory, or no such shift. */
+static double sparse_newton(fw_statics_equilibrium *w, double *step) {
+    fw_statics_reduced *r = &w->reduced;
+    const fw_statics_sparse *s = r->sparse;
+    double most = 0;
+    int negative;
+    /* from what the last step needed on, which is 0 most of the time */
+    const double first = fmax(1e-14, s->shift / 64);
+    enum { TRIES = 60 };
+    for (int k = 0; k < TRIES; k++) {
+        const double shift = k == 0 ? 0 : ldexp(first, 2 * (k - 1));
+        if (fw_statics_sparse_factor(r, shift, &negative) != FW_OK) return (double)NAN;
+        if (negative > 0 || (shift > 0 && s->zero > 0)) continue;
+        for (int i = 0; i < r->n; i++)
+            step[i] = s->unbalanced[i] / s->unit;
+        fw_statics_sparse_solve(r, step);
+        most = 0;
+        for (int i = 0; i < r->n; i++)
+            step[i] *= r->root[i], most = fmax(most, fabs(step[i]));
+        if (s->zero == 0 || fw_statics_sparse_answers(r, step)) return most;
+    }
+    return (double)NAN;
+}
+
 /* du = sum of modes times force / |stiffness|: the Newton step where all stiffnesses are positive,
    a descent of the energy always. A mode without stiffness goes with its force when there is one
    above round-off, else it rests. */
-double fw_statics_equilibrium_newton(const fw_statics_equilibrium *w, double *step) {
+double fw_statics_equilibrium_newton(fw_statics_equilibrium *w, double *step) {
     const fw_statics_reduced *r = &w->reduced;
     size_t n = (size_t)r->n;
     double most = 0;
+    if (w->sparse) return sparse_newton(w, step);
     memset(step, 0, n * sizeof *step);
     for (size_t k = 0; k < (size_t)r->dof; k++) {
         double stiff = fabs(r->value[k]), force = w->gradient[k];
@@ -36,6 +63,10 @@ double fw_statics_equilibrium_newton(const fw_statics_equilibrium *w, double *st
 }
 
 bool fw_statics_equilibrium_quiet(const fw_statics_equilibrium *w) {
+    const fw_statics_sparse *s = w->reduced.sparse;
+    for (int i = 0; s && i < w->reduced.n; i++)
+        if (fabs(s->unbalanced[i]) > s->round_off[i]) return false;
+    if (s) return true;
     for (int k = 0; k < w->reduced.dof; k++)
         if (fabs(w->gradient[k]) > w->noise[k]) return false;
     return true;
@@ -67,7 +98,7 @@ static bool line_search(fw_statics_equilibrium *w, const double *from, const dou
    energy falls more; false: stable, or indifferent */
 static bool escape(fw_statics_equilibrium *w, double *to) {
     const fw_statics_reduced *r = &w->reduced;
-    if (r->dof == 0 || r->value[0] >= -r->zero[0]) return false;
+    if (r->modes == 0 || r->value[0] >= -r->zero[0]) return false;
     const double *u = w->y;
     double most = 0, best = (double)INFINITY, size, length = 0;
     for (int i = 0; i < r->n; i++)
@@ -85,10 +116,30 @@ static bool escape(fw_statics_equilibrium *w, double *to) {
     return fw_statics_equilibrium_close(w, to);
 }
 
-static bool too_far(const double *u, int n) {
-    for (int i = 0; i < n; i++)
-        if (!(fabs(u[i]) < fw_far)) return true;
+/* half of how far the assembled pose reaches, scaled: long chains go as far in earnest */
+static double reach(const fw_multibody_model *m) {
+    double most = 0;
+    for (int i = 0; i < m->nq; i++)
+        if (i % 3 != 2) most = fmax(most, fabs(m->origin[i]));
+    return most;
+}
+
+static bool too_far(const fw_multibody_model *m, const double *u) {
+    const double far = fmax(fw_far, 4 * reach(m));
+    for (int i = 0; i < m->nq; i++)
+        if (!(fabs(u[i]) < (i % 3 == 2 ? fw_far : far))) return true;
     return false;
+}
+
+/* the step is cut where it turns a body by more than the longest step, or moves one by more of that share of the reach */
+static void cut(const fw_multibody_model *m, double most, double *step) {
+    const double far = fmax(1, 0.25 * reach(m));
+    double longest = 0;
+    for (int i = 0; i < m->nq; i++)
+        longest = fmax(longest, fabs(step[i]) / (i % 3 == 2 ? 1 : far));
+    if (m->nq <= FW_STATICS_DENSE) longest = most;
+    for (int k = 0; longest > fw_longest_step && k < m->nq; k++)
+        step[k] *= fw_longest_step / longest;
 }
 
 /* Minimises the potential over the poses that the joints allow: Newton in the modes of the tangent
@@ -112,10 +163,16 @@ fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_u
         status = fw_statics_equilibrium_evaluate(w);
         if (status != FW_OK) break;
         double most = fw_statics_equilibrium_newton(w, step);
+        if (!isfinite(most)) {
+            status = FW_SOLVER;
+            break;
+        }
         bool settled = most <= 1e-15 ||
                        (most > 0.5 * before && (most < 1e-9 || fw_statics_equilibrium_quiet(w)));
         before = most;
         if (settled) {
+            status = fw_statics_equilibrium_lowest(w, FW_STATICS_LOWEST);
+            if (status != FW_OK) break;
             if (escapes == FW_ESCAPES || !escape(w, next)) break;
             escapes++;
             *left_unstable = true;
@@ -123,8 +180,7 @@ fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_u
             memcpy(w->y, next, bytes);
             continue;
         }
-        for (int k = 0; most > fw_longest_step && k < w->model->nq; k++)
-            step[k] *= fw_longest_step / most;
+        cut(w->model, most, step);
         if (most < 1e-5) {
             for (int k = 0; k < w->model->nq; k++)
                 w->y[k] += step[k];
@@ -135,9 +191,10 @@ fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_u
             break;
         }
         status = FW_SOLVER; /* until it is settled */
-        if (too_far(w->y, w->model->nq)) break;
+        if (too_far(w->model, w->y)) break;
     }
-    fw_arena_rewind(w->arena, mark);
+    /* what the sparse system has grown by meanwhile stays */
+    if (!w->sparse) fw_arena_rewind(w->arena, mark);
     return status;
 }
 
@@ -215,7 +272,7 @@ static fw_status find_contradiction(walker *k) {
         packed[i] *= r->balance[i];
         size = fmax(size, fabs(packed[i]));
     }
-    for (int l = 0; l < r->rank; l++) {
+    for (int l = 0; l < r->rank && !w->sparse; l++) {
         const double *u = r->left + (size_t)l * rows;
         double share = 0;
         for (size_t i = 0; i < rows; i++)
@@ -225,8 +282,8 @@ static fw_status find_contradiction(walker *k) {
     }
     fw_multibody_unpack(m, packed, block);
     for (int i = 0; i < m->nblock; i++)
-        k->blamed[i] =
-            m->block[i].driver != FW_NONE && fabs(block[2 * i]) > fw_contradiction * size;
+        k->blamed[i] = !w->sparse && m->block[i].driver != FW_NONE &&
+                       fabs(block[2 * i]) > fw_contradiction * size;
     return FW_OK;
 }
 

@@ -12,7 +12,7 @@
    straight and moved onto the joints. Cost: 30 n^3 per instant, n = 3 nbody, and 10 to 30 of them
    where something is found. Source: Lagrange and Dirichlet's theorem; Thompson and Hunt, A General
    Theory of Elastic Stability 1973. Test: test_poise.c. */
-#include "statics/quasi.h"
+#include "statics/statics.h"
 #include "base/sort.h"
 #include "base/constants.h"
 #include "quantity/law_kind.h"

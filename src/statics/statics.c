@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics.h"
-#include "statics/level.h"
 #include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>
@@ -31,7 +30,9 @@ static fw_status count_signs(const fw_statics_equilibrium *w, fw_statics *out) {
     size_t n = (size_t)r->n;
     double *sum, largest = DBL_MIN, worst = 0;
     FW_NEED(sum = fw_arena_array(w->arena, double, n));
-    for (int k = 0; k < r->dof; k++) {
+    for (int i = 0; w->sparse && i < r->n; i++)
+        worst = fmax(worst, fabs(r->sparse->unbalanced[i]));
+    for (int k = 0; k < r->modes; k++) {
         out->eigenvalue_per_s2[k] = r->value[k] * fw_statics_equilibrium_per_s2(w);
         worst = fmax(worst, fabs(w->gradient[k]));
         if (r->value[k] < -r->zero[k]) out->negative++;
@@ -60,6 +61,7 @@ static fw_status answer(const fw_statics_equilibrium *w, fw_statics *out) {
     out->njoint = w->mechanism->njoint;
     out->ndriver = w->mechanism->ndriver;
     out->dof = w->reduced.dof;
+    out->eigenvalues = w->reduced.modes;
     out->ledger = w->ledger;
     out->loads = w->loads;
     fw_effects_in_equilibrium(&out->ledger); /* whatever was asked for */
@@ -71,7 +73,7 @@ static fw_status answer(const fw_statics_equilibrium *w, fw_statics *out) {
     FW_NEED(out->reaction_N = fw_arena_array(w->arena, double, 2 * pins));
     FW_NEED(out->joint_N = fw_arena_array(w->arena, double, 3 * (size_t)out->njoint));
     FW_NEED(out->driver_N = fw_arena_array(w->arena, double, (size_t)out->ndriver));
-    FW_NEED(out->eigenvalue_per_s2 = fw_arena_array(w->arena, double, (size_t)out->dof));
+    FW_NEED(out->eigenvalue_per_s2 = fw_arena_array(w->arena, double, (size_t)out->eigenvalues));
     fw_statics_equilibrium_pose(w, w->y, out->q, out->angle_rad);
     fw_statics_equilibrium_reactions(w, out->reaction_N, out->joint_N, out->driver_N);
     FW_TRY(actives(w, out));
@@ -98,8 +100,21 @@ static bool surfaces_meet(const fw_statics_equilibrium *w) {
     return false;
 }
 
+static fw_status no_path(const fw_statics_equilibrium *w, const char *why) {
+    fw_status status = fw_diag_error(
+        w->diags, 599, w->scene->place,
+        "scene %s: %s, and load paths are followed for up to %d bodies (this mechanism has %d); "
+        "statics without a path and "
+        "without contacts, modes about it, and simulate have no such limit",
+        fw_statics_equilibrium_scene_name(w), why, FW_STATICS_DENSE / 3, w->mechanism->nbody);
+    return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
+}
+
 fw_status fw_statics_equilibrium_reach(fw_statics_equilibrium *w, int most_points,
                                        bool *left_unstable, fw_statics_path **path) {
+    if (w->sparse && (path || surfaces_meet(w)))
+        return no_path(w, path ? "a load path was asked for"
+                               : "surfaces may meet, which is followed along the load path");
     if (path || surfaces_meet(w)) {
         fw_statics_path *own = NULL;
         memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
@@ -145,7 +160,10 @@ static fw_status equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
                              fw_diags *diags, const fw_statics **found,
                              const fw_statics_level_step **step) {
     fw_statics_equilibrium w;
-    FW_TRY(fw_statics_equilibrium_new(arena, mechanism, scene, &options->effects, diags, &w));
+    /* contacts are followed along the load path */
+    const bool path = options->path || scene->ncontact > 0;
+    FW_TRY(fw_statics_equilibrium_new(arena, mechanism, scene, &options->effects,
+                                      path ? FW_STATICS_DENSE : FW_STATICS_QUICK, diags, &w));
     /* first: it says why there may be no equilibrium */
     FW_TRY(fw_statics_pull_in_find(arena, mechanism, scene, &options->effects, diags, &w.pull_in));
     FW_TRY(fw_statics_equilibrium_statics(&w, options, found));

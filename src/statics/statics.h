@@ -9,6 +9,7 @@
 #ifndef FW_STATICS_STATICS_H
 #define FW_STATICS_STATICS_H
 #include "base/json.h"
+#include "dynamics/dynamics.h"
 #include "multibody/model.h"
 
 typedef struct fw_statics_static_options {
@@ -80,7 +81,9 @@ typedef struct fw_statics {
     double *reaction_N; /* (2 npin) force on body b, world axes */
     double *joint_N;    /* (3 njoint) force on body b, torque on it about its point b (N m) */
     double *driver_N;   /* (ndriver) N or N m along the driven coordinate */
-    double *eigenvalue_per_s2; /* (dof) of the reduced tangent stiffness, ascending: omega^2 */
+    /* (eigenvalues) of the reduced tangent stiffness, ascending: omega^2; all dof, or the lowest of a large mechanism */
+    double *eigenvalue_per_s2;
+    int eigenvalues;
     int negative, neutral;     /* how many are below 0, and 0 within round-off */
     const char *loose;         /* bodies that nothing holds, or NULL */
     bool left_unstable;        /* the way there led over an unstable equilibrium */
@@ -94,7 +97,7 @@ typedef struct fw_statics {
     fw_effect_ledger ledger;
     const fw_statics_friction_range *friction; /* NULL: nothing rubs */
     const fw_effects_loads *loads; /* what acted, laws and free strains not yet applied */
-    const struct fw_statics_level_step *level; /* level.h; NULL: no hinges */
+    const struct fw_statics_level_step *level; /* below; NULL: no hinges */
 } fw_statics;
 
 /* the stable equilibrium that descent from the assembled pose reaches at s = 1; with a path, its
@@ -201,7 +204,8 @@ typedef struct fw_statics_mode {
 } fw_statics_mode;
 
 typedef struct fw_statics_modes {
-    int nbody, npin, count; /* count = degrees of freedom */
+    int nbody, npin, count,
+        dof; /* count: modes; of a large mechanism fewer than degrees of freedom */
     bool at_equilibrium;
     double *q;             /* (3 nbody) the pose */
     double unit_length_m;  /* of the shapes */
@@ -274,5 +278,129 @@ void fw_statics_tethers_json(fw_json *json, const fw_mechanism *mechanism,
 /* sentences for a run sheet: what to do and what it asks; NULL: there are none */
 fw_status fw_statics_tethers_words(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_statics_tethers *tethers, const char **out);
+
+/* ---- the level of hinges: statics_level.c ---- */
+
+/* What the next level of hinges changes, computed at one instant: pins against closed forms that
+   give, these against exact beams. Theory: docs/theory/hinge-models.md. */
+
+typedef struct fw_statics_level_state {
+    double *q;          /* (3 nbody) m, rad */
+    double *angle_rad;  /* (npin) */
+    double *reaction_N; /* (2 npin) on body b, world axes */
+    /* (nhinge) peak of each hinge; NaN until fw_verdict_level_strains (verdict.h) */
+    double *strain;
+} fw_statics_level_state;
+
+typedef struct fw_statics_level_step {
+    fw_effects_hinge_model used, next; /* the same: there is no next level */
+    double t_s;                        /* of the instant; NaN: an equilibrium */
+    int nbody, npin;
+    fw_statics_level_state at,
+        up;              /* at the level used and at the next; not filled where `why_not` */
+    double angle_rad;    /* largest difference of a hinge's angle */
+    double relative;     /* that over the largest hinge angle at the instant; NaN: not computed */
+    const char *why_not; /* NULL: computed */
+    bool unknown;        /* not computed, and nothing else bounds what the level used is off by */
+} fw_statics_level_step;
+
+/* of a motion at the row of `sample` nearest the largest peak of a hinge: both levels under the
+   loads of that time and the same inertia forces */
+fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *mechanism,
+                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                     const fw_statics_level_step **step);
+
+struct fw_statics_equilibrium;
+/* of an equilibrium that was solved for at s = 1 with these effects */
+fw_status fw_statics_level_of_equilibrium(struct fw_statics_equilibrium *w,
+                                          const fw_statics_level_step **step);
+/* the next level's tangent at the pose of modes: largest relative change of a frequency among those
+   that both have; NaN: not computed. each: of every mode, NaN where the two do not compare; or NULL */
+fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *relative,
+                                    const double **each);
+
+/* Where every flexure's stiffness is stated and its axis known, auto tries pins before anything
+   else: the statement is of the rotation, the pin is its model, and it costs a tenth. They stay
+   where the step to hinges that give changes less than `fw_statics_level_stated` times the accuracy
+   (3 % at the default accuracy: what stiffnesses are known to). Not where something acts on
+   hinges that give in another way, or draws them across their strip, and not where pins hold a body
+   that flexures let move. */
+fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const fw_device_scene *scene, const fw_effect_choice *asked,
+                                      bool *first);
+static const double fw_statics_level_stated = 30;
+/* it was computed, and changes less; step may be NULL */
+bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy);
+
+/* true: auto was asked for and this step is not below the accuracy; *choice then asks for the next
+   level. step may be NULL */
+bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
+                            const fw_effect_choice *asked, fw_effect_choice *choice);
+/* true: auto was asked for, and a flexure came to where its closed form does not hold (`said`), which an
+   exact beam may know; *choice then asks for these. Test: tests/cli/test_hinge.py, judge.examples */
+bool fw_statics_level_goes_on(const fw_effect_choice *asked, const fw_diags *said,
+                              fw_effect_choice *choice);
+/* its number as the error of the level used, where it was computed, and where auto chose what that
+   means for the choice */
+fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *step, double accuracy,
+                                const fw_effect_choice *asked, fw_effects_hinge_use *use);
+
+/* the next level was wanted and not taken, `why_not`: what that means for the choice */
+fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *step,
+                                 const char *why_not, fw_effects_hinge_use *use);
+
+/* ---- motions: quasi_static.c ---- */
+
+/* The motion of a scene, with inertia or as a sequence of equilibria, whichever its effects ask
+   for. Theory: docs/theory/effects/inertia.md. */
+
+/* Compiles the effects. Where inertia is left out (loads->quasi_static) the motion is the sequence
+   of stable equilibria under the loads and drivers of each time, in the form of
+   fw_dynamics_simulate: v is du/dt of that row, accel its derivative; peaks lie on equilibria
+   solved for at their times; stats.steps: equilibria, stats.rhs: evaluations of forces and tangent.
+   Starting velocities and damping have no part in it. Where the row ends, as at a fold, and where
+   inertia acts, it is fw_dynamics_simulate's; the ledger says so. A method, integrator or tolerance
+   that was asked for by name needs inertia too, unless effects were chosen by hand. */
+fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_device_scene *scene,
+                                const fw_dynamics_motion_options *options, fw_diags *diags,
+                                const fw_dynamics_motion **motion);
+
+/* the row of equilibria alone. FW_SOLVER: it ends before the scene does, or there is none; *why
+   says where and is good for the ledger. */
+fw_status fw_statics_quasi_static_motion(fw_arena *arena, const fw_mechanism *mechanism,
+                                         const fw_device_scene *scene,
+                                         const fw_dynamics_motion_options *options,
+                                         const fw_effect_ledger *ledger,
+                                         const fw_effects_loads *loads, fw_diags *diags,
+                                         const fw_dynamics_motion **motion, const char **why);
+
+/* ---- stability.c ---- */
+
+/* A motion that never leaves an unstable equilibrium: in exact symmetry, as of a load along an arm
+   above the buckling load, nothing pushes it off, while the smallest disturbance of a real device
+   does. Theory: docs/theory/statics-and-modes.md. */
+
+typedef struct fw_statics_stability {
+    double t_s;        /* where it is most unstable */
+    double rate_per_s; /* sqrt(-lowest eigenvalue) there */
+    double growth;     /* integral of it over the scene: a disturbance grows by e^growth */
+    const char *body;  /* moves most in the motion that becomes free */
+    double *angle_rad; /* (npin) of the stable equilibrium that it would fall to, under the loads of
+                          t_s; NULL: none was found */
+    int pin;           /* with the largest of them, or FW_NONE */
+    double share;      /* of the loads that it would bear, by the eigenvalues with and without them;
+                          0: it does not stand without them either */
+    const char *text;  /* all that in a sentence */
+} fw_statics_stability;
+
+enum { FW_STABILITY_MOST = 300 }; /* unknowns: two to twelve dense evaluations of 30 n^3 */
+
+/* Looks along the motion of a scene. *stability is NULL where it is stable, where it has left, and
+   where instability lasts too short to grow. Warns with FW-D259; a note says when the mechanism is
+   too large to look. FW_OK then too; FW_NOMEM, FW_CANCELLED. */
+fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechanism,
+                                    const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                    fw_diags *diags, const fw_statics_stability **stability);
 
 #endif

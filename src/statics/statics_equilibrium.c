@@ -139,7 +139,7 @@ static fw_status arrays(fw_statics_equilibrium *w) {
         FW_NEED(*vector[i] = fw_arena_array(w->arena, double, n + 3));
     FW_NEED(w->y = fw_arena_array(w->arena, double, (size_t)m->ny));
     FW_NEED(w->trial = fw_arena_array(w->arena, double, (size_t)m->ny));
-    FW_NEED(w->stiffness = fw_arena_array(w->arena, double, n *n));
+    if (!w->sparse) FW_NEED(w->stiffness = fw_arena_array(w->arena, double, n *n));
     FW_NEED(w->lambda = fw_arena_array(w->arena, double, 2 * blocks));
     FW_NEED(w->psi = fw_arena_array(w->arena, double, 2 * blocks));
     FW_NEED(w->start = fw_arena_array(w->arena, double, blocks));
@@ -155,7 +155,7 @@ static fw_status too_large(const fw_statics_equilibrium *w) {
         w->diags, 112, w->scene->place,
         "%d bodies are more than the %d that equilibria and modes are computed for (dense "
         "matrices); simulate has no such limit",
-        w->mechanism->nbody, FW_STATICS_MOST / 3);
+        w->mechanism->nbody, FW_STATICS_DENSE / 3);
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
@@ -177,7 +177,7 @@ static fw_status build(fw_statics_equilibrium *w, const fw_effects_loads *loads)
     const fw_mechanism *mechanism = w->mechanism;
     size_t n = 3 * (size_t)mechanism->nbody;
     double moved;
-    if (n > FW_STATICS_MOST) return too_large(w);
+    if (n > FW_STATICS_DENSE && !w->sparse) return too_large(w);
     FW_NEED(w->q0 = fw_arena_array(w->arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
         w->q0[3 * b] = mechanism->body[b].x_m;
@@ -191,7 +191,7 @@ static fw_status build(fw_statics_equilibrium *w, const fw_effects_loads *loads)
     FW_TRY(fw_multibody_system_new(w->arena, w->model, mechanism, w->diags, &w->system));
     w->drive_unit = w->reach = 1;
     FW_TRY(arrays(w));
-    return fw_statics_reduced_new(w->arena, w->model, &w->reduced);
+    return fw_statics_reduced_new(w->arena, w->model, w->sparse, &w->reduced);
 }
 
 static fw_status assemble(fw_statics_equilibrium *w, fw_effects_loads *loads) {
@@ -208,7 +208,7 @@ static fw_status assemble(fw_statics_equilibrium *w, fw_effects_loads *loads) {
 
 static fw_status check(const fw_statics_equilibrium *w) {
     FW_TRY(fw_multibody_check_motion(w->mechanism, w->scene, w->diags));
-    return 3 * w->mechanism->nbody > FW_STATICS_MOST ? too_large(w) : FW_OK;
+    return 3 * w->mechanism->nbody > FW_STATICS_DENSE && !w->sparse ? too_large(w) : FW_OK;
 }
 
 fw_status fw_statics_equilibrium_new_loads(fw_arena *arena, const fw_mechanism *mechanism,
@@ -250,10 +250,11 @@ static fw_status keep_loads(fw_statics_equilibrium *w, const fw_effects_loads *l
 
 fw_status fw_statics_equilibrium_new(fw_arena *arena, const fw_mechanism *mechanism,
                                      const fw_device_scene *scene, const fw_effect_choice *effects,
-                                     fw_diags *diags, fw_statics_equilibrium *w) {
+                                     int most_dense, fw_diags *diags, fw_statics_equilibrium *w) {
     fw_effects_loads loads;
     *w = (fw_statics_equilibrium){
         .arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
+    w->sparse = 3 * mechanism->nbody > most_dense;
     FW_TRY(check(w));
     fw_effect_choice choice = *effects;
     if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_WHOLE;
@@ -286,7 +287,9 @@ const fw_multibody_pose *fw_statics_equilibrium_close(fw_statics_equilibrium *w,
     const fw_multibody_model *m = w->model;
     for (int i = 0; i < m->nq; i++)
         if (!isfinite(u[i])) return NULL;
-    if (m->nblock > 0 && !fw_multibody_close_position(w->system, w->t, u)) return NULL;
+    if (m->nblock > 0 && w->sparse && !fw_statics_sparse_close(w, u)) return NULL;
+    if (m->nblock > 0 && !w->sparse && !fw_multibody_close_position(w->system, w->t, u))
+        return NULL;
     memcpy(w->trial, u, (size_t)m->nq * sizeof *u); /* at rest: its velocities are 0 */
     const fw_multibody_pose *pose = fw_multibody_set_switches(w->system, w->t, w->trial);
     w->invalid = fw_multibody_element_invalid(w->system, pose, w->trial + m->nq, &w->why);
@@ -335,19 +338,40 @@ static void project_on_modes(fw_statics_equilibrium *w) {
     double *bent = w->step; /* dQ/ds - K du/ds */
     for (size_t i = 0; i < n; i++) {
         bent[i] = w->slope[i];
-        for (size_t j = 0; w->moving && j < n; j++)
+        for (size_t j = 0; w->moving && !w->sparse && j < n; j++)
             bent[i] -= w->stiffness[i * n + j] * w->follow[j];
     }
-    for (size_t k = 0; k < (size_t)r->dof; k++) {
+    for (size_t k = 0; k < (size_t)r->modes; k++) {
         const double *shape = r->shape + k * n;
         w->gradient[k] = w->push[k] = w->noise[k] = 0;
         for (size_t i = 0; i < n; i++) {
             w->gradient[k] += shape[i] * w->force[i];
             w->push[k] += shape[i] * bent[i];
             w->noise[k] += 64 * DBL_EPSILON * fabs(shape[i]) *
-                           (fabs(w->force[i]) + fabs(w->slope[i]) + fabs(w->stiffness[i * n + i]));
+                           (fabs(w->force[i]) + fabs(w->slope[i]) +
+                            (w->sparse ? 0 : fabs(w->stiffness[i * n + i])));
         }
     }
+}
+
+/* K by its entries, and what is not balanced; the modes are asked for where they are wanted */
+static fw_status evaluate_sparse(fw_statics_equilibrium *w, const fw_multibody_pose *pose) {
+    fw_statics_entries *k = &w->reduced.sparse->stiffness;
+    const fw_effects_matrix to = {.add = fw_statics_entries_add, .to = k};
+    fw_statics_entries_clear(k);
+    fw_statics_tangent_to(w->system, pose, w->y + w->model->nq, w->lambda, &to, NULL);
+    if (k->failed) return FW_NOMEM;
+    fw_statics_sparse_balance(&w->reduced, w->force);
+    derivative_by_factor(w, pose);
+    return FW_OK;
+}
+
+/* the lowest modes of an evaluated state, and the forces along them; nothing to do where all are known */
+fw_status fw_statics_equilibrium_lowest(fw_statics_equilibrium *w, int count) {
+    if (!w->sparse) return FW_OK;
+    FW_TRY(fw_statics_sparse_lowest(w->arena, &w->reduced, count));
+    project_on_modes(w);
+    return FW_OK;
 }
 
 /* Q, lambda, K = d(G^T lambda)/du - dQ/du, modes of K on the motions that G allows, and along each
@@ -365,6 +389,7 @@ fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w) {
         if (!isfinite(w->force[i])) return FW_SOLVER;
     }
     fw_statics_reduced_multipliers(m, &w->reduced, w->force, w->lambda);
+    if (w->sparse) return evaluate_sparse(w, pose);
     fw_statics_tangent(w->system, pose, v, w->lambda, w->stiffness, NULL);
     FW_TRY(fw_statics_reduced_spectrum(&w->reduced, w->stiffness));
     derivative_by_factor(w, pose);
@@ -398,6 +423,27 @@ void fw_statics_equilibrium_reactions(const fw_statics_equilibrium *w, double *r
     fw_multibody_joint_forces(m, &found, w->mechanism, joint, driver);
 }
 
+/* of a large mechanism: the joints whose rows were left when all others had been eliminated */
+static fw_status sparse_rank(const fw_statics_equilibrium *w, fw_text *names,
+                             fw_statics_row_rank *rank) {
+    const fw_statics_sparse *s = w->reduced.sparse;
+    const fw_multibody_model *m = w->model;
+    int named = 0, row = 0;
+    rank->kept = (double)NAN;
+    for (int i = 0; i < m->nblock; row += fw_multibody_row_count(&m->block[i++])) {
+        bool said = false;
+        for (int k = 0; k < s->repeats; k++)
+            said = said || (s->repeat[k] >= row &&
+                            s->repeat[k] < row + fw_multibody_row_count(&m->block[i]));
+        if (said)
+            fw_text_printf(names, "%s%s", named++ ? ", " : "",
+                           fw_multibody_block_name(w->mechanism, &m->block[i]));
+    }
+    FW_TRY(fw_text_end(names));
+    rank->joints = named > 0 ? names->data : NULL;
+    return FW_OK;
+}
+
 /* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
    misses of a unit row.
 
@@ -412,8 +458,9 @@ fw_status fw_statics_equilibrium_rank(const fw_statics_equilibrium *w, fw_static
     const fw_multibody_model *m = w->model;
     *rank = (fw_statics_row_rank){.rows = r->rows, .rank = r->rank};
     if (r->largest > 0) rank->kept = r->kept / r->largest, rank->dropped = r->dropped / r->largest;
-    if (r->rank == r->rows) return FW_OK;
+    if (r->rank == r->rows && !w->sparse) return FW_OK;
     fw_text names = fw_text_new(w->arena);
+    if (w->sparse) return sparse_rank(w, &names, rank);
     for (int i = 0, row = 0; i < m->nblock; i++) {
         int count = m->block[i].rows == FW_ROWS_PIN || m->block[i].rows == FW_ROWS_SLIDE ? 2 : 1;
         double missing = count;

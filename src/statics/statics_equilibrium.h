@@ -5,6 +5,7 @@
 #define FW_STATICS_STATICS_EQUILIBRIUM_H
 #include "dynamics/dynamics.h"
 #include "maths/dense.h"
+#include "maths/sparse.h"
 #include "multibody/system.h"
 #include "statics/statics.h"
 
@@ -13,8 +14,36 @@
 /* Motions that the joints allow, and the stiffness against them: the null space of G and the
    symmetric pencil (K, M) in it. Scaled units. Private to statics/. */
 
+/* entries of a matrix one by one: those of the same place add up */
+typedef struct fw_statics_entries {
+    fw_arena *arena;
+    int *row, *column;
+    double *value;
+    int count, room;
+    bool failed; /* no memory */
+} fw_statics_entries;
+
+/* The same of large mechanisms without a dense matrix. With z = M^1/2 u, A = B G M^-1/2 as below and
+   unit = the largest entry of M^-1/2 K M^-1/2, all is solved by one kind of system,
+
+     [ M^-1/2 K M^-1/2/unit + shift, A^T; A, -give ]    or   1 in the place of K,
+
+   give: 0, and 1e-8 where joints repeat each other, iterated away, so that their forces are those of least norm. */
+typedef struct fw_statics_sparse {
+    fw_maths_sparse *system;
+    fw_statics_entries stiffness, damping, joints; /* K, C in u; A */
+    double unit, give, shift;
+    int zero; /* of the system factored last: motions within round-off of no stiffness */
+    double *x, *y, *work;   /* (n + rows), twice as many */
+    int repeats, repeat[8]; /* rows of A that others say, the first of them */
+    double *unbalanced;     /* (n) M^-1/2 (Q - G^T lambda) */
+    double *round_off;      /* (n) of that */
+} fw_statics_sparse;
+
 typedef struct fw_statics_reduced {
     int n, rows, rank, dof;        /* n = 3 nbody; dof = n - rank */
+    int modes;                     /* that `shape` and `value` have: dof, or the lowest */
+    fw_statics_sparse *sparse;     /* NULL: dense */
     double largest, kept, dropped; /* singular values of balanced G M^-1/2: the largest, the
                                       smallest that counts, the largest that does not (0: none) */
     double *shape; /* (dof x n) modes: shape M shape^T = 1, shape K shape^T = value */
@@ -27,7 +56,8 @@ typedef struct fw_statics_reduced {
     fw_maths_lapack_space svd, eigen;
 } fw_statics_reduced;
 
-fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m,
+/* sparse: modes are found by fw_statics_sparse_lowest alone, and there is no spectrum */
+fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m, bool sparse,
                                  fw_statics_reduced *r);
 /* null space of G; FW_SOLVER: not finite */
 fw_status fw_statics_reduced_null(const fw_multibody_model *m, const fw_multibody_pose *pose,
@@ -38,14 +68,33 @@ fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiff
    such, the one of least norm */
 void fw_statics_reduced_multipliers(const fw_multibody_model *m, const fw_statics_reduced *r,
                                     const double *force, double *lambda);
+/* sparse: what the forces (n) leave along the motions, once lambda is known; K is in `stiffness` */
+void fw_statics_sparse_balance(fw_statics_reduced *r, const double *force);
+/* factors with the given shift; *negative: how many stiffnesses over mass and unit lie below -shift */
+fw_status fw_statics_sparse_factor(fw_statics_reduced *r, double shift, int *negative);
+/* x (n) = what the system factored last makes of x, both in z, on the motions that G allows */
+void fw_statics_sparse_solve(const fw_statics_reduced *r, double *x);
+/* the step (n, in u) that was solved for last takes off what is not balanced: no force pushes where there is no stiffness */
+bool fw_statics_sparse_answers(const fw_statics_reduced *r, const double *step);
+/* the `count` lowest modes (fewer where there are not so many) to shape and value, with zero */
+fw_status fw_statics_sparse_lowest(fw_arena *arena, fw_statics_reduced *r, int count);
+void fw_statics_entries_clear(fw_statics_entries *e);
+void fw_statics_entries_add(void *entries, int row, int column, double value);
 /* d (n) of least mass norm with G d = -psi (2 nblock) */
 void fw_statics_reduced_correct(const fw_multibody_model *m, const fw_statics_reduced *r,
                                 const double *psi, double *d);
 
 /* ---- statics_equilibrium.c ---- */
 
-/* dense matrices of 3 nbody unknowns: more would take minutes */
-enum { FW_STATICS_MOST = 1200 };
+/* Dense matrices of 3 nbody unknowns: more would take minutes, and are sparse. Those give the lowest modes alone:
+   so many of an equilibrium, and of small motions. An equilibrium that no path leads to is sparse beyond QUICK: the same in
+   a hundredth of the time. */
+enum {
+    FW_STATICS_DENSE = 1200,
+    FW_STATICS_QUICK = 300,
+    FW_STATICS_LOWEST = 6,
+    FW_STATICS_LOWEST_MODES = 24
+};
 
 /* what goes with the load factor: everything that a scene puts on; that without the voltages of
    comb drives, which are 0; these voltages squared alone, with all the rest in full */
@@ -64,6 +113,7 @@ typedef struct fw_statics_equilibrium {
     const fw_multibody_model *model;
     fw_multibody_system *system;
     fw_statics_reduced reduced;
+    bool sparse;   /* no dense matrices: `stiffness` is NULL, and modes are the lowest */
     double *q0;    /* (3 nbody) assembled, SI */
     double *y;     /* (ny) state; u first, all else 0 */
     double factor; /* s */
@@ -98,10 +148,10 @@ typedef struct fw_statics_equilibrium {
     const fw_quantity_law **law; /* (nblock) of drivers */
 } fw_statics_equilibrium;
 
-/* model of the scene's end at the assembled pose, s = 0, not evaluated */
+/* model of the scene's end at the assembled pose, s = 0, not evaluated; most_dense: more unknowns are sparse */
 fw_status fw_statics_equilibrium_new(fw_arena *arena, const fw_mechanism *mechanism,
                                      const fw_device_scene *scene, const fw_effect_choice *effects,
-                                     fw_diags *diags, fw_statics_equilibrium *w);
+                                     int most_dense, fw_diags *diags, fw_statics_equilibrium *w);
 /* the same with effects that are compiled already; the ledger is then empty, and weight counts as a
    load that goes with s */
 fw_status fw_statics_equilibrium_new_loads(fw_arena *arena, const fw_mechanism *mechanism,
@@ -137,9 +187,13 @@ double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u,
 /* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
    joints cannot close, or something is not finite */
 fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w);
+/* sparse: the `count` lowest modes of an evaluated state, with gradient and noise. Dense: all are there */
+fw_status fw_statics_equilibrium_lowest(fw_statics_equilibrium *w, int count);
+/* reduced.c: u onto the joints of a large mechanism, likewise */
+bool fw_statics_sparse_close(fw_statics_equilibrium *w, double *u);
 /* settle.c: Newton step along the modes at an evaluated state: step (n), largest component
    returned */
-double fw_statics_equilibrium_newton(const fw_statics_equilibrium *w, double *step);
+double fw_statics_equilibrium_newton(fw_statics_equilibrium *w, double *step);
 /* the forces along all modes are round-off: what a soft mode does then means nothing */
 bool fw_statics_equilibrium_quiet(const fw_statics_equilibrium *w);
 /* from w->y to a stable equilibrium at the present s. FW_SOLVER without a message: there is none */
@@ -184,6 +238,12 @@ fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
 
 /* Exact derivatives of the equations of motion, dense, in scaled units. Private to statics/. */
 
+/* the same, to wherever entries go; damping may be NULL */
+void fw_statics_tangent_to(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                           const double *v, const double *lambda,
+                           const fw_effects_matrix *stiffness, const fw_effects_matrix *damping);
+/* pairs of bodies that something acts between (2 of each; NULL: not asked for); how many */
+int fw_statics_tangent_pairs(const fw_multibody_model *m, int *pair);
 /* At a pose, with velocities v and multipliers lambda (2 nblock, the model's order):
      stiffness (nq x nq) = d(G^T lambda)/du - dQ/du,   damping (nq x nq, may be NULL) = -dQ/dv. */
 void fw_statics_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,

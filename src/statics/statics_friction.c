@@ -61,9 +61,18 @@ static void slide_row(const rub *r, const fw_effects_friction *f, const fw_multi
     if (b != FW_NONE) h[b] += e[0], h[b + 1] += e[1], h[b + 2] += e[1] * rb[0] - e[0] * rb[1];
 }
 
-/* by how much the mechanism gives way to a push of 1 along a row h (n): += */
+/* by how much the mechanism gives way to a push of 1 along a row h (n): +=; a large one by the system that is factored */
 static void give_way(const fw_statics_reduced *d, const double *h, double *give) {
     const size_t n = (size_t)d->n;
+    if (d->sparse) {
+        double *x = d->sparse->y + n + d->rows;
+        for (size_t i = 0; i < n; i++)
+            x[i] = h[i] * d->root[i] / d->sparse->unit;
+        fw_statics_sparse_solve(d, x);
+        for (size_t i = 0; i < n; i++)
+            give[i] += x[i] * d->root[i];
+        return;
+    }
     for (size_t k = 0; k < (size_t)d->dof; k++) {
         double along = 0;
         for (size_t i = 0; i < n; i++)
@@ -293,6 +302,15 @@ static fw_status cables(const fw_statics_equilibrium *w, fw_statics_friction_ran
     return FW_OK;
 }
 
+/* gains of each on each, and an evaluation for each */
+enum { FW_FRICTION_MOST = 500 };
+
+/* K as it is: what gives way is asked of it */
+static fw_status factor_again(fw_statics_equilibrium *w) {
+    int negative;
+    return fw_statics_sparse_factor(&w->reduced, 0, &negative);
+}
+
 fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
                                           const fw_statics_friction_range **range) {
     const fw_effects_loads *loads = w->loads;
@@ -302,15 +320,18 @@ fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
     if (!loads || (loads->nfriction == 0 && !rubs)) return FW_OK;
     rub r = {.w = w, .item = loads->friction, .count = loads->nfriction};
     FW_NEED(out = fw_arena_one(w->arena, fw_statics_friction_range));
-    out->count = r.count;
-    FW_TRY(room(&r, out));
+    out->count = r.count <= FW_FRICTION_MOST ? r.count : 0;
+    if (w->sparse) FW_TRY(factor_again(w));
+    if (r.count <= FW_FRICTION_MOST) FW_TRY(room(&r, out));
     for (int i = 0; i < r.count; i++)
         if (r.item[i].element != FW_NONE)
             out->why = "a contact presses on what rubs, with a force that this does not follow";
-    for (int k = 0; k < w->reduced.dof; k++)
+    if (r.count > FW_FRICTION_MOST) out->why = "more joints rub than are followed";
+    for (int k = 0; k < w->reduced.modes; k++)
         if (!(w->reduced.value[k] > w->reduced.zero[k]))
             out->why = "nothing but friction holds it: it may rest anywhere nearby";
     if (!out->why && r.count > 0) FW_TRY(find(&r, out));
+    if (!out->why && rubs && w->sparse) FW_TRY(factor_again(w));
     if (!out->why && rubs) FW_TRY(cables(w, out));
     *range = out;
     return FW_OK;

@@ -11,7 +11,7 @@
    instant, not what their frequencies add up to over many periods. In: SI; out: SI. Error:
    round-off over the least stiffness. Cost: two models and 3 to 5 evaluations of 30 n^3, n = 3
    nbody. Source: d'Alembert's principle. Test: test_hinge_models.c. */
-#include "statics/level.h"
+#include "statics/statics.h"
 #include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "statics/level.h"
-#include "base/constants.h"
 #include "statics/statics.h"
+#include "base/constants.h"
 #include "statics/statics_equilibrium.h"
 #include "maths/dense.h"
 #include <float.h>
@@ -23,11 +22,31 @@ const char *fw_statics_mode_kind_text(fw_statics_mode_kind kind) {
 
 /* ---- damped eigenvalues ---- */
 
+/* the same by entries: what the modes that are known do to each other */
+static fw_status sparse_damping(const fw_statics_equilibrium *w, damped *d) {
+    const fw_statics_reduced *r = &w->reduced;
+    const size_t n = (size_t)r->n, modes = (size_t)r->modes;
+    fw_statics_entries *k = &r->sparse->stiffness, *c = &r->sparse->damping;
+    const fw_effects_matrix to_k = {.add = fw_statics_entries_add, .to = k},
+                            to_c = {.add = fw_statics_entries_add, .to = c};
+    fw_statics_entries_clear(k), fw_statics_entries_clear(c);
+    const fw_multibody_pose *pose = fw_multibody_pose_at(w->system, w->t, w->y);
+    fw_statics_tangent_to(w->system, pose, w->y + w->model->nq, w->lambda, &to_k, &to_c);
+    if (k->failed || c->failed) return FW_NOMEM;
+    for (size_t a = 0; a < modes; a++)
+        for (size_t b = 0; b < modes; b++)
+            for (int e = 0; e < c->count; e++)
+                d->damping[a * modes + b] += r->shape[a * n + (size_t)c->row[e]] * c->value[e] *
+                                             r->shape[b * n + (size_t)c->column[e]];
+    return FW_OK;
+}
+
 /* Phi^T C Phi at the evaluated state */
 static fw_status modal_damping(const fw_statics_equilibrium *w, damped *d) {
     const fw_statics_reduced *r = &w->reduced;
-    size_t n = (size_t)r->n, dof = (size_t)r->dof;
+    size_t n = (size_t)r->n, dof = (size_t)r->modes;
     double *c, *part;
+    if (w->sparse) return sparse_damping(w, d);
     fw_mark mark = fw_arena_mark(w->arena);
     FW_NEED(c = fw_arena_array(w->arena, double, n *n));
     FW_NEED(part = fw_arena_array(w->arena, double, n *dof));
@@ -56,7 +75,7 @@ static double modal_stiffness(const fw_statics_reduced *r, int k) {
 /* value -> nearest root of  a x^2 + b x + c  with a = z.z, b = z.C z, c = z.K z (no conjugates):
    the two-sided Rayleigh quotient of a symmetric quadratic pencil; the error is squared */
 static void polish(const fw_statics_reduced *r, const damped *d, int which) {
-    size_t dof = (size_t)r->dof;
+    size_t dof = (size_t)r->modes;
     double *zr = d->zre + (size_t)which * dof, *zi = d->zim + (size_t)which * dof;
     double a[2] = {0}, b[2] = {0}, c[2] = {0}, size = 0;
     for (size_t k = 0; k < dof; k++) {
@@ -94,7 +113,7 @@ static void polish(const fw_statics_reduced *r, const damped *d, int which) {
    Test: test_modes.c (reference six-bar, 34-digit values). */
 static fw_status damped_pairs(const fw_statics_equilibrium *w, damped *d) {
     const fw_statics_reduced *r = &w->reduced;
-    int dof = r->dof, n = 2 * dof;
+    int dof = r->modes, n = 2 * dof;
     size_t wide = (size_t)n, half = (size_t)dof;
     double *a, *vector;
     FW_NEED(d->damping = fw_arena_array(w->arena, double, half *half));
@@ -205,7 +224,7 @@ static fw_status undamped_shape(const fw_statics_equilibrium *w, int k, fw_stati
 static fw_status damped_shape(const fw_statics_equilibrium *w, const damped *d, int which,
                               fw_statics_mode *mode) {
     const fw_statics_reduced *r = &w->reduced;
-    size_t n = (size_t)r->n, dof = (size_t)r->dof;
+    size_t n = (size_t)r->n, dof = (size_t)r->modes;
     double *to, largest = 0;
     size_t at = 0;
     FW_NEED(to = mode->damped = fw_arena_array(w->arena, double, 2 * n));
@@ -248,7 +267,7 @@ static void take_values(const fw_statics_equilibrium *w, const damped *d, const 
     double per_s = 1 / w->model->scale.time_s;
     int count = 0;
     *first = FW_NONE;
-    for (int i = 0; i < 2 * w->reduced.dof && count < 2; i++) {
+    for (int i = 0; i < 2 * w->reduced.modes && count < 2; i++) {
         if (owner[i] != k) continue;
         bool front = count == 0 || d->re[i] > d->re[*first];
         if (count == 1 && front) {
@@ -265,7 +284,7 @@ static void take_values(const fw_statics_equilibrium *w, const damped *d, const 
     mode->omega_rad_per_s = mu > 0 ? sqrt(mu) * per_s : 0;
     mode->f_Hz = mode->omega_rad_per_s / (2 * FW_PI);
     double largest = 0;
-    for (int i = 0; i < 2 * w->reduced.dof; i++)
+    for (int i = 0; i < 2 * w->reduced.modes; i++)
         largest = fmax(largest, hypot(d->re[i], d->im[i]) * per_s);
     mode->kind = kind_of(mode, largest);
     if (mode->kind == FW_MODE_FREE) mode->omega_rad_per_s = mode->f_Hz = 0;
@@ -290,7 +309,8 @@ static fw_status frames(fw_statics_equilibrium *w, fw_statics_mode *mode) {
         if (i == FW_MODE_FRAMES - 1) phase = 0;
         for (size_t k = 0; k < n; k++)
             u[k] = w->y[k] + fw_visible * phase * mode->shape[k] / (k % 3 == 2 ? 1 : length);
-        if (!fw_statics_equilibrium_close(w, u)) /* too far for the joints: as it is */
+        /* too far for the joints, or so many that they would take most of the time: as it is */
+        if (w->sparse || !fw_statics_equilibrium_close(w, u))
             for (size_t k = 0; k < n; k++)
                 u[k] = w->y[k] + fw_visible * phase * mode->shape[k] / (k % 3 == 2 ? 1 : length);
         fw_statics_equilibrium_pose(w, u, mode->frame + (size_t)i * n, NULL);
@@ -312,11 +332,12 @@ static fw_status not_found(const fw_statics_equilibrium *w) {
 /* at rest the pose is taken as it is; says so when it is no equilibrium */
 static fw_status at_rest(fw_statics_equilibrium *w, fw_statics_modes *out) {
     fw_status status = fw_statics_equilibrium_evaluate(w);
+    if (status == FW_OK) status = fw_statics_equilibrium_lowest(w, FW_STATICS_LOWEST_MODES);
     if (status == FW_SOLVER) return not_found(w);
     FW_TRY(status);
     const fw_statics_reduced *r = &w->reduced;
     bool held = true;
-    for (int k = 0; k < r->dof; k++)
+    for (int k = 0; k < r->modes; k++)
         held = held && (fabs(r->value[k]) > r->zero[k] || fabs(w->gradient[k]) <= w->noise[k]);
     out->out_of_rest = held ? fw_statics_equilibrium_newton(w, w->step) : (double)INFINITY;
     if (held && out->out_of_rest < 1e-9) return FW_OK;
@@ -335,6 +356,7 @@ static fw_status reach_pose(fw_statics_equilibrium *w, const fw_statics_mode_opt
     bool unstable = false;
     fw_status status = fw_statics_equilibrium_reach(w, 0, &unstable, NULL);
     if (status == FW_OK) out->out_of_rest = 0;
+    if (status == FW_OK) status = fw_statics_equilibrium_lowest(w, FW_STATICS_LOWEST_MODES);
     return status;
 }
 
@@ -356,8 +378,8 @@ static void report_free(const fw_statics_equilibrium *w, const fw_statics_modes 
 static fw_status all_modes(fw_statics_equilibrium *w, const fw_statics_mode_options *o,
                            fw_statics_modes *out) {
     damped d;
-    int *owner, *room, first, dof = w->reduced.dof;
-    out->count = dof;
+    int *owner, *room, first, dof = w->reduced.modes;
+    out->count = dof, out->dof = w->reduced.dof;
     FW_NEED(out->mode = fw_arena_array(w->arena, fw_statics_mode, (size_t)dof));
     FW_NEED(owner = fw_arena_array(w->arena, int, 2 * (size_t)dof));
     FW_NEED(room = fw_arena_array(w->arena, int, (size_t)dof));
@@ -474,7 +496,7 @@ static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
                           const fw_device_scene *scene, const fw_statics_mode_options *options,
                           const fw_effect_choice *choice, fw_diags *diags,
                           fw_statics_equilibrium *w, const fw_statics_modes **found) {
-    FW_TRY(fw_statics_equilibrium_new(arena, mechanism, scene, choice, diags, w));
+    FW_TRY(fw_statics_equilibrium_new(arena, mechanism, scene, choice, FW_STATICS_DENSE, diags, w));
     return fw_statics_equilibrium_modes(w, options, found);
 }
 

@@ -77,8 +77,8 @@ double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u,
    test_tangent.c. */
 
 typedef struct target { /* where a pair's 6 x 6 goes */
-    int n, nbody;
-    double *matrix;
+    int nbody;
+    const fw_effects_matrix *matrix; /* NULL: nowhere */
 } target;
 
 typedef struct gauge {
@@ -92,8 +92,7 @@ typedef struct pair { /* two points: arms and d = from a's to b's, world axes */
 static void add_entry(const target *to, int row_body, int row, int column_body, int column,
                       double value) {
     if (row_body >= to->nbody || column_body >= to->nbody) return; /* the ground does not move */
-    size_t i = (size_t)(3 * row_body + row), j = (size_t)(3 * column_body + column);
-    to->matrix[i * (size_t)to->n + j] += value;
+    fw_effects_matrix_add(to->matrix, 3 * row_body + row, 3 * column_body + column, value);
 }
 
 static void add_pair(const target *to, int a, int b, double matrix[6][6]) {
@@ -295,14 +294,69 @@ static void forces(const fw_multibody_system *sys, const fw_multibody_pose *pose
         fw_multibody_element_tangent(sys, pose, v, stiffness->matrix, damping->matrix);
 }
 
-void fw_statics_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                        const double *v, const double *lambda, double *stiffness, double *damping) {
+void fw_statics_tangent_to(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                           const double *v, const double *lambda,
+                           const fw_effects_matrix *stiffness, const fw_effects_matrix *damping) {
     const fw_multibody_model *m = sys->model;
-    size_t size = (size_t)m->nq * (size_t)m->nq * sizeof(double);
-    const target k = {m->nq, m->nbody, stiffness}, c = {m->nq, m->nbody, damping};
-    memset(stiffness, 0, size);
-    if (damping) memset(damping, 0, size);
+    const target k = {m->nbody, stiffness}, c = {m->nbody, damping};
     forces(sys, pose, v, &k, &c);
     for (int i = 0; i < m->nblock; i++)
         constraint(m, pose, i, lambda + 2 * i, &k);
+}
+
+void fw_statics_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                        const double *v, const double *lambda, double *stiffness, double *damping) {
+    const int n = sys->model->nq;
+    const size_t size = (size_t)n * (size_t)n * sizeof(double);
+    const fw_effects_matrix k = {.n = n, .dense = stiffness}, c = {.n = n, .dense = damping};
+    memset(stiffness, 0, size);
+    if (damping) memset(damping, 0, size);
+    fw_statics_tangent_to(sys, pose, v, lambda, &k, damping ? &c : NULL);
+}
+
+/* ---- entries one by one ---- */
+
+void fw_statics_entries_clear(fw_statics_entries *e) {
+    e->count = 0;
+}
+
+void fw_statics_entries_add(void *entries, int row, int column, double value) {
+    fw_statics_entries *e = entries;
+    if (e->failed) return;
+    if (e->count == e->room) {
+        const size_t have = (size_t)e->count, room = 2 * have + 1024;
+        int *r = fw_arena_grow(e->arena, e->row, have, room, sizeof *r);
+        int *c = r ? fw_arena_grow(e->arena, e->column, have, room, sizeof *c) : NULL;
+        double *v = c ? fw_arena_grow(e->arena, e->value, have, room, sizeof *v) : NULL;
+        if (!v) {
+            e->failed = true;
+            return;
+        }
+        e->row = r, e->column = c, e->value = v, e->room = (int)room;
+    }
+    e->row[e->count] = row, e->column[e->count] = column, e->value[e->count++] = value;
+}
+
+static void add_two(const fw_multibody_model *m, int a, int b, int *bodies, int *count) {
+    if (a >= m->nbody || b >= m->nbody) return; /* the ground has no unknowns */
+    if (bodies) bodies[2 * *count] = a, bodies[2 * *count + 1] = b;
+    (*count)++;
+}
+
+/* pairs of bodies that something acts between: (2 count), or their number alone */
+int fw_statics_tangent_pairs(const fw_multibody_model *m, int *bodies) {
+    int count = 0;
+    for (int i = 0; i < m->nblock; i++)
+        add_two(m, m->block[i].a, m->block[i].b, bodies, &count);
+    for (int i = 0; i < m->ntorsion; i++)
+        add_two(m, m->torsion[i].a, m->torsion[i].b, bodies, &count);
+    for (int i = 0; i < m->nstop; i++)
+        add_two(m, m->stop[i].a, m->stop[i].b, bodies, &count);
+    for (int i = 0; i < m->nspring; i++)
+        add_two(m, m->spring[i].a, m->spring[i].b, bodies, &count);
+    for (int i = 0; i < m->nelement; i++)
+        for (int a = 0; a < m->element[i].own->ports; a++)
+            for (int b = 0; b < a; b++)
+                add_two(m, m->element[i].body[a], m->element[i].body[b], bodies, &count);
+    return count;
 }

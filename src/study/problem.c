@@ -8,7 +8,7 @@
 #include "maths/ode.h"
 #include "multibody/system.h"
 #include "plan/stages.h"
-#include "statics/quasi.h"
+#include "statics/statics.h"
 #include "verdict/strain.h"
 #include <math.h>
 #include <stdlib.h>

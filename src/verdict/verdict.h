@@ -8,7 +8,6 @@
 #include "wiring/wiring.h"
 #include "dynamics/dynamics.h"
 #include "probe/probe.h"
-#include "statics/level.h"
 #include "statics/statics.h"
 #include "verdict/verdict_fabrication.h"
 #include "workspace/workspace.h"

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What speaks against a scene, or a flow, beside the bands of its hinges. */
 #include "base/text.h"
-#include "statics/level.h"
-#include "statics/quasi.h"
+#include "statics/statics.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>

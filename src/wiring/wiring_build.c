@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"
-#include "release/release_cavity.h"
+#include "release/release.h"
 #include "wiring/wiring.h"
 #include <math.h>
 #include <stdio.h>

@@ -60,7 +60,7 @@ CASES = {
                                   r"inertia +yes +inf +- +kept: no bound holds while joint-stop may"),
     "The error of `--effects none`": (LEVER, None, "simulate --scene weight --effects none",
                                       r"gravity +no .*called for, but no effect was asked for"),
-    "Statics and modes of more than 400": ("401", None, "statics", "401 bodies are more than the 400.*FW-D112"),
+    "Load paths and contacts of more than 400": ("401", None, "statics --path", "load paths are followed for up to 400 bodies .this mechanism has 401.*FW-D599"),
     "Side branches of load paths": (f"{THEORY}/mast.xml", None, "statics --scene press --path", r"0\.5000000000 +bifurcation"),
     "Flat dyads with `minimal`": ("docs/mechanisms/toggle.xml", None, "simulate --method minimal", "use --method chain.*FW-D109"),
     "Shares of joints that repeat": (LEVER, ("<spring id", '<revolute id="again" a="ground" b="bar" b-y="-0.5 mm"/><spring id'),

@@ -7,7 +7,7 @@
 #ifndef FW_TESTS_BOUNDS_H
 #define FW_TESTS_BOUNDS_H
 #include "bounds_effects.h"
-#include "statics/quasi.h"
+#include "statics/statics.h"
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -154,7 +154,8 @@ static inline void rig_forces(const rig *r, const double *q, double *force, doub
         fw_effects_element_add_forces(e, q, f, force);
         if (!stiffness) continue;
         e->class_->tangent(e, &s, k, d);
-        fw_effects_element_spread(e, r->m.nbody, q, NULL, f, k, d, stiffness, NULL);
+        const fw_effects_matrix to = {.n = 3 * r->m.nbody, .dense = stiffness};
+        fw_effects_element_spread(e, q, NULL, f, k, d, &to, NULL);
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hollows below what moves, and the ground that is left below what is held. */
 #include "fixture.h"
-#include "release/release_cavity.h"
+#include "release/release.h"
 
 static uint64_t seed = 5;
 static double uniform(void) {

@@ -3,9 +3,7 @@
    its hinges as pins, in closed form and as exact beams: equilibria against independent solutions,
    modes, motions, and what the step between two levels says. */
 #include "effects/hinge_rigs.h"
-#include "statics/level.h"
 #include "statics/statics.h"
-#include "statics/quasi.h"
 
 static const double E = 147.0790923914665e9;
 

@@ -2,7 +2,7 @@
 /* Is the bound on what a row of equilibria misses honest? Random devices and loads as for the other
    effects, most of them slow, with inertia and without. */
 #include "quantity/law_kind.h"
-#include "statics/quasi.h"
+#include "statics/statics.h"
 #include "dynamics/bounds.h"
 #include "test.h"
 

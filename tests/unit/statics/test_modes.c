@@ -335,7 +335,7 @@ static void damped_pairs_satisfy_the_pencil(void **state) {
         const fw_statics_modes *m = modes_at(&f, &r, true, 0);
         fw_statics_equilibrium w;
         const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
-        assert_int_equal(fw_statics_equilibrium_new(f.arena, &r.m, &r.scene, &all, &f.diags, &w),
+        assert_int_equal(fw_statics_equilibrium_new(f.arena, &r.m, &r.scene, &all, FW_STATICS_DENSE, &f.diags, &w),
                          FW_OK);
         bool unstable;
         assert_int_equal(fw_statics_equilibrium_settle(&w, &unstable), FW_OK);

@@ -2,7 +2,7 @@
 /* Motions that stay on an unstable equilibrium: rates, growth, bearable load and the equilibrium
    behind in closed form; what falls, swings or ends in time is not reported. */
 #include "quantity/law_kind.h"
-#include "statics/quasi.h"
+#include "statics/statics.h"
 #include "rest_rigs.h"
 
 static const fw_dynamics_motion *move(fixture *f, const rig *r, int samples) {

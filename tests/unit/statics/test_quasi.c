@@ -2,9 +2,8 @@
 /* Motions as rows of equilibria: closed forms, the load path of statics, the full motion under slow
    loads, and where the row ends. */
 #include "quantity/law_kind.h"
-#include "statics/quasi.h"
-#include "rest_rigs.h"
 #include "statics/statics.h"
+#include "rest_rigs.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Velocities at the start of mechanisms whose flexures must give way to move at all. */
 #include "effects/hinge_rigs.h"
-#include "statics/quasi.h"
+#include "statics/statics.h"
 
 static const fw_dynamics_motion *moved(rig *r, fw_effects_hinge_model hinge) {
     const fw_dynamics_motion_options o = {
