@@ -93,7 +93,7 @@ bool fw_words_hold(const char *words, const char *separators, const char *name);
 /* alike; NULL is like NULL alone */
 bool fw_text_same(const char *a, const char *b);
 /* Sentences name things by their kind and their id, "hinge A"; an id that begins with its kind, as "hinge-2" does, says it
-   itself. For "%s%s": FW_NAMED("hinge", id). Test: tests/unit/base/test_text.c */
+   itself. For "%s%s": FW_NAMED("hinge", id). Test: tests/unit/base/test_markup.c */
 #define FW_NAMED(kind, id) fw_text_kind(kind " ", id), (id)
 const char *fw_text_kind(const char *kind,
                          const char *id); /* kind, with its space at the end, or "" */
