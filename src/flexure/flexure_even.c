@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Closed form of flexures of one width: circular arcs and straight leaves, of one modulus and of a crystal whose
    modulus goes by direction. */
+#include "base/constants.h"
 #include "flexure/section.h"
 #include <math.h>
 
@@ -238,6 +239,20 @@ static double root_peak(const fw_flexure_shape *f, const fw_flexure_input *in, d
                 fw_flexure_root_peak(&second, &in->crystal));
 }
 
+/* Of a crystal the fibre between the roots by its stress, where the arc is stiffest: (14a), which grows with E and
+   with -cos 4 psi. Test: test_path.c one_arc_is_a_csfh, whose path looks at all places */
+static double stress_factor(const fw_flexure_shape *f, const fw_flexure_input *in,
+                            const fw_flexure_depth *depth) {
+    const fw_flexure_crystal *k = &in->crystal;
+    double strain = fibre_factor(f, depth), deep = in->depth_m / sqrt(f->radius_m * f->width_m);
+    if (!k->known) return strain;
+    double stiffest = k->a1_per_Pa > 0 ? FW_PI : 0;
+    double b = 0.25 * remainder(stiffest - atan2(k->sin4, k->cos4), FW_TURN);
+    if (fabs(b) > f->half_angle_rad) b = copysign(f->half_angle_rad, b);
+    double stress = fw_flexure_depth_stress(deep, k, b, f->curved);
+    return fmax(strain, stress * depth->stiffness * f->golovin);
+}
+
 /* the arc of a crystal: K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy of the above,
      sigma/rad = t/(2 int ds/E) max(Kt G, inside), G of the worse root, eps = sigma/E
    the integral without d, with which G was found
@@ -266,8 +281,9 @@ static void elastic_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
     out->offset_m[0] = o.X - f->centre_m, out->offset_m[1] = o.Y;
     out->youngs_Pa = m.youngs_Pa, out->poisson = m.poisson;
     out->depth_factor = depth.stiffness;
-    fw_flexure_peak_strain(f, 0.5 * t / (o.weight * in->youngs_Pa), fibre_factor(f, &depth),
+    fw_flexure_peak_strain(f, 0.5 * t / (o.weight * in->youngs_Pa), stress_factor(f, in, &depth),
                            root_peak(f, in, m.poisson, depth.bow), out);
+    out->strain_fit_per_rad *= fibre_factor(f, &depth) / out->fibre;
 }
 
 void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,

@@ -102,7 +102,8 @@ fw_flexure_path_stuff fw_flexure_path_stuff_of(const fw_flexure_course *p,
     fw_flexure_path_stuff m = {.youngs_Pa = in->youngs_Pa,
                                .poisson = in->poisson,
                                .depth_m = in->depth_m,
-                               .end_depth_m = in->depth_m};
+                               .end_depth_m = in->depth_m,
+                               .by_stress = in->crystal.known};
     m.elastic = fw_flexure_elastic_of(in);
     if (!in->crystal.known) return m;
     fw_flexure_gauss_rule(FW_GAUSS_MOST, node, weight);
@@ -121,14 +122,9 @@ fw_flexure_path_stuff fw_flexure_path_stuff_of(const fw_flexure_course *p,
     return m;
 }
 
-double fw_flexure_path_fibre_factor(const fw_flexure_path_section *at) {
-    double c = fabs(at->curved);
-    return fmax((1 + c) * at->depth.inner, (1 - c) * at->depth.outer);
-}
-
 double fw_flexure_path_root_factor(const fw_flexure_input *in, const fw_flexure_path_stuff *m,
                                    int end, const fw_flexure_path_section *at) {
-    if (in->fillet_m < 0) return fw_flexure_path_fibre_factor(at);
+    if (in->fillet_m < 0) return fw_flexure_path_fibre_factor(at, m);
     const fw_flexure_root_case root = {.width_m = at->width_m,
                                        .fillet_m = in->fillet_m,
                                        .depth_m = in->depth_m,
@@ -145,7 +141,7 @@ double fw_flexure_path_fibre(const fw_flexure_path_section *at, double youngs_Pa
                              const fw_flexure_path_stuff *m) {
     double t = at->width_m, h = m->depth_m > 0 ? m->depth_m : 1;
     double section = h * t * t * t / 12 * at->depth.stiffness * at->golovin;
-    return 0.5 * t / (section * youngs_Pa) * fw_flexure_path_fibre_factor(at);
+    return 0.5 * t / (section * youngs_Pa) * fw_flexure_path_fibre_factor(at, m);
 }
 
 /* ---- places ---- */
@@ -479,41 +475,46 @@ static double fibre(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
 static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
                    const fw_flexure_input *in, fw_flexure_result *out, double *fit) {
     const double part = 0.5 * (sqrt(5) - 1);
-    double best = 0, share = 1, roots = 0, between = 0;
+    double best = 0, share = 1, roots = 0, between = 0, even = 0;
+    fw_flexure_path_stuff by_strain = *m; /* the fit */
+    by_strain.by_stress = false;
     for (int end = 0; end < 2; end++) {
         int i = end ? p->n - 1 : 0;
         const fw_flexure_path_section at =
             section_of(p, m, i, end ? p->shape[i].piece.length_m : 0);
         double plain = fw_flexure_path_fibre(&at, in->youngs_Pa, m),
-               own = fw_flexure_path_fibre_factor(&at);
+               own = fw_flexure_path_fibre_factor(&at, m);
         double narrows = fmax(1, 1 / fw_flexure_path_root_opens(p, end, in->fillet_m));
         double factor = narrows * fw_flexure_path_root_factor(in, m, end, &at);
-        roots = fmax(roots, plain * p->concentration[end]);
+        roots = fmax(roots,
+                     p->concentration[end] * fw_flexure_path_fibre(&at, in->youngs_Pa, &by_strain));
         if (plain * factor <= best * own) continue;
         best = plain * factor / own;
         share = factor;
     }
     for (int i = 0; i < p->n; i++) {
         double L = p->shape[i].piece.length_m, h = L / PLACES, top = 0, where = 0;
+        const bool uneven = !p->shape[i].uniform || m->by_stress;
         for (int k = 0; k <= PLACES; k++) {
             double e = fibre(p, m, in, i, k * h);
+            even = fmax(even, m->by_stress ? fibre(p, &by_strain, in, i, k * h) : 0);
             if (e > top) top = e, where = k * h;
         }
         double low = fmax(0, where - h), high = fmin(L, where + h);
-        for (int k = 0; k < 40 && !p->shape[i].uniform; k++) {
+        for (int k = 0; k < 40 && uneven; k++) {
             double a = high - part * (high - low), b = low + part * (high - low);
             if (fibre(p, m, in, i, a) > fibre(p, m, in, i, b))
                 high = b;
             else
                 low = a;
         }
-        if (!p->shape[i].uniform) top = fmax(top, fibre(p, m, in, i, 0.5 * (low + high)));
+        if (uneven) top = fmax(top, fibre(p, m, in, i, 0.5 * (low + high)));
         const fw_flexure_path_section at = section_of(p, m, i, 0.5 * (low + high));
-        if (top > between) between = top, out->fibre = fw_flexure_path_fibre_factor(&at);
-        if (top > best) best = top, share = fw_flexure_path_fibre_factor(&at);
+        if (top > between) between = top, out->fibre = fw_flexure_path_fibre_factor(&at, m);
+        if (top > best) best = top, share = fw_flexure_path_fibre_factor(&at, m);
     }
     out->concentration = share;
-    *fit = fmax(roots, between);
+    *fit = fmax(roots, m->by_stress ? even : between);
     return best;
 }
 

@@ -34,10 +34,10 @@ fw_flexure_depth fw_flexure_depth_at(double depth_over_root_of_radius_and_width,
 /* of a crystal's strip, E of its mean compliance */
 fw_flexure_depth fw_flexure_depth_crystal(double depth_over_root_of_radius_and_width,
                                           const fw_flexure_crystal *crystal, double youngs_Pa);
-/* stress between the roots over what the hoop strain of the mean modulus says; curved: t/3R */
+/* of a crystal: stress between the roots over M/Z, largest of the section; curved: t/3R, not signed; psi of the
+   strip (or of its normal) from the hinge's axis */
 double fw_flexure_depth_stress(double depth_over_root_of_radius_and_width,
-                               const fw_flexure_crystal *crystal, double psi_rad, double youngs_Pa,
-                               double curved);
+                               const fw_flexure_crystal *crystal, double psi_rad, double curved);
 
 typedef struct fw_flexure_end_loss {
     double reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
@@ -98,6 +98,7 @@ typedef struct fw_flexure_path_stuff {
     double youngs_Pa, poisson;  /* poisson: out of the plane; of a crystal its mean */
     double depth_m;             /* 0: no depth factor, unit depth */
     double end_depth_m;         /* of what ends lose, whatever depth_m is */
+    bool by_stress;             /* a crystal is limited by stress: fw_flexure_depth_stress */
 } fw_flexure_path_stuff;
 
 typedef struct fw_flexure_path_section {
@@ -125,7 +126,11 @@ void fw_flexure_path_end_loss(const fw_flexure_course *path, const fw_flexure_pa
 fw_flexure_path_stuff fw_flexure_path_stuff_of(const fw_flexure_course *path,
                                                const fw_flexure_input *in);
 /* strain of the fibre over that of the beam: max((1 + t/3R) F_inner, (1 - t/3R) F_outer) */
-double fw_flexure_path_fibre_factor(const fw_flexure_path_section *at);
+double fw_flexure_path_fibre_factor(const fw_flexure_path_section *at,
+                                    const fw_flexure_path_stuff *stuff);
+/* of a crystal's strip: raises the places whose neighbours bow less; bow: n^2; one: strain per moment at M/Z, (n) */
+void fw_flexure_neighbours_reach(const fw_flexure_input *in, double bow, double length_m,
+                                 const double *one, fw_flexure_path_strain *out);
 /* strain per section moment at a section: t/2 of that over (E I D g), no fillet */
 double fw_flexure_path_fibre(const fw_flexure_path_section *at, double youngs_Pa,
                              const fw_flexure_path_stuff *stuff);

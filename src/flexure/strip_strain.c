@@ -73,20 +73,26 @@ static fw_status varying_places(fw_arena *arena, const fw_flexure_input *in, dou
     double length = 0, before = 0;
     for (int i = 0; i < p.n; i++)
         length += p.shape[i].piece.length_m;
-    FW_NEED(out->point = fw_arena_array(arena, fw_flexure_path_point, (size_t)(p.n * (each + 1))));
+    const size_t places = (size_t)(p.n * (each + 1));
+    double *one;
+    FW_NEED(out->point = fw_arena_array(arena, fw_flexure_path_point, places));
+    FW_NEED(one = fw_arena_array(arena, double, places));
     for (int i = 0; i < p.n; before += p.shape[i].piece.length_m, i++)
         for (int k = 0; k <= each; k++) {
             fw_flexure_path_section at;
             double s = p.shape[i].piece.length_m * k / each, by = ends_stiffer;
             fw_flexure_path_section_at(&p, &m, i, s, &at);
             bool root = (i == 0 && k == 0) || (i == p.n - 1 && k == each);
-            double between = fw_flexure_path_fibre_factor(&at);
+            double between = fw_flexure_path_fibre_factor(&at, &m);
             if (root) by *= fmax(1, fw_flexure_path_root_factor(in, &m, k > 0, &at) / between);
+            double fibre = fw_flexure_path_fibre(&at, in->youngs_Pa, &m);
+            one[out->n] = ends_stiffer * fibre * at.depth.stiffness * at.golovin / between;
             out->point[out->n++] = place_of(in, at.pose, at.width_m, (before + s) / length,
-                                            by * fw_flexure_path_fibre(&at, in->youngs_Pa, &m),
-                                            length * at.bend_per_Nm2, root);
+                                            by * fibre, length * at.bend_per_Nm2, root);
             if (root) outer_fillet(in, at.curved, &out->point[out->n - 1]);
         }
+    if (m.by_stress)
+        fw_flexure_neighbours_reach(in, m.elastic.bow_per_Pa * m.youngs_Pa, length, one, out);
     return FW_OK;
 }
 
@@ -98,6 +104,9 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
     double per_Nm = c->strain_per_rad / c->stiffness_Nm_per_rad, a = 0.5 * in->angle_rad;
     double whole = in->length_m + 2 * c->root_length_m;
     double curvature = in->kind == FW_FLEXURE_CSFH ? 1 / in->radius_m : 0;
+    double curved = curvature * in->width_m / 3, deep = in->depth_m * sqrt(curvature / in->width_m);
+    const fw_flexure_depth hoop = fw_flexure_depth_crystal(deep, &in->crystal, c->youngs_Pa);
+    const double mean = fmax((1 + curved) * hoop.inner, (1 - curved) * hoop.outer);
     for (int end = 0; end < 2; end++)
         out->reach_m[end] = fw_flexure_root_reach_m(in->width_m, in->fillet_m, curvature);
     double soft = in->length_m / (c->stiffness_Nm_per_rad * whole);
@@ -108,15 +117,14 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
         fw_geometry_pose at = {0, 0.5 * u * in->length_m, 0.5 * FW_PI};
         if (arc)
             at = (fw_geometry_pose){in->radius_m * cos(b), in->radius_m * sin(b), 0.5 * FW_PI + b};
-        double stress = 1;
+        double fibre = c->fibre; /* of a crystal that of its stiffest place */
         if (arc && in->crystal.known)
-            stress = fw_flexure_depth_stress(in->depth_m / sqrt(in->radius_m * in->width_m),
-                                             &in->crystal, b, c->youngs_Pa,
-                                             in->width_m / (3 * in->radius_m));
+            fibre = fmax(mean, fw_flexure_depth_stress(deep, &in->crystal, b, curved) *
+                                   c->depth_factor * fw_flexure_golovin(1.5 * curved));
         out->point[out->n++] =
             place_of(in, at, in->width_m, (double)k / LAST,
-                     root ? per_Nm : per_Nm * c->fibre / c->concentration * stress, soft, root);
-        if (root && arc) outer_fillet(in, in->width_m / (3 * in->radius_m), &out->point[k]);
+                     root ? per_Nm : per_Nm * fibre / c->concentration, soft, root);
+        if (root && arc) outer_fillet(in, curved, &out->point[k]);
     }
     return FW_OK;
 }

@@ -6,6 +6,7 @@
 #include "strip_input.h"
 #include "test.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double degree = M_PI / 180;
@@ -270,6 +271,137 @@ static void faces_of_an_arc(void **state) {
     fw_arena_free(arena);
 }
 
+/* ---- strips of silicon by solids: tools/solids/between ---- */
+
+enum { PIECES = 5 };
+
+typedef struct place { /* a row of tests/data/hinge/between.csv */
+    fw_geometry_strip_piece piece[PIECES];
+    fw_flexure_input input;
+    int name, at;                      /* number of the case and of the piece */
+    double part, finer, coarser;       /* of the piece; stress over 150 GPa per moment */
+} place;
+
+static bool place_of(const char *line, place *out) {
+    double depth, turn;
+    int pieces = 0, at;
+    if (sscanf(line, "%d,%lf,%lf,%d,%lf,%lf,%lf,%n", &out->name, &depth, &turn, &out->at,
+               &out->part, &out->finer, &out->coarser, &at) != 7)
+        return false;
+    for (const char *p = line + at; *p && pieces < PIECES; pieces++) {
+        double length, curvature, width[3];
+        int used;
+        assert_int_equal(sscanf(p, "%lf:%lf:%lf:%lf:%lf%n", &length, &curvature, &width[0],
+                                &width[1], &width[2], &used),
+                         5);
+        out->piece[pieces] =
+            (fw_geometry_strip_piece){length * 1e-6,
+                                      curvature * 1e6,
+                                      {width[0] * 1e-6, width[1] * 1e-6, width[2] * 1e-6}};
+        p += used;
+        p += *p == ';';
+        if (*p == '\n') p = "";
+    }
+    /* the chord stands up the y axis, and a quarter turn is none to the crystal */
+    out->input =
+        (fw_flexure_input){.kind = FW_FLEXURE_PATH,
+                           .piece = out->piece,
+                           .npiece = pieces,
+                           .fillet_m = -1,
+                           .depth_m = depth * 1e-6,
+                           .youngs_Pa = 150e9,
+                           .poisson = 0.2,
+                           .strength_Pa = 500e6,
+                           .safety_factor = 1,
+                           .crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9,
+                                                               -turn * degree)};
+    return true;
+}
+
+/* strain per moment at the place, between the two beside it */
+static double said_of(fw_arena *arena, const place *p, double *above) {
+    fw_flexure_result c;
+    fw_flexure_path_strain s;
+    fw_flexure_closed_form(&p->input, &c);
+    *above = c.error.above;
+    assert_int_equal(fw_flexure_path_strain_new(arena, &p->input, &c, &s), FW_OK);
+    fw_flexure_course course;
+    fw_flexure_path_of(&p->input, &course);
+    bool other = false; /* a path may be laid from its other end */
+    for (int i = 0; i < course.n; i++) {
+        const fw_geometry_strip_piece *a = &course.shape[i].piece, *b = &p->piece[i];
+        other |= fabs(a->length_m / b->length_m - 1) > 1e-9 ||
+                 fabs(a->curvature_per_m - b->curvature_per_m) > 1 ||
+                 fabs(a->width_m[0] / b->width_m[0] - 1) > 1e-9;
+    }
+    int each = s.n / p->input.npiece - 1;
+    int i = other ? p->input.npiece - 1 - p->at : p->at;
+    double x = (other ? 1 - p->part : p->part) * each;
+    const fw_flexure_path_point *at = &s.point[i * (each + 1) + (int)x];
+    return at[0].strain_per_Nm + (x - floor(x)) * (at[1].strain_per_Nm - at[0].strain_per_Nm);
+}
+
+/* No solid bears more than is said and stated above it, none that bends alone less than 0.88 of it; and the
+   largest of each strip is within 6 %, so that the bound is not wide where it limits. */
+static void silicon_between_the_roots(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    char line[512];
+    int last = 0, n = 0;
+    double most_said = 0, most_solid = 0;
+    FILE *file = fopen(FW_TEST_SOURCE_DIR "/tests/data/hinge/between.csv", "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file)); /* the head */
+    for (bool more = true; more;) {
+        place p = {0};
+        more = fgets(line, sizeof line, file);
+        if (more) assert_true(place_of(line, &p));
+        if (p.name != last && last && !(most_said < 1.06 * most_solid))
+            fail_msg("strip %d: %g said, %g of the solid", last, most_said, most_solid);
+        if (p.name != last) most_said = most_solid = 0, last = p.name;
+        if (!more) break;
+        double above, said = said_of(arena, &p, &above);
+        if (!(p.finer <= said * (1 + above)) || !(p.finer > 0.88 * said))
+            fail_msg("strip %d, piece %d at %.3f: solid over said %.4f, stated above %.4f", p.name,
+                     p.at, p.part, p.finer / said, above);
+        most_said = fmax(most_said, said), most_solid = fmax(most_solid, p.finer), n++;
+    }
+    assert_true(n > 250);
+    fclose(file);
+    fw_arena_free(arena);
+}
+
+/* (14a) by itself: of no depth and one modulus Golovin's exact stress of a curved bar, inner face,
+     4 M/(h N) (b^2 - a^2 - 2 b^2 ln(b/a)),  N = (b^2 - a^2)^2 - 4 a^2 b^2 ln^2(b/a)
+   (Timoshenko and Goodier, Theory of Elasticity, art. 29), and of moduli that turn what the warping of the
+   section has, found here by sums over the section and a difference along the strip */
+static void stress_of_no_depth(void **state) {
+    (void)state;
+    const fw_flexure_crystal even = fw_flexure_crystal_cubic(180e9, 60e9, 60e9, 0.3);
+    for (double slender = 3; slender < 40; slender *= 1.5) { /* R/t */
+        double a = slender - 0.5, b = slender + 0.5, l = log(b / a), d = b * b - a * a;
+        double N = d * d - 4 * a * a * b * b * l * l;
+        double golovin = 4 * fabs(d - 2 * b * b * l) / N / 6; /* M/Z = 6 M/(h t^2) */
+        assert_near(fw_flexure_depth_stress(0, &even, 0.2, 1 / (3 * slender)), golovin,
+                    3e-6 + 0.02 / (slender * slender * slender));
+    }
+    enum { ACROSS = 2000 };
+    for (int degrees = 0; degrees < 90; degrees += 7) {
+        const fw_flexure_crystal k = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 0);
+        const double psi = degrees * degree, R = 50, step = 1e-5;
+        const double turn = 2 * k.a1_per_Pa / step * /* s16 along the strip */
+                            (sin(4 * (psi + 0.5 * step)) - sin(4 * (psi - 0.5 * step)));
+        double mean = 0; /* over the width of int s16 sigma dn, by sigma of the face */
+        for (int i = 0; i < ACROSS; i++) {
+            double n = (i + 0.5) / ACROSS - 0.5;
+            mean += turn * n * n / R / ACROSS;
+        }
+        double E = 1 / (k.a0_per_Pa + k.a1_per_Pa * cos(4 * psi));
+        double warped = E * (mean - turn * 0.25 / R);
+        assert_near(fw_flexure_depth_stress(0, &k, psi, 1 / (3 * R)), 1 + 1 / (3 * R) + warped, 1e-4);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tension),           cmocka_unit_test(pins_four_at_a_time),
@@ -277,6 +409,8 @@ int main(void) {
         cmocka_unit_test(between_the_roots), cmocka_unit_test(least_strain),
         cmocka_unit_test(place_of_the_moment),
         cmocka_unit_test(faces_of_an_arc),
+        cmocka_unit_test(silicon_between_the_roots),
+        cmocka_unit_test(stress_of_no_depth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
