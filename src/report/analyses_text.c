@@ -256,16 +256,18 @@ static void friction(const fw_mechanism *m, const fw_statics_friction_range *f, 
         far = i % 3 == 2 ? far : fmax(far, f->q[i]);
     const fw_report_magnitude length = fw_report_magnitude_of(FW_MEASURE_LENGTH, far);
     fw_text_printf(out,
-                   "\nfriction may hold it anywhere within (first order)\n"
-                   "  centre of      +- x %-2s        +- y %-2s      +- phi deg\n",
-                   length.unit, length.unit);
-    for (int b = 0; b < m->nbody; b++) {
-        fw_text_printf(out, "  %-8s ", m->body[b].id);
-        column(out, f->q[3 * b] * length.per_si);
-        column(out, f->q[3 * b + 1] * length.per_si);
-        column(out, degrees(f->q[3 * b + 2]));
-        fw_text_add(out, "\n");
-    }
+                   "\nfriction may hold it anywhere from here%s\n"
+                   "  centre of           x %-2s           y %-2s        phi deg\n",
+                   f->first_order ? " (first order)" : "", length.unit, length.unit);
+    for (int b = 0; b < m->nbody; b++)
+        for (int side = 0; side < 2; side++) {
+            const double *to = (side ? f->to_q : f->from_q) + 3 * b;
+            fw_text_printf(out, "  %-8s %-4s", side ? "" : m->body[b].id, side ? "to" : "from");
+            column(out, to[0] * length.per_si);
+            column(out, to[1] * length.per_si);
+            column(out, degrees(to[2]));
+            fw_text_add(out, "\n");
+        }
     for (int i = 0; i < f->count; i++) {
         fw_text_printf(out, "  friction of %s is at most ", f->joint[i]);
         fw_text_number(out, f->limit[i], 4);
