@@ -83,6 +83,25 @@ static void frequencies_off(const fw_statics_modes *modes, fw_text *out) {
                    modes->stiffness_error > 0 ? "" : " (stated ones are taken as they are)");
 }
 
+/* where joints rub, a line for each mode */
+static void modes_that_stick(const fw_statics_modes *modes, fw_text *out) {
+    bool said = false;
+    for (int i = 0; i < modes->count; i++) {
+        const fw_statics_mode *m = &modes->mode[i];
+        if (isnan(m->stuck_Hz)) continue;
+        if (!said)
+            fw_text_add(out, "\nfriction: all that rubs slides, or all of it sticks\n"
+                             "  mode       from Hz         to Hz\n");
+        said = true;
+        fw_text_printf(out, "  %4d ", i + 1);
+        fw_text_real(out, "%13.6g ", m->f_Hz);
+        if (isfinite(m->stuck_Hz))
+            fw_text_real(out, "%13.6g\n", m->stuck_Hz);
+        else
+            fw_text_add(out, "  does not move\n");
+    }
+}
+
 /* of rigid plates about the drawn pose, the first ones */
 static void modes_across(const fw_mechanism_plates *p, fw_text *out) {
     enum { FEW = 6 };
@@ -117,6 +136,7 @@ fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_sc
                      "             bodies\n");
     for (int i = 0; i < modes->count; i++)
         mode_row(out, i + 1, &modes->mode[i]);
+    modes_that_stick(modes, out);
     if (modes->ledger.hinge.why) {
         fw_text_printf(out, "\nhinges as %s: %s",
                        fw_effects_hinge_model_text(modes->ledger.hinge.used),

@@ -186,7 +186,10 @@ enum { FW_MODE_FRAMES = 25 }; /* one period, first and last the same */
 
 typedef struct fw_statics_mode {
     fw_statics_mode_kind kind;
-    double omega_rad_per_s, f_Hz;  /* undamped; 0 where there is none */
+    double omega_rad_per_s, f_Hz; /* undamped; 0 where there is none */
+    /* with all joints that rub stuck, which f_Hz is without: between the two for any that do. Infinite: nothing is left to
+       move; NaN: nothing rubs, or only the lowest modes are known */
+    double stuck_Hz;
     double stiffness_per_s2;       /* omega^2, below 0 when unstable */
     double eigenvalue_per_s[2][2]; /* damped, re and im: a conjugate pair (im > 0 first), or two
                                       real ones, the larger first */

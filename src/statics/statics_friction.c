@@ -549,6 +549,22 @@ static fw_status find(rub *r, fw_statics_friction_range *out, double mu) {
 /* a solution for each of them, for each evaluation */
 enum { FW_FRICTION_MOST = 500 };
 
+fw_status fw_statics_equilibrium_rubbing(const fw_statics_equilibrium *w, int *count,
+                                         double **row) {
+    const fw_effects_loads *loads = w->loads;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(w->system, w->t, w->y);
+    const rub r = {.w = (fw_statics_equilibrium *)w};
+    const size_t n = (size_t)w->model->nq;
+    *count = loads ? loads->nfriction : 0;
+    FW_NEED(*row = fw_arena_array(w->arena, double, (size_t)*count *n));
+    for (int i = 0; i < *count; i++)
+        if (loads->friction[i].pin == FW_NONE)
+            slide_row(&r, &loads->friction[i], pose, *row + (size_t)i * n);
+        else
+            turn_row(&r, &loads->friction[i], *row + (size_t)i * n);
+    return FW_OK;
+}
+
 fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
                                           const fw_statics_friction_range **range) {
     const fw_effects_loads *loads = w->loads;

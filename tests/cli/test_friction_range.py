@@ -304,6 +304,39 @@ class FrictionRange(unittest.TestCase):
         self.assertEqual((other["unknown"], other["ends and is told"]), ([], []))
 
 
+class ModesBetween(unittest.TestCase):
+    CHAIN = """<device xmlns="urn:flexwright:device:1" name="chain"><mechanism>
+<body id="arm" mass="0.02 mg" inertia="0.003 mg mm^2" x="0.5 mm" y="0 mm"/>
+<body id="tip" mass="0.02 mg" inertia="0.003 mg mm^2" x="1.5 mm" y="0 mm"/>
+<revolute id="root" a="ground" b="arm" b-x="-0.5 mm" stiffness="1.7e-6 N m/rad"/>
+<revolute id="elbow" a="arm" a-x="0.5 mm" b="tip" b-x="-0.5 mm" stiffness="1.5e-6 N m/rad"/></mechanism>
+<scene name="s" duration="1 ms"><torque on="tip" value="0.1 uN m"/>%s</scene></device>"""
+
+    def test_two_links(self):
+        """the closed form of two links, with each joint stuck, and with both; nothing where nothing rubs"""
+        m, j, length, root, elbow = 2e-8, 3e-15, 1e-3, 1.7e-6, 1.5e-6
+        tip = j + m * length**2 / 4
+        mass = np.array([[tip + m * length**2, m * length**2 / 2], [m * length**2 / 2, tip]])
+        slides = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(mass, np.array([[root + elbow, -elbow], [-elbow, elbow]]))))) / (2 * np.pi)
+        stuck = {("root",): np.sqrt(elbow / tip) / (2 * np.pi), ("elbow",): np.sqrt(root / mass.sum()) / (2 * np.pi), ("root", "elbow"): None}
+        for rubs in ((), *stuck):
+            text = self.CHAIN % "".join(f'<friction on="{r}" coefficient="0.4" radius="30 um" preload="0.2 mN"/>' for r in rubs)
+            found = json.loads(run("modes", "-", "--json", input=text).stdout)["modes"]
+            said = run("modes", "-", input=text).stdout
+            self.assertEqual("all that rubs slides, or all of it sticks" in said, bool(rubs))
+            for k, mode in enumerate(found):
+                self.assertAlmostEqual(mode["f_Hz"] / slides[k], 1, 10)
+                if not rubs:
+                    self.assertIsNone(mode["between_Hz"])
+                    continue
+                low, high = mode["between_Hz"]
+                self.assertEqual(low, mode["f_Hz"])
+                if k == 0 and stuck[rubs]:
+                    self.assertAlmostEqual(high / stuck[rubs], 1, 10)
+                else:
+                    self.assertIsNone(high)
+
+
 if __name__ == "__main__":
     if len(sys.argv) > 1 and sys.argv[1].isdigit():  # a table of so many devices
         found, other = compare(range(int(sys.argv[1])))
