@@ -539,8 +539,9 @@ static fw_status find(rub *r, fw_statics_friction_range *out, double mu) {
         const size_t k = pose ? (size_t)c : (size_t)c - n;
         double *from = pose ? out->from_q : out->from_angle_rad,
                *to = pose ? out->to_q : out->to_angle_rad;
-        from[k] = e.spent ? -e.first[c] : (1 + fw_friction_margin) * (e.low[c] - e.at[c]);
-        to[k] = e.spent ? e.first[c] : (1 + fw_friction_margin) * (e.high[c] - e.at[c]);
+        from[k] = (1 + fw_friction_margin) * (e.low[c] - e.at[c]);
+        to[k] = (1 + fw_friction_margin) * (e.high[c] - e.at[c]);
+        if (e.spent) from[k] = fmin(from[k], -e.first[c]), to[k] = fmax(to[k], e.first[c]);
         (pose ? out->q : out->angle_rad)[k] = fmax(-from[k], to[k]);
     }
     return FW_OK;
