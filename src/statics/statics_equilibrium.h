@@ -236,6 +236,8 @@ fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
 
 /* gradients (count x n) of the angles and travels that rub, at w->y */
 fw_status fw_statics_equilibrium_rubbing(const fw_statics_equilibrium *w, int *count, double **row);
+/* statics.c: stuck_Hz of all modes of an evaluated state */
+fw_status fw_statics_equilibrium_stick(fw_statics_equilibrium *w, fw_statics_modes *out);
 
 /* ---- tangent.c ---- */
 
