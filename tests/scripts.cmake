@@ -57,6 +57,7 @@ fw_script_test(cli.stiction COMMAND ${Python3_EXECUTABLE} tests/cli/test_stictio
 fw_script_test(cli.large COMMAND ${Python3_EXECUTABLE} tests/cli/test_large.py ${FW_PROGRAM})
 fw_script_test(cli.apart COMMAND ${Python3_EXECUTABLE} tests/cli/test_apart.py ${FW_PROGRAM})
 fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/cli/test_probe.py ${FW_PROGRAM})
+fw_script_test(cli.friction_range COMMAND ${Python3_EXECUTABLE} tests/cli/test_friction_range.py ${FW_PROGRAM} TIMEOUT 900)
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})
 fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/cli/test_schedule.py ${FW_PROGRAM})
 fw_script_test(cli.flowback COMMAND ${Python3_EXECUTABLE} tests/cli/test_flowback.py ${FW_PROGRAM})

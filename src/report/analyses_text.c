@@ -83,6 +83,25 @@ static void frequencies_off(const fw_statics_modes *modes, fw_text *out) {
                    modes->stiffness_error > 0 ? "" : " (stated ones are taken as they are)");
 }
 
+/* where joints rub, a line for each mode */
+static void modes_that_stick(const fw_statics_modes *modes, fw_text *out) {
+    bool said = false;
+    for (int i = 0; i < modes->count; i++) {
+        const fw_statics_mode *m = &modes->mode[i];
+        if (isnan(m->stuck_Hz)) continue;
+        if (!said)
+            fw_text_add(out, "\nfriction: all that rubs slides, or all of it sticks\n"
+                             "  mode       from Hz         to Hz\n");
+        said = true;
+        fw_text_printf(out, "  %4d ", i + 1);
+        fw_text_real(out, "%13.6g ", m->f_Hz);
+        if (isfinite(m->stuck_Hz))
+            fw_text_real(out, "%13.6g\n", m->stuck_Hz);
+        else
+            fw_text_add(out, "  does not move\n");
+    }
+}
+
 /* of rigid plates about the drawn pose, the first ones */
 static void modes_across(const fw_mechanism_plates *p, fw_text *out) {
     enum { FEW = 6 };
@@ -117,6 +136,7 @@ fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_sc
                      "             bodies\n");
     for (int i = 0; i < modes->count; i++)
         mode_row(out, i + 1, &modes->mode[i]);
+    modes_that_stick(modes, out);
     if (modes->ledger.hinge.why) {
         fw_text_printf(out, "\nhinges as %s: %s",
                        fw_effects_hinge_model_text(modes->ledger.hinge.used),
@@ -256,16 +276,18 @@ static void friction(const fw_mechanism *m, const fw_statics_friction_range *f, 
         far = i % 3 == 2 ? far : fmax(far, f->q[i]);
     const fw_report_magnitude length = fw_report_magnitude_of(FW_MEASURE_LENGTH, far);
     fw_text_printf(out,
-                   "\nfriction may hold it anywhere within (first order)\n"
-                   "  centre of      +- x %-2s        +- y %-2s      +- phi deg\n",
-                   length.unit, length.unit);
-    for (int b = 0; b < m->nbody; b++) {
-        fw_text_printf(out, "  %-8s ", m->body[b].id);
-        column(out, f->q[3 * b] * length.per_si);
-        column(out, f->q[3 * b + 1] * length.per_si);
-        column(out, degrees(f->q[3 * b + 2]));
-        fw_text_add(out, "\n");
-    }
+                   "\nfriction may hold it anywhere from here%s\n"
+                   "  centre of           x %-2s           y %-2s        phi deg\n",
+                   f->first_order ? " (first order)" : "", length.unit, length.unit);
+    for (int b = 0; b < m->nbody; b++)
+        for (int side = 0; side < 2; side++) {
+            const double *to = (side ? f->to_q : f->from_q) + 3 * b;
+            fw_text_printf(out, "  %-8s %-4s", side ? "" : m->body[b].id, side ? "to" : "from");
+            column(out, to[0] * length.per_si);
+            column(out, to[1] * length.per_si);
+            column(out, degrees(to[2]));
+            fw_text_add(out, "\n");
+        }
     for (int i = 0; i < f->count; i++) {
         fw_text_printf(out, "  friction of %s is at most ", f->joint[i]);
         fw_text_number(out, f->limit[i], 4);

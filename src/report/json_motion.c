@@ -298,6 +298,10 @@ static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_stat
     const double(*e)[2] = m->eigenvalue_per_s;
     fw_json_object(json, NULL);
     fw_json_real(json, "f_Hz", m->f_Hz);
+    if (isnan(m->stuck_Hz))
+        fw_json_null(json, "between_Hz");
+    else
+        fw_report_json_pair(json, "between_Hz", m->f_Hz, m->stuck_Hz);
     fw_json_real(json, "omega_rad_per_s", m->omega_rad_per_s);
     fw_report_json_pair(json, "eigenvalue_per_s", e[0][0], e[0][1]);
     fw_report_json_pair(json, "second_eigenvalue_per_s", e[1][0], e[1][1]);
@@ -468,14 +472,23 @@ static void friction_range(fw_json *json, const fw_mechanism *m,
     fw_json_object(json, "friction_range");
     fw_json_truth(json, "known", !f->why);
     fw_json_text(json, "why", f->why);
-    fw_json_object(json, "within");
-    for (int b = 0; !f->why && b < m->nbody; b++)
-        fw_report_json_reals(json, m->body[b].id, f->q + 3 * (size_t)b, 3);
-    fw_json_end(json);
-    fw_json_object(json, "angle_rad");
-    for (int k = 0; !f->why && k < m->npin; k++)
-        fw_json_real(json, m->pin[k].id, f->angle_rad[k]);
-    fw_json_end(json);
+    fw_json_truth(json, "first_order", f->first_order);
+    const struct {
+        const char *poses, *angles;
+        const double *q, *angle_rad;
+    } row[] = {{"within", "angle_rad", f->q, f->angle_rad},
+               {"from", "angle_from_rad", f->from_q, f->from_angle_rad},
+               {"to", "angle_to_rad", f->to_q, f->to_angle_rad}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_json_object(json, row[i].poses);
+        for (int b = 0; !f->why && b < m->nbody; b++)
+            fw_report_json_reals(json, m->body[b].id, row[i].q + 3 * (size_t)b, 3);
+        fw_json_end(json);
+        fw_json_object(json, row[i].angles);
+        for (int k = 0; !f->why && k < m->npin; k++)
+            fw_json_real(json, m->pin[k].id, row[i].angle_rad[k]);
+        fw_json_end(json);
+    }
     fw_json_list(json, "limits");
     for (int i = 0; !f->why && i < f->count; i++) {
         fw_json_object(json, NULL);

@@ -213,3 +213,49 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
         if (!fw_statics_level_climb(step, accuracy, &options->effects, &choice)) return FW_OK;
     }
 }
+
+/* ---- modes where joints rub ---- */
+
+/* Between which frequencies the modes lie where joints rub: each sticks or slides, and any that sticks is one condition
+   h_j u = 0 more. Of the pencil diag(value) in the modes, on the null space Z of the rows h_j . shape_k,
+
+     omega_k (all slide) <= omega_k (some stick) <= stuck_k = eigenvalue k of Z^T diag(value) Z
+
+   Inputs: an evaluated state, scaled. Output: stuck_Hz of the first modes, infinite of those that no freedom is left for.
+   Valid for small motions about the pose; cables that rub on eyelets are as they slide. Error: round-off. Cost: dof^3.
+   Source: Courant, Fischer (R. Horn, C. Johnson, Matrix Analysis, 4.3). Test: tests/cli/test_friction_range.py */
+fw_status fw_statics_equilibrium_stick(fw_statics_equilibrium *w, fw_statics_modes *out) {
+    const fw_statics_reduced *r = &w->reduced;
+    const size_t n = (size_t)r->n, dof = (size_t)r->dof;
+    double *row, *part, *small, *value, *vector;
+    fw_maths_singular z;
+    int count, rank = 0;
+    for (int k = 0; k < out->count; k++)
+        out->mode[k].stuck_Hz = (double)NAN;
+    if (w->sparse) return FW_OK;
+    FW_TRY(fw_statics_equilibrium_rubbing(w, &count, &row));
+    if (count == 0 || dof == 0) return FW_OK;
+    FW_NEED(part = fw_arena_array(w->arena, double, (size_t)count *dof));
+    for (size_t j = 0; j < (size_t)count; j++)
+        for (size_t k = 0; k < dof; k++)
+            for (size_t i = 0; i < n; i++)
+                part[j * dof + k] += row[j * n + i] * r->shape[k * n + i];
+    FW_TRY(fw_maths_singular_new(w->arena, count, r->dof, part, &z));
+    while (rank < count && rank < r->dof && z.sigma[rank] > 1e-10 * z.sigma[0])
+        rank++;
+    const size_t left = dof - (size_t)rank;
+    const double *free = z.v + (size_t)rank * dof;
+    FW_NEED(small = fw_arena_array(w->arena, double, left *left));
+    FW_NEED(value = fw_arena_array(w->arena, double, left));
+    FW_NEED(vector = fw_arena_array(w->arena, double, left *left));
+    for (size_t a = 0; a < left; a++)
+        for (size_t b = 0; b < left; b++)
+            for (size_t k = 0; k < dof; k++)
+                small[a * left + b] += free[a * dof + k] * r->value[k] * free[b * dof + k];
+    if (left > 0 && !fw_maths_jacobi((int)left, small, value, vector)) return FW_SOLVER;
+    for (size_t k = 0; k < dof; k++)
+        out->mode[k].stuck_Hz =
+            k < left ? sqrt(fmax(value[k], 0) * fw_statics_equilibrium_per_s2(w)) / (2 * FW_PI)
+                     : (double)INFINITY;
+    return FW_OK;
+}

@@ -60,12 +60,14 @@ typedef struct fw_statics_path { /* equilibria one after the other */
     bool complete;             /* reached s = 1 */
 } fw_statics_path;
 
-/* Where dry friction may hold the mechanism at rest: the equilibrium without it, more or less what follows. First order in
-   the friction's torques, which are the largest that it can have there. Theory: docs/theory/effects/friction.md. */
+/* Where dry friction may hold the mechanism at rest: the equilibrium without it, from one offset to another. Extreme
+   equilibria with all of the friction; of large mechanisms to first order. Theory: docs/theory/effects/friction.md. */
 typedef struct fw_statics_friction_range {
-    const char *why;   /* there is none: why; NULL: there is */
-    double *q;         /* (3 nbody) of the poses of mass centres, m, rad */
-    double *angle_rad; /* (npin) */
+    const char *why;  /* there is none: why; NULL: there is */
+    bool first_order; /* else with all of the friction */
+    double *q; /* (3 nbody) of the poses of mass centres, m, rad: the larger size of the two */
+    double *angle_rad;                                     /* (npin) likewise */
+    double *from_q, *to_q, *from_angle_rad, *to_angle_rad; /* offsets, least and largest */
     int count;
     double
         *limit; /* (count) largest torque, N m, along a slide force, N, of every joint that rubs */
@@ -184,7 +186,10 @@ enum { FW_MODE_FRAMES = 25 }; /* one period, first and last the same */
 
 typedef struct fw_statics_mode {
     fw_statics_mode_kind kind;
-    double omega_rad_per_s, f_Hz;  /* undamped; 0 where there is none */
+    double omega_rad_per_s, f_Hz; /* undamped; 0 where there is none */
+    /* with all joints that rub stuck, which f_Hz is without: between the two for any that do. Infinite: nothing is left to
+       move; NaN: nothing rubs, or only the lowest modes are known */
+    double stuck_Hz;
     double stiffness_per_s2;       /* omega^2, below 0 when unstable */
     double eigenvalue_per_s[2][2]; /* damped, re and im: a conjugate pair (im > 0 first), or two
                                       real ones, the larger first */

@@ -234,6 +234,11 @@ const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
 fw_status fw_statics_equilibrium_friction(fw_statics_equilibrium *w,
                                           const fw_statics_friction_range **range);
 
+/* gradients (count x n) of the angles and travels that rub, at w->y */
+fw_status fw_statics_equilibrium_rubbing(const fw_statics_equilibrium *w, int *count, double **row);
+/* statics.c: stuck_Hz of all modes of an evaluated state */
+fw_status fw_statics_equilibrium_stick(fw_statics_equilibrium *w, fw_statics_modes *out);
+
 /* ---- tangent.c ---- */
 
 /* Exact derivatives of the equations of motion, dense, in scaled units. Private to statics/. */

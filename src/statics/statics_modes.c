@@ -445,7 +445,7 @@ static fw_status all_modes(fw_statics_equilibrium *w, const fw_statics_mode_opti
     for (int k = 0; k < dof && k < o->drawn; k++)
         FW_TRY(frames(w, &out->mode[k]));
     report_free(w, out);
-    return FW_OK;
+    return fw_statics_equilibrium_stick(w, out);
 }
 
 fw_status fw_statics_equilibrium_modes(fw_statics_equilibrium *w,

@@ -337,7 +337,8 @@ def effect_eyelet_friction(g):
 
 def effect_eyelet_friction_program(run, _):
     rest = at_rest(run, LEVER, "rubbed")
-    return {"without": rest["hinges"][0]["angle_rad"], "range": rest["friction_range"]["angle_rad"]["foot"]}
+    at, r = rest["hinges"][0]["angle_rad"], rest["friction_range"]
+    return {"without": at, "less": at + r["angle_to_rad"]["foot"], "more": at + r["angle_from_rad"]["foot"]}
 
 
 def effect_temperature(g):
