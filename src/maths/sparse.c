@@ -221,6 +221,7 @@ static bool assemble(fw_maths_sparse *s, int k, int size) {
     }
     for (int below = s->waits - s->children[k]; s->waits > below; s->waits--) {
         const waiting *w = &s->wait[s->waits - 1];
+        if (w->size == 0) continue; /* there may be no room yet to point into */
         const int *index = s->left_index.at + w->index;
         const double *from = s->left.at + w->number;
         for (int i = 0; i < w->size; i++) {
