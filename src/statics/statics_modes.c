@@ -105,6 +105,23 @@ static void polish(const fw_statics_reduced *r, const damped *d, int which) {
     d->im[which] = d->im[which] == 0 ? 0 : y;
 }
 
+static bool is_undamped(const damped *d, size_t dof) {
+    for (size_t k = 0; k < dof * dof; k++)
+        if (d->damping[k] != 0) return false;
+    return true;
+}
+
+/* without damping each mode swings by itself: lambda = +- sqrt(-mu), to the last bit */
+static void take_undamped(const fw_statics_reduced *r, damped *d) {
+    const size_t dof = (size_t)r->modes;
+    for (size_t k = 0; k < dof; k++) {
+        const double mu = modal_stiffness(r, (int)k), root = sqrt(fabs(mu));
+        d->re[2 * k] = mu < 0 ? root : 0, d->re[2 * k + 1] = -d->re[2 * k];
+        d->im[2 * k] = mu < 0 ? 0 : root, d->im[2 * k + 1] = -d->im[2 * k];
+        d->zre[2 * k * dof + k] = d->zre[(2 * k + 1) * dof + k] = 1;
+    }
+}
+
 /* z'' + C z' + diag(mu) z = 0 as first-order system of (W z, z'), W = sqrt|mu|:
        [ 0, W; -sign(mu) W, -C ],
    which has the norm of the largest frequency instead of its square. Eigenvalues by dgeev, then one
@@ -122,6 +139,10 @@ static fw_status damped_pairs(const fw_statics_equilibrium *w, damped *d) {
     FW_NEED(d->zre = fw_arena_array(w->arena, double, wide *half));
     FW_NEED(d->zim = fw_arena_array(w->arena, double, wide *half));
     FW_TRY(modal_damping(w, d));
+    if (is_undamped(d, half)) {
+        take_undamped(r, d);
+        return FW_OK;
+    }
     FW_NEED(a = fw_arena_array(w->arena, double, wide *wide));
     FW_NEED(vector = fw_arena_array(w->arena, double, wide *wide));
     for (size_t k = 0; k < half; k++) {
@@ -147,48 +168,78 @@ static fw_status damped_pairs(const fw_statics_equilibrium *w, damped *d) {
     return FW_OK;
 }
 
-/* share of mode k in the modal shape of eigenvalue i */
-static double share(const damped *d, int dof, int i, int k) {
-    double sum = 0, part = 0;
-    for (int l = 0; l < dof; l++) {
-        size_t at = (size_t)i * (size_t)dof + (size_t)l;
-        double square = d->zre[at] * d->zre[at] + d->zim[at] * d->zim[at];
-        sum += square;
-        if (l == k) part = square;
-    }
-    return sum > 0 ? part / sum : 0;
-}
+/* ---- which eigenvalue is of which mode ---- */
 
-/* the best match of what is not given yet: pairs (two places of a mode) or real values (one) */
-static bool best_match(const damped *d, int dof, bool pairs, const int *owner, const int *room,
-                       int *value, int *mode) {
-    double most = -1;
-    for (int i = 0; i < 2 * dof; i++) {
-        if (owner[i] != FW_NONE || d->im[i] < 0 || (d->im[i] > 0) != pairs) continue;
-        for (int k = 0; k < dof; k++) {
-            double now = room[k] >= (pairs ? 2 : 1) ? share(d, dof, i, k) : -1;
-            if (now > most) most = now, *value = i, *mode = k;
+typedef struct matching {
+    int dof;
+    double *part; /* (2 dof x dof) of each mode in the modal shape of each eigenvalue, 0 to 1 */
+    int *
+        best; /* (2 dof) the mode that has most of it, of those with room for it; FW_NONE: there is none */
+    int *owner; /* (2 dof) mode of each eigenvalue */
+    int *room;  /* (dof) how many eigenvalues a mode may still take */
+} matching;
+
+static void find_parts(const damped *d, matching *m) {
+    const size_t dof = (size_t)m->dof;
+    for (size_t i = 0; i < 2 * dof; i++) {
+        double *part = m->part + i * dof, sum = 0;
+        for (size_t l = 0; l < dof; l++) {
+            const double re = d->zre[i * dof + l], im = d->zim[i * dof + l];
+            sum += part[l] = re * re + im * im;
         }
+        for (size_t l = 0; l < dof; l++)
+            part[l] = sum > 0 ? part[l] / sum : 0;
     }
-    return most >= 0;
 }
 
-/* every eigenvalue goes to the mode that it has most of: pairs first, so that the real ones fill
-   what is left. owner (2 dof): mode of each eigenvalue. */
-static void match(const damped *d, int dof, int *owner, int *room) {
-    int value = 0, mode = 0;
+static void find_best(matching *m, int i, int wanted) {
+    const double *part = m->part + (size_t)i * (size_t)m->dof;
+    m->best[i] = FW_NONE;
+    for (int k = 0; k < m->dof; k++)
+        if (m->room[k] >= wanted && (m->best[i] == FW_NONE || part[k] > part[m->best[i]]))
+            m->best[i] = k;
+}
+
+/* the best match of what is not given yet first: pairs (two places of a mode), or real values (one) */
+static void match_all(const damped *d, matching *m, bool pairs) {
+    const int n = 2 * m->dof, wanted = pairs ? 2 : 1;
+    for (int i = 0; i < n; i++) {
+        const bool asked = m->owner[i] == FW_NONE && d->im[i] >= 0 && (d->im[i] > 0) == pairs;
+        m->best[i] = FW_NONE;
+        if (asked) find_best(m, i, wanted);
+    }
+    for (;;) {
+        int next = FW_NONE;
+        double most = -1;
+        for (int i = 0; i < n; i++) {
+            if (m->best[i] == FW_NONE) continue;
+            const double part = m->part[(size_t)i * (size_t)m->dof + (size_t)m->best[i]];
+            if (part > most) most = part, next = i;
+        }
+        if (next == FW_NONE) return;
+        const int mode = m->best[next];
+        m->owner[next] = mode, m->best[next] = FW_NONE, m->room[mode] -= wanted;
+        if (pairs) m->owner[next + 1] = mode;
+        for (int i = 0; m->room[mode] < wanted && i < n; i++)
+            if (m->best[i] == mode) find_best(m, i, wanted);
+    }
+}
+
+/* Every eigenvalue goes to the mode that it has most of: pairs first, so that the real ones fill what is left. Cost
+   some 10 dof^2 where shapes are near their modes, dof^3 at most. */
+static fw_status match(fw_arena *arena, const damped *d, int dof, int *owner, int *room) {
+    matching m = {.dof = dof, .owner = owner, .room = room};
+    const size_t n = (size_t)dof;
+    FW_NEED(m.part = fw_arena_array(arena, double, 2 * n * n));
+    FW_NEED(m.best = fw_arena_array(arena, int, 2 * n));
     for (int k = 0; k < dof; k++)
         room[k] = 2;
     for (int i = 0; i < 2 * dof; i++)
         owner[i] = FW_NONE;
-    while (best_match(d, dof, true, owner, room, &value, &mode)) {
-        owner[value] = owner[value + 1] = mode;
-        room[mode] = 0;
-    }
-    while (best_match(d, dof, false, owner, room, &value, &mode)) {
-        owner[value] = mode;
-        room[mode]--;
-    }
+    find_parts(d, &m);
+    match_all(d, &m, true);
+    match_all(d, &m, false);
+    return FW_OK;
 }
 
 /* ---- one mode ---- */
@@ -384,7 +435,7 @@ static fw_status all_modes(fw_statics_equilibrium *w, const fw_statics_mode_opti
     FW_NEED(owner = fw_arena_array(w->arena, int, 2 * (size_t)dof));
     FW_NEED(room = fw_arena_array(w->arena, int, (size_t)dof));
     FW_TRY(damped_pairs(w, &d));
-    match(&d, dof, owner, room);
+    FW_TRY(match(w->arena, &d, dof, owner, room));
     for (int k = 0; k < dof; k++) {
         fw_statics_mode *mode = &out->mode[k];
         FW_TRY(undamped_shape(w, k, mode));
