@@ -2,6 +2,7 @@
 /* Parameters, evaluated in the order of their dependencies. */
 #include "device/device_table.h"
 #include "device/device_reader.h"
+#include "quantity/program.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -126,6 +127,45 @@ static bool uses_lost(const work *w, const fw_xml_attribute *a) {
            fw_quantity_expression_uses(a->value, strlen(a->value), w->r->xml.lost, w->r->xml.nlost);
 }
 
+/* Both bounds are of one kind and the value of another: the value is the odd one out, and its users, which would each say
+   so again, keep silent. *ok: it is not so */
+static fw_status bounds_agree(work *w, int k, bool *ok) {
+    fw_device_reader *r = w->r;
+    const item *p = &w->item[k];
+    const fw_device_parameter *out = &r->device->parameter[k];
+    const fw_xml_attribute *low = fw_xml_cell_of(p->record, "min")->given,
+                           *high = fw_xml_cell_of(p->record, "max")->given;
+    fw_quantity_dimension of_low, of_high;
+    double ignored;
+    *ok = true;
+    if (!low || !high || uses_lost(w, low) || uses_lost(w, high)) return FW_OK;
+    fw_diags quiet = fw_diags_new(r->arena), *said = r->xml.diags;
+    bool read = true, also = true;
+    r->xml.diags = &quiet;
+    fw_status status =
+        fw_xml_attribute_evaluate(&r->xml, low, "min", NULL, &of_low, &ignored, &read);
+    if (status == FW_OK)
+        status = fw_xml_attribute_evaluate(&r->xml, high, "max", NULL, &of_high, &ignored, &also);
+    r->xml.diags = said;
+    if (status != FW_OK || !read || !also) return status;
+    *ok = !fw_quantity_dimension_equal(
+              of_low, of_high) || /* numbers that lack their unit are what is wrong */
+          fw_quantity_dimension_equal(of_low, (fw_quantity_dimension){0}) ||
+          fw_quantity_dimension_equal(of_low, out->dimension) ||
+          fw_quantity_dimension_differs_in_angle(of_low, out->dimension);
+    if (*ok) return FW_OK;
+    const char *value = fw_quantity_dimension_phrase(r->arena, out->dimension),
+               *bound = fw_quantity_dimension_phrase(r->arena, of_low);
+    FW_NEED(value && bound ? value : NULL);
+    fw_diag_error(r->diags, 25, p->set ? p->set->place : p->value->place,
+                  "parameter '%s': its value is %s, and its min and max are each %s; give all "
+                  "three in units of "
+                  "one kind",
+                  out->name, value, bound);
+    lose(w, k);
+    return FW_OK;
+}
+
 /* value and bounds; a parameter outside of its bounds is lost, so that its users keep silent */
 static fw_status read_bounds(work *w, int k) {
     fw_device_reader *r = w->r;
@@ -137,7 +177,9 @@ static fw_status read_bounds(work *w, int k) {
     }
     double *bound[] = {&out->min, &out->max};
     static const char *const name[] = {"min", "max"};
-    bool ok = true;
+    bool ok;
+    FW_TRY(bounds_agree(w, k, &ok));
+    if (!ok) return FW_OK;
     for (int i = 0; i < 2; i++) {
         const fw_xml_attribute *a = fw_xml_cell_of(p->record, name[i])->given;
         bool read = true;

@@ -92,6 +92,14 @@ static bool enter(fw_device_reader *r, fw_device_space space) {
 
 enum { SUGGESTIONS_MOST = 2000 }; /* ids that a misspelt one is compared with */
 
+/* is it a word of the list? One that is declared twice, which is an error of its own, is named once */
+static bool is_listed(const char *list, const char *id) {
+    const size_t n = strlen(id);
+    for (const char *at = strstr(list, id); at; at = strstr(at + 1, id))
+        if ((at == list || at[-1] == ' ') && (at[n] == ' ' || at[n] == '\0')) return true;
+    return false;
+}
+
 /* either end of the reference may be the misspelt one, so the message names both places */
 static void report_dangling(fw_device_reader *r, const fw_xml_record *record,
                             const fw_xml_attribute_row *row, const fw_xml_attribute *a) {
@@ -100,7 +108,7 @@ static void report_dangling(fw_device_reader *r, const fw_xml_record *record,
     const char *kind = fw_device_table.space[row->space], *better = NULL;
     char label[FW_LABEL], list[200] = "";
     size_t used = 0;
-    int least = 3;
+    int least = 3, listed = 0;
     fw_place there = {0};
     for (size_t i = 0; i < n && i < SUGGESTIONS_MOST && !fw_xml_full(r->diags); i++) {
         const named other = name_of(d, (fw_device_space)row->space, i);
@@ -111,8 +119,9 @@ static void report_dangling(fw_device_reader *r, const fw_xml_record *record,
             better = id;
             there = other.place;
         }
-        if (used + strlen(id) + 3 < sizeof list)
-            used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i ? " " : "", id);
+        if (used + strlen(id) + 3 < sizeof list && !is_listed(list, id))
+            used +=
+                (size_t)snprintf(list + used, sizeof list - used, "%s%s", listed++ ? " " : "", id);
     }
     fw_xml_label(record, label);
     if (better && strlen(a->value) > 2)
@@ -122,7 +131,7 @@ static void report_dangling(fw_device_reader *r, const fw_xml_record *record,
                       label, kind, a->value, better, there.line, there.column);
     else
         fw_diag_error(r->diags, 46, a->place, "%s: there is no %s '%.64s'; declared %s: %s", label,
-                      kind, a->value, n == 1 ? "is" : "are", n ? list : "none");
+                      kind, a->value, listed == 1 ? "is" : "are", listed ? list : "none");
 }
 
 int fw_device_reference(fw_device_reader *r, const fw_xml_record *record, const char *name) {

@@ -108,7 +108,8 @@ static const fw_xml_attribute_row revolute_rows[] = {
     {"damping", D_TURNING_C, ELASTIC, .fallback = "from the flexure's material, else 0",
      .sentence = "Torque per angular velocity."},
     {"free-angle", TURNS, .fallback = "0 deg",
-     .sentence = "phi_b - phi_a at which the joint's angle is 0 and its spring at rest."},
+     .sentence = "phi_b - phi_a at which the joint's angle is 0 and its spring at rest; a flexure "
+                 "is at rest where it is drawn."},
     {"hinge", REF(FW_SPACE_FLEXURE), .fallback = "an ideal pivot",
      .sentence =
          "The flexure that it is; stiffness, damping and limit then come from its geometry."},
@@ -305,7 +306,8 @@ static const fw_xml_attribute_row disc_rows[] = {
 };
 static const fw_xml_attribute_row lettering_rows[] = {
     {"text", TEXT, REQUIRED,
-     .sentence = "Of ASCII, letters of Latin-1 and a Greek mu; any other character is refused at its place."},
+     .sentence = "Of ASCII, letters of Latin-1 and a Greek mu; any other character is refused at "
+                 "its place."},
     {"x", POSITION, .fallback = "0 mm", .sentence = "Its lower left corner in the body's frame."},
     {"y", POSITION, .fallback = "0 mm", .sentence = "Its lower left corner in the body's frame."},
     {"height", D_LENGTH, .unit = "um",

@@ -42,6 +42,7 @@ typedef struct fw_layout_piece {
 typedef struct fw_layout_hinge_layout { /* per joint */
     bool drawn;
     const char *id;
+    fw_place place;              /* of its flexure in the file */
     bool axis_stated;            /* by the file; else the layout chose it */
     fw_geometry_vec2 centre;     /* W = the hinge point, world */
     fw_geometry_vec2 arc_centre; /* O, world */

@@ -362,6 +362,7 @@ static fw_status plan_hinge(fw_layout_drawing *d, int joint) {
     layout->arc_centre = fw_layout_local_point(&plan->side[1].local, plan->shape[1].arc_centre);
     layout->axis_rad = axis;
     layout->id = d->device->revolute[joint].id;
+    layout->place = d->device->flexure[d->device->revolute[joint].flexure].place;
     layout->axis_stated = !isnan(d->device->revolute[joint].axis_rad);
     layout->lower = plan->side[0].body;
     layout->upper = plan->side[1].body;

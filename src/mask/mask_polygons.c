@@ -379,3 +379,58 @@ void fw_mask_measure_add(fw_mask_measure *m, const fw_mask_shape *s) {
         fmin(m->box.x0, FW_GEOMETRY_GRID_M * x0), fmin(m->box.y0, FW_GEOMETRY_GRID_M * y0),
         fmax(m->box.x1, FW_GEOMETRY_GRID_M * x1), fmax(m->box.y1, FW_GEOMETRY_GRID_M * y1)};
 }
+
+/* ---- what a place belongs to ----
+   Of one that cannot be drawn: mostly a hinge whose two heads were given
+   no room, and then neither bias nor tolerance is what to change. Test: test_causes.c. */
+
+/* of a hinge's keep-out disc: necks and root blocks reach a little beyond it */
+static const double REACH = 1.25;
+
+static const fw_layout_hinge_layout *hinge_at(const fw_layout *layout, int nhinge,
+                                              fw_geometry_vec2 at) {
+    const fw_layout_hinge_layout *best = NULL;
+    double least = 1;
+    for (int j = 0; j < nhinge; j++) {
+        const fw_layout_hinge_layout *h = &layout->hinge[j];
+        if (!h->drawn || !(h->keep_out_m > 0)) continue;
+        double share = vec_distance(h->centre, at) / (REACH * h->keep_out_m);
+        if (share < least) least = share, best = h;
+    }
+    return best;
+}
+
+/* the highest joint that a piece belongs to: others are not drawn */
+static int hinges_of(const fw_layout *layout) {
+    int n = 0;
+    for (int i = 0; i < layout->npiece; i++)
+        n = layout->piece[i].joint >= n ? layout->piece[i].joint + 1 : n;
+    return n;
+}
+
+const fw_layout_hinge_layout *fw_mask_hinge_at(const fw_layout *layout, fw_geometry_vec2 at) {
+    return isfinite(at.x + at.y) ? hinge_at(layout, hinges_of(layout), at) : NULL;
+}
+
+const char *fw_mask_cause(fw_arena *arena, const fw_layout *layout, fw_geometry_vec2 at) {
+    const fw_layout_hinge_layout *h = fw_mask_hinge_at(layout, at);
+    if (!h || !h->id) return "";
+    char axis[32], wide[32];
+    fw_number_text(axis, sizeof axis, h->axis_rad * 180 / FW_PI, 6);
+    fw_number_text(wide, sizeof wide, 1e6 * h->gap_m, 4);
+    const char *gap =
+        h->gap_m > 0 ? fw_arena_printf(arena, ", or take a wider gap than its %s um", wide) : "";
+    if (!gap) return NULL;
+    return h->axis_stated
+               ? fw_arena_printf(
+                     arena,
+                     "; the place belongs to %s%s, whose flexure bulges towards %s "
+                     "deg because the file says so: its two sides have no room for each "
+                     "other there, so turn its axis, or leave axis out to have one "
+                     "chosen%s",
+                     FW_NAMED("hinge", h->id), axis, gap)
+               : fw_arena_printf(arena,
+                                 "; the place belongs to %s%s, whose flexure bulges towards %s "
+                                 "deg: state another axis for it, or move what is beside it%s",
+                                 FW_NAMED("hinge", h->id), axis, gap);
+}

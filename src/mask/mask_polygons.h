@@ -25,6 +25,8 @@ void fw_mask_check_corners(const fw_mask_shape *shape, int nshape, fw_diags *dia
 /* "(123.456, -7.89) um" for messages; `text` holds at least 80 bytes */
 const char *fw_mask_place_text(char *text, size_t n, fw_geometry_vec2 at);
 
+/* the hinge that a place belongs to; NULL: none */
+const fw_layout_hinge_layout *fw_mask_hinge_at(const fw_layout *layout, fw_geometry_vec2 at);
 /* "; the place belongs to hinge A, ..." for messages, with what to do; "" where it is of none */
 const char *fw_mask_cause(fw_arena *arena, const fw_layout *layout, fw_geometry_vec2 at);
 

@@ -169,54 +169,6 @@ fw_status fw_mask_rules_check(fw_mask_rules *r, bool polygons) {
     return r->no_memory ? FW_NOMEM : FW_OK;
 }
 
-/* ---- what a place belongs to ----
-   Of one that cannot be drawn: mostly a hinge whose two heads were given
-   no room, and then neither bias nor tolerance is what to change. Test: test_causes.c. */
-
-/* of a hinge's keep-out disc: necks and root blocks reach a little beyond it */
-static const double REACH = 1.25;
-
-static const fw_layout_hinge_layout *hinge_at(const fw_layout *layout, int nhinge,
-                                              fw_geometry_vec2 at) {
-    const fw_layout_hinge_layout *best = NULL;
-    double least = 1;
-    for (int j = 0; j < nhinge; j++) {
-        const fw_layout_hinge_layout *h = &layout->hinge[j];
-        if (!h->drawn || !(h->keep_out_m > 0)) continue;
-        double share = vec_distance(h->centre, at) / (REACH * h->keep_out_m);
-        if (share < least) least = share, best = h;
-    }
-    return best;
-}
-
-/* the highest joint that a piece belongs to: others are not drawn */
-static int hinges_of(const fw_layout *layout) {
-    int n = 0;
-    for (int i = 0; i < layout->npiece; i++)
-        n = layout->piece[i].joint >= n ? layout->piece[i].joint + 1 : n;
-    return n;
-}
-
-const char *fw_mask_cause(fw_arena *arena, const fw_layout *layout, fw_geometry_vec2 at) {
-    if (!isfinite(at.x + at.y)) return "";
-    const fw_layout_hinge_layout *h = hinge_at(layout, hinges_of(layout), at);
-    if (!h || !h->id) return "";
-    char axis[32];
-    fw_number_text(axis, sizeof axis, h->axis_rad * 180 / FW_PI, 6);
-    return h->axis_stated
-               ? fw_arena_printf(
-                     arena,
-                     "; the place belongs to %s%s, whose flexure bulges towards %s "
-                     "deg because the file says so: its two sides have no room for each "
-                     "other there, so turn its axis, or leave axis out to have one "
-                     "chosen",
-                     FW_NAMED("hinge", h->id), axis)
-               : fw_arena_printf(arena,
-                                 "; the place belongs to %s%s, whose flexure bulges towards %s "
-                                 "deg: state another axis for it, or move what is beside it",
-                                 FW_NAMED("hinge", h->id), axis);
-}
-
 /* ---- findings as messages ----
    The worst few of each rule, with their number. */
 
@@ -297,13 +249,29 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
         rule->source, advice);
 }
 
-/* a cell of the description stands at a line of it; nothing else does */
+/* where two outlines meet at a hinge, that hinge: whatever rules that breaks, it is one mistake */
+static const fw_layout_hinge_layout *meets_at(const fw_mask_rules *r, const fw_mask_finding *f) {
+    if (!r->layout || !(meet(f) || f->rule->kind->built_in)) return NULL;
+    return fw_mask_hinge_at(r->layout, vec_scale(0.5, vec_add(f->at[0], f->at[1])));
+}
+
+/* a cell of the description stands at a line of it, and so does the flexure of a hinge at which outlines meet */
 static fw_place place_of(const fw_mask_rules *r, const fw_mask_finding *f) {
     for (int i = 0; r->layout && i < r->layout->ncell; i++)
         for (int side = 0; side < 2; side++)
             if (r->layout->cell[i].label == f->label[side])
                 return r->layout->cell[i].of->layers_place;
-    return (fw_place){0};
+    const fw_layout_hinge_layout *hinge = meets_at(r, f);
+    return hinge ? hinge->place : (fw_place){0};
+}
+
+/* of the first that are told: is one of them at the hinge of f? */
+static bool named_before(const fw_mask_rules *r, const fw_mask_finding *const *told, int ntold,
+                         const fw_mask_finding *f) {
+    const fw_layout_hinge_layout *hinge = meets_at(r, f);
+    for (int i = 0; hinge && i < ntold; i++)
+        if (meets_at(r, told[i]) == hinge) return true;
+    return false;
 }
 
 static fw_status tell(fw_mask_rules *r, const fw_mask_finding *f, fw_diags *diags) {
@@ -347,8 +315,10 @@ fw_status fw_mask_rules_tell(fw_mask_rules *r, fw_diags *diags, int *nbroken) {
     *nbroken = 0;
     tell_crowded(r, diags, nbroken);
     const fw_mask_finding **list =
-        fw_arena_alloc(r->arena, (size_t)r->nfinding, sizeof(const fw_mask_finding *));
+        fw_arena_alloc(r->arena, 2 * (size_t)r->nfinding, sizeof(const fw_mask_finding *));
     FW_NEED(list);
+    const fw_mask_finding **told = list + r->nfinding; /* of all rules */
+    int ntold = 0;
     for (int i = 0; i < r->nrule; i++) {
         const fw_mask_rule *rule = &r->rule[i];
         int n = 0;
@@ -356,9 +326,13 @@ fw_status fw_mask_rules_tell(fw_mask_rules *r, fw_diags *diags, int *nbroken) {
             if (r->finding[k].rule == rule) list[n++] = &r->finding[k];
         if (n) qsort(list, (size_t)n, sizeof *list, by_badness);
         if (rule->severity == FW_ERROR) *nbroken += n;
-        for (int k = 0; k < n && k < MOST_TOLD; k++)
+        const int before = ntold;
+        for (int k = 0; k < n && ntold - before < MOST_TOLD; k++) {
+            if (named_before(r, told, ntold, list[k])) continue;
             FW_TRY(tell(r, list[k], diags));
-        if (n > MOST_TOLD) tell_rest(r, rule, n - MOST_TOLD, diags);
+            told[ntold++] = list[k];
+        }
+        if (n > ntold - before) tell_rest(r, rule, n - (ntold - before), diags);
     }
     return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -5,6 +5,7 @@
 #include "base/constants.h"
 #include "effects/effects.h"
 #include "verdict/advice.h"
+#include "verdict/verdict_parts.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -519,17 +520,6 @@ static const char *left_out(const advice *a) {
     return a->ended ? "the search was ended where it would have taken too long" : "";
 }
 
-/* a joint, a spring or a stop that no drawing has: no change of a number draws it */
-static bool lacks_joint(const fw_verdict *verdict) {
-    for (int i = 0; verdict->layout && i < verdict->layout->nmissing; i++)
-        if (verdict->layout->missing[i].number == 130) return true;
-    return false;
-}
-
-static const char never_drawn[] = "a joint, a spring or a stop that is never drawn is in the "
-                                  "motion, and no change of a number makes "
-                                  "the design accepted with it: draw what does its work";
-
 static fw_status conclude(advice *a, const char *why) {
     fw_verdict *v = a->out;
     fw_arena *arena = a->trial->arena;
@@ -568,10 +558,7 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict) {
     if (verdict->decision == FW_ACCEPT || !options->with_advice || !options->restated.with)
         return FW_OK;
-    if (lacks_joint(verdict)) {
-        verdict->advice_note = never_drawn;
-        return FW_OK;
-    }
+    if (fw_verdict_no_number_helps(verdict, &verdict->advice_note)) return FW_OK;
     fw_verdict_trial trial;
     advice a = {.trial = &trial,
                 .out = verdict,

@@ -253,7 +253,7 @@ size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         FW_REASONS * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
-        9; /* strips; out of reach or badly held, what hinges give, as made, riders, rims; stiction */
+        10; /* strips; out of reach or badly held, what hinges give, as made, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncontact;
     return most;
@@ -281,6 +281,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     const size_t reasons = fw_verdict_reasons_most(device, v->nrequirement);
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
+    FW_TRY(fw_verdict_bent(arena, device, v));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
     FW_TRY(fw_verdict_clearance_begin(arena, options->hinges_only ? NULL : layout, m,

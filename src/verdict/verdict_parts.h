@@ -85,6 +85,10 @@ int fw_verdict_missing_most(const fw_device *device); /* reasons of one flow */
 /* reasons of v */
 fw_status fw_verdict_missing(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              fw_verdict_variant_verdict *v);
+/* a reason of v where flexures are strained in the pose in which masks draw them (FW-D622) */
+fw_status fw_verdict_bent(fw_arena *arena, const fw_device *device, fw_verdict_variant_verdict *v);
+/* the masks contradict the motion: no value of a number, of a load or of a flexure mends that. *why: what does */
+bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 
 /* ---- verdict_requirement.c: what the device is for ---- */
 

@@ -258,8 +258,10 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device, const fw_verd
 
     /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
        less than better hinges, which then may not be needed */
+    const char *vain;
     for (fw_verdict_refinement last = FW_REFINE_NOTHING;
-         verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance;) {
+         verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance &&
+         !fw_verdict_no_number_helps(verdict, &vain);) {
         fw_verdict_refinement refinement = refinement_of(verdict);
         if (!goes_further(refinement, last)) break;
         last = refinement;

@@ -5,7 +5,7 @@ import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { axeSource, close, computed, finish, open, program, serve, source, text, theBrowser, verdict, view } from "./helper.mjs";
+import { axeSource, close, computed, finish, open, program, serve, source, text, theBrowser, verdict, view, SMALL } from "./helper.mjs";
 
 after(finish);
 
@@ -211,4 +211,32 @@ describe("rules and looks", () => {
         assert.ok(existsSync(join(source, "web/package-lock.json")));
         assert.doesNotMatch(readFileSync(join(source, "web/package-lock.json"), "utf8"), /"resolved": "(?!https:\/\/registry\.npmjs\.org\/)/);
     });
+});
+
+describe("accessibility of other pages than the six-bar's", () => {
+    // combs, stops and drives; with all tests also outlines of one's own, and nothing at all
+    for (const device of ["comb-stage", ...(process.env.FW_TEST_ALL ? ["free-form-gripper", null] : [])])
+        test(`no serious finding of axe in any view of ${device ?? "a page without a device"}`, async () => {
+            const server = await serve(device);
+            const page = await open(server, SMALL);
+            try {
+                await page.evaluate(axeSource);
+                const found = [], seen = [];
+                for (const id of ["motion", "draw", "workspace", "modes", "assembly", "masks", "recipe", "explore", "accuracy", "xml"]) {
+                    const tab = page.locator(`#tab-${id}`);
+                    if (!(await tab.count()) || !(await tab.isVisible()) || !(await tab.isEnabled())) continue;
+                    seen.push(id);
+                    await tab.click();
+                    if (device && ["modes", "assembly", "recipe"].includes(id)) await computed(page, id);
+                    const result = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+                    for (const v of result.violations)
+                        if (["serious", "critical"].includes(v.impact)) found.push(`${id}: ${v.id}: ${v.nodes.slice(0, 3).map((n) => `${n.target} ${n.html.slice(0, 150)} ${n.any[0]?.message ?? ""}`).join("; ")}`);
+                }
+                assert.deepEqual(found, []);
+                assert.ok(seen.length >= 4, seen.join());
+            } finally {
+                await close(page);
+                await server.stop();
+            }
+        });
 });

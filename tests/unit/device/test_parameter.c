@@ -173,8 +173,26 @@ static void a_long_chain(void **state) {
     fw_arena_free(arena);
 }
 
+/* of what is declared twice, which has its own error, a list has the name once */
+static void a_list_of_names_has_each_once(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_device *device;
+    const char *xml = DEVICE("<mechanism><body id=\"p\" mass=\"1 mg\" inertia=\"1 mg mm^2\" x=\"0 mm\" y=\"0 mm\"/>"
+                             "<body id=\"pin\" mass=\"1 mg\" inertia=\"1 mg mm^2\" x=\"1 mm\" y=\"0 mm\"/>"
+                             "<body id=\"p\" mass=\"1 mg\" inertia=\"1 mg mm^2\" x=\"2 mm\" y=\"0 mm\"/>"
+                             "<revolute id=\"A\" a=\"ground\" b=\"q\"/></mechanism>");
+    assert_int_equal(fw_device_read(arena, "t.xml", xml, strlen(xml), NULL, 0, &diags, &device), FW_INPUT);
+    assert_int_equal(diags.item[diags.count - 1].number, 46);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "declared are: p pin"));
+    assert_null(strstr(diags.item[diags.count - 1].message, "p pin p"));
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_list_of_names_has_each_once),
         cmocka_unit_test(order_does_not_matter),
         cmocka_unit_test(set_replaces_parameters),
         cmocka_unit_test(set_replaces_attributes),

@@ -73,8 +73,45 @@ static void a_place_of_no_hinge_names_none(void **state) {
     scene_free(s);
 }
 
+/* Two bars in one fork at one hinge: one mistake, told once, at the line of its flexure, and with its gap; the
+   other is counted. The bar far away is another one, told by itself and of no line. */
+static void a_hinge_without_room_is_told_once(void **state) {
+    (void)state;
+    scene *s = scene_new(0, 0);
+    fw_layout_hinge_layout hinge[2] = {
+        {.drawn = true, .id = "A", .centre = {-900 * UM, 0}, .keep_out_m = 60 * UM},
+        {.drawn = true,
+         .id = "knee",
+         .place = {"d.xml", 26, 3},
+         .gap_m = 0.1 * UM,
+         .centre = {500 * UM, 0},
+         .keep_out_m = 60 * UM}};
+    s->layout.hinge = hinge;
+    break_overlap(s, 500, 1);
+    const double more[4][2] = {{490, -12}, {510, -12}, {510, -8}, {490, -8}};
+    scene_add(s, FW_ROLE_STRUCTURE, "second bar", polygon(s->arena, more, 4));
+    fork(s, 3000, 12, 1);
+    const double far[4][2] = {{2990, 0}, {3010, 0}, {3010, 4}, {2990, 4}};
+    scene_add(s, FW_ROLE_STRUCTURE, "far bar", polygon(s->arena, far, 4));
+    const fw_mask *mask = NULL;
+    assert_int_equal(scene_build(s, &mask), FW_INPUT);
+    int at_knee = 0, elsewhere = 0;
+    for (size_t i = 0; i < s->diags.count; i++) {
+        const fw_diag *d = &s->diags.item[i];
+        if (d->number != 152) continue;
+        at_knee += d->place.line == 26;
+        elsewhere += d->place.line == 0;
+        if (d->place.line == 26) assert_says(d->message, "a wider gap than its 0.1 um");
+    }
+    assert_int_equal(at_knee, 1);
+    assert_true(elsewhere >= 1);
+    assert_says(scene_first(s, 159), "more place(s)");
+    scene_free(s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_hinge_and_its_axis_are_named),
-                                       cmocka_unit_test(a_place_of_no_hinge_names_none)};
+                                       cmocka_unit_test(a_place_of_no_hinge_names_none),
+                                       cmocka_unit_test(a_hinge_without_room_is_told_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

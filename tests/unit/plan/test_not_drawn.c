@@ -50,6 +50,36 @@ static void a_drawn_drive_is_accepted(void **unused) {
     fw_plan_free(plan);
 }
 
+/* A coupler that is drawn tilted, its flexures' free-angle left out: it was run as one that is let go from a bent
+   pose, with 24 mN in flexures that are made at rest, and bands from 0 to 3467 %. */
+static const char tilted[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"silicon-100\" thickness=\"50 um\"/>"
+    "<flow ref=\"al-masked-rie\" carrier=\"insulating\"/><flexure id=\"f\" kind=\"leaf\" length=\"321 um\" "
+    "width=\"6.6 um\" gap=\"10 um\"/><mechanism><body id=\"l\" x=\"0 mm\" y=\"0.6 mm\" width=\"120 um\"/><body "
+    "id=\"c\" x=\"0.8 mm\" y=\"1.3 mm\" phi=\"7.125016 deg\" width=\"140 um\"/><body id=\"r\" x=\"1.6 mm\" "
+    "y=\"0.7 mm\" width=\"120 um\"/><revolute id=\"A\" a=\"ground\" b=\"l\" b-y=\"-0.6 mm\" hinge=\"f\"/>"
+    "<revolute id=\"B\" a=\"l\" a-y=\"0.6 mm\" b=\"c\" b-x=\"-0.8062258 mm\" free-angle=\"%s\" hinge=\"f\"/>"
+    "<revolute id=\"C\" a=\"c\" a-x=\"0.8062258 mm\" b=\"r\" b-y=\"0.7 mm\" free-angle=\"-7.125016 deg\" "
+    "hinge=\"f\"/><revolute id=\"D\" a=\"r\" a-y=\"-0.7 mm\" b=\"ground\" b-x=\"1.6 mm\" hinge=\"f\"/>"
+    "</mechanism><scene name=\"s\" duration=\"1 ms\"><force on=\"c\" fx=\"5 uN\" fy=\"0 N\"/><material-damping "
+    "loss-factor=\"0.1\"/></scene></device>";
+
+static void a_flexure_is_at_rest_where_it_is_drawn(void **unused) {
+    (void)unused;
+    fw_plan *plan = of_text(tilted, "7.125016 deg", true);
+    assert_int_equal(plan->verdict.decision, FW_ACCEPT);
+    fw_plan_free(plan);
+    plan = of_text(tilted, "0 deg", true);
+    assert_int_equal(plan->verdict.drawn, FW_INCONCLUSIVE);
+    const fw_verdict_reason *why = &plan->verdict.variant[0].reason[0];
+    assert_int_equal(why->number, 622);
+    assert_non_null(strstr(why->text, "hinge B by 7.125 deg (free-angle=\"7.125016 deg\", line 1)"));
+    assert_null(strstr(why->text, "hinge C"));
+    assert_int_equal(plan->verdict.nproposal, 0);
+    assert_non_null(strstr(plan->verdict.advice_note, "free-angle"));
+    fw_plan_free(plan);
+}
+
 /* a word that stands again at the head of the next one: "link link-2"; none in what is written for a comb
    drive and a body that are called what they are */
 static void no_kind_stands_before_an_id_that_begins_with_it(void **unused) {
@@ -268,6 +298,7 @@ static void loads_from_outside_stay(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_drawn_drive_is_accepted),
+        cmocka_unit_test(a_flexure_is_at_rest_where_it_is_drawn),
         cmocka_unit_test(a_drive_without_room_is_rejected),
         cmocka_unit_test(no_kind_stands_before_an_id_that_begins_with_it),
         cmocka_unit_test(advice_finds_room),
