@@ -295,8 +295,9 @@ def compare(seeds):
 class FrictionRange(unittest.TestCase):
     def test_random_devices(self):
         """what is told covers what is true, in every coordinate of every device, and is no more than it needs to be"""
-        found, other = compare(range(200 if ALL else 56))
-        self.assertGreaterEqual(len(found), 40, other)
+        devices = 200 if ALL else 14
+        found, other = compare(range(devices))
+        self.assertGreaterEqual(len(found), 0.8 * devices, other)
         for seed, kind, miss, width in found:
             self.assertLess(miss, 1e-6, (seed, kind, miss, width))
         self.assertLess(np.median([w for *_, w in found]), 1.1)

@@ -35,9 +35,10 @@ LONE = re.compile(r"[\s+-]*[0-9.,e-]+\s*[^\s+*/(),^-]*\s*$")  # "^" is an operat
 PRODUCT = re.compile(r"[0-9]\s*([A-Za-z1]+\^?-?\d*)(\s+|\s*[/*.]\s*)[A-Za-z]")
 # refused for the form: no unit, another dimension, an unknown unit, a comma, an empty value
 FORM = {20, 21, 24, 25, 33}
-NOT_FORM = {  # ... but where only the program knows what is wanted: laws in time, joints that turn or slide, settings
+NOT_FORM = {  # ... but where only the program knows what is wanted: laws in time, joints that turn or slide, settings, bounds of a parameter
     "driver-dimension-of-slider", "driver-dimension", "law-factor-dimension", "law-table-dimension", "set-wrong-dimension", "driver-without-unit",
-    "law-table-unit", "set-wrong-unit", "unit-in-chain"}
+    "law-table-unit", "set-wrong-unit", "unit-in-chain",
+    "parameter-value-of-another-kind"}
 
 
 def valid(files):
