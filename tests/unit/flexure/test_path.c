@@ -329,6 +329,16 @@ static void errors_are_stated(void **state) {
     assert_true(b.error.stiffness > 0.5 * a.error.stiffness);
     assert_true(b.error.stiffness < 2 * a.error.stiffness);
     assert_true(b.error.kx > 1.9 * a.error.kx && b.error.kx < 2.5 * a.error.kx);
+
+    /* between the roots of isotropic paths solids bear so much more than is said (tools/solids/between --isotropic) */
+    const double found[][2] = {{3, 0.05}, {5, 0.035}, {6, 0.02}, {8, 0.006}}; /* radius over width, share */
+    for (size_t i = 0; i < sizeof found / sizeof found[0]; i++) {
+        const fw_geometry_strip_piece s_bend[] = {bent(found[i][0] * 8e-6, 2, 8e-6), bent(found[i][0] * 8e-6, -2, 8e-6)};
+        other = made_of(s_bend, 2);
+        other.depth_m = 50e-6;
+        fw_flexure_closed_form(&other, &b);
+        assert_true(b.error.above > found[i][1] && b.error.above < found[i][1] + 0.035);
+    }
 }
 
 int main(void) {
