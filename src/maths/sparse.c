@@ -66,24 +66,28 @@ struct fw_maths_sparse {
 
 /* ---- memory ---- */
 
+/* for `add` items beside `count`: at, or a copy in twice the room; NULL: there is no memory */
+static void *with_room(fw_maths_sparse *s, void *at, size_t count, size_t *room, size_t add,
+                       size_t size) {
+    if (count + add <= *room) return at;
+    void *to = fw_arena_grow(s->arena, at, count, 2 * (count + add), size);
+    if (to)
+        *room = 2 * (count + add);
+    else
+        s->short_of_memory = true;
+    return to;
+}
+
 static bool more(fw_maths_sparse *s, growing *g, size_t add) {
-    if (g->count + add <= g->room) return true;
-    size_t room = 2 * (g->count + add);
-    double *to = fw_arena_raw(s->arena, room * sizeof *to);
-    if (!to) return !(s->short_of_memory = true);
-    if (g->count) memcpy(to, g->at, g->count * sizeof *to);
-    g->at = to, g->room = room;
-    return true;
+    double *to = with_room(s, g->at, g->count, &g->room, add, sizeof *to);
+    if (to) g->at = to;
+    return to || add == 0;
 }
 
 static bool more_ints(fw_maths_sparse *s, growing_ints *g, size_t add) {
-    if (g->count + add <= g->room) return true;
-    size_t room = 2 * (g->count + add);
-    int *to = fw_arena_raw(s->arena, room * sizeof *to);
-    if (!to) return !(s->short_of_memory = true);
-    if (g->count) memcpy(to, g->at, g->count * sizeof *to);
-    g->at = to, g->room = room;
-    return true;
+    int *to = with_room(s, g->at, g->count, &g->room, add, sizeof *to);
+    if (to) g->at = to;
+    return to || add == 0;
 }
 
 /* ---- a new one ---- */

@@ -84,7 +84,7 @@ typedef struct pool {
     bool changed;
     fw_status status; /* the first that ends the study */
     long done;
-    struct timespec begun;
+    double begun_s;
 } pool;
 
 static slot *find(pool *p, slot_state state) {
@@ -119,13 +119,9 @@ static void *worker(void *argument) {
 /* ---- the calling thread ---- */
 
 static void tell(pool *p) {
-    struct timespec now;
     const fw_study_options *o = &p->study->options;
-    if (!o->progress) return;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    o->progress(o->progress_context, p->done, p->work->n,
-                (double)(now.tv_sec - p->begun.tv_sec) +
-                    1e-9 * (double)(now.tv_nsec - p->begun.tv_nsec));
+    if (o->progress)
+        o->progress(o->progress_context, p->done, p->work->n, fw_study_now_s() - p->begun_s);
 }
 
 static void end_with(pool *p, fw_status status) {
@@ -284,7 +280,7 @@ fw_status fw_study_pool_run(fw_study *study, const fw_study_work *work) {
     if (jobs > work->n) jobs = work->n > 0 ? (int)work->n : 1;
     pool p = {.study = study, .work = work, .scratch = fw_arena_part(study->arena, 0)};
     FW_NEED(p.scratch);
-    clock_gettime(CLOCK_MONOTONIC, &p.begun);
+    p.begun_s = fw_study_now_s();
     fw_status status = run_work(&p, jobs);
     fw_arena_free(p.scratch);
     return status;

@@ -419,7 +419,7 @@ static fw_status ask_box(const fw_verdict_search *s, const box *b, int most_look
         for (int i = 0; i < s->v->ninput; i++)
             x[i] = fmin(fmax(fabricated->corner[c].x[i], b->low[i]), b->high[i]);
         FW_TRY(ask_point(s, x, fabricated->corner[c].sign, most_looks, &a));
-        if (a != ACCEPTED) *out = a == REFUSED || *out == REFUSED ? REFUSED : UNDECIDED;
+        if (a != ACCEPTED) *out = a; /* a refusal ends it */
     }
     return FW_OK;
 }
@@ -508,8 +508,8 @@ static fw_status hold_one(fw_verdict_search *s, int i, bool low_is_bad, bool *do
     answer a;
     FW_TRY(ask_box(s, &end, 0, &a));
     *done = a == ACCEPTED;
-    if (*done) FW_TRY(narrow(s, by, bad, &good));
     if (!*done) return FW_OK;
+    FW_TRY(narrow(s, by, bad, &good));
     good = rounded(good, in->high - in->low, low_is_bad);
     s->fabricated->held = i;
     s->fabricated->held_low = low_is_bad ? fmin(good, in->high) : in->low;
