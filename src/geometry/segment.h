@@ -204,6 +204,11 @@ static inline bool fw_box_apart(const fw_geometry_box *p, const fw_geometry_box 
     return p->x0 - q->x1 >= least || q->x0 - p->x1 >= least || p->y0 - q->y1 >= least ||
            q->y0 - p->y1 >= least;
 }
+/* the same of what is farther than `most`: fw_box_gap(p, q) > most, with a root for boxes at corners of each other alone */
+static inline bool fw_box_beyond(const fw_geometry_box *p, const fw_geometry_box *q, double most) {
+    return p->x0 - q->x1 > most || q->x0 - p->x1 > most || p->y0 - q->y1 > most ||
+           q->y0 - p->y1 > most || fw_box_gap(*p, *q) > most;
+}
 static inline fw_geometry_box fw_box_join(fw_geometry_box p, fw_geometry_box q) {
     return (fw_geometry_box){fw_lesser(p.x0, q.x0), fw_lesser(p.y0, q.y0), fw_greater(p.x1, q.x1),
                              fw_greater(p.y1, q.y1)};
