@@ -336,6 +336,7 @@ typedef struct fw_mask_format { /* a row of formats.def */
     bool always, usual; /* whatever is asked for; when nothing is asked for */
     bool beside;        /* goes with GDSII and need not be named */
     bool picture;       /* to look at: the order sheet does not name it */
+    bool solid; /* of the etched device: no plate is written from it, and no order names it */
 } fw_mask_format;
 const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row */
 /* bit i for row i. list: names with commas between, "all", or NULL for the usual ones; false: a
