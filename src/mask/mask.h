@@ -140,8 +140,10 @@ typedef struct fw_mask_measure { /* per layer */
     fw_geometry_vec2 width_at[2], space_at[2];        /* ends of these chords */
     double shortest_edge_m, sharpest_rad;             /* of the polygons; INFINITY without any */
     double sharpest_material_rad, sharpest_space_rad; /* its two sides */
-    double edge_m;       /* farthest that an edge of a polygon is from its outline, at most */
-    int straight;        /* vertices exactly between their neighbours */
+    bool
+        unfinished; /* too many edges are near each other (FW-D592): findings and least distances are of the first of them */
+    double edge_m;  /* farthest that an edge of a polygon is from its outline, at most */
+    int straight;   /* vertices exactly between their neighbours */
     fw_geometry_box box; /* of the polygons, on the grid; x0 > x1 without any */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6

@@ -175,6 +175,7 @@ static void layer(fw_json *json, const fw_mask_layer *y, const fw_mask_measure *
     fw_json_number(json, "perimeter_um", m->perimeter_m * 1e6, 12);
     fw_json_number(json, "min_width_um", m->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", m->space_m * 1e6, 9);
+    if (m->unfinished) fw_json_truth(json, "unfinished", true);
     fw_json_line(json, 5);
     fw_json_number(json, "rule_width_um", y->min_width_m * 1e6, 9);
     fw_json_number(json, "rule_space_um", y->min_space_m * 1e6, 9);
