@@ -386,6 +386,7 @@ typedef struct fw_mask_order {
     int mirror;        /* 1: seen with the chrome up the plate is the data's mirror image; 0: not;
                           -1: the table's reading does not say */
     double width_m, space_m;  /* least ones on the plate's layers; INFINITY: none below 100 um */
+    bool unfinished;          /* a layer's search for them ended before its end (FW-D592) */
     bool *plate;              /* (nlayer of the table): is it on the plate? */
     fw_mask_order_site *site; /* (nsite) */
     int nsite;
@@ -417,8 +418,9 @@ void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_tab
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */
 void fw_mask_order_set_lines(fw_text *out, const fw_mask_table *table, const fw_mask_order *order);
-void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask,
-                              int plate);
+/* unfinished: the search for these two ended before its end */
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, bool unfinished,
+                              const fw_mask *mask, int plate);
 /* by how much its first layer is drawn outside of what is wanted */
 double fw_mask_plate_bias_m(const fw_mask *mask, int plate);
 void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box);
