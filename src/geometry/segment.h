@@ -122,6 +122,10 @@ static inline bool fw_geometry_is_near(const fw_geometry_near *n, fw_geometry_ve
     }
     return fw_geometry_segment_nearest(s, at, NULL, NULL) <= n->reach;
 }
+/* sets row[i], of bytes 0 and 1, for first <= i <= last where (from_x + (i + 0.5) step, y) is near; of a line along x,
+   whose carrier is as far from all of them, those between its ends at once. Test: test_segment.c */
+void fw_geometry_near_row(const fw_geometry_near *n, double from_x, double step, double y,
+                          int first, int last, unsigned char *row);
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
 bool fw_geometry_segment_faces(const fw_geometry_segment *arc, fw_geometry_vec2 direction,
                                double *t);
