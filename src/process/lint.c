@@ -189,6 +189,8 @@ static const struct {
     {"is what is plated or bonded cleaned shortly before?", fw_process_lint_fresh, false},
     {"does no rework bring a layer into a bath that attacks it?", fw_process_lint_reworked, false},
     {"is a layer accepted that is as thick as it is meant?", fw_process_lint_accepted, true},
+    {"is nothing dissolved below a film that stays?", fw_process_lint_undermined, false},
+    {"is what is measured there, and what a step is timed for?", fw_process_lint_measured, false},
     {"is what lifts off thinner than its resist?", fw_process_lint_lifted, true},
     {"is what a step requires of the wafer true of the wafer that comes?", fw_process_lint_required,
      false},

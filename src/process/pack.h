@@ -110,7 +110,8 @@ fw_status fw_process_lint_hands(fw_process_pack *pack);
 fw_status fw_process_lint_longest(fw_process_pack *pack);
 fw_status fw_process_lint_lags(fw_process_pack *pack);
 fw_status fw_process_lint_rinses(fw_process_pack *pack);
-fw_status fw_process_lint_aired(fw_process_pack *pack); /* wafer_state.c (FW-D618) */
+fw_status fw_process_lint_aired(fw_process_pack *pack);      /* wafer_state.c (FW-D618) */
+fw_status fw_process_lint_undermined(fw_process_pack *pack); /* wafer_state.c (FW-D634) */
 fw_status fw_process_lint_critical(fw_process_pack *pack);
 fw_status fw_process_lint_lifted(fw_process_pack *pack);
 fw_status fw_process_lint_baths(fw_process_pack *pack);
@@ -131,7 +132,7 @@ fw_status fw_process_lint_through(fw_process_pack *pack);
 /* numbers, plate, tool and bath of its own: lint_inputs.c (FW-D373, FW-D559, FW-D561, FW-D606, FW-D608, FW-D609) */
 fw_status fw_process_lint_inputs(fw_process_pack *pack);
 fw_status fw_process_lint_places(fw_process_pack *pack);
-fw_status fw_process_lint_wanted(fw_process_pack *pack); /* FW-D588, FW-D593, FW-D628 */
+fw_status fw_process_lint_wanted(fw_process_pack *pack); /* FW-D588, FW-D593, FW-D628, FW-D633 */
 fw_status fw_process_lint_carried(fw_process_pack *pack);
 fw_status fw_process_lint_plates(fw_process_pack *pack);
 fw_status fw_process_lint_shrink(fw_process_pack *pack);
@@ -140,6 +141,7 @@ fw_status fw_process_lint_overlay(fw_process_pack *pack);
 fw_status fw_process_lint_fresh(fw_process_pack *pack);
 fw_status fw_process_lint_reworked(fw_process_pack *pack);
 fw_status fw_process_lint_accepted(fw_process_pack *pack);
+fw_status fw_process_lint_measured(fw_process_pack *pack); /* measurable.c (FW-D623, FW-D624) */
 /* hazards of what a step uses up (FW-D374) */
 fw_status fw_process_lint_uses(fw_process_pack *pack);
 /* after fw_process_flow_judge: does the flow reach every die of the wafer? */
