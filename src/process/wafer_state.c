@@ -7,7 +7,6 @@
      vacuum    after a tool that is pumped, without <finish kind="vent">
      seasoned  from what prepares a pumped chamber (op="mount") to the first step in it
    A resist that is taken off ends its states. Cost: steps times states. Test: test_wafer_state.c. */
-#include "process/films.h"
 #include "process/pack.h"
 #include <string.h>
 
@@ -325,55 +324,6 @@ fw_status fw_process_flow_waits(fw_arena *arena, fw_process_flow *flow) {
                 to++;
             if (to < flow->nstep)
                 FW_TRY(add_wait(arena, flow, &after[i], (fw_process_state)state, i, to));
-        }
-    return FW_OK;
-}
-
-/* ---- what lies on what is dissolved ----
-   A film over the field that loses what is below it hangs on nothing: it breaks, and settles on the devices. Of the
-   device's own layer that is its release. Test: test_measured.c. */
-
-/* what lies on `material` in a column; NULL: it is not there, or nothing does. What came on at the back is below all. */
-static const char *lies_on(const fw_process_stack *stack, int column, const char *material) {
-    const fw_process_cell *cell = stack->cell[column];
-    for (int i = 0; i + 1 < stack->n[column]; i++)
-        if (!cell[i].back && strcmp(cell[i].material, material) == 0 &&
-            strcmp(cell[i + 1].material, material) != 0)
-            return cell[i + 1].material;
-    return NULL;
-}
-
-/* the film of the field that loses `material` below it and stays; NULL: none does, or it is held at the rim of a window,
-   beyond which the material still lies below it */
-static const char *undermined(const fw_process_flow *f, const fw_process_stack *before,
-                              const fw_process_stack *after, const char *material) {
-    const char *film = NULL;
-    for (int column = 0; column < before->columns; column++) {
-        const char *above = lies_on(before, column, material);
-        if (above && lies_on(after, column, material)) return NULL;
-        if (above && fw_process_where_holds(f, "field", column) &&
-            !(f->material && strcmp(above, f->material) == 0) &&
-            fw_process_stack_holds(after, column, above))
-            film = above;
-    }
-    return film;
-}
-
-fw_status fw_process_lint_undermined(fw_process_pack *pack) {
-    const fw_process_flow *f = pack->flow;
-    for (int i = 1; i < f->nstep; i++)
-        for (int k = 0; k < f->step[i].nchange; k++) {
-            const fw_process_change *c = &f->step[i].change[k];
-            fw_process_stack before, after;
-            if (strcmp(c->kind, "remove") != 0) continue;
-            FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &before, NULL));
-            FW_TRY(fw_process_flow_stack(pack->arena, f, i, &after, NULL));
-            const char *above = undermined(f, &before, &after, c->material);
-            if (above)
-                fw_diag_error(pack->diags, 634, c->place,
-                              "step %s dissolves '%s' below '%s', which stays in the field and "
-                              "lies on nothing then: it comes off in flakes; take '%s' off before",
-                              f->step[i].id, c->material, above, above);
         }
     return FW_OK;
 }
