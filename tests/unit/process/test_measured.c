@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a step measures, is timed for, parts or dissolves below must be so, by the films on the wafer alone: the packs without a
-   single <requires>, and steps of them at wrong places. */
+   single <requires>, and steps of them at wrong places. And a bath that is not of our packs. */
 #include "pack_fixture.h"
 
 static const char *step_text(const char *text, const char *id) {
@@ -119,12 +119,41 @@ static void parted_and_undermined(void **state) {
            634, FW_ERROR, "dissolves 'silicon-substrate' below 'buried-oxide'");
 }
 
+/* the copper's plating step in a bath of gold cyanide, as a laboratory would write it in a pack of its own */
+static const char *gold_bath(const char *attributes, const char *first_aid) {
+    static const char first[] = "  <equipment id=\"bench\"";
+    size_t n = 0;
+    const char *text = pack_text(arena, COPPER, &n), *step = step_text(text, "C22");
+    const char *hazard = fw_arena_printf(arena,
+                                         "  <hazard id=\"h.gold\" name=\"gold cyanide\" ghs=\"GHS06\" wets=\"yes\" %s>\n"
+                                         "    <ppe>x</ppe><firstaid>%s</firstaid><waste stream=\"cyanide\">x</waste>\n  </hazard>\n",
+                                         attributes, first_aid);
+    const char *gold = in_place(step, "<hazard-ref ref=\"h.copper-acid\"/>", "<hazard-ref ref=\"h.gold\"/>");
+    return in_place(in_place(text, step, gold), first, fw_arena_printf(arena, "%s%s", hazard, first));
+}
+
+static void other_chemistry(void **state) {
+    (void)state;
+    static const char cyanide[] = "reacts-as=\"base cyanide\" buddy=\"yes\"", aid[] = "say cyanide";
+    const char *fine = gold_bath(cyanide, aid), *step = step_text(fine, "C20");
+    assert_null(said(COPPER, fine, 635, ""));
+    judged(COPPER, gold_bath("reacts-as=\"base cyanide\"", aid), 635, FW_ERROR, "hazard 'h.gold' is a cyanide");
+    judged(COPPER, gold_bath(cyanide, "fresh air"), 635, FW_ERROR, "say \"cyanide\"");
+    assert_null(said(COPPER, gold_bath("reacts-as=\"base\"", "x"), 635, "")); /* a sulfite */
+    const char *wet = without(without(step, "<finish kind=\"rinse\""), "<finish kind=\"dry\"");
+    judged(COPPER, in_place(fine, step, wet), 336, FW_ERROR, "hydrogen cyanide is set free");
+    const char *mixed = in_place(fine, "<hazard-ref ref=\"h.gold\"/>", "<hazard-ref ref=\"h.gold\"/><hazard-ref ref=\"h.acid\"/>");
+    judged(COPPER, mixed, 175, FW_ERROR, "step C22 works with h.gold and h.acid");
+    assert_null(said(COPPER, mixed, 175, "steps C22 and C22"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(packs_are_fine, setup, teardown),
         cmocka_unit_test_setup_teardown(measured_too_early, setup, teardown),
         cmocka_unit_test_setup_teardown(measured_too_late, setup, teardown),
         cmocka_unit_test_setup_teardown(parted_and_undermined, setup, teardown),
+        cmocka_unit_test_setup_teardown(other_chemistry, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
