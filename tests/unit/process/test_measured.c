@@ -147,6 +147,15 @@ static void other_chemistry(void **state) {
     assert_null(said(COPPER, mixed, 175, "steps C22 and C22"));
 }
 
+/* a dose of nothing, and one of a thousand times too much, which is its unit mistaken */
+static void doses(void **state) {
+    (void)state;
+    static const char unknown[] = "<q id=\"expose.D\" unknown=\"true\"";
+    judged(SILICON, in_place(bare(SILICON), unknown, "<q id=\"expose.D\" value=\"0\" u=\"1\""), 278, FW_ERROR, "'expose.D' is 0");
+    judged(SILICON, in_place(bare(SILICON), unknown, "<q id=\"expose.D\" value=\"1e5\" u=\"1\""), 278, FW_ERROR, "'expose.D'");
+    assert_null(said(SILICON, in_place(bare(SILICON), unknown, "<q id=\"expose.D\" value=\"150\" u=\"5\""), 278, ""));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(packs_are_fine, setup, teardown),
@@ -154,6 +163,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(measured_too_late, setup, teardown),
         cmocka_unit_test_setup_teardown(parted_and_undermined, setup, teardown),
         cmocka_unit_test_setup_teardown(other_chemistry, setup, teardown),
+        cmocka_unit_test_setup_teardown(doses, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
