@@ -110,16 +110,16 @@ static fw_status lint_order(fw_process_pack *pack) {
     return FW_OK;
 }
 
-/* a step whose own chemicals must not meet */
+/* a step whose own chemicals must not meet; told, since some cleans are baths one after the other in one step */
 static void lint_mixture(fw_process_pack *pack, const fw_process_step *s) {
     for (int i = 0; i < s->nhazard; i++)
         for (int k = 0; k < i; k++) {
             const char *what = fw_process_reaction(s->hazard[k], s->hazard[i]);
             if (what)
-                fw_diag_error(pack->diags, 175, s->place,
-                              "step %s works with %s and %s, which must not meet: %s; make two "
-                              "steps of it, at two benches, with a rinse between them",
-                              s->id, s->hazard[k]->id, s->hazard[i]->id, what);
+                fw_diag_warning(pack->diags, 175, s->place,
+                                "step %s works with %s and %s, which must not meet: %s; make two "
+                                "steps of it, at two benches, with a rinse between them",
+                                s->id, s->hazard[k]->id, s->hazard[i]->id, what);
         }
 }
 
