@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pass of the computed flow: times, edges and judgement for the facts of a mask. What changes it can make the device
    with: process_judge.c. */
-#include "process/judge.h"
 #include "process/pack.h"
 #include "process/process_law.h"
 #include <math.h>

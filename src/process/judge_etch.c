@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "process/judge.h"
+#include "process/pack.h"
 #include "process/films.h"
 #include "process/process_law.h"
 #include <math.h>

@@ -12,7 +12,6 @@
    Theory: docs/theory/release.md. Test: test_judge_release.c. */
 #include "base/text.h"
 #include "process/fixed_point.h"
-#include "process/judge.h"
 #include "process/pack.h"
 #include "process/process_law.h"
 #include <math.h>

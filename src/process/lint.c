@@ -110,10 +110,24 @@ static fw_status lint_order(fw_process_pack *pack) {
     return FW_OK;
 }
 
+/* a step whose own chemicals must not meet; told, since some cleans are baths one after the other in one step */
+static void lint_mixture(fw_process_pack *pack, const fw_process_step *s) {
+    for (int i = 0; i < s->nhazard; i++)
+        for (int k = 0; k < i; k++) {
+            const char *what = fw_process_reaction(s->hazard[k], s->hazard[i]);
+            if (what)
+                fw_diag_warning(pack->diags, 175, s->place,
+                                "step %s works with %s and %s, which must not meet: %s; make two "
+                                "steps of it, at two benches, with a rinse between them",
+                                s->id, s->hazard[k]->id, s->hazard[i]->id, what);
+        }
+}
+
 /* two steps on one bench whose chemicals must not meet; once per pair of hazards */
 static void lint_bench(fw_process_pack *pack, const fw_process_flow *f) {
-    for (int i = 0; i < f->nstep; i++)
-        for (int j = 0; j <= i; j++) {
+    for (int i = 0; i < f->nstep; i++) {
+        lint_mixture(pack, &f->step[i]);
+        for (int j = 0; j < i; j++) {
             const fw_process_step *a = &f->step[j], *b = &f->step[i];
             if (a->equipment != b->equipment) continue;
             for (int s = 0; s < a->nhazard; s++)
@@ -125,6 +139,7 @@ static void lint_bench(fw_process_pack *pack, const fw_process_flow *f) {
                                         a->id, b->id, a->equipment->id, a->hazard[s]->id,
                                         b->hazard[t]->id);
         }
+    }
 }
 
 /* what must not meet must not be collected in one can either */
@@ -189,6 +204,8 @@ static const struct {
     {"is what is plated or bonded cleaned shortly before?", fw_process_lint_fresh, false},
     {"does no rework bring a layer into a bath that attacks it?", fw_process_lint_reworked, false},
     {"is a layer accepted that is as thick as it is meant?", fw_process_lint_accepted, true},
+    {"is nothing dissolved below a film that stays?", fw_process_lint_undermined, false},
+    {"is what is measured there, and what a step is timed for?", fw_process_lint_measured, false},
     {"is what lifts off thinner than its resist?", fw_process_lint_lifted, true},
     {"is what a step requires of the wafer true of the wafer that comes?", fw_process_lint_required,
      false},

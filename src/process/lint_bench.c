@@ -52,6 +52,13 @@ static void lint_acid(fw_process_pack *pack) {
                           "hazard '%s' is hydrofluoric acid that wets wafers, so that somebody "
                           "handles it: state buddy=\"yes\"",
                           h->id);
+        /* an acid drop sets hydrogen cyanide free: who finds somebody must know at once what it was */
+        if (h->wets && fw_words_hold(h->reacts_as, " ", "cyanide") &&
+            (!h->buddy || !strstr(h->first_aid, "cyanide")))
+            fw_diag_error(pack->diags, 635, h->place,
+                          "hazard '%s' is a cyanide: state buddy=\"yes\", and say \"cyanide\" in "
+                          "its first aid",
+                          h->id);
     }
 }
 

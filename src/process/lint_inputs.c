@@ -439,14 +439,47 @@ static void lint_looks(fw_process_pack *pack, const fw_process_step *s) {
 /* a chip is packaged when it is one */
 static void lint_packaged(fw_process_pack *pack, int at) {
     const fw_process_flow *f = pack->flow;
+    const fw_process_step *later = NULL;
     if (!fw_process_step_is_op(&f->step[at], "package") || fw_process_step_is_of_dies(f, at))
         return;
+    for (int i = at + 1; i < f->nstep && !later; i++)
+        if (f->step[i].parts) later = &f->step[i];
+    if (later)
+        fw_diag_error(pack->diags, 552, f->step[at].place,
+                      "step %s packages chips, and the wafer is parted by step %s later; do it "
+                      "after that",
+                      f->step[at].id, later->id);
+    else
+        fw_diag_error(pack->diags, 633, f->step[at].place,
+                      "step %s packages chips, and no step parts the wafer; saw or break it "
+                      "before, in a step that says leaves=\"dies\"",
+                      f->step[at].id);
+}
+
+/* a wafer is sawn while it is one, and what is sawn comes apart */
+static void lint_sawn(fw_process_pack *pack, int at) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[at];
+    if (!fw_process_step_is_op(s, "dice") || s->parts) return;
+    if (fw_process_step_is_of_dies(f, at))
+        fw_diag_error(pack->diags, 633, s->place,
+                      "step %s saws a wafer that a step before it has parted into dies; do it "
+                      "before that, or leave it out",
+                      s->id);
+    else if (!fw_process_step_is_of_dies(f, f->nstep))
+        fw_diag_warning(pack->diags, 633, s->place,
+                        "step %s saws the wafer, and no step leaves dies: say leaves=\"dies\" "
+                        "where it goes all the way through, or break it in a step behind it",
+                        s->id);
     for (int i = at + 1; i < f->nstep; i++)
-        if (f->step[i].parts)
-            fw_diag_error(pack->diags, 552, f->step[at].place,
-                          "step %s packages chips, and the wafer is parted by step %s later; do it "
-                          "after that",
-                          f->step[at].id, f->step[i].id);
+        if (fw_process_step_is_op(&f->step[i], "coat")) {
+            fw_diag_warning(
+                pack->diags, 633, s->place,
+                "step %s saws the wafer, and step %s spins over the cuts later: nothing "
+                "covers them; saw behind the last coat",
+                s->id, f->step[i].id);
+            return;
+        }
 }
 
 /* cooler than this a bake does not what it is for */
@@ -544,6 +577,7 @@ fw_status fw_process_lint_wanted(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         lint_looks(pack, &pack->flow->step[i]);
         lint_packaged(pack, i);
+        lint_sawn(pack, i);
         lint_cool(pack, i, &now);
         FW_TRY(lint_covers(pack, i));
         fw_process_wafer_pass(pack->flow, i, &now);

@@ -454,7 +454,7 @@ static fw_status some_accepted(fw_process_pack *pack, int at, const fw_process_a
         if (isnan(*meant)) *meant = c->thickness->value;
     }
     *some = *some || unknown;
-    for (int i = 0; i < pack->flow->nstep && !adds; i++) /* a wafer that is bonded on later, too */
+    for (int i = at + 1; i < pack->flow->nstep && !adds; i++) /* a wafer that is bonded on later */
         for (int k = 0; k < pack->flow->step[i].nchange; k++) {
             const fw_process_change *c = &pack->flow->step[i].change[k];
             const bool known = c->thickness && !c->thickness->unknown;

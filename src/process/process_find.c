@@ -2,7 +2,6 @@
 /* What stands in packs, flows and steps, by its name; also where a text names it. And the reasons of a judgement, which all
    that judge a flow add to. */
 #include "base/text.h"
-#include "process/judge.h"
 #include "process/pack.h"
 #include <math.h>
 #include <stdarg.h>

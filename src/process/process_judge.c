@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Can the flow make the device? What it can print and plate, and the nearest change where it cannot. */
-#include "process/judge.h"
 #include "process/pack.h"
 #include <math.h>
 #include <string.h>

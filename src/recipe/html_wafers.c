@@ -4,6 +4,7 @@
 #include "recipe/recipe_words.h"
 #include "base/constants.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Wafers side by side that still hold five sites that one can write into; cells of a line for each wafer, wide ones and
@@ -174,13 +175,16 @@ static void wafer_lines(const fw_process_step *s, int wafers, bool of_dies, fw_t
     fw_text_add(out, "</tbody></table>\n");
 }
 
-static void one_line(const fw_process_step *s, bool of_dies, fw_text *out) {
+/* all_wafers: how many the step is done for at once; 0: not said */
+static void one_line(const fw_process_step *s, bool of_dies, int all_wafers, fw_text *out) {
+    char of[24] = "";
+    if (all_wafers > 1 && !of_dies) snprintf(of, sizeof of, " (of %d)", all_wafers);
     fw_text_printf(out,
                    "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool</td><td>Bath or "
-                   "bottle lot</td><td>%s</td><td>%s in, out</td><td>Scrapped, on hold</td>"
+                   "bottle lot</td><td>%s</td><td>%s in, out%s</td><td>Scrapped, on hold</td>"
                    "<td>Deviation no.</td></tr></table>\n",
                    s->second_signature ? "Initials; <b>second signature</b>" : "Initials",
-                   of_dies ? "Dies" : "Wafers");
+                   of_dies ? "Dies" : "Wafers", of);
 }
 
 void fw_recipe_html_wafers(const fw_process_step *s, bool of_dies, const fw_recipe_header *header,
@@ -193,7 +197,7 @@ void fw_recipe_html_wafers(const fw_process_step *s, bool of_dies, const fw_reci
     for (int first = 0; first < wafers && !lines; first += WAFERS_ABREAST)
         some_wafers(s, first, wafers - first < WAFERS_ABREAST ? wafers - first : WAFERS_ABREAST,
                     lot, wafers == 1, of_dies, out);
-    if (wafers == 1) one_line(s, of_dies, out);
+    if (wafers == 1) one_line(s, of_dies, fw_recipe_wafers(header), out);
 }
 
 /* " of 6": how many the plan begins with, so that whoever counts sees at once what is missing; dies of all its wafers, where not
@@ -339,7 +343,20 @@ void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out) {
 
 /* ---- the lot ---- */
 
-void fw_recipe_html_deviations(fw_text *out) {
+/* who has the wafers at the end has dies, chips, or wafers that somebody must still part */
+static void closed(const fw_process_flow *flow, const fw_recipe_header *header, fw_text *out) {
+    const int wafers = fw_recipe_wafers(header);
+    fw_text_printf(out,
+                   "</tbody></table>\n<p>Lot closed: wafers finished ______ of %d, scrapped ______"
+                   "&ensp; by ____________ date ____________</p>\n",
+                   wafers);
+    if (!fw_process_step_is_of_dies(flow, flow->nstep))
+        fw_text_printf(out, "<p>The flow ends with %s: no step of it parts %s into dies.</p>\n",
+                       wafers > 1 ? "whole wafers" : "a whole wafer", wafers > 1 ? "them" : "it");
+}
+
+void fw_recipe_html_deviations(const fw_process_flow *flow, const fw_recipe_header *header,
+                               fw_text *out) {
     fw_text_add(out,
                 "<h3>Deviations, and what became of the lot</h3>\n<table class=\"small blank\">"
                 "<thead><tr><th style=\"width:6%\">No.</th><th style=\"width:10%\">Step</th>"
@@ -347,8 +364,7 @@ void fw_recipe_html_deviations(fw_text *out) {
                 "<th style=\"width:20%\">Decided by, date</th></tr></thead><tbody>\n");
     for (int i = 1; i <= 6; i++)
         fw_text_printf(out, "<tr><td>%d</td><td></td><td></td><td></td><td></td></tr>\n", i);
-    fw_text_add(out, "</tbody></table>\n<p>Lot closed: wafers finished ______ scrapped ______"
-                     "&ensp; by ____________ date ____________</p>\n");
+    closed(flow, header, out);
 }
 
 /* ---- of the first page: what is bought, and where on it things lie ---- */

@@ -501,7 +501,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     }
     left_out_note(flow, "", out);
     FW_TRY(tethers(header, out));
-    fw_recipe_html_deviations(out);
+    fw_recipe_html_deviations(flow, header, out);
     sources(flow, number, out);
     fw_text_add(out, "</body>\n</html>\n");
     return fw_text_end(out);

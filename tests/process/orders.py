@@ -111,6 +111,8 @@ FINE_ELSEWHERE = {
     "C03": "a bath may be mixed before the wafer comes in",
     "D01": "what comes in may be measured after it was cleaned",
     "D11": "the cut may be measured after the release",
+    "B11": "a microscope sees the cut through the resist of the front as well, and after it",
+    "B21": "the windows may be looked at when the device is free as well",
     "G16": "two looks at two wafers",
     "G17": "the second wafer may come in at any time before it is cleaned",
     "G40": "the aluminium may be measured before the glass is sawn",

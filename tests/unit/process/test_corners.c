@@ -3,7 +3,7 @@
 #include "pack_fixture.h"
 #include "process/calibrate.h"
 #include "process/process.h"
-#include "process/judge.h"
+#include "process/pack.h"
 #include <math.h>
 
 static fw_mechanism_variant variant_of(double thickness_m, double youngs_u) {

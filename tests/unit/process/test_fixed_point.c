@@ -3,7 +3,7 @@
 #include "pack_fixture.h"
 #include "process/process_law.h"
 #include "process/process.h"
-#include "process/judge.h"
+#include "process/pack.h"
 
 static fw_process_flow *flow_of(const char *name) {
     fw_process_flow *f = read_pack(arena, name, NULL, NULL, &diags);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reference: closed form and quadrature of an independent computation. */
-#include "process/judge.h"
+#include "process/pack.h"
 #include "test.h"
 
 static double stiffness(double A, double width, double time, double w0) {
