@@ -313,13 +313,19 @@ class Device:
         """Elements and attributes of descriptions, methods, effects: for forms and editors."""
         return json.loads(self._any.document("table_json"))
 
-    def _repr_svg_(self) -> str:
-        """The drawing, its hinges coloured by utilisation; where that cannot be judged, as it is
-        assembled."""
+    @functools.cached_property
+    def _drawing(self) -> str:
+        """Its hinges coloured by utilisation; where that cannot be judged, as it is assembled."""
         try:
             return self.check(advice="none", corners="none").svg
         except FlexwrightError:
             return self.assemble().svg
+
+    def _repr_svg_(self) -> str:
+        return results.element_of(self._drawing)
+
+    def _repr_html_(self) -> str:
+        return results.picture_of(self._drawing)
 
 
 def _again(text: bytes, file: str, directory: Optional[str], attributes: Mapping[str, Value],

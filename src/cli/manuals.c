@@ -78,6 +78,27 @@ static void environment(fw_text *out) {
                 "FORCE_COLOR\nas usual\n");
 }
 
+/* a first hour, and where the rest is told: a reader of this page may have nothing else yet */
+static void beginning(fw_text *out) {
+    fw_text_add(out, ".SH EXAMPLES\n.EX\n");
+    put(out, "flexwright init my-device > device.xml      # a small six-bar with comments\n"
+             "flexwright check device.xml                 # the verdict\n"
+             "flexwright check device.xml --set t=\"12 um\"\n"
+             "flexwright plan device.xml -o out           # out/report.html, masks, recipes\n"
+             "flexwright serve device.xml                 # the same on a page, moving\n"
+             "flexwright explain FW-D204                  # the long text of a message\n");
+    fw_text_add(out, ".EE\n.SH FILES\nBelow the prefix of the installation, /usr of a package:\n"
+                     ".TP\n.I share/doc/flexwright/docs\n"
+                     "the documentation: index.md, tutorial.md, reference/device.md (every element "
+                     "and attribute of a device file), python.md, c\\-api.md, klayout.md\n"
+                     ".TP\n.I share/doc/flexwright/docs/gallery\ndevices to start from\n"
+                     ".TP\n.I share/flexwright/processes, share/flexwright/masks\n"
+                     "process packs and layer tables, which are data: a laboratory edits a copy\n"
+                     ".TP\n.I share/flexwright/device.rng, share/flexwright/catalog.xml\n"
+                     "schema of device files for editors\n"
+                     ".TP\n.I share/flexwright/klayout\nthe package for KLayout\n");
+}
+
 static void program(fw_text *out) {
     size_t n;
     const fw_cli_command *command = fw_cli_command_table(&n);
@@ -94,6 +115,7 @@ static void program(fw_text *out) {
         put(out, command[i].summary);
         fw_text_add(out, "\n");
     }
+    beginning(out);
     statuses(out);
     environment(out);
 }
