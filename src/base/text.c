@@ -466,6 +466,24 @@ const char *fw_did_you_mean(const char *word, const char *const *names, size_t c
     return best;
 }
 
+const char *fw_text_meant(fw_arena *arena, const char *word, const char *const *names,
+                          size_t count) {
+    enum { MOST = 12 };
+    const char *near = fw_did_you_mean(word, names, count);
+    if (near) return fw_arena_printf(arena, "; did you mean '%s'?", near);
+    fw_text list = fw_text_new(arena);
+    fw_text_add(&list, "");
+    for (size_t i = 0, same, listed = 0; i < count && listed <= MOST; i++) {
+        for (same = 0; strcmp(names[same], names[i]) != 0;)
+            same++;
+        if (same < i) continue;
+        fw_text_printf(&list, "%s%s", listed ? " " : "; there are ",
+                       listed < MOST ? names[i] : "...");
+        listed++;
+    }
+    return fw_text_end(&list) == FW_OK ? list.data : NULL;
+}
+
 bool fw_word_next(const char **rest, const char *separators, fw_word *word) {
     word->at = *rest + strspn(*rest, separators);
     word->length = strcspn(word->at, separators);

@@ -80,6 +80,11 @@ const char *fw_did_you_mean(const char *word, const char *const *names, size_t c
 #define FW_DID_YOU_MEAN(near)                                                                      \
     (near) ? "; did you mean '" : "", (near) ? (near) : "", (near) ? "'?" : ""
 
+/* Behind what is wrong: that, or where nothing is near the first of what there is, "; there are A B ..."; "" of no names.
+   NULL: no memory. Test: test_growing_text.c */
+const char *fw_text_meant(fw_arena *arena, const char *word, const char *const *names,
+                          size_t count);
+
 /* Words of a list: letters between separators (of which there may be several). */
 typedef struct fw_word {
     const char *at; /* not ended by a NUL */

@@ -174,7 +174,8 @@ int fw_cli_command_figure(fw_cli_options *options) {
 int fw_cli_command_explain(fw_cli_options *options) {
     const char *code = options->device;
     const char *digits = code;
-    if (strncasecmp(digits, "FW-", 3) == 0) digits += 3;
+    if (strncasecmp(digits, "FW", 2) == 0) digits += 2;
+    digits += strspn(digits, "-_ ");
     if (*digits == 'D' || *digits == 'd') digits++;
     double number;
     const fw_diag_entry *entry = NULL;

@@ -19,6 +19,7 @@ import xml.etree.ElementTree as ET
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 SIX_BAR = str(ROOT / "docs/gallery/reference-six-bar/device.xml")
+COMB = ROOT / "docs/gallery/comb-stage/device.xml"
 LONG = ["simulate", SIX_BAR, "--rtol", "1e-13", "--integrator", "rk4", "--samples"]  # how many: test_progress
 
 
@@ -91,10 +92,22 @@ class Manners(unittest.TestCase):
                                        ("hinge", ("--level", "continum"), "did you mean continuum?"), ("check", ("--corners", "non"), "did you mean none?"),
                                        ("modes", ("--at", "equilibrum"), "did you mean equilibrium?"), ("recipe", ("--planned", "S3=1 s", *fast), "'S03'?"),
                                        ("simulate", ("--scene", "step-laod"), "'step-load'?"), ("simulate", ("--method", "chian"), "did you mean chain?"),
-                                       ("simulate", ("--integrator", "radua5"), "did you mean radau5?"), ("check", ("--effects", "fricton"), "'friction'?")):
+                                       ("simulate", ("--integrator", "radua5"), "did you mean radau5?"), ("check", ("--effects", "fricton"), "'friction'?"),
+                                       ("check", ("--set", "flexure[AA]/@length=1 um"), "has this id; there are A B C D E F;"), ("chek", (), "mean check? See flexwright --help"),
+                                       ("recipe", ("--cut", "flexure:AA", *fast), "that id; there are A B C D E F")):
             done = run(command, SIX_BAR, *options)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(near, done.stderr)
+
+        whole = pathlib.Path(SIX_BAR).read_text()
+        self.assertIn("did you mean 'ground'?", run("check", "-", input=COMB.read_text().replace('a="ground"', 'a="grond"')).stderr)
+        for value, near in (("hinges[C].limit_angle_rd", "did you mean 'limit_angle_rad'? There are"), ("hinge[C].limit_angle_rad", "did you mean 'hinges'?")):
+            study = ('<study name="s" kind="size" samples="4"><vary what="flexure[C]/@width" from="8 um" to="13 um"/>'
+                     '<respond name="r" value="%s" goal="minimise"/></study></device>' % value)
+            with tempfile.TemporaryDirectory() as scratch:
+                file = pathlib.Path(scratch, "device.xml")
+                file.write_text(whole.replace("</device>", study))
+                self.assertIn(near, run("study", file, "--plan").stderr)
 
     def test_report_is_folded(self):
         with tempfile.TemporaryDirectory() as scratch:
@@ -135,6 +148,7 @@ class Manners(unittest.TestCase):
         want = run("explain", "FW-D204").stdout
         for code in ("fw-d204", "Fw-D204", "D204", "d204", "204"):
             self.assertEqual(run("explain", code).stdout, want)
+        self.assertEqual({run("explain", code).stdout for code in ("fwd204", "FW 204", "d204")}, {run("explain", "FW-D204").stdout})
         for code in ("FW-D999", "fw-dd204", "fw-x204", "dfw-204"):
             self.assertEqual(run("explain", code).returncode, 2)
 

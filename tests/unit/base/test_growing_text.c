@@ -181,13 +181,26 @@ static void orders_are_not_given(void **state) {
     fw_arena_free(arena);
 }
 
+static void what_was_meant(void **state) {
+    (void)state;
+    static const char *const ids[] = {"A", "left", "A", "stage"};
+    static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n"};
+    fw_arena *arena = fw_arena_new(1 << 20);
+    assert_string_equal(fw_text_meant(arena, "stag", ids, 4), "; did you mean 'stage'?");
+    assert_string_equal(fw_text_meant(arena, "B7", ids, 4), "; there are A left stage");
+    assert_string_equal(fw_text_meant(arena, "B7", ids, 0), "");
+    assert_string_equal(fw_text_meant(arena, "B7", many, 12), "; there are a b c d e f g h i j k l");
+    assert_string_equal(fw_text_meant(arena, "B7", many, 14), "; there are a b c d e f g h i j k l ...");
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(orders_are_not_given),       cmocka_unit_test(zero_has_no_sign),
         cmocka_unit_test(numbers_round_trip),         cmocka_unit_test(numbers_are_strict),
         cmocka_unit_test(fixed_and_escaped),          cmocka_unit_test(fixed_as_printf),
         cmocka_unit_test(short_memory_sticks),        cmocka_unit_test(spelling),
-        cmocka_unit_test(percents_keep_three_digits),
+        cmocka_unit_test(percents_keep_three_digits), cmocka_unit_test(what_was_meant),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
