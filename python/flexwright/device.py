@@ -113,7 +113,8 @@ class Device:
 
     def _begin(self, text: bytes, file: str, directory: Optional[str],
                attributes: Optional[Mapping[str, Value]], options: Optional[Mapping[str, Any]],
-               parameters: Mapping[str, Value]) -> None:
+               parameters: Mapping[str, Value],
+               habit: Optional[Dict[str, Mapping[str, Any]]] = None) -> None:
         self._text, self._file, self._directory = text, file, directory
         self._set: Dict[str, Value] = {**(attributes or {}), **parameters}
         self._options = _checked(options or {})
@@ -124,7 +125,15 @@ class Device:
         self._lock = threading.RLock()
         self._busy: "weakref.WeakSet[Design]" = weakref.WeakSet()
         self._known: "weakref.WeakValueDictionary[tuple, Design]" = weakref.WeakValueDictionary()
-        self._own: Optional[Design] = self._design({})
+        # what was asked last of a device of this family: read with those options, the next need not be read twice
+        self._habit: Dict[str, Mapping[str, Any]] = {"options": {}} if habit is None else habit
+        self._own: Optional[Design] = None
+        try:
+            self._own = self._design(self._habit["options"])
+        except FlexwrightError:
+            if not self._habit["options"]:
+                raise
+            self._own = self._design({})
 
     # ---- designs: one for each set of options ----
 
@@ -157,6 +166,7 @@ class Device:
                 for key in [k for k, d in self._known.items() if d is design]:
                     del self._known[key]
             raise
+        self._habit["options"] = dict(options)
         return design
 
     # ---- what it is ----
@@ -211,7 +221,7 @@ class Device:
         merged = {k: v for k, v in self._options.items()}
         merged.update(_checked(options or {}))
         other._begin(self._text, self._file, self._directory, {**self._set, **(set or {})}, merged,
-                     parameters)
+                     parameters, self._habit)
         return other
 
     def __reduce__(self):  # so that it passes between processes

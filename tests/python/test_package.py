@@ -334,6 +334,25 @@ class Descriptions(unittest.TestCase):
         self.assertEqual(d.settings, {"arc": "230 deg"})
         self.assertTrue(d.check().accepted)
 
+    def test_a_loop_reads_each_device_once(self):
+        """read is a twentieth of a check; with options of the question it was done twice for each"""
+        d, seen, call = flexwright.Device(SIX_BAR), [], _design.Design.call
+
+        def told(design, name, *arguments, **named):
+            seen.append(name)
+            return call(design, name, *arguments, **named)
+
+        with mock.patch.object(_design.Design, "call", told):
+            used = [d.with_(arc=(arc, "deg")).check(advice="none", corners="none").utilisation["A"] for arc in (225, 230, 235)]
+            self.assertEqual(seen.count("read_memory"), 4)  # the first learns what is asked
+            self.assertEqual(used[1], d.with_(arc="230 deg").check(corners="none").utilisation["A"])
+            # options of a question that the next device refuses are no reason to refuse it
+            other = d.with_(set={"flow[copper-on-porous-silicon]/@thickness": "9.5 um"})
+            other.check(flow="al-masked-rie", advice="none", corners="none")
+            with self.assertRaises(flexwright.InputError) as caught:
+                d.with_(arc="400 deg")
+            self.assertIn("arc", str(caught.exception))
+
     def test_draws_itself(self):
         d = flexwright.Device(SIX_BAR)
         v = d.check()
