@@ -62,7 +62,8 @@ def _checked(options: Mapping[str, Any]) -> Dict[str, Any]:
 
 def show_progress(progress: Progress) -> None:
     """A line on standard error that is written over; for `progress=flexwright.show_progress`."""
-    share = f"{progress.done:.3g} of {progress.of:.3g} {progress.unit}" if progress.of else \
+    most = "at most " if progress.at_most else ""
+    share = f"{progress.done:.3g} of {most}{progress.of:.3g} {progress.unit}" if progress.of else \
         f"{progress.done:.3g} {progress.unit}"
     sys.stderr.write(f"\r\033[K{progress.what}: {share}")
     sys.stderr.flush()

@@ -277,6 +277,9 @@ fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
             .id = s->v->hinge[k].id, .joint = s->v->hinge[k].joint, .decision = FW_INCONCLUSIVE};
     fw_arena *scratch = fw_arena_part(s->arena, 0); /* given back at once: there may be many */
     FW_NEED(scratch);
+    fw_arena_tell_of(scratch, s->told);
+    fw_arena_tell(scratch, "", 0, 0, "");
+    s->told->done++;
     fw_status status = judge_point(s, scratch, x, corner, ln);
     fw_arena_free(scratch);
     return status;
@@ -353,10 +356,10 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     int point = fabricated->ncorner;
     if (point >= FW_MOST_POINTS) return FW_OK; /* never: there is room for all that is ever run */
     double *ln = s->ln + (size_t)point * (size_t)s->ncheck;
-    fw_arena_tell(s->arena, "judging what a flow makes of it", point, 0, "devices");
     fw_verdict_known known;
     if (!s->sign && known_device(s, x, &known)) {
         FW_TRY(take_known(s, &known, x, &fabricated->corner[point], ln));
+        s->told->done++;
     } else {
         FW_TRY(fw_verdict_search_point(s, x, &fabricated->corner[point], ln));
         s->judged++;
@@ -386,6 +389,17 @@ typedef enum answer {
     UNDECIDED,
     REFUSED
 } answer; /* undecided: closer numbers may decide */
+
+/* No more boxes are asked than there are ends to hold, their bisections, and all together. Each has at most the devices
+   that were not accepted. */
+static double most_asked(const fw_verdict_search *s) {
+    double boxes = s->v->ninput + 1, failed = 0;
+    for (int i = 0; i < STAGES; i++)
+        boxes += ceil(-log2(left_open[i]));
+    for (int c = 0; c < s->fabricated->ncorner; c++)
+        failed += s->fabricated->corner[c].decision != FW_ACCEPT;
+    return boxes * failed;
+}
 
 /* a device at a point of the ranges, not kept as a corner */
 static fw_status ask_point(const fw_verdict_search *from, const double *x, const signed char *sign,
@@ -558,6 +572,8 @@ static fw_status hold_all(fw_verdict_search *s) {
 /* the inputs one by one, the one that makes most of the governing check first; then all together */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s) {
     int check = governing_check(s), n = s->v->ninput;
+    s->told->what = "looking for what would have to be held", s->told->done = 0;
+    s->told->of = -most_asked(s);
     bool tried[FW_FABRICATION_INPUTS] = {false}, done = false;
     for (int turn = 0; turn < n; turn++) {
         int next = FW_NONE;

@@ -152,8 +152,9 @@ typedef struct fw_verdict_search {
     const signed char *sign; /* how hinges differ at what is run now; NULL: not at all */
     int most_looks; /* at a point, each closer than the one before; 0: as many as its decision needs */
     int judged;     /* points that were run, and not known */
-    int first;      /* how many points there were when the slopes were known */
-    double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
+    fw_progress_whole *told; /* how many points were run, of how many at most */
+    int first;               /* how many points there were when the slopes were known */
+    double *slope;           /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
     /* of each input: that whose slopes were taken, scaled by the edges, and the point where it was off
        its nominal value; FW_NONE: no range */
     int slope_like[FW_FABRICATION_INPUTS], slope_point[FW_FABRICATION_INPUTS];
@@ -170,6 +171,7 @@ enum {
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s);
+fw_status fw_verdict_search_pace(fw_verdict_search *s); /* s->told */
 /* the nominal device, its slopes, the corners that may govern; all corners where first order is not
    to be trusted */
 fw_status fw_verdict_search_corners(fw_verdict_search *s);
