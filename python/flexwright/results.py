@@ -11,7 +11,7 @@ import numpy as np
 
 from ._design import DOCUMENTS, Design
 from .errors import Diagnostic
-from .tables import Named, Row, Table, table
+from .tables import ByName, Named, Row, Table, table
 
 
 def picture_of(svg: str) -> str:
@@ -162,9 +162,9 @@ class Verdict(Result):
             return Utilisation(h["made_utilisation"][i], h["made_utilisation_low"][i],
                                h["made_utilisation_high"][i])
 
-        return {id_: Utilisation(h["utilisation"][i], h["utilisation_low"][i],
-                                 h["utilisation_high"][i], made(i))
-                for i, id_ in enumerate(h["id"])}
+        return ByName({id_: Utilisation(h["utilisation"][i], h["utilisation_low"][i],
+                                        h["utilisation_high"][i], made(i))
+                       for i, id_ in enumerate(h["id"])})
 
     @functools.cached_property
     def flows(self) -> Table:
@@ -545,7 +545,7 @@ class Fabrication(Result):
     @staticmethod
     def _by_flow(document: Dict[str, Any], several: str) -> Dict[str, Dict[str, Any]]:
         items = document[several] if several in document else [document]
-        return {item["flow"]: item for item in items}
+        return ByName({item["flow"]: item for item in items})
 
     @functools.cached_property
     def masks(self) -> Dict[str, Dict[str, Any]]:

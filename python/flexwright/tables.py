@@ -24,6 +24,13 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
+class ByName(dict):
+    """Values by name; a name that is not there is told which are."""
+
+    def __missing__(self, name: str) -> Any:
+        raise KeyError(f"{name!r}: there are {', '.join(self) or 'none'}")
+
+
 class Table(dict):
     """Columns by name, as NumPy arrays of equal length: `pandas.DataFrame(table)` takes it as it is.
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/diag.h"
 #include "base/text.h"
 #include "test.h"
 
@@ -114,6 +115,13 @@ static void spelling(void **state) {
     assert_string_equal(fw_did_you_mean("simualte", names, 3), "simulate");
     assert_string_equal(fw_did_you_mean("plam", names, 3), "plan");
     assert_null(fw_did_you_mean("serve", names, 3));
+    /* nothing is near: the one that begins alike, where there is one */
+    const char *const words[] = {"require", "step-load", "gentle-step", "width-front", "width-rear", "arc"};
+    assert_string_equal(fw_did_you_mean("requirment", words, 6), "require");
+    assert_string_equal(fw_did_you_mean("step", words, 6), "step-load");
+    assert_null(fw_did_you_mean("width", words, 6));
+    assert_null(fw_did_you_mean("requests", words, 6));
+    assert_null(fw_did_you_mean("archway", words, 6));
     assert_int_equal(fw_edit_distance("ab", "ba", 2), 1);
     assert_int_equal(fw_edit_distance("", "abc", 2), 3);
     assert_int_equal(fw_edit_distance("kitten", "sitting", 5), 3);
