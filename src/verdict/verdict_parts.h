@@ -171,7 +171,7 @@ enum {
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s);
-fw_status fw_verdict_search_pace(fw_verdict_search *s); /* s->told */
+fw_status fw_verdict_search_most(fw_verdict_search *s); /* s->told */
 /* the nominal device, its slopes, the corners that may govern; all corners where first order is not
    to be trusted */
 fw_status fw_verdict_search_corners(fw_verdict_search *s);
