@@ -222,7 +222,8 @@ foreach(cost web.page:300 cli.study:55 cli.advice:47 build.threads:45 cli.progra
         accuracy.survey:20 hard.valgrind:17 fault.files:17 fuzz.device:17 accept.random:16 python.docs:15
         cli.inputs:15 cli.tradeoff:15 hard.test_hard_bounds:15 cli.limits:14 gate.counts:14 serve.mutants:14
         cli.frames:13 cli.flowback:12 unit.continuum.test_solid:12 hostile.documents:12 serve.doors:12
-        cli.out_of_plane:11 cli.manners:11 cli.third_flow:11 cli.hinge:10 serve.hostile:10 docs.limits:10
+        cli.out_of_plane:11 cli.manners:11 cli.third_flow:11 cli.friction_range:11 cli.large:10 cli.hinge:10 serve.hostile:10 docs.limits:10
+        release.distances:9
         golden.gallery:9 clearance.cases:8 cli.reproducible:8 live.memory:8 docs.schema:8 hard.test_hard_surfaces:8
         cli.apart:7 fault.calls:7 hard.test_hard_contact:7 hard.test_hard_friction:7 unit.plan.test_advice:7
         unit.workspace.test_survey:7 unit.effects.test_fringe:7 accept.written:6 fault.memory:6)

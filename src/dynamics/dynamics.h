@@ -97,6 +97,8 @@ typedef struct fw_dynamics_motion_options {
     const struct fw_dynamics_motion
         *like; /* of a device much like this one in the same scene, which
                                               says how tight a tolerance to begin with; or NULL */
+    /* errors are to be small enough, and nobody sees how small: no tolerance is tighter than they seem to need */
+    bool sparing;
 } fw_dynamics_motion_options;
 
 /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */

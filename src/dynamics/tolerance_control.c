@@ -190,10 +190,15 @@ fw_dynamics_tolerances fw_dynamics_tolerance_answer(const fw_dynamics_run *r,
 fw_dynamics_tolerances fw_dynamics_tolerance_next(const fw_dynamics_controller *control,
                                                   fw_dynamics_tolerances tolerances, double off,
                                                   int tries, bool *reuse) {
+    const bool far = far_apart(control->problem);
+    /* errors fall faster than tolerances: to go with `off` itself makes them smaller than they have to be, which only
+       those want who see them */
+    const double needed =
+        far && control->problem->options->sparing ? pow(2 * off, 1 / fw_power) : 2 * off;
     /* what does not go with the tolerance is not waited for: 10, 30, 100, ... */
-    double lower = fmax(2 * off, tries > 1 ? pow(10, 0.5 * tries) : fw_ratio_least);
+    double lower = fmax(needed, tries > 1 ? pow(10, 0.5 * tries) : fw_ratio_least);
     if (!(lower < 1e3)) lower = 1e3;
-    if (far_apart(control->problem)) {
+    if (far) {
         *reuse = lower <= fw_ratio_far && control->problem->nstride == 0;
         return tolerances_below(control,
                                 tolerances.looser / fmax(lower, *reuse ? fw_ratio_far : lower));

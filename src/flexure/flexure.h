@@ -52,6 +52,10 @@ typedef struct fw_flexure_error {
     double stiffness, kx, ky; /* relative */
     /* relative, by which K may be below: no more than stiffness, which the ends have */
     double softer;
+    /* relative, by which the strain at a root may be less or more for it: under a given moment it goes with
+       1/K, of what is held in place with the moment, whose translation feels the ends more than the
+       rotation does (a leaf three times) */
+    double root_less, root_more;
     /* relative, by which a solid's peak may be below strain_per_rad, which bounds it */
     double strain;
     double above;    /* by which it may be above: the solids' own error, and shapes not compared */
@@ -77,7 +81,8 @@ typedef struct fw_flexure_result {
     double limit_angle_rad;    /* strength / safety factor / stress_per_rad */
     double limit_uncertainty;  /* relative standard uncertainty of limit_angle from the model */
     double depth_factor, root_length_m; /* EI_eff/EI, dL */
-    /* K with what the ends lose (13a) over K: 1 where K has it, as of a crystal */
+    /* K of what the peak strain per radian was found with over K: of an isotropic strip with what the ends lose
+       (13a), of a crystal's path without what straight roots give more; else 1 */
     double ends_stiffer;
     double concentration;      /* strain_per_rad over that of the beam, t/2 over length and roots */
     double fibre;              /* the same between the roots: of curvature and depth, no fillet */

@@ -326,7 +326,7 @@ void fw_flexure_leaf(const fw_flexure_shape *f, const fw_flexure_input *in,
     const fw_flexure_crystal material = fw_flexure_elastic_of(in), *k = &material;
     double t = f->width_m, L = f->length_m, h = in->depth_m, A = h * t, E = in->youngs_Pa;
     double nu = in->poisson, G = E / (2.0 * (1.0 + nu)), dL = f->root_length_m;
-    double lost = 0, lost_arm = 0;
+    double lost = 0, lost_arm = 0, more = 0;
     if (k->known) {
         E = 1 / (k->a0_per_Pa + k->a1_per_Pa * k->cos4);
         G = 1 / (k->g0_per_Pa + k->g1_per_Pa * k->cos4);
@@ -334,6 +334,7 @@ void fw_flexure_leaf(const fw_flexure_shape *f, const fw_flexure_input *in,
         const fw_flexure_end_loss end = fw_flexure_end_loss_of(k, h, 1, L, f->root_block_m);
         lost = E * k->bow_per_Pa * end.length_m, lost_arm = 0.5 * L - end.reach_m;
         dL = E * fw_flexure_root_m_per_Pa(f, k, k->cos4);
+        more = 2 * fw_flexure_straight_more_m(t, f->fillet_m); /* G was found without */
     }
     double EI = E * A * (t * t) / 12, ends = dL - lost, whole = L + 2 * ends;
     out->youngs_Pa = E, out->poisson = nu;
@@ -351,7 +352,7 @@ void fw_flexure_leaf(const fw_flexure_shape *f, const fw_flexure_input *in,
         .width_m = t, .fillet_m = f->fillet_m, .depth_m = h, .poisson = nu, .bow = 1, .end = 1};
     double apart = k->known ? 0 : 2 * fw_flexure_end_loss_m(in, 1, f->root_block_m);
     out->ends_stiffer = whole / (whole - apart);
-    fw_flexure_peak_strain(f, 0.5 * t / (whole - apart) * (k->known ? E / in->youngs_Pa : 1), 1,
-                           fw_flexure_root_peak(&root, &in->crystal), out);
+    fw_flexure_peak_strain(f, 0.5 * t / (whole - apart - more) * (k->known ? E / in->youngs_Pa : 1),
+                           1, fw_flexure_root_peak(&root, &in->crystal), out);
     out->strain_fit_per_rad /= out->ends_stiffer; /* the fit has no ends */
 }

@@ -63,7 +63,7 @@ void fw_flexure_path_root(const fw_flexure_course *p, const fw_flexure_path_stuf
     if (!m->elastic.known || p->concentration[end] == 1) return;
     double block = fw_flexure_root_block_m(at->width_m, 0), mean = m->elastic.a0_per_Pa;
     double along = per_youngs(m, at->pose.angle_rad);
-    *root_m = (block * mean + (p->root_m[end] - block) * along) / along;
+    *root_m = p->straight_more_m[end] + (block * mean + (p->root_m[end] - block) * along) / along;
 }
 
 fw_flexure_end_loss fw_flexure_path_end(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
@@ -285,6 +285,8 @@ static void give_roots(fw_flexure_course *p, double fillet_m) {
     for (int end = 0; end < 2; end++) {
         p->root_m[end] = fw_flexure_root_length_m(ends[end], fillet_m);
         p->concentration[end] = fw_flexure_fillet_concentration(ends[end], fillet_m);
+        const double bent = p->shape[end ? p->n - 1 : 0].piece.curvature_per_m;
+        p->straight_more_m[end] = bent == 0 ? fw_flexure_straight_more_m(ends[end], fillet_m) : 0;
     }
 }
 
@@ -424,10 +426,9 @@ static double reach_of(const fw_flexure_course *p, int end, double fillet_m) {
      edges that open by 2 s: bending over-estimated by 1 - (atan(3 ...)) ~ s^2 of the section's
        stiffness (Timoshenko's wedge; shear tilts the neutral fibres)
      middle between the edges beside the centre line by d: W by d, forces by 2 d over the size
-     peak strain: less by what the strip opens up to where the peak stands; 0.5 % in the middle of one
-       that is thin there, 0.3 % of several pieces (silicon, which was not compared: 1 %)
-     strain between the roots of an isotropic path: up to 0.2 t/R more, of solids with bends of R = 3 to 8 t, 50 um deep:
-       0.6 % at 8 t, 2 % at 6 t, 3.5 % at 5 t, 5 % at 3 t (silicon has these orders in its law)
+     peak strain: less by what the strip opens up to where the peak stands; 0.7 % in the middle of one that is thin
+       there, 0.3 % of several pieces (silicon, which was not compared: 1 %); between the roots of an isotropic path up to
+       0.2 t/R more, of solids 50 um deep with bends of R = 3 to 8 t: 0.6 % at 8 t, 2 % at 6 t, 3.5 % at 5 t, 5 % at 3 t
    and twice all that where anything but one arc or line of one width is concerned: K and peak strain
    of these were compared with solids (fw_flexure_errors), kx, ky, W were not, and of silicon nothing.
    In: rad, m. test_path.c errors_are_stated */
@@ -446,7 +447,7 @@ fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flex
     by *= thick > 0.15 ? 2 : 1;
     if (thick > 0.3) by = fmax(by, 10);
     double taper = slope * slope, off = 2 * aside / size;
-    double pieces = p.n == 1 ? (plain ? 0 : 0.005) : in->crystal.known ? 0.010 : 0.003;
+    double pieces = p.n == 1 ? (plain ? 0 : 0.007) : in->crystal.known ? 0.010 : 0.003;
     const double deep = fmin(in->depth_m / f->width_m, 5) / 5;
     const double bends = in->crystal.known || plain ? 0 : 0.2 * deep * fmin(thick, 0.35);
     double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m;
@@ -536,19 +537,20 @@ static double root_less_loss(const fw_flexure_course *p, const fw_flexure_path_s
     return sum * m->youngs_Pa;
 }
 
-/* of an isotropic strip: what both ends take off its flexibility in the peak strain per radian */
+/* what of its flexibility was not in its peak strain per radian: what isotropic ends take off, what straight
+   roots of a crystal give more */
 static double ends_of_strain(const fw_flexure_course *p, const fw_flexure_input *in,
                              const fw_flexure_path_stuff *m) {
     fw_flexure_input own = *in;
     fw_flexure_path_stuff with = *m;
-    double sum = 0, lost;
-    if (m->elastic.known) return 0; /* in the sums */
+    double sum = 0;
     own.ends = true;
     with.elastic = fw_flexure_elastic_of(&own);
     for (int end = 0; end < 2; end++) {
         fw_flexure_path_section at;
+        double lost;
         fw_flexure_path_end_loss(p, &with, end, &at, &lost);
-        sum += lost * at.bend_per_Nm2;
+        sum += (m->elastic.known ? p->straight_more_m[end] : lost) * at.bend_per_Nm2;
     }
     return sum;
 }

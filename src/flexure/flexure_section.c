@@ -40,8 +40,20 @@ double fw_flexure_root_block_m(double width_m, double fillet_m) {
    Test: test_crystal.c roots_of_silicon */
 double fw_flexure_root_m_per_Pa(const fw_flexure_shape *f, const fw_flexure_crystal *k,
                                 double cos4) {
-    return f->root_length_m * k->a0_per_Pa +
+    double more =
+        f->kind == FW_FLEXURE_LEAF ? fw_flexure_straight_more_m(f->width_m, f->fillet_m) : 0;
+    return more * (k->a0_per_Pa + k->a1_per_Pa * cos4) + f->root_length_m * k->a0_per_Pa +
            (f->root_length_m - f->root_block_m) * k->a1_per_Pa * cos4;
+}
+
+/* 0.006 t + 0.0335 rho^2/t
+   in: m, rho held to 1.25 t; out: m added per root. Fitted to K of 335 leaves of silicon as solids, which are then
+   as if longer by -0.053 to 0.067 t (both ends); of arcs solids say no such thing of W. Test: test_root_strain.c
+   stiffness_of_solids */
+double fw_flexure_straight_more_m(double width_m, double fillet_m) {
+    if (fillet_m < 0) return 0; /* ideal ends */
+    double x = fmin(fillet_m / width_m, 1.25);
+    return width_m * (0.006 + 0.0335 * x * x);
 }
 
 /* Kt = 0.944 + 0.2113 (t/rho)^(2/3), without the curved-beam factor 1 + t/3r
@@ -325,10 +337,9 @@ fw_flexure_crystal fw_flexure_crystal_cubic(double c11_Pa, double c12_Pa, double
    concentration Kt of its fillet, as an upper bound:
 
      peak strain = M t/2/(E I D g) Kt (1 + w) G                                       isotropic
-     peak stress = M t/2/(I D g) Kt max over both fillets of G                        leaf of a crystal
-     peak stress = M t/2/(I D g) Kt max over both fillets of (1 + w) A (1 + B)        its arcs
-     G: sum of c z^i p^j nu^k n^l u^m (cos 4 psi)^v (sin 4 psi)^o, the tables STRIP and LEAF
-     A, B: the same of x, q, p', nu, n, w and cos, sin of 4 psi', the tables ARC_...
+     peak stress = M t/2/(I D g) Kt G                                                 leaf of a crystal
+     peak stress = M t/2/(I D g) Kt max over both fillets of (1 + w) G                its arcs
+     G: sum of c z^i p^j nu^k n^l u^m (cos 4 psi)^v (sin 4 psi)^o, the tables STRIP, LEAF, INNER and OUTER
 
    x = rho/t, q = x^(-2/3), p' = h/(h + 4 t), w = t/3R (0: straight; of a crystal's outer fillet with
    the other sign), z = 2 ln(x/0.1)/ln 12.5 - 1, p = 2 (p' - 1/9)/(10/14 - 1/9) - 1, u = sqrt(20 w),
@@ -337,24 +348,23 @@ fw_flexure_crystal fw_flexure_crystal_cubic(double c11_Pa, double c12_Pa, double
    is in plane strain in its middle; w: the fillets of an arc are not mirror images. psi' is the
    direction of the strip from [100] 1.35 rho/R before the root; sine > 0: the fillet on the inside of
    the arc turns towards the stiff <110>, the other one away from it; a straight strip has one on either
-   side. Of an unknown direction the worst. Other cubic crystals: cosine and sine times the share that
+   side, of which that counts which turns towards it. Of an unknown direction the worst. Other cubic crystals: cosine and sine times the share that
    a1/a0 has of silicon's (not compared).
 
-   G holds for fillets to 1.25 t and depths of t/2 to 10 t. Beyond, it goes on from the range's end as the
-   former law does (tables EVEN, LEAF_...), which was fitted to solids of fillets to 2 t and h to 30 t,
-   and up to 0.9 % more.
+   G holds for fillets to 1.25 t (silicon from 0.15 t) and depths of t/2 to 10 t. Beyond, it goes on from the
+   range's end as the former law does (tables EVEN, LEAF_...), which was fitted to solids of fillets to 2 t and
+   h to 30 t, and up to 0.9 % more; arcs of a crystal go over into theirs (ARC_...).
 
    M is the closed form's with what its ends lose (13a): the strain at a root is a matter of the
    moment there, and goes with L only by that.
 
    in: x held to [0.1, 2], p' to that of h = t/2 and h = 30 t, nu and n to [0, 0.4], w to 0.05 in the
-   sums (t/R = 0.15); out: 1. Fitted (Chebyshev, linear programs): above all solids, by 0.3 to 0.86 %
-   (370 isotropic), 1.07 % (144 leaves of silicon) and 2.1 % (181 arcs of silicon) within the range of
-   the narrow band (fillets from t/10, silicon 0.15 t, to 1.25 t, no deeper than 10 t). Fits that have not
-   seen a tenth of the solids are 0.15 to 1.35 % (isotropic) and 0.17 to 1.71 % (leaves of silicon) above
-   that tenth; solids drawn and solved after the fit: root_strain_after.csv. Of arcs of silicon 29 that no
-   fit has seen: 0.6 to 2.5 %, where they are shallower than wide to 4.1 %. The solids' own error is
-   0.3 %. Cost 0.3 us, of a crystal 1 us.
+   sums (t/R = 0.15); out: 1. Fitted (Chebyshev, linear programs): above all solids, by 0.3 to 0.66 %
+   (675 isotropic), 0.81 % (390 leaves of silicon) and 0.88 % (fillets of 1033 halves of its arcs) within the
+   range. Fits that have not seen a tenth of the solids are 0.12 to 0.85 %, 0.13 to 1.08 % and -0.17 to 1.43 % above
+   that tenth; 179 solids drawn and solved after the fit 0.2 to 1.0 % (root_strain_after.csv). The solids' own error
+   is 0.3 %. A crystal's strip shorter than 2.45 h is strained up to 1.5 % less. Cost 0.5 us, of a crystal's arc
+   1.5 us.
    source: docs/theory/root-strain.md eq. 11a, docs/theory/flexure-silicon.md eq. 14; solids and fit:
    tools/solids; test_root_strain.c, test_crystal.c peak_stress_of_silicon */
 typedef struct strip_term {
@@ -367,96 +377,42 @@ typedef struct root_term {
     signed char power[8]; /* of x, q, p, nu, n, u, cosine, sine */
 } root_term;
 
-static const strip_term STRIP[] = {
-    {1.0051, {0, 0, 0, 0, 0, 0, 0}},      {0.174529, {0, 1, 1, 0, 0, 0, 0}},
-    {-0.00118144, {0, 2, 0, 0, 0, 0, 0}}, {-0.145077, {1, 0, 0, 1, 0, 0, 0}},
-    {-0.00129849, {1, 0, 0, 1, 2, 0, 0}}, {-0.0907246, {1, 1, 0, 2, 0, 0, 0}},
-    {-0.189818, {0, 3, 2, 0, 0, 0, 0}},   {-0.364525, {1, 3, 2, 1, 0, 0, 0}},
-    {0.207869, {0, 2, 0, 1, 0, 0, 0}},    {1.82572, {0, 0, 2, 2, 0, 0, 0}},
-    {0.225458, {1, 0, 1, 1, 0, 0, 0}},    {0.0114587, {1, 0, 0, 0, 1, 0, 0}},
-    {-0.0472829, {2, 0, 0, 1, 1, 0, 0}},  {0.00123979, {0, 4, 0, 0, 3, 0, 0}},
-    {1.39495, {0, 1, 2, 2, 0, 0, 0}},     {-0.0705908, {0, 4, 1, 0, 0, 0, 0}},
-    {-0.0139411, {1, 0, 0, 0, 0, 0, 0}},  {0.0511634, {0, 1, 0, 1, 1, 0, 0}},
-    {-0.172061, {0, 3, 1, 0, 3, 0, 0}},   {0.0036558, {3, 2, 0, 0, 0, 0, 0}},
-    {0.0189748, {0, 2, 0, 1, 1, 0, 0}},   {0.00674667, {2, 0, 0, 0, 0, 0, 0}},
-    {-0.068647, {2, 2, 0, 2, 0, 0, 0}},   {0.174459, {0, 3, 0, 1, 3, 0, 0}},
-    {-0.0945619, {1, 1, 1, 0, 0, 0, 0}},  {0.359704, {1, 3, 1, 1, 0, 0, 0}},
-    {0.0275673, {1, 0, 1, 0, 2, 0, 0}},   {-0.0228399, {4, 0, 0, 1, 2, 0, 0}},
-    {-1.45518, {0, 1, 1, 2, 0, 0, 0}},    {-0.151405, {0, 0, 2, 1, 3, 0, 0}},
-    {-1.60742, {0, 0, 1, 2, 0, 0, 0}},    {0.0691646, {0, 0, 0, 1, 0, 0, 0}},
-    {0.0299992, {0, 2, 1, 1, 0, 0, 0}},   {-0.0127496, {0, 0, 0, 0, 4, 0, 0}},
-    {0.0735174, {0, 0, 0, 1, 3, 0, 0}},   {0.0197049, {2, 0, 0, 0, 1, 0, 0}},
-    {-0.0123407, {4, 0, 0, 0, 2, 0, 0}},  {-0.00774302, {3, 2, 0, 1, 0, 0, 0}},
-    {0.158267, {2, 0, 0, 2, 1, 0, 0}},    {0.0226285, {1, 0, 0, 0, 2, 0, 0}},
-    {0.0456625, {3, 0, 0, 1, 0, 0, 0}},   {-0.0110224, {3, 0, 0, 0, 4, 0, 0}},
-    {0.0312471, {1, 2, 1, 0, 0, 0, 0}},   {0.340106, {0, 3, 2, 1, 0, 0, 0}},
-    {-0.170205, {3, 0, 2, 1, 0, 0, 0}},   {-0.0408647, {1, 4, 1, 1, 0, 0, 0}},
-    {-0.19342, {1, 1, 2, 1, 1, 0, 0}},    {0.0476901, {1, 3, 1, 0, 2, 0, 0}},
-    {0.167093, {0, 1, 1, 1, 0, 0, 0}},    {-0.0121637, {4, 2, 0, 1, 0, 0, 0}},
+/* rows of roots.def */
+static const strip_term strip[] = {
+#define STRIP(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
 };
-static const strip_term LEAF[] = {
-    {1.07715, {0, 0, 0, 0, 0, 0, 0}},     {-0.0648301, {1, 0, 0, 0, 0, 0, 0}},
-    {0.0842396, {0, 1, 0, 0, 0, 0, 0}},   {0.00430125, {0, 0, 0, 0, 0, 2, 0}},
-    {-0.0408894, {0, 0, 0, 0, 0, 1, 0}},  {-0.0448069, {1, 0, 0, 0, 0, 1, 0}},
-    {0.0472169, {2, 0, 0, 0, 0, 1, 0}},   {-0.0229388, {1, 0, 0, 0, 0, 2, 0}},
-    {0.0455438, {0, 2, 0, 0, 0, 0, 0}},   {0.161015, {0, 0, 0, 0, 0, 0, 1}},
-    {-0.0776906, {1, 0, 0, 0, 0, 0, 1}},  {-0.0267983, {1, 1, 0, 0, 0, 0, 0}},
-    {0.000159263, {2, 0, 0, 0, 0, 2, 0}}, {-0.0148954, {0, 2, 0, 0, 0, 1, 0}},
-    {-0.0147293, {0, 3, 0, 0, 0, 2, 0}},  {0.0233096, {1, 2, 0, 0, 0, 2, 0}},
-    {0.0326434, {2, 0, 0, 0, 0, 0, 0}},   {-0.0340464, {2, 0, 0, 0, 0, 0, 1}},
-    {-0.00514746, {0, 1, 0, 0, 0, 1, 0}}, {0.00430418, {3, 0, 0, 0, 0, 0, 1}},
-    {0.017691, {1, 3, 0, 0, 0, 0, 0}},    {0.0103217, {1, 2, 0, 0, 0, 1, 0}},
-    {-0.00468755, {2, 0, 0, 0, 0, 1, 1}}, {-0.00316644, {2, 3, 0, 0, 0, 0, 0}},
-    {-0.0185911, {0, 4, 0, 0, 0, 0, 0}},  {-0.00967944, {4, 0, 0, 0, 0, 0, 0}},
-    {-0.0116461, {3, 0, 0, 0, 0, 2, 0}},  {0.0215197, {3, 0, 0, 0, 0, 0, 0}},
-    {-0.00134946, {1, 3, 0, 0, 0, 1, 0}}, {-0.00032181, {1, 1, 0, 0, 0, 0, 1}},
-    {0.0179429, {1, 2, 0, 0, 0, 0, 1}},   {-0.00479059, {3, 2, 0, 0, 0, 0, 1}},
-    {-0.00846725, {1, 4, 0, 0, 0, 0, 0}}, {-0.00348794, {1, 0, 0, 0, 0, 1, 1}},
-    {-0.006947, {4, 0, 0, 0, 0, 1, 0}},   {0.00190366, {3, 0, 0, 0, 0, 1, 1}},
+static const strip_term leaf[] = {
+#define LEAF(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
 };
-static const root_term EVEN[] = {
-    {1.0206, {0, 0, 0, 0, 0, 0, 0, 0}},   {0.74219, {0, 0, 3, 0, 0, 0, 0, 0}},
-    {40.584, {2, 0, 1, 0, 2, 1, 0, 0}},   {-0.54381, {1, 0, 3, 0, 0, 0, 0, 0}},
-    {-0.81571, {0, 0, 4, 0, 0, 0, 0, 0}}, {-0.065301, {0, 0, 1, 0, 0, 0, 0, 0}},
-    {0.7011, {1, 0, 4, 0, 0, 0, 0, 0}},   {-4.1064, {0, 1, 0, 0, 0, 2, 0, 0}},
-    {-0.98729, {0, 0, 1, 0, 2, 0, 0, 0}}, {0.66387, {0, 0, 3, 0, 1, 0, 0, 0}},
-    {0.37319, {1, 0, 0, 0, 0, 1, 0, 0}},  {0.00096288, {0, 2, 0, 0, 0, 0, 0, 0}},
-    {46.504, {1, 0, 4, 0, 1, 1, 0, 0}},   {-76.151, {2, 0, 2, 0, 2, 1, 0, 0}},
-    {0.36242, {0, 1, 2, 0, 2, 0, 0, 0}},  {128.73, {0, 2, 3, 0, 2, 2, 0, 0}},
-    {-8.692, {1, 0, 3, 1, 0, 1, 0, 0}},   {-0.50274, {0, 2, 1, 2, 0, 1, 0, 0}},
+static const strip_term inner[] = {
+#define INNER(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
 };
-static const root_term LEAF_DIRECTION[] = {
-    {0.94976, {0, 0, 0, 0, 0, 0, 0, 0}},    {0.053591, {1, 0, 0, 0, 0, 0, 0, 0}},
-    {0.079017, {0, 1, 0, 0, 0, 0, 0, 0}},   {-0.13921, {0, 0, 0, 0, 0, 0, 1, 0}},
-    {0.035991, {1, 0, 0, 0, 0, 0, 1, 0}},   {0.038076, {0, 1, 0, 0, 0, 0, 1, 0}},
-    {0.11658, {0, 0, 0, 0, 0, 0, 0, 1}},    {-0.055573, {1, 0, 0, 0, 0, 0, 0, 1}},
-    {0.043864, {0, 1, 0, 0, 0, 0, 0, 1}},   {-0.0056543, {0, 2, 0, 0, 0, 0, 0, 0}},
-    {-0.0071442, {0, 2, 0, 0, 0, 0, 0, 1}},
+static const strip_term outer[] = {
+#define OUTER(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
 };
-static const root_term LEAF_LEVEL[] = {
-    {-3.616, {0, 0, 3, 0, 1, 0, 0, 0}},  {-1.6064, {0, 0, 1, 0, 1, 0, 0, 0}},
-    {-1.1022, {1, 0, 2, 1, 0, 0, 0, 0}}, {1.2749, {1, 0, 3, 1, 0, 0, 0, 0}},
-    {5.3339, {0, 0, 2, 0, 1, 0, 0, 0}},  {0.017306, {1, 0, 1, 0, 0, 0, 1, 0}},
+static const root_term even[] = {
+#define EVEN(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
 };
-static const root_term ARC_DIRECTION[] = {
-    {1.0598, {0, 0, 0, 0, 0, 0, 0, 0}},    {0.0214, {1, 0, 0, 0, 0, 0, 0, 0}},
-    {0.0078132, {0, 1, 0, 0, 0, 0, 0, 0}}, {-0.21173, {0, 0, 0, 0, 0, 0, 1, 0}},
-    {0.14282, {1, 0, 0, 0, 0, 0, 1, 0}},   {0.042537, {0, 1, 0, 0, 0, 0, 1, 0}},
-    {-0.020267, {0, 0, 0, 0, 0, 0, 0, 1}}, {-0.0083954, {1, 0, 0, 0, 0, 0, 0, 1}},
-    {0.13901, {0, 1, 0, 0, 0, 0, 0, 1}},   {0.0075124, {0, 2, 0, 0, 0, 0, 0, 0}},
-    {-0.024885, {0, 2, 0, 0, 0, 0, 0, 1}}, {0.12522, {0, 0, 0, 0, 0, 1, 0, 1}},
-    {0.014052, {0, 1, 0, 0, 0, 0, 1, 1}},  {-0.019125, {0, 0, 0, 0, 0, 0, 1, 1}},
-    {-0.050025, {2, 0, 0, 0, 0, 0, 1, 0}},
+static const root_term leaf_direction[] = {
+#define LEAF_DIRECTION(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
 };
-static const root_term ARC_LEVEL[] = {
-    {-3.8397, {0, 0, 3, 0, 1, 0, 0, 0}},  {-1.5603, {0, 0, 1, 0, 1, 0, 0, 0}},
-    {-2.0353, {1, 0, 2, 1, 0, 0, 0, 0}},  {2.5017, {1, 0, 3, 1, 0, 0, 0, 0}},
-    {-0.56982, {0, 1, 0, 0, 0, 1, 0, 0}}, {5.6494, {0, 0, 2, 0, 1, 0, 0, 0}},
-    {2.1024, {0, 0, 1, 0, 0, 1, 0, 0}},   {2.6834, {1, 0, 0, 0, 1, 1, 0, 0}},
-    {-0.92399, {0, 0, 0, 0, 1, 1, 0, 0}}, {0.87799, {0, 1, 0, 0, 1, 1, 0, 0}},
-    {-0.77585, {0, 0, 2, 0, 1, 0, 1, 0}}, {-0.21727, {1, 0, 1, 0, 0, 1, 0, 0}},
-    {0.23712, {1, 0, 2, 0, 1, 0, 0, 0}},  {-1.1155, {0, 0, 2, 0, 2, 0, 0, 0}},
-    {0.46425, {0, 0, 1, 0, 1, 0, 1, 0}},  {0.069893, {0, 0, 2, 0, 0, 0, 1, 0}},
+static const root_term leaf_level[] = {
+#define LEAF_LEVEL(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
+};
+static const root_term arc_direction[] = {
+#define ARC_DIRECTION(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
+};
+static const root_term arc_level[] = {
+#define ARC_LEVEL(by, ...) {by, {__VA_ARGS__}},
+#include "flexure/roots.def"
 };
 #define SUM(table, at) sum_of(table, sizeof(table) / sizeof *(table), at)
 
@@ -490,69 +446,98 @@ static double strip_sum(const strip_term *term, size_t n, const double at[7]) {
 
 enum { X, Q, P, NU, N, U, COSINE, SINE };
 
-/* the range of STRIP and LEAF, as p' and x */
+/* the range of the first four tables, as p' and x */
 static const double shallow = 1 / 9.0, deepest = 10 / 14.0, sharpest = 0.1, widest = 1.25;
 
-static void section_of(const fw_flexure_root_case *r, double at[8]) {
-    const double most_curved = 0.05, deep = 15 / 17.0, most_bow = 0.4;
+/* where the laws are asked, and the end of the range of the first four tables on the way there */
+typedef struct root_place {
+    double at[8], end[8];
+    bool beyond;
+} root_place;
+
+/* sharp: x down to which the law goes. The part of the bow that is free is another one at the range's
+   depth */
+static root_place place_of_root(const fw_flexure_root_case *r, double sharp) {
+    const double most_curved = 0.05, deep = 15 / 17.0, most_bow = 0.4, most_depth = 10;
     double x = fmin(fmax(r->fillet_m / r->width_m, sharpest), 2.0), p = r->depth_m / r->width_m;
-    at[X] = x, at[Q] = 1 / cbrt(x * x);
-    at[P] = fmin(fmax(p / (p + 4), shallow), deep);
-    at[NU] = fmin(fmax(r->poisson, 0), most_bow);
-    at[N] = fmin(fmax(r->poisson * r->bow, 0), most_bow);
-    at[U] = fmin(fabs(r->curved), most_curved);
-    at[COSINE] = at[SINE] = 0;
+    root_place o = {{0}, {0}, x > widest || x < sharp || p > most_depth};
+    o.at[X] = x, o.at[Q] = 1 / cbrt(x * x);
+    o.at[P] = fmin(fmax(p / (p + 4), shallow), deep);
+    o.at[NU] = fmin(fmax(r->poisson, 0), most_bow);
+    o.at[N] = fmin(fmax(r->poisson * r->bow, 0), most_bow);
+    o.at[U] = fmin(fabs(r->curved), most_curved);
+    memcpy(o.end, o.at, sizeof o.end);
+    if (!o.beyond) return o;
+    o.end[X] = fmin(fmax(x, sharp), widest), o.end[Q] = 1 / cbrt(o.end[X] * o.end[X]);
+    o.end[P] = fmin(o.at[P], deepest);
+    if (p > most_depth && o.at[U] > 0) {
+        const double per_depth = sqrt(3 * fabs(r->curved)); /* h/sqrt(R t) = h/t of it */
+        o.end[N] *= fw_flexure_depth_at(most_depth * per_depth, o.at[NU]).bow /
+                    fw_flexure_depth_at(p * per_depth, o.at[NU]).bow;
+        o.end[N] = fmin(o.end[N], most_bow);
+    }
+    return o;
 }
 
-/* G of STRIP or LEAF; curved: t/3R, cosine and sine: of four times a crystal's direction */
-static double strip_of(const strip_term *term, size_t n, const double at[8], double curved,
-                       double cosine, double sine) {
-    const double x = fmin(at[X], widest), p = fmin(at[P], deepest);
-    const double strip[7] = {2 * log(x / sharpest) / log(widest / sharpest) - 1,
-                             2 * (p - shallow) / (deepest - shallow) - 1,
+/* G of one of the first four tables; u: t/3R; cosine and sine: of four times a crystal's direction */
+static double strip_of(const strip_term *term, size_t n, const double at[8], double curved) {
+    const double place[7] = {2 * log(at[X] / sharpest) / log(widest / sharpest) - 1,
+                             2 * (at[P] - shallow) / (deepest - shallow) - 1,
                              at[NU],
                              at[N],
                              sqrt(20 * curved),
-                             cosine,
-                             sine};
-    return strip_sum(term, n, strip);
+                             at[COSINE],
+                             at[SINE]};
+    return strip_sum(term, n, place);
+}
+#define STRIP_SUM(table, at, curved) strip_of(table, sizeof(table) / sizeof *(table), at, curved)
+
+/* G beyond the range, from that of its end: as the former law goes on from there, up to x = 2 and h = 30 t, and
+   what 75 solids there have more than that */
+static double goes_on(double G, const root_place *o, double (*former)(const double at[8])) {
+    const double more = 0.009, x = 2.0, p = 15 / 17.0;
+    if (!o->beyond) return G;
+    return (1 + more * fmax((o->at[X] - o->end[X]) / (x - widest),
+                            (o->at[P] - o->end[P]) / (p - deepest))) *
+           G * former(o->at) / former(o->end);
 }
 
-/* by how much the former law goes on beyond the range, up to x = 2 and h = 30 t, and what 75 solids there
-   have more than that */
-static double beyond(const double at[8], double (*former)(const double at[8])) {
-    const double more = 0.009, x = 2.0, p = 15 / 17.0;
-    double end[8];
-    if (!(at[X] > widest) && !(at[P] > deepest)) return 1;
-    memcpy(end, at, sizeof end);
-    end[X] = fmin(at[X], widest), end[Q] = 1 / cbrt(end[X] * end[X]);
-    end[P] = fmin(at[P], deepest);
-    return (1 + more * fmax((at[X] - end[X]) / (x - widest), (at[P] - end[P]) / (p - deepest))) *
-           former(at) / former(end);
+/* the same of arcs of silicon, whose former law holds beyond by itself: soon it is that one */
+static double fades(double G, const root_place *o, double (*former)(const double at[8])) {
+    if (!o->beyond) return G;
+    double fade = fmax(fmax((o->at[X] - o->end[X]) / 0.1, (o->end[X] - o->at[X]) / 0.02), 0);
+    fade = fmin(fmax(fade, (o->at[P] - o->end[P]) / 0.04), 1);
+    double less = 1 - G / former(o->end);
+    return former(o->at) * (1 - less * (1 - fade));
 }
 
 static double former_even(const double at[8]) {
-    return SUM(EVEN, at);
+    return SUM(even, at);
 }
 
 static double former_leaf(const double at[8]) {
-    return SUM(LEAF_DIRECTION, at) * (1 + SUM(LEAF_LEVEL, at));
+    return SUM(leaf_direction, at) * (1 + SUM(leaf_level, at));
 }
 
-/* (1 + w) A (1 + B), of a leaf G, of the worse fillet where 4 psi' has this cosine and sine */
+static double former_arc(const double at[8]) {
+    return SUM(arc_direction, at) * (1 + SUM(arc_level, at));
+}
+
+/* (1 + w) G, of a leaf G, of the worse fillet where 4 psi' has this cosine and sine */
 static double of_fillets(const fw_flexure_root_case *r, double share, double four_psi) {
-    double at[8], worst = 0, w = fabs(r->curved);
-    section_of(r, at);
-    double curved = at[U], cosine = share * cos(four_psi), sine = share * sin(four_psi);
-    for (int side = 1; !(w > 0) && side >= -1; side -= 2) { /* one fillet on either side */
-        at[COSINE] = cosine, at[SINE] = side * sine;
-        double G = strip_of(LEAF, sizeof LEAF / sizeof *LEAF, at, 0, cosine, side * sine);
-        worst = fmax(worst, G * beyond(at, former_leaf));
+    const double sharp = 0.15, w = fabs(r->curved), sine = share * sin(four_psi);
+    double worst = 0;
+    root_place o = place_of_root(r, sharp);
+    const double curved = o.at[U];
+    o.at[COSINE] = o.end[COSINE] = share * cos(four_psi);
+    if (!(w > 0)) { /* one fillet on either side: the one that turns towards the stiff direction */
+        o.at[SINE] = o.end[SINE] = fabs(sine);
+        return goes_on(STRIP_SUM(leaf, o.end, 0), &o, former_leaf);
     }
-    if (!(w > 0)) return worst;
     for (int side = 1; side >= -1; side -= 2) {
-        at[U] = side * curved, at[COSINE] = cosine, at[SINE] = side * sine;
-        worst = fmax(worst, (1 + side * w) * SUM(ARC_DIRECTION, at) * (1 + SUM(ARC_LEVEL, at)));
+        o.at[U] = o.end[U] = side * curved, o.at[SINE] = o.end[SINE] = side * sine;
+        double G = side > 0 ? STRIP_SUM(inner, o.end, curved) : STRIP_SUM(outer, o.end, curved);
+        worst = fmax(worst, (1 + side * w) * fades(G, &o, former_arc));
     }
     return worst;
 }
@@ -568,19 +553,17 @@ static double of_any_direction(const fw_flexure_root_case *r, double share) {
 
 double fw_flexure_root_peak(const fw_flexure_root_case *r, const fw_flexure_crystal *k) {
     const double before = 1.35; /* fillet radii */
-    double u = fabs(r->curved), at[8];
+    double u = fabs(r->curved);
     if (r->fillet_m < 0) return 1 + u;
     double Kt = fw_flexure_fillet_concentration(r->width_m, r->fillet_m);
-    section_of(r, at);
-    if (!k || !k->known) {
-        double G = strip_of(STRIP, sizeof STRIP / sizeof *STRIP, at, at[U], 0, 0);
-        return Kt * (1 + u) * G * beyond(at, former_even);
-    }
+    const root_place o = place_of_root(r, sharpest);
+    if (!k || !k->known)
+        return Kt * (1 + u) * goes_on(STRIP_SUM(strip, o.end, o.end[U]), &o, former_even);
     if (!k->aligned) return Kt * of_any_direction(r, k->share);
     /* of an arc that turns right and of the first end the mirror image */
     double sense = r->curved < 0 ? -r->end : r->end;
     double four_psi = sense * (atan2(k->sin4, k->cos4) + 4 * r->angle_rad);
-    return Kt * of_fillets(r, k->share, four_psi - 12 * before * at[X] * at[U]);
+    return Kt * of_fillets(r, k->share, four_psi - 12 * before * o.at[X] * o.at[U]);
 }
 
 void fw_flexure_peak_strain(const fw_flexure_shape *f, double beam, double inside, double root,

@@ -15,6 +15,7 @@ typedef struct fw_flexure_course {
     fw_geometry_pose start[FW_STRIP_MOST + 1]; /* of each piece; then the end */
     int n;
     double root_m[2], concentration[2]; /* dL, Kt of the first and second end */
+    double straight_more_m[2];          /* what solids give more there; 0 of an arc */
 } fw_flexure_course;
 void fw_flexure_path_of(const fw_flexure_input *in, fw_flexure_course *path);
 /* left or right edge (side +1, -1) at part 0..1 of a piece */

@@ -12,6 +12,8 @@
 double fw_flexure_root_length_m(double width_m, double fillet_m);
 double fw_flexure_root_block_m(double width_m,
                                double fillet_m); /* what of it a fillet of no radius would leave */
+/* of a straight strip, beside (13a): what a root of a solid gives more than dL, whose law is of plane stress */
+double fw_flexure_straight_more_m(double width_m, double fillet_m);
 double fw_flexure_fillet_concentration(double width_m, double fillet_m);
 /* how far from the block's face, at most, the moment and the width stand that a filleted root is strained by */
 double fw_flexure_root_reach_m(double width_m, double fillet_m, double curvature_per_m);

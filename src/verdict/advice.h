@@ -69,6 +69,7 @@ typedef struct fw_verdict_trial {
         *written; /* the file, opened when its units are asked for; NULL: not yet */
     fw_verdict_trial_end
         *end; /* (2 device->nparameter) as they are asked for; NULL: none was yet */
+    const struct fw_verdict_accepted *accepted; /* what was judged wholly; NULL: nothing yet */
 } fw_verdict_trial;
 
 /* copies the device and takes over the verdict that it has */
@@ -83,6 +84,8 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look);
 /* judges the description read again with `set` instead of `changed` */
 fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
                                    fw_verdict_look look);
+/* these settings, in this order, were judged wholly before, and accepted and drawn: the same device has the same verdict */
+bool fw_verdict_trial_accepted(const fw_verdict_trial *trial, const fw_device_set *set, int nset);
 /* the largest `likely` (or reach) of the last run; NaN: it was not run */
 double fw_verdict_trial_excess(const fw_verdict_trial *trial);
 

@@ -121,8 +121,11 @@ static void add(advice *a, fw_verdict_proposal proposal) {
 static fw_status add_verified(advice *a, fw_verdict_proposal proposal, bool *added) {
     *added = false;
     if (proposal.nset == 0) return FW_OK;
-    FW_TRY(fw_verdict_trial_restate(a->trial, proposal.set, proposal.nset, FW_LOOK_WHOLE));
-    *added = accepted(a->trial);
+    *added = fw_verdict_trial_accepted(a->trial, proposal.set, proposal.nset);
+    if (!*added) {
+        FW_TRY(fw_verdict_trial_restate(a->trial, proposal.set, proposal.nset, FW_LOOK_WHOLE));
+        *added = accepted(a->trial);
+    }
     if (*added) add(a, proposal);
     return FW_OK;
 }
@@ -134,7 +137,7 @@ static fw_status start_again(advice *a) {
     const size_t n = (size_t)was.verdict->nvariant;
     FW_TRY(fw_verdict_trial_start(t->arena, t->device, t->options, t->verdict, t));
     t->work = was.work, t->most_work = was.most_work;
-    t->end = was.end, t->written = was.written;
+    t->end = was.end, t->written = was.written, t->accepted = was.accepted;
     memcpy(t->suspect, was.suspect, n * sizeof *t->suspect);
     return FW_OK;
 }

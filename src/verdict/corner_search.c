@@ -185,6 +185,28 @@ static double wanted(const fw_verdict_options *o) {
     return o->motion.accuracy > 0 ? o->motion.accuracy : 1e-3;
 }
 
+/* What the motions of a look left out, relative: it does not go with the accuracy as long as it is left out. */
+static double left_out(const fw_verdict_search *s, const fw_verdict_variant_verdict *now) {
+    double most = 0;
+    for (int i = 0; now->motion && i < s->device->nscene; i++)
+        if (now->motion[i]) most = fmax(most, now->motion[i]->ledger.left_out);
+    return most;
+}
+
+/* Of a trial nobody sees more than the decision: after the first look the accuracy that its bands seem to need, where that is
+   known and less than what was asked for, with half of what was left out at most. 0: it is not. */
+static double enough_for_trial(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                               double had) {
+    const double open = 0.9; /* of `had`: nearer to it no band has said anything */
+    const double enough =
+        fmin(fw_verdict_enough(now->hinge, now->nhinge, had),
+             fw_verdict_requirements_enough(now->requirement, now->nrequirement, had));
+    const double out = left_out(s, now);
+    if (!s->options.coarse_first || had < fw_verdict_first_accuracy || !(enough < open * had))
+        return 0;
+    return out > 0 ? fmin(enough, 0.5 * out) : enough;
+}
+
 /* Options of the next look at a point that tighter numbers may still decide: first the accuracy
    that was asked for, then at least ten times tighter and as tight as the bands seem to need, then
    the tightest there is, to which a step that would end within 3 times of it goes at once. What
@@ -201,6 +223,7 @@ static bool refine(const fw_verdict_search *s, const fw_verdict_variant_verdict 
     next = fmin(next, fw_verdict_requirements_enough(now->requirement, now->nrequirement, had));
     *options = coarse ? s->options : fw_verdict_tighter(&s->options, FW_REFINE_NUMBERS);
     if (steered && had == asked && next > 3 * fw_verdict_tightest) options->motion.accuracy = next;
+    if (coarse) options->motion.accuracy = fmax(asked, enough_for_trial(s, now, had));
     return true;
 }
 

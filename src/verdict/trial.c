@@ -398,6 +398,40 @@ static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_de
     return FW_OK;
 }
 
+/* ---- settings that were accepted ----
+   A search ends with what it has judged wholly, and a proposal is judged wholly once more before it is made. */
+
+typedef struct fw_verdict_accepted {
+    const fw_device_set *set; /* (nset) */
+    int nset;
+    const struct fw_verdict_accepted *before;
+} fw_verdict_accepted;
+
+bool fw_verdict_trial_accepted(const fw_verdict_trial *trial, const fw_device_set *set, int nset) {
+    for (const fw_verdict_accepted *a = trial->accepted; a; a = a->before) {
+        int same = 0;
+        while (a->nset == nset && same < nset && strcmp(a->set[same].path, set[same].path) == 0 &&
+               strcmp(a->set[same].value, set[same].value) == 0)
+            same++;
+        if (a->nset == nset && same == nset) return true;
+    }
+    return false;
+}
+
+static fw_status keep_accepted(fw_verdict_trial *trial, const fw_device_set *set, int nset) {
+    const size_t n = (size_t)nset;
+    fw_verdict_accepted *a = fw_arena_one(trial->arena, fw_verdict_accepted);
+    fw_device_set *own = fw_arena_array(trial->arena, fw_device_set, n);
+    FW_NEED(a && own ? own : NULL);
+    for (size_t i = 0; i < n; i++) {
+        FW_NEED(own[i].path = fw_arena_strdup(trial->arena, set[i].path));
+        FW_NEED(own[i].value = fw_arena_strdup(trial->arena, set[i].value));
+    }
+    *a = (fw_verdict_accepted){own, nset, trial->accepted};
+    trial->accepted = a;
+    return FW_OK;
+}
+
 fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
                                    fw_verdict_look look) {
     const fw_verdict_options o = options_of(trial, look);
@@ -407,7 +441,10 @@ fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set 
     fw_arena_free(scratch);
     for (int k = 0; k < trial->nhinge; k++) /* their names are gone */
         trial->hinge[k].scene = trial->hinge[k].flow = NULL;
-    if (status == FW_OK) return FW_OK;
+    if (status == FW_OK)
+        return look == FW_LOOK_WHOLE && trial->drawn && trial->decision == FW_ACCEPT
+                   ? keep_accepted(trial, set, nset)
+                   : FW_OK;
     trial->nhinge = 0;
     trial->decision = FW_REJECT;
     trial->drawn = false;

@@ -454,7 +454,7 @@ fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
 double fw_verdict_motion_lasting_error(const fw_mechanism *m) {
     double most = 0;
     for (int k = 0; k < m->nhinge; k++)
-        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
+        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.root_less);
     return most;
 }
 
@@ -478,7 +478,7 @@ double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
     bool same = true;
     for (int k = 0; k < m->nhinge; k++) {
         same = same && alike(&m->hinge[0], &m->hinge[k]);
-        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.softer);
+        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.root_more);
     }
     return same ? most : fw_verdict_motion_lasting_error(m);
 }

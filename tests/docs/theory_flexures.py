@@ -15,9 +15,9 @@ def root_length(t, rho):
 
 def sum_of_table(*values):
     """G of (11a), its terms as the table STRIP lists them"""
-    core = (pathlib.Path(__file__).resolve().parents[2] / "src/flexure/flexure_section.c").read_text(encoding="utf-8")
-    table, total = re.search(r"strip_term STRIP\[\] = \{(.*?)\n\};", core, re.S).group(1), 0.0
-    for number, powers in re.findall(r"\{([-+.0-9e]+), \{([^}]*)\}\}", table):
+    rows = (pathlib.Path(__file__).resolve().parents[2] / "src/flexure/roots.def").read_text(encoding="utf-8")
+    total = 0.0
+    for number, powers in re.findall(r"^STRIP\(([-+.0-9e]+), ([^)]*)\)$", rows, re.M):
         term = float(number)
         for value, power in zip(values, powers.split(","), strict=False):
             term *= value ** int(power)
@@ -115,7 +115,7 @@ def flexure_silicon(g):
     block, root = 0.4192 * t, root_length(t, g["rho"])
     lost = stiff * s12 * s12 / s11 * reach**2 / (reach + block)
     # of a root, the block gives with the mean a0, the fillet takes away strip with the modulus of the leaf's direction
-    ends = stiff * (root * a0 - (root - block) * a1)
+    ends = stiff * (root * a0 - (root - block) * a1) + t * (0.006 + 0.0335 * min(g["rho"] / t, 1.25) ** 2)
     return {"E_100": 1 / (a0 + a1), "E_110": stiff, "n2": s12 * s12 * stiff / s11, "l": reach, "d": lost,
             "K": stiff * h * t**3 / 12 / (L + 2 * ends - 2 * lost)}
 

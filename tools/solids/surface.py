@@ -154,9 +154,9 @@ def edge_peak(edges, values, arc, at, z):
     return value[best], (nearby(arc, at[:, 0], s[best]), nearby(arc, at[:, 1], s[best]), depth[k])
 
 
-def half_peak(edges, u, compliance, crystal_rad=0.0, of_stress=False, beside_middle_um=0.0):
-    """rotation of the half, and the larger peak of its two edges per radian if both halves turned alike; points nearer to
-    the middle section than stated are left out: a crystal's section that is held plane is not what stands there"""
+def half_peaks(edges, u, compliance, crystal_rad=0.0, of_stress=False, beside_middle_um=0.0):
+    """rotation of the half, and the peaks of its right and left edge per radian if both halves turned alike, with their places; points
+    nearer to the middle section than stated are left out: a crystal's section that is held plane is not what stands there"""
     rotation = u[edges.reference][1] / edges.rotation_um
     peaks = []
     for side in range(2):
@@ -165,4 +165,4 @@ def half_peak(edges, u, compliance, crystal_rad=0.0, of_stress=False, beside_mid
             near = at[:, 1] > -beside_middle_um
             values[near] = values[np.flatnonzero(~near)[-1]]
         peaks.append(edge_peak(edges, values / (2 * abs(rotation)), arc, at, z))
-    return rotation, *max(peaks)
+    return rotation, peaks

@@ -5,7 +5,7 @@ What is fitted is G, the solid's strain per moment over Kt times that of the bea
 below 1 + margin, and the highest above its own `slack` be as low as it can be. slack: 0 within the range of the narrow band
 (`inside`), 0.02 beyond it (silicon 0.03). The moment is that of the closed form with what the ends lose (13a).
 
-Within the range of the narrow band isotropic strips and leaves of silicon have a law of their own: G a sum of terms, each the powers of
+Within the range of the narrow band there are laws of their own (class Narrow): G a sum of terms, each the powers of
 
     z = 2 ln(x/0.1)/ln 12.5 - 1, p = 2 (h/(h + 4 t) - 1/9)/(10/14 - 1/9) - 1 (-1 to 1 over the range), nu, n = nu f,
     u = sqrt(20 t/3R), and c, s = cosine and sine of four times the direction from [100] (class Narrow).
@@ -174,156 +174,180 @@ def bow(deep, nu):
 
 
 class Narrow:
-    """rows within the range of the narrow band, and places between them: numpy arrays by the names of the powers, one for each fillet that
-    may be the worst, and what is asked of each row. What lies between solids says a Gaussian process through them (kriging), whose own
-    error is stated by leaving every solid out once; without it a sum of fifty terms is free between the rows, and at the range's corners"""
+    """Fillets within the range of the narrow band, and places between them: numpy arrays by the names of the powers and what is asked of
+    each. A solid has one value of each of its fillets that is known: of an isotropic strip the larger one, of a leaf of silicon that of the
+    fillet that turns towards the stiff direction, of an arc of silicon either (class Fillets). What lies between solids says a Gaussian
+    process through them (kriging), whose own error is stated by leaving every solid out once; without it a sum of a hundred terms is free
+    between the solids, and at the range's corners"""
 
-    CAPS = {"isotropic": ((5, 5, 2, 2, 4, 0, 0), 7, 50), "silicon": ((4, 4, 0, 0, 0, 2, 1), 6, 36)}  # powers, their sum, terms
-    # lengths of the process, of z, p, nu, n, u or z, p, c, |s|; its noise
-    KRIGING = {"isotropic": ((1.6, 1.5, 3, 3, 3), 1e-9), "silicon": ((1.5, 1.5, 4, 4), 1e-5)}
+    # powers of z, p, nu, n, u, c, s, their sum, terms
+    CAPS = {"STRIP": ((5, 5, 2, 2, 4, 0, 0), 7, 90), "LEAF": ((5, 5, 0, 0, 0, 2, 2), 7, 50)}
+    # lengths of the process along z, p, nu, n, u, c, s; its noise
+    KRIGING = {"STRIP": ((1.6, 1.5, 3, 3, 3, 1, 1), 1e-9), "LEAF": ((1.2, 1.2, 1, 1, 1, 4, 4), 1e-4)}
+    SHORT = 2.45  # depths: where both ends of a crystal's strip reach each other it is strained less, and no law is fitted to that
 
-    def __init__(self, rows, margin):
-        def column(name):
-            return np.array([float(r[name]) for r in rows])
+    def __init__(self, name, rows, margin):
+        def column(of):
+            return np.array([float(r[of]) for r in rows])
 
-        t, h = column("width_um"), column("depth_um")
+        self.name, self.floor = name, 1 + margin
+        t, h, x, z, p = self.section(column)
         leaf = np.array([r["kind"] == "leaf" for r in rows])
-        self.material = rows[0]["material"]
-        crystal = self.material == "silicon"
-        x = column("fillet_um") / t
-        z, p = 2 * np.log(x / 0.1) / math.log(12.5) - 1, 2 * (h / (h + 4 * t) - FLAT) / (DEEP - FLAT) - 1
-        nu = column("nu")
-        n = nu * column("bow")
+        crystal = name != "STRIP"
+        self.poisson = nu = column("nu")
         curved = np.where(leaf, 0.0, t / 3 / column("radius_or_length_um"))
+        four = 4 * np.radians(column("axis_from_100_deg")) if crystal else 0 * z
+        self.at = np.array([z, p, 0 * z if crystal else nu, 0 * z if crystal else nu * column("bow"), np.sqrt(20 * curved), np.cos(four), np.abs(np.sin(four))])
+        self.by = 1 + curved
         self.target = column("strain_per_rad") / (column("bending") * column("Kt"))
-        self.inside = (x < 1.2501) & (h < 10.001 * t) & (x > (0.1499 if crystal else 0.0999))
-        self.slack = np.zeros(len(x))
-        self.floor = 1 + margin
-        self.at, self.by = [], []
-        if not crystal:
-            self.at, self.by = [(z, p, nu, n, np.sqrt(20 * curved), z, z)], [1 + curved]
-            return
-        axis = np.radians(column("axis_from_100_deg"))
-        for side in (1, -1):
-            self.at.append((z, p, nu, n, 0 * z, np.cos(4 * axis), side * np.sin(4 * axis)))
-            self.by.append(np.ones(len(z)))
+        short = crystal & (column("radius_or_length_um") < self.SHORT * h)
+        self.inside = (x < 1.2501) & (h < 10.001 * t) & (x > (0.1499 if crystal else 0.0999)) & ~short
+        self.known = np.ones(len(z), bool)
 
-    def between(self, many=500):
-        """rows that no solid is of, at random in the range, a third of them at its ends: what the process makes of them is asked for"""
-        rng = np.random.RandomState(88)
+    @staticmethod
+    def section(column):
+        t, h = column("width_um"), column("depth_um")
+        x = column("fillet_um") / t
+        return t, h, x, 2 * np.log(x / 0.1) / math.log(12.5) - 1, 2 * (h / (h + 4 * t) - FLAT) / (DEEP - FLAT) - 1
+
+    def places(self, rng, many):
+        """at random in the range, a third of them at its ends: at, by"""
 
         def in_range(low, high):
             end = rng.rand(many)
             return np.where(end < 1 / 6, low, np.where(end > 5 / 6, high, rng.uniform(low, high, many)))
 
         z, p = in_range(-1, 1), in_range(-1, 1)
-        out = object.__new__(Narrow)
-        out.material, out.slack, out.inside, out.floor = self.material, np.zeros(many), np.ones(many, bool), self.floor
-        if self.material == "isotropic":
+        if self.name == "STRIP":
             nu, curved = in_range(0.05, 0.4), np.where(rng.rand(many) < 0.3, 0, in_range(0, 0.05))
-            flat = FLAT + (p + 1) / 2 * (DEEP - FLAT)
-            free = np.array([bow(4 * f / (1 - f) * math.sqrt(3 * w), v) for f, w, v in zip(flat, curved, nu)])
-            out.at, out.by = [(z, p, nu, nu * free, np.sqrt(20 * curved), z, z)], [1 + curved]
-        else:
-            psi = in_range(0, math.pi / 4)
-            out.at, out.by = [(z, p, 0 * z, 0 * z, 0 * z, np.cos(4 * psi), k * np.sin(4 * psi)) for k in (1, -1)], [np.ones(many)] * 2
-        lengths, noise = self.KRIGING[self.material]
-        seen, places = self.places()[self.inside], out.places()
-        value = (self.target / self.by[0])[self.inside]
+            return np.array([z, p, nu, nu * self.free(p, curved, nu), np.sqrt(20 * curved), 1 + 0 * z, 0 * z]), 1 + curved
+        psi = in_range(0, math.pi / 4)
+        return np.array([z, p, 0 * z, 0 * z, 0 * z, np.cos(4 * psi), np.abs(np.sin(4 * psi))]), np.ones(many)
+
+    @staticmethod
+    def free(p, curved, nu):
+        """f of (8)"""
+        flat = FLAT + (p + 1) / 2 * (DEEP - FLAT)
+        return np.array([bow(4 * f / (1 - f) * math.sqrt(3 * w), v) for f, w, v in zip(flat, curved, nu + 0 * curved)])
+
+    def seen(self):
+        return self.inside & self.known
+
+    def between(self, many=500):
+        """with rows that no solid is of: what the process makes of them is asked for"""
+        lengths, noise = self.KRIGING[self.name]
+        at, by = self.places(np.random.RandomState(88), many)
+        solids, value = self.at[:, self.seen()], (self.target / self.by)[self.seen()]
 
         def kernel(a, b):
-            return np.exp(-0.5 * (((a[:, None] - b[None]) / np.array(lengths))**2).sum(-1))
+            return np.exp(-0.5 * (((a[:, :, None] - b[:, None]) / np.array(lengths)[:, None, None])**2).sum(0))
 
-        inverse = np.linalg.inv(kernel(seen, seen) + noise * np.eye(len(seen)))
+        inverse = np.linalg.inv(kernel(solids, solids) + noise * np.eye(len(value)))
         weights = inverse @ (value - value.mean())
         missed = weights / np.diag(inverse)
         print(f"  kriging, each solid by the others: {100 * math.sqrt(np.mean(missed**2)):.2f} % (rms), {100 * np.abs(missed).max():.2f} % at most")
-        out.target = (value.mean() + kernel(places, seen) @ weights) * out.by[0]
-        return self.with_more(out)
-
-    def places(self):
-        z, p, nu, n, u, c, s = self.at[0]
-        return np.array([z, p, nu, n, u] if self.material == "isotropic" else [z, p, c, np.abs(s)]).T
-
-    def with_more(self, other):
-        """those of self within the range, and other's"""
-        out, mine = object.__new__(Narrow), self.inside
-        out.material, out.floor = self.material, self.floor
-        for name in ("target", "slack", "inside"):
-            setattr(out, name, np.r_[getattr(self, name)[mine], getattr(other, name)])
-        out.at = [tuple(np.r_[a[mine], b] for a, b in zip(one, two)) for one, two in zip(self.at, other.at)]
-        out.by = [np.r_[a[mine], b] for a, b in zip(self.by, other.by)]
+        out = object.__new__(type(self))
+        out.name, out.floor = self.name, self.floor
+        out.at, out.by = np.hstack([self.at[:, self.inside], at]), np.r_[self.by[self.inside], by]
+        out.target = np.r_[self.target[self.inside], (value.mean() + kernel(at, solids) @ weights) * by]
+        out.known = np.r_[self.known[self.inside], np.ones(many, bool)]
+        out.inside = np.ones(len(out.by), bool)
         return out
 
     def columns(self, powers):
-        """of every fillet: rows by terms, over what is asked for"""
-        out = []
-        for values, by in zip(self.at, self.by):
-            table = [[v**k for k in range(max(p[i] for p in powers) + 1)] for i, v in enumerate(values)]
-            products = [np.prod([table[i][k] for i, k in enumerate(p) if k] or [np.ones(len(by))], axis=0) for p in powers]
-            out.append(np.array(products).T * (by / self.target)[:, None])
-        return out
+        """rows by terms, over what is asked for"""
+        table = [[v**k for k in range(max(p[i] for p in powers) + 1)] for i, v in enumerate(self.at)]
+        products = [np.prod([table[i][k] for i, k in enumerate(p) if k] or [np.ones(len(self.by))], axis=0) for p in powers]
+        return np.array(products).T * (self.by / self.target)[:, None]
 
     def over(self, powers, constants):
-        """1 + how far the bound is above the rows, and which fillet it is of"""
-        value = np.array([c @ constants for c in self.columns(powers)])
-        return value.max(0) - 1, value.argmax(0)
+        """how far the bound is above the rows"""
+        return self.columns(powers) @ constants - 1
 
-    def solve(self, powers, worst=None):
-        """Chebyshev's fit. Of every row one fillet, the worst by least squares, is to be above it, and all of them are not to be too far above
-        it: a linear program, repeated with the worst of its own answer as long as that helps"""
-        all_of, rows = np.array(self.columns(powers)), np.arange(len(self.target))
-        upper = np.vstack([np.c_[a, -np.ones(len(a))] for a in all_of])
-        worst, best = self.squares(powers) if worst is None else worst, None
-        for _ in range(6):
-            low = np.c_[-all_of[worst, rows], np.zeros(len(rows))]
-            found = linprog(np.r_[np.zeros(len(powers)), 1], A_ub=np.vstack([upper, low]),
-                            b_ub=np.r_[np.tile(self.slack, len(all_of)), np.full(len(rows), -self.floor)], bounds=(None, None), method="highs").x
-            if best is not None and found[-1] > best[-1] - 1e-6:
-                break
-            best, worst = found, (all_of @ found[:-1]).argmax(0)
-        return best[:-1]
-
-    def squares(self, powers):
-        """the worst fillets of a fit of least squares"""
-        all_of, rows = np.array(self.columns(powers)), np.arange(len(self.target))
-        weight, worst = np.ones((len(self.target), 1)), np.zeros(len(self.target), int)
-        for _ in range(8 if len(all_of) > 1 else 0):
-            constants = np.linalg.lstsq(all_of[worst, rows] * weight, weight[:, 0], rcond=None)[0]
-            worst = (all_of @ constants).argmax(0)
-        return worst
+    def solve(self, powers):
+        """Chebyshev's fit, one linear program: no known row below its floor, the highest as low as can be. Of the fillet that is strained
+        less (not `known`) the bound is only not to be above the other's"""
+        all_of = self.columns(powers)
+        upper = np.c_[all_of, -np.ones(len(all_of))]
+        low = np.c_[-all_of[self.known], np.zeros(self.known.sum())]
+        found = linprog(np.r_[np.zeros(len(powers)), 1], A_ub=np.vstack([upper, low]), b_ub=np.r_[np.zeros(len(upper)), np.full(len(low), -self.floor)],
+                        bounds=(None, None), method="highs")
+        return found.x[:-1]
 
     def choice(self):
         """terms of at most the powers of CAPS, one after the other: the one that helps most with rows that are left out one at a time (least
         squares)"""
-        caps, degree, many = self.CAPS[self.material]
-        powers = [p for p in itertools.product(*(range(c + 1) for c in caps)) if sum(p) <= degree and p[5] + p[6] <= 2]
-        weight, rows = np.ones(len(self.target)), np.arange(len(self.target))
-        every, worst = np.array(self.columns(powers)), np.zeros(len(self.target), int)
-        for _ in range(3 if len(self.at) > 1 else 1):
-            columns = every[worst, rows] * weight[:, None]
-            left, hat, found = weight.copy(), np.zeros(len(rows)), []
-            columns = columns / np.linalg.norm(columns, axis=0)
-            for _ in range(many):
-                size = np.sqrt((columns**2).sum(0))
-                free = size > 3e-4
-                helps = np.where(free, np.abs(columns.T @ left) / np.where(free, size, 1), 0)
+        caps, degree, many = self.CAPS[self.name]
+        powers = [p for p in itertools.product(*(range(c + 1) for c in caps)) if sum(p) <= degree and p[5] + p[6] <= max(caps[5:])]
+        columns = self.columns(powers)[self.known]
+        left, hat, found = np.ones(len(columns)), np.zeros(len(columns)), []
+        columns = columns / np.linalg.norm(columns, axis=0)
+        for _ in range(many):
+            size = np.sqrt((columns**2).sum(0))
+            free = size > 3e-4
+            helps = np.where(free, np.abs(columns.T @ left) / np.where(free, size, 1), 0)
 
-                def left_out(j):
-                    q = columns[:, j] / size[j]
-                    return np.mean(((left - q * (q @ left)) / (1 - hat - q * q))**2)
-
-                j = min((j for j in np.argsort(-helps)[:40] if free[j]), key=left_out)
+            def left_out(j):
                 q = columns[:, j] / size[j]
-                left, hat, columns = left - q * (q @ left), hat + q * q, columns - np.outer(q, q @ columns)
-                found.append(j)
-            constants = np.linalg.lstsq(every[worst, rows][:, found] * weight[:, None], weight, rcond=None)[0]
-            worst = np.array([a[:, found] @ constants for a in every]).argmax(0)
+                return np.mean(((left - q * (q @ left)) / (1 - hat - q * q))**2)
+
+            j = min((j for j in np.argsort(-helps)[:40] if free[j]), key=left_out)
+            q = columns[:, j] / size[j]
+            left, hat, columns = left - q * (q @ left), hat + q * q, columns - np.outer(q, q @ columns)
+            found.append(j)
         return [powers[j] for j in found]
+
+    def constants(self, powers):
+        """as they are printed, the first raised until no solid is more than one in ten thousand below its floor"""
+        found = np.array([float(f"{c:.6g}") for c in self.solve(powers)])
+        while (self.over(powers, found)[self.seen()] < self.floor - 1 - 1e-4).any():
+            found[0] = float(f"{found[0] + 1e-4:.6g}")
+        return found
+
+
+class Fillets(Narrow):
+    """arcs of silicon, side 1: the fillet inside of the arc, -1: outside. Rows of root_fillets.csv are halves with a value of each; the
+    other one than the worst is known where it has 95 % of that. Leaves are arcs without curvature: of them the fillet is known that turns
+    towards the stiff direction"""
+
+    CAPS = {"INNER": ((5, 5, 0, 1, 4, 4, 3), 7, 110), "OUTER": ((5, 5, 0, 1, 4, 4, 3), 7, 110)}
+    KRIGING = {name: ((1.5, 1.5, 1, 0.4, 2, 2, 2), 1e-5) for name in CAPS}
+
+    def __init__(self, side, halves, leaves, margin):
+        def column(of):
+            return np.array([float(r[of]) for r in halves])
+
+        self.name, self.floor = "INNER" if side > 0 else "OUTER", 1 + margin
+        t, h, x, z, p = self.section(column)
+        curved = t / 3 / column("radius_or_length_um")
+        four = 4 * (np.radians(column("angle_deg")) / 2 - np.radians(column("axis_from_100_deg"))) - 12 * SHIFT * x * curved
+        n = column("nu") * column("bow")
+        own, worst = (np.array([pair(r) for r in halves]) for pair in (
+            lambda r: float(r["inner_per_rad"] if side > 0 else r["outer_per_rad"]), lambda r: max(float(r["inner_per_rad"]), float(r["outer_per_rad"]))))
+        self.known = own > 0.95 * worst
+        self.at = np.array([z, p, 0 * z, n, np.sqrt(20 * curved), np.cos(four), side * np.sin(four)])
+        self.by = 1 + side * curved
+        self.target = np.where(self.known, own, worst) / (column("bending") * column("Kt"))
+        long = np.radians(column("angle_deg")) * column("radius_or_length_um") > self.SHORT * h
+        self.inside = (x < 1.2501) & (h < 10.001 * t) & (x > 0.1499) & long
+        if leaves is None:
+            return
+        self.at = np.hstack([self.at, leaves.at + np.outer(np.eye(7)[3], leaves.poisson)])
+        self.by, self.target = np.r_[self.by, leaves.by], np.r_[self.target, leaves.target]
+        self.known, self.inside = np.r_[self.known, leaves.known], np.r_[self.inside, leaves.inside]
+
+    def places(self, rng, many):
+        def in_range(low, high):
+            end = rng.rand(many)
+            return np.where(end < 1 / 6, low, np.where(end > 5 / 6, high, rng.uniform(low, high, many)))
+
+        side = 1 if self.name == "INNER" else -1
+        z, p, curved, four = in_range(2 * math.log(1.5) / math.log(12.5) - 1, 1), in_range(-1, 1), in_range(0, 0.05), rng.uniform(0, 2 * math.pi, many)
+        n = 0.312 * self.free(p, curved, 0.28)
+        return np.array([z, p, 0 * z, n, np.sqrt(20 * curved), np.cos(four), side * np.sin(four)]), 1 + side * curved
 
 
 def table(name, powers_of, constants):
-    """a table as src/flexure/flexure_section.c has it"""
-    kind, digits = ("root_term", 5) if len(powers_of[0]) == len(NAMES) else ("strip_term", 6)
-    rows = [f"    {{{c:.{digits}g}, {{{', '.join(str(k) for k in p)}}}}}," for p, c in zip(powers_of, constants)]
-    return [f"static const {kind} {name}[] = {{"] + rows + ["};"]
+    """rows as src/flexure/roots.def has them"""
+    digits = 5 if len(powers_of[0]) == len(NAMES) else 6
+    return [f"{name}({c:.{digits}g}, {', '.join(str(k) for k in p)})" for p, c in zip(powers_of, constants)]

@@ -105,14 +105,15 @@ static plain form_of(const fw_flexure_input *in) {
 
     /* flexure.c */
     long double rho = larger(0, (long double)fmin(in->fillet_m, in->width_m));
+    long double thick = larger(0, (long double)fmin(in->fillet_m, 1.25 * in->width_m));
     long double lost = 0.35L * h * larger(0, 1 - (1 - nu * nu) * d.D) + 0.006L * t +
-                       2.3L * (t / r) * (t / r) * rho * rho / t;
+                       2.3L * (t / r) * (t / r) * thick * thick / t;
     long double off = 2 * lost / L, place = 0.6L * rho * rho, EI = E * I * d.D;
     long double give = ideal ? 0 : 3.2L * t * t * t / 12, X = fabsl(x), Y = fabsl(y);
     p.error[0] = 0.001L + off;
     p.error[1] = 0.002L + (off * L * Y * Y + place * Y * fabsl(c) + give * s * s) / (EI * p.C[1]);
     p.error[2] = 0.002L + (off * L * X * X + place * X * fabsl(s) + give * c * c) / (EI * p.C[2]);
-    p.error[3] = 0.0135L;
+    p.error[3] = 0.011L;
     p.beyond =
         !ideal && ((long double)in->fillet_m < 0.05L * t || in->fillet_m > 1.25 * in->width_m)
             ? 0.10L

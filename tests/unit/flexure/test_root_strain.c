@@ -21,7 +21,7 @@ typedef struct row {
     double stiffness;    /* N m/rad; 0: not in the table */
 } row;
 
-enum { MOST = 800 };
+enum { MOST = 1300 };
 
 static int rows_in(const char *path, row *rows) {
     char line[256], kind[16], material[16];
@@ -56,7 +56,7 @@ static int held_out(row *rows) {
     return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_held_out.csv", rows);
 }
 
-/* others; of arcs of silicon no fit has seen them */
+/* others; fitted since */
 static int unseen(row *rows) {
     return rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_unseen.csv", rows);
 }
@@ -84,12 +84,18 @@ static double above(const row *r, const fw_flexure_result *o) {
     return o->strain_per_rad / r->strain - 1;
 }
 
+/* of a crystal both ends reach each other, and it is strained less */
+static bool short_strip(const row *r) {
+    double length = r->shape.size * (r->shape.angle == 0 ? 1 : r->shape.angle * FW_PI / 180);
+    return r->silicon && length < 2.45 * r->shape.depth;
+}
+
 /* at most this far above a solid: isotropic, leaves and arcs of silicon, within the range of the narrow
    band and beyond it */
 static double most_above(const row *r) {
-    if (!r->silicon) return inside(r) ? 0.009 : 0.05;
-    if (r->shape.angle == 0) return inside(r) ? 0.011 : 0.06;
-    return inside(r) ? 0.022 : 0.052;
+    if (!r->silicon) return inside(r) ? 0.0068 : 0.05;
+    if (r->shape.angle == 0) return inside(r) ? (short_strip(r) ? 0.02 : 0.0083) : 0.06;
+    return inside(r) ? 0.0098 : 0.052;
 }
 
 /* never below a solid, and not far above; the own estimate holds all of it. One figure in ten thousand
@@ -97,7 +103,11 @@ static double most_above(const row *r) {
 static void never_below_a_solid(void **state) {
     (void)state;
     static row rows[MOST];
-    int n = rows_of(rows), counted[2] = {0}, outside = 0;
+    int n = rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_more.csv", rows);
+    assert_true(n > 480);
+    n += rows_of(rows + n);
+    assert_true(n < MOST);
+    int counted[2] = {0}, outside = 0;
     double most[2] = {0};
     for (int i = 0; i < n; i++) {
         const row *r = &rows[i];
@@ -112,16 +122,19 @@ static void never_below_a_solid(void **state) {
         outside += !inside(r);
         if (inside(r)) most[r->silicon] = fmax(most[r->silicon], over), counted[r->silicon]++;
     }
-    assert_true(counted[0] > 250 && counted[1] > 230 && outside > 100);
-    assert_true(most[0] > 0.007 && most[1] > 0.015); /* the bounds above say something */
+    assert_true(counted[0] > 500 && counted[1] > 480 && outside > 100);
+    assert_true(most[0] > 0.006 && most[1] > 0.009); /* the bounds above say something */
 }
 
-/* the same of others, and the stiffness with what the ends lose (13a), to which no number was fitted */
-static void stiffness_was_not_fitted(void **state) {
+/* the same of others, and the stiffness with what the ends lose (13a): of a crystal what is off by is stated as it is
+   more and as it is less */
+static void stiffness_of_solids(void **state) {
     (void)state;
     static row rows[MOST];
     int n = held_out(rows);
+    n += rows_in(FW_TEST_SOURCE_DIR "/tests/data/hinge/root_strain_more.csv", rows + n);
     double square = 0;
+    int counted = 0;
     for (int i = 0; i < n; i++) {
         const row *r = &rows[i];
         fw_flexure_input in = input_of(r);
@@ -129,46 +142,52 @@ static void stiffness_was_not_fitted(void **state) {
         in.ends = true;
         fw_flexure_closed_form(&in, &o);
         double over = above(r, &o), off = o.stiffness_Nm_per_rad / r->stiffness - 1;
-        double top = inside(r) && r->silicon ? 0.0235 : most_above(r);
+        double top = most_above(r);
         if (!(over >= (inside(r) ? -2e-4 : -o.error.above) && over <= top))
             fail_msg("row %d: %.4f above the solid", i + 2, over);
-        if (!(fabs(off) < o.error.stiffness))
-            fail_msg("row %d: stiffness off by %.4f, stated %.4f", i + 2, off, o.error.stiffness);
-        assert_true(o.error.stiffness < 0.03);
-        square += off * off;
+        if (!(r->stiffness > 0)) continue;
+        double stated = off > 0 && r->silicon ? o.error.softer : o.error.stiffness;
+        if (!(fabs(off) < stated))
+            fail_msg("row %d: stiffness off by %.4f, stated %.4f", i + 2, off, stated);
+        assert_true(o.error.stiffness < (o.error.outside ? 0.08 : 0.04));
+        square += off * off, counted++;
     }
-    assert_true(n > 120 && sqrt(square / n) < 0.002);
+    assert_true(counted > 600 && sqrt(square / counted) < 0.002);
 }
 
 /* none is above the bound, and none further below it than stated */
-static int beside_the_bound(const row *rows, int n) {
-    int shallow = 0;
+static void beside_the_bound(const row *rows, int n) {
+    int rounded = 0;
     for (int i = 0; i < n; i++) {
         const row *r = &rows[i];
         const fw_flexure_input in = input_of(r);
         fw_flexure_result o;
         assert_true(inside(r));
         fw_flexure_closed_form(&in, &o);
+        double sharpest = (r->silicon ? 0.15 : 0.1) * in.width_m;
+        if (o.error.outside || in.fillet_m < sharpest) { /* the range's end, rounded */
+            rounded++;
+            continue;
+        }
         double solid = r->strain / o.strain_per_rad - 1;
         if (!(solid < 0 && solid > -o.error.strain))
             fail_msg("row %d: %.4f beside the bound, stated %.4f", i + 2, solid, o.error.strain);
-        bool leaf = r->shape.angle == 0, flat = r->silicon && !leaf && in.depth_m < in.width_m;
-        assert_true(flat || o.error.strain < (!r->silicon ? 0.0136 : leaf ? 0.0171 : 0.0256));
-        shallow += flat;
+        bool arc = r->silicon && r->shape.angle > 0;
+        assert_true(o.error.strain < (arc ? 0.0146 : 0.0111) + (short_strip(r) ? 0.012 : 0));
     }
-    return shallow;
+    assert_true(10 * rounded < n);
 }
 
-/* of 29 arcs of silicon that no fit has seen one in range of h > t is 2.5 % below, a shallower one 4.1 %;
-   and solids of all kinds that were drawn and solved when the fits were made */
+/* solids of all kinds that were drawn and solved when the fits were made, and those that were unseen of a former one */
 static void solids_that_no_fit_has_seen(void **state) {
     (void)state;
     static row rows[MOST];
-    int n = unseen(rows), shallow = beside_the_bound(rows, n);
-    assert_true(n > 50 && shallow > 1);
+    int n = unseen(rows);
+    beside_the_bound(rows, n);
+    assert_true(n > 50);
     n = after(rows);
     beside_the_bound(rows, n);
-    assert_true(n > 20);
+    assert_true(n > 150);
 }
 
 /* what a solid's own mesh is off by: two of them */
@@ -249,7 +268,7 @@ static void mirrored(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(never_below_a_solid),
-                                       cmocka_unit_test(stiffness_was_not_fitted),
+                                       cmocka_unit_test(stiffness_of_solids),
                                        cmocka_unit_test(solids_that_no_fit_has_seen),
                                        cmocka_unit_test(solids_agree_with_themselves),
                                        cmocka_unit_test(never_below_the_reference),

@@ -270,7 +270,7 @@ static void band_of_a_step(void **state) {
     for (int i = 0; i < 6; i++) {
         off = fmax(off, fabs(pins->level->up.strain[i] - pins->level->at.strain[i]));
         largest = fmax(largest, pins->level->at.strain[i]);
-        s.r.hinge[i].closed_form.error.stiffness = 0.006;
+        s.r.hinge[i].closed_form.error.root_less = 0.006;
     }
     double want = fmax(off / largest, pins->level->relative) + 0.006;
     assert_near(fw_verdict_motion_model_error(&s.r.m, &x), want, 1e-15);
