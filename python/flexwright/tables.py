@@ -79,7 +79,9 @@ class Table(dict):
                        for name in self)
         body = "".join("<tr>" + "".join(f"<td>{cell(v)}</td>" for v in vars(row).values()) + "</tr>"
                        for row in self.rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        # forty columns are wider than a page: the table is moved in its own frame, not the page
+        return ("<div style='overflow-x:auto;max-width:100%'><table>"
+                f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>")
 
 
 class Named(MappingABC):

@@ -39,44 +39,6 @@ static fw_status describe(const fw_verdict_search *s, const double *x, const cha
 
 /* ---- checks ---- */
 
-static double between(double used) {
-    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
-    return fmin(fmax(used, least), most);
-}
-
-/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
-   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
-   much as is asked for. */
-static double used_by_nearest(const fw_verdict_clearance *c) {
-    const fw_clearance_least *l = &c->least;
-    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
-    double used = target / l->m;
-    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
-    if (c->box == FW_NONE && l->start_m <= target) used = most;
-    if (l->m <= 0) used = 1 / l->share;
-    return between(used);
-}
-
-/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
-   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
-static double used_by_any(const fw_verdict_clearance *c, bool by_nearest) {
-    const bool meet = c->least.m <= 0 && c->least.share > 0;
-    const double nearest = by_nearest || meet ? used_by_nearest(c) : 0;
-    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
-}
-
-/* Only where a pair has lost much of its distance may a corner take the rest: loads move a device
-   further by half where its flexures are a sixth thinner. Below that a corner only proves that enough
-   is left. */
-bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest) {
-    for (int i = 0; i < v->nclearance; i++) {
-        const fw_verdict_clearance *c = &v->clearance[i];
-        const double used = by_nearest ? used_by_nearest(c) : used_by_any(c, true);
-        if (used > fw_verdict_clearance_counts) return true;
-    }
-    return false;
-}
-
 /* Logarithms of all checks of one run, in the order of fw_verdict_search: the utilisation of each
    hinge in each scene and in the workspace, then for each scene the pull-in margin that is needed
    over the one that there is, the utilisation of each requirement, and the share of each clearance that
@@ -93,7 +55,8 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
     for (int i = 0; s->clearances && i < now->nclearance; i++) {
         const fw_verdict_clearance *c = &now->clearance[i];
         int at = c->box == FW_NONE ? c->scene_index : scenes + c->box;
-        if (c->box == FW_NONE || s->nearest) clearance[at] = log(used_by_any(c, s->nearest));
+        if (c->box == FW_NONE || s->nearest)
+            clearance[at] = log(fw_verdict_search_used(c, s->nearest));
     }
     for (int r = 0; r < hinges; r++)
         ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
