@@ -39,6 +39,19 @@ static fw_status describe(const fw_verdict_search *s, const double *x, const cha
 
 /* ---- checks ---- */
 
+/* Only where a pair has lost much of its distance may a corner take the rest: loads move a device
+   further by half where its flexures are a sixth thinner. Below that a corner only proves that enough
+   is left. */
+bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest) {
+    for (int i = 0; i < v->nclearance; i++) {
+        const fw_verdict_clearance *c = &v->clearance[i];
+        const double used =
+            by_nearest ? fw_verdict_search_used_nearest(c) : fw_verdict_search_used(c, true);
+        if (used > fw_verdict_clearance_counts) return true;
+    }
+    return false;
+}
+
 /* Logarithms of all checks of one run, in the order of fw_verdict_search: the utilisation of each
    hinge in each scene and in the workspace, then for each scene the pull-in margin that is needed
    over the one that there is, the utilisation of each requirement, and the share of each clearance that

@@ -242,46 +242,6 @@ void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]
     band[1] = isnan(r->all_high) ? r->high : r->all_high;
 }
 
-/* ---- what of a clearance is used ---- */
-
-static double between(double used) {
-    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
-    return fmin(fmax(used, least), most);
-}
-
-/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
-   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
-   much as is asked for. */
-static double used_by_nearest(const fw_verdict_clearance *c) {
-    const fw_clearance_least *l = &c->least;
-    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
-    double used = target / l->m;
-    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
-    if (c->box == FW_NONE && l->start_m <= target) used = most;
-    if (l->m <= 0) used = 1 / l->share;
-    return between(used);
-}
-
-/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
-   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
-double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
-    const bool meet = c->least.m <= 0 && c->least.share > 0;
-    const double nearest = by_nearest || meet ? used_by_nearest(c) : 0;
-    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
-}
-
-/* Only where a pair has lost much of its distance may a corner take the rest: loads move a device
-   further by half where its flexures are a sixth thinner. Below that a corner only proves that enough
-   is left. */
-bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest) {
-    for (int i = 0; i < v->nclearance; i++) {
-        const fw_verdict_clearance *c = &v->clearance[i];
-        const double used = by_nearest ? used_by_nearest(c) : fw_verdict_search_used(c, true);
-        if (used > fw_verdict_clearance_counts) return true;
-    }
-    return false;
-}
-
 /* ---- how many there may be, for who waits ---- */
 
 /* No more points are run than the nominal one, one for the slopes of each input, all corners, each hinge alone and the
