@@ -113,9 +113,11 @@ double fw_geometry_contour_distance_below(const fw_geometry_contour *p,
                                           const fw_geometry_contour *q, double limit_m,
                                           fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q);
 /* an outline that many others are compared with */
+enum { FW_GEOMETRY_BOXED_RUN = 8 };
 typedef struct fw_geometry_boxed {
     const fw_geometry_contour *contour;
-    const fw_geometry_box *box; /* (count) of its segments */
+    const fw_geometry_box *box,
+        *run; /* (count) of its segments, and around every FW_GEOMETRY_BOXED_RUN of them */
     fw_geometry_box whole;
 } fw_geometry_boxed;
 fw_status fw_geometry_contour_boxed(fw_arena *arena, const fw_geometry_contour *contour,

@@ -154,6 +154,12 @@ static void list_near(const fw_geometry_boxed *boxed, const fw_geometry_box *box
     to->of = q;
     to->n = 0;
     for (to->rest = 0; to->rest < q->count && to->n < FEW; to->rest++) {
+        if (boxed->run && to->rest % FW_GEOMETRY_BOXED_RUN == 0 &&
+            fw_box_apart(&boxed->run[to->rest / FW_GEOMETRY_BOXED_RUN], box, limit)) {
+            to->rest +=
+                FW_GEOMETRY_BOXED_RUN - 1; /* all of a run; after the last one there is nothing */
+            continue;
+        }
         const fw_geometry_box own =
             boxed->box ? boxed->box[to->rest] : fw_segment_box(&q->segment[to->rest]);
         if (fw_box_apart(&own, box, limit)) continue;
@@ -211,11 +217,15 @@ static void look_at_list(const fw_geometry_segment *s, const fw_geometry_box *ow
 
 fw_status fw_geometry_contour_boxed(fw_arena *arena, const fw_geometry_contour *contour,
                                     fw_geometry_boxed *out) {
-    fw_geometry_box *box = fw_arena_array(arena, fw_geometry_box, (size_t)contour->count);
-    FW_NEED(box);
-    *out = (fw_geometry_boxed){.contour = contour, .box = box};
+    enum { EACH = FW_GEOMETRY_BOXED_RUN };
+    fw_geometry_box *box = fw_arena_array(arena, fw_geometry_box, (size_t)contour->count),
+                    *run =
+                        fw_arena_array(arena, fw_geometry_box, (size_t)contour->count / EACH + 1);
+    FW_NEED(box && run);
+    *out = (fw_geometry_boxed){.contour = contour, .box = box, .run = run};
     for (int i = 0; i < contour->count; i++) {
         box[i] = fw_segment_box(&contour->segment[i]);
+        run[i / EACH] = i % EACH ? fw_box_join(run[i / EACH], box[i]) : box[i];
         out->whole = i ? fw_box_join(out->whole, box[i]) : box[i];
     }
     return FW_OK;
@@ -253,7 +263,7 @@ double fw_geometry_contour_distance(const fw_geometry_contour *p, const fw_geome
 
 /* Width and space of one outline: the shortest chord between two edges that face each other. */
 
-enum { BOXED = 1024, SPAN = 8 };
+enum { BOXED = 1024, SPAN = 8, WIDE = 64 };
 
 typedef struct search {
     const fw_geometry_contour *contour;
@@ -427,24 +437,56 @@ static bool is_joint(const fw_geometry_segment *s) {
     return s->flags & FW_SEGMENT_JOINT;
 }
 
-/* segment p itself and with those behind it that are no neighbours; box: of the first `boxed`,
-   run: of every SPAN of these */
-static void look_beyond(const search *in, int p, const fw_geometry_box *box, int boxed,
-                        const fw_geometry_box *run, nearest *best) {
+typedef struct boxes { /* of the first segments, each asked for many times */
+    fw_geometry_box one[BOXED], run[BOXED / SPAN], wide[BOXED / WIDE];
+    int count;
+} boxes;
+
+static void put_boxes(const fw_geometry_contour *c, boxes *b) {
+    b->count = c->count < BOXED ? c->count : BOXED;
+    for (int k = 0; k < b->count; k++) {
+        fw_geometry_box *run = &b->run[k / SPAN];
+        b->one[k] = fw_segment_box(&c->segment[k]);
+        *run = k % SPAN ? fw_box_join(*run, b->one[k]) : b->one[k];
+    }
+    for (int r = 0; r * SPAN < b->count; r++) {
+        fw_geometry_box *wide = &b->wide[r * SPAN / WIDE];
+        *wide = r * SPAN % WIDE ? fw_box_join(*wide, b->run[r]) : b->run[r];
+    }
+}
+
+static fw_geometry_box box_of(const search *in, const boxes *b, int k) {
+    return k < b->count ? b->one[k] : fw_segment_box(&in->contour->segment[k]);
+}
+
+static bool far_off(const fw_geometry_box *own, const fw_geometry_box *there, double least) {
+    return fw_box_apart(own, there, least) || fw_box_gap(*own, *there) >= least;
+}
+
+/* the first segment from q on that may be nearer than `least`, by runs of them; there is none before it */
+static int pass_over(const boxes *b, const fw_geometry_box *own, int q, double least) {
+    while (q % SPAN == 0 && q + SPAN <= b->count) {
+        if (q % WIDE == 0 && q + WIDE <= b->count && far_off(own, &b->wide[q / WIDE], least))
+            q += WIDE;
+        else if (far_off(own, &b->run[q / SPAN], least))
+            q += SPAN;
+        else
+            break;
+    }
+    return q;
+}
+
+/* segment p itself and with those behind it that are no neighbours */
+static void look_beyond(const search *in, int p, const boxes *box, nearest *best) {
     const fw_geometry_contour *c = in->contour;
-    fw_geometry_box own = p < boxed ? box[p] : fw_segment_box(&c->segment[p]);
+    fw_geometry_box own = box_of(in, box, p);
     double alone = own_clearance(&c->segment[p], in->inside);
     if (alone < best->least && !excepted(in, p, p)) *best = (nearest){alone, p, p};
     int end = p == 0 ? c->count - 1 : c->count;
     for (int q = p + 2; q < end; q++) {
-        if (q % SPAN == 0 && q + SPAN <= boxed &&
-            (fw_box_apart(&own, &run[q / SPAN], best->least) ||
-             fw_box_gap(own, run[q / SPAN]) >= best->least)) {
-            q += SPAN - 1;
-            continue;
-        }
+        if (q % SPAN == 0 && (q = pass_over(box, &own, q, best->least)) >= end) break;
         const fw_geometry_segment *other = &c->segment[q];
-        fw_geometry_box there = q < boxed ? box[q] : fw_segment_box(other);
+        fw_geometry_box there = box_of(in, box, q);
         if (fw_box_apart(&own, &there, best->least)) continue;
         double gap = fw_box_gap(own, there);
         if (gap >= best->least || is_joint(other)) continue;
@@ -464,22 +506,17 @@ double fw_geometry_contour_clearance_except(const fw_geometry_contour *contour, 
                                             double limit_m, unsigned except, int *i, int *j) {
     search in = {contour, inside, except};
     nearest best = {limit_m, -1, -1};
-    int n = contour->count, boxed = n < BOXED ? n : BOXED;
-    fw_geometry_box box[BOXED],
-        run[BOXED / SPAN]; /* of the first segments, each asked for many times */
-    for (int k = 0; k < boxed; k++) {
-        box[k] = fw_segment_box(&contour->segment[k]);
-        run[k / SPAN] = k % SPAN ? fw_box_join(run[k / SPAN], box[k]) : box[k];
-    }
+    int n = contour->count;
+    boxes box;
+    put_boxes(contour, &box);
     for (int p = 0; p < n; p++)
-        if (!is_joint(&contour->segment[p])) look_beyond(&in, p, box, boxed, run, &best);
+        if (!is_joint(&contour->segment[p])) look_beyond(&in, p, &box, &best);
     for (int p = 0; p < n; p++) /* neighbours last: the limit may then spare them */
         for (int k = 0; k < 2; k++) {
             int q = k == 0 ? p + 1 : n - 1; /* the first one is the last one's neighbour, too */
             if (q >= n || q <= p || (k == 1 && (p > 0 || q == p + 1))) continue;
             if (is_joint(&contour->segment[p]) || is_joint(&contour->segment[q])) continue;
-            double gap = fw_box_gap(p < boxed ? box[p] : fw_segment_box(&contour->segment[p]),
-                                    q < boxed ? box[q] : fw_segment_box(&contour->segment[q]));
+            double gap = fw_box_gap(box_of(&in, &box, p), box_of(&in, &box, q));
             if (gap < best.least) look_at_pair(&in, p, q, gap, &best);
         }
     if (i) *i = best.i;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/segment.h"
+#include <string.h>
 
 fw_geometry_vec2 fw_geometry_vec_rotate(fw_geometry_vec2 p, double angle_rad) {
     double c = cos(angle_rad), s = sin(angle_rad);
@@ -118,6 +119,36 @@ fw_geometry_near fw_geometry_near_of(const fw_geometry_segment *s, double reach)
     n.far = (r + more) * (r + more), n.within = hollow * hollow;
     n.sure = (r + less) * (r + less), n.sure_within = r > less ? (r - less) * (r - less) : -1;
     return n;
+}
+
+/* is the foot of a place between the ends of a line along x? Monotonic in x, so that what lies between two such is one */
+static bool beside(const fw_geometry_near *n, double x) {
+    const double t = (x - n->segment->a.x) * n->u.x;
+    return t >= 0 && t <= n->square;
+}
+
+static void ask_row(const fw_geometry_near *n, double from_x, double step, double y, int first,
+                    int last, unsigned char *row) {
+    for (int i = first; i <= last; i++)
+        if (!row[i])
+            row[i] = fw_geometry_is_near(n, (fw_geometry_vec2){from_x + (i + 0.5) * step, y});
+}
+
+void fw_geometry_near_row(const fw_geometry_near *n, double from_x, double step, double y,
+                          int first, int last, unsigned char *row) {
+    const fw_geometry_segment *s = n->segment;
+    const bool level = s->kind == FW_LINE && s->a.y == s->b.y;
+    const double off = n->u.x * (y - s->a.y), square = off * off;
+    int from = first, to = last;
+    if (level && square > n->far) return;
+    if (!level || !(square < n->sure)) from = last + 1;
+    while (from <= to && !beside(n, from_x + (from + 0.5) * step))
+        from++;
+    while (to >= from && !beside(n, from_x + (to + 0.5) * step))
+        to--;
+    if (to >= from) memset(row + from, 1, (size_t)(to - from) + 1);
+    ask_row(n, from_x, step, y, first, from - 1, row);
+    ask_row(n, from_x, step, y, to + 1, last, row);
 }
 
 /* 0 .. 3: the quarter that a direction lies in, each with its first axis */

@@ -122,6 +122,10 @@ static inline bool fw_geometry_is_near(const fw_geometry_near *n, fw_geometry_ve
     }
     return fw_geometry_segment_nearest(s, at, NULL, NULL) <= n->reach;
 }
+/* sets row[i], of bytes 0 and 1, for first <= i <= last where (from_x + (i + 0.5) step, y) is near; of a line along x,
+   whose carrier is as far from all of them, those between its ends at once. Test: test_segment.c */
+void fw_geometry_near_row(const fw_geometry_near *n, double from_x, double step, double y,
+                          int first, int last, unsigned char *row);
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
 bool fw_geometry_segment_faces(const fw_geometry_segment *arc, fw_geometry_vec2 direction,
                                double *t);
@@ -203,6 +207,11 @@ static inline double fw_box_gap(fw_geometry_box p, fw_geometry_box q) {
 static inline bool fw_box_apart(const fw_geometry_box *p, const fw_geometry_box *q, double least) {
     return p->x0 - q->x1 >= least || q->x0 - p->x1 >= least || p->y0 - q->y1 >= least ||
            q->y0 - p->y1 >= least;
+}
+/* the same of what is farther than `most`: fw_box_gap(p, q) > most, with a root for boxes at corners of each other alone */
+static inline bool fw_box_beyond(const fw_geometry_box *p, const fw_geometry_box *q, double most) {
+    return p->x0 - q->x1 > most || q->x0 - p->x1 > most || p->y0 - q->y1 > most ||
+           q->y0 - p->y1 > most || fw_box_gap(*p, *q) > most;
 }
 static inline fw_geometry_box fw_box_join(fw_geometry_box p, fw_geometry_box q) {
     return (fw_geometry_box){fw_lesser(p.x0, q.x0), fw_lesser(p.y0, q.y0), fw_greater(p.x1, q.x1),

@@ -245,6 +245,7 @@ fw_status fw_layout_actuator_crosses(fw_layout_drawing *d, const fw_geometry_con
 typedef struct candidate {
     double from, ahead, aside; /* along the bar; away from it; then to one side */
     const char *letter;
+    double letter_m; /* width of it */
 } candidate;
 
 static double pad_of(const fw_layout_drawing *d) {
@@ -272,8 +273,7 @@ static lead lead_of(const fw_layout_drawing *d, const fw_layout_comb_plan *p, co
         end = fw_add(end, c->aside, n);
         l.beyond = fw_add(l.corner, 0.5 * BACK_M, u);
     }
-    double text = fw_layout_text_width(c->letter, 9.0 * STROKE_M, STROKE_M);
-    double pad = pad_of(d), wide = fmax(pad, text + 2.0 * MARGIN_M),
+    double text = c->letter_m, pad = pad_of(d), wide = fmax(pad, text + 2.0 * MARGIN_M),
            strip = 9.0 * STROKE_M + 2.0 * MARGIN_M;
     double high = pad + strip;
     double reach = fmin(fabs(way.x) > 1e-9 ? 0.5 * wide / fabs(way.x) : HUGE_VAL,
@@ -370,10 +370,12 @@ static fw_status find_place(fw_layout_drawing *d, fw_layout_comb_plan *p,
         double space = round < 2 ? FREE_M : LEAST_M;
         bool named = round % 2 == 0;
         if (named && (!id || strlen(id) > LETTERS || fw_layout_text_lacks(id))) continue;
+        const char *letter = named ? id : number;
+        double letter_m = fw_layout_text_width(letter, 9.0 * STROKE_M, STROKE_M);
         for (size_t t = 0; t < sizeof aside / sizeof aside[0]; t++)
             for (size_t a = 0; a < sizeof ahead / sizeof ahead[0]; a++)
                 for (size_t f = 0; f < sizeof from / sizeof from[0]; f++) {
-                    candidate c = {from[f] * half, ahead[a], aside[t], named ? id : number};
+                    candidate c = {from[f] * half, ahead[a], aside[t], letter, letter_m};
                     if (half <= 0.0 && f > 0) continue;
                     fw_mark mark = fw_arena_mark(d->arena);
                     FW_TRY(try_lead(d, p, electrode, &all, &c, space, done));
@@ -452,4 +454,11 @@ bool fw_layout_near_stator(const fw_layout_drawing *d, const fw_geometry_contour
             return true;
     }
     return false;
+}
+
+const fw_layout_electrode *fw_layout_electrode_of(const fw_layout *layout,
+                                                  const fw_device_comb *comb) {
+    for (int i = 0; i < layout->nelectrode; i++)
+        if (fw_layout_same_comb(layout->electrode[i].comb, comb)) return &layout->electrode[i];
+    return NULL;
 }

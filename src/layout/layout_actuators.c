@@ -162,19 +162,20 @@ static fw_status takes_bias(fw_arena *arena, const fw_geometry_contour *c, bool 
     return FW_OK;
 }
 
-/* rounded without a word, and no worse for a mask than the outline before; else not *good, and what
-   was there stays */
+/* Rounded without a word, and no worse for a mask than the outline before, whose soundness *sound is; else not *good,
+   and what was there stays, and *sound with it. */
 static fw_status rounds(fw_layout_drawing *d, int slot, int body, const fw_geometry_contour *raw,
-                        double least, bool *good) {
+                        double *sound, bool *good) {
     fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
     fw_geometry_contour plain;
     fw_geometry_vec2 where;
     d->diags = &unsaid;
     fw_status status = fw_layout_body_round(d, body, raw, &plain, &d->corner_m[slot], &where);
     d->diags = said;
-    *good = status == FW_OK && fw_layout_body_soundness(&plain, &where) > 0.95 * least;
-    if (*good && least > 0.0) FW_TRY(takes_bias(d->arena, &plain, good));
-    if (*good) d->plain[slot] = plain;
+    const double now = status == FW_OK ? fw_layout_body_soundness(&plain, &where) : 0.0;
+    *good = status == FW_OK && now > 0.95 * *sound;
+    if (*good && *sound > 0.0) FW_TRY(takes_bias(d->arena, &plain, good));
+    if (*good) d->plain[slot] = plain, *sound = fmin(1.0, now);
     return status == FW_GEOMETRY ? FW_OK : status;
 }
 
@@ -239,9 +240,9 @@ static fw_status frame_soundness(fw_layout_drawing *d, const fw_geometry_contour
 
 /* Ring and hole on an outline; *why set: they cannot be there. Where a ring's edge nearly coincides
    with another the outline would get a step that no mask can show; then the ring is made wider.
-   slot -1: a half of the frame. `least`: soundness of the outline before. */
+   slot -1: a half of the frame. *least: soundness of the outline before; with the ring, that of what is there now. */
 static fw_status eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
-                            double least, fw_geometry_contour *raw, const char **why) {
+                            double *least, fw_geometry_contour *raw, const char **why) {
     static const double wider_m[] = {0.0, 6e-6, 12e-6, 18e-6, 25e-6};
     const char *first = NULL;
     for (; e->wider < (int)(sizeof wider_m / sizeof wider_m[0]); e->wider++) {
@@ -257,7 +258,7 @@ static fw_status eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_
         if (!*why && slot >= 0) FW_TRY(rounds(d, slot, body, &open, least, &good));
         if (!*why && slot < 0) {
             FW_TRY(frame_soundness(d, &open, &sound));
-            good = sound > 0.95 * least;
+            good = sound > 0.95 * *least;
         }
         if (good) {
             *raw = open;
@@ -274,42 +275,52 @@ static fw_status eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_
 
 /* the same; where it cannot be, the eyelet is given up and that is said */
 static fw_status eyelet_add(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
-                            fw_geometry_contour *raw) {
+                            double *sound, fw_geometry_contour *raw) {
     const char *why;
-    FW_TRY(eyelet_fit(d, slot, body, e, soundness_now(d, slot), raw, &why));
+    FW_TRY(eyelet_fit(d, slot, body, e, sound, raw, &why));
     return why ? eyelet_off(d, e, why) : FW_OK;
+}
+
+/* a rotor on an outline that is rounded already; where it cannot be, the drive is given up. *last: what was rounded
+   last is the outline that is kept */
+static fw_status dress_with_rotor(fw_layout_drawing *d, int body, fw_layout_comb_plan *p,
+                                  double *sound, fw_geometry_contour *raw, bool *last) {
+    fw_geometry_contour with = *raw;
+    const char *why;
+    bool good = false;
+    FW_TRY(add_rotor(d, p, &with, &why));
+    if (!why) {
+        FW_TRY(rounds(d, body, body, &with, sound, &good));
+        *last = good;
+        if (!good) FW_TRY(fw_layout_rotor_flaw(d, body, p, &with, &why));
+        if (!good && !why)
+            why = "between its rotor and its body there would be steps or slits that no mask shows";
+    }
+    if (why) return comb_off(d, p, why);
+    *raw = with;
+    return FW_OK;
 }
 
 /* body as it was before, then everything on it that can be drawn; one pass for the poses that hold
    now */
 static fw_status dress(fw_layout_drawing *d, int body) {
     fw_geometry_contour raw = d->bare[body];
-    bool good;
-    FW_TRY(rounds(d, body, body, &raw, 0.0, &good));
+    double sound = 0.0, any = 0.0;
+    bool good, last = true;
+    FW_TRY(rounds(d, body, body, &raw, &sound, &good));
+    if (!good) sound = soundness_now(d, body);
     place_all(d, body);
-    for (int i = 0; i < d->ncomb; i++) {
-        fw_layout_comb_plan *p = &d->comb[i];
-        fw_geometry_contour with = raw;
-        const char *why;
-        if (p->off || p->comb->body_b != body) continue;
-        FW_TRY(add_rotor(d, p, &with, &why));
-        if (!why) FW_TRY(rounds(d, body, body, &with, soundness_now(d, body), &good));
-        if (!why && !good) {
-            FW_TRY(fw_layout_rotor_flaw(d, body, p, &with, &why));
-            if (!why)
-                why = "between its rotor and its body there would be steps or slits that no mask "
-                      "shows";
-        }
-        if (why)
-            FW_TRY(comb_off(d, p, why));
-        else
-            raw = with;
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off && d->comb[i].comb->body_b == body)
+            FW_TRY(dress_with_rotor(d, body, &d->comb[i], &sound, &raw, &last));
+    for (int i = 0; i < d->neyelet; i++) {
+        fw_layout_eyelet_plan *e = &d->eyelet[i];
+        if (e->off || e->eyelet->body != body) continue;
+        FW_TRY(eyelet_add(d, body, body, e, &sound, &raw));
+        last = !e->off;
     }
-    for (int i = 0; i < d->neyelet; i++)
-        if (!d->eyelet[i].off && d->eyelet[i].eyelet->body == body)
-            FW_TRY(eyelet_add(d, body, body, &d->eyelet[i], &raw));
     d->raw[body] = raw;
-    return rounds(d, body, body, &raw, 0.0, &good);
+    return last ? FW_OK : rounds(d, body, body, &raw, &any, &good);
 }
 
 /* with the caps of its eyelets */
@@ -433,7 +444,9 @@ fw_status fw_layout_actuators_on_base(fw_layout_drawing *d) {
             FW_TRY(eyelet_off(d, e, across));
             continue;
         }
-        if (slot >= 0) FW_TRY(eyelet_add(d, slot, FW_GROUND, e, &d->raw[slot]));
+        if (slot < 0) continue;
+        double sound = soundness_now(d, slot);
+        FW_TRY(eyelet_add(d, slot, FW_GROUND, e, &sound, &d->raw[slot]));
     }
     for (int i = 0; i < d->ncomb; i++)
         if (!d->comb[i].off) FW_TRY(avoid(d, &d->comb[i].stator));
@@ -481,7 +494,7 @@ fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour
         const char *why;
         double before;
         FW_TRY(frame_soundness(d, raw, &before));
-        FW_TRY(eyelet_fit(d, -1, FW_GROUND, e, before, &open, &why));
+        FW_TRY(eyelet_fit(d, -1, FW_GROUND, e, &before, &open, &why));
         if (why)
             FW_TRY(eyelet_off(d, e, why));
         else
@@ -514,13 +527,6 @@ static void report_masses(fw_layout_drawing *d) {
                          "counted",
                          FW_NAMED("body", body->id));
     }
-}
-
-const fw_layout_electrode *fw_layout_electrode_of(const fw_layout *layout,
-                                                  const fw_device_comb *comb) {
-    for (int i = 0; i < layout->nelectrode; i++)
-        if (fw_layout_same_comb(layout->electrode[i].comb, comb)) return &layout->electrode[i];
-    return NULL;
 }
 
 fw_status fw_layout_actuators_add(fw_layout_drawing *d) {

@@ -91,6 +91,18 @@ static void see(reach *r, fw_geometry_vec2 w) {
     }
 }
 
+/* is its box beyond a radius about a point? Of an arc that of its whole circle first, which needs no angles */
+static bool out_of_circle(const fw_geometry_segment *s, const fw_geometry_box *at,
+                          double radius_m) {
+    const double r = s->kind == FW_ARC ? s->radius : 0.0;
+    if (s->kind == FW_ARC &&
+        (s->centre.x - r - at->x1 > radius_m || at->x0 - s->centre.x - r > radius_m ||
+         s->centre.y - r - at->y1 > radius_m || at->y0 - s->centre.y - r > radius_m))
+        return true;
+    const fw_geometry_box own = fw_segment_box(s);
+    return fw_box_beyond(at, &own, radius_m);
+}
+
 /* from segment `first` on; returns where to go on, or the number of segments */
 static int find_near(const fw_geometry_contour *c, int first, fw_geometry_vec2 w, double radius_m,
                      near_part *near) {
@@ -98,7 +110,7 @@ static int find_near(const fw_geometry_contour *c, int first, fw_geometry_vec2 w
     near->count = 0;
     for (int i = first; i < c->count; i++) {
         const fw_geometry_segment *s = &c->segment[i];
-        if (fw_box_gap(at, fw_segment_box(s)) > radius_m + 1e-8) continue;
+        if (out_of_circle(s, &at, radius_m + 1e-8)) continue;
         double least = fw_geometry_segment_nearest(s, w, NULL, NULL) - 1e-9;
         if (least > radius_m) continue;
         if (near->count == MOST_REACHES) return i;

@@ -140,8 +140,10 @@ typedef struct fw_mask_measure { /* per layer */
     fw_geometry_vec2 width_at[2], space_at[2];        /* ends of these chords */
     double shortest_edge_m, sharpest_rad;             /* of the polygons; INFINITY without any */
     double sharpest_material_rad, sharpest_space_rad; /* its two sides */
-    double edge_m;       /* farthest that an edge of a polygon is from its outline, at most */
-    int straight;        /* vertices exactly between their neighbours */
+    bool
+        unfinished; /* too many edges are near each other (FW-D592): findings and least distances are of the first of them */
+    double edge_m;  /* farthest that an edge of a polygon is from its outline, at most */
+    int straight;   /* vertices exactly between their neighbours */
     fw_geometry_box box; /* of the polygons, on the grid; x0 > x1 without any */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6
@@ -336,6 +338,7 @@ typedef struct fw_mask_format { /* a row of formats.def */
     bool always, usual; /* whatever is asked for; when nothing is asked for */
     bool beside;        /* goes with GDSII and need not be named */
     bool picture;       /* to look at: the order sheet does not name it */
+    bool solid; /* of the etched device: no plate is written from it, and no order names it */
 } fw_mask_format;
 const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row */
 /* bit i for row i. list: names with commas between, "all", or NULL for the usual ones; false: a
@@ -383,6 +386,7 @@ typedef struct fw_mask_order {
     int mirror;        /* 1: seen with the chrome up the plate is the data's mirror image; 0: not;
                           -1: the table's reading does not say */
     double width_m, space_m;  /* least ones on the plate's layers; INFINITY: none below 100 um */
+    bool unfinished;          /* a layer's search for them ended before its end (FW-D592) */
     bool *plate;              /* (nlayer of the table): is it on the plate? */
     fw_mask_order_site *site; /* (nsite) */
     int nsite;
@@ -414,8 +418,9 @@ void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_tab
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */
 void fw_mask_order_set_lines(fw_text *out, const fw_mask_table *table, const fw_mask_order *order);
-void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask,
-                              int plate);
+/* unfinished: the search for these two ended before its end */
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, bool unfinished,
+                              const fw_mask *mask, int plate);
 /* by how much its first layer is drawn outside of what is wanted */
 double fw_mask_plate_bias_m(const fw_mask *mask, int plate);
 void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box);

@@ -62,6 +62,7 @@ typedef struct query {
     cut_box box;         /* of the segment */
     double x, y, length; /* its direction, not normed */
     double least, now;   /* what need not be undercut; what was found so far */
+    int near; /* number of the vertex, or of the edge behind it, that set `now`; -1: none */
 } query;
 
 /* no more than the distance between the segment and a box: that of their boxes along an axis, and
@@ -93,13 +94,20 @@ static bool meet(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c,
            (cda == 0 && between(c, d, a)) || (cdb == 0 && between(c, d, b));
 }
 
-static void leaf(query *q, int run) {
+/* vertex k, and the edge behind it */
+static void look(query *q, int k) {
     const fw_geometry_polygon *p = q->tree->polygon;
-    for (int k = run * RUN; k < (run + 1) * RUN && k < p->count; k++) {
-        int next = k + 1 < p->count ? k + 1 : 0;
-        bool own = k == q->i || k == q->j, next_own = next == q->i || next == q->j;
-        if (!own) q->now = fmin(q->now, cut_distance(q->a, q->b, p->vertex[k]));
-        if (!own && !next_own && meet(q->a, q->b, p->vertex[k], p->vertex[next])) q->now = -1;
+    const int next = k + 1 < p->count ? k + 1 : 0;
+    const bool own = k == q->i || k == q->j, next_own = next == q->i || next == q->j;
+    const double far = own ? HUGE_VAL : cut_distance(q->a, q->b, p->vertex[k]);
+    if (far < q->now) q->now = far, q->near = k;
+    if (!own && !next_own && meet(q->a, q->b, p->vertex[k], p->vertex[next]))
+        q->now = -1, q->near = k;
+}
+
+static void leaf(query *q, int run) {
+    for (int k = run * RUN; k < (run + 1) * RUN && k < q->tree->polygon->count; k++) {
+        look(q, k);
         if (q->now <= q->least) return;
     }
 }
@@ -116,9 +124,10 @@ static void visit(query *q, int node) {
 
 /* Search down a tree of boxes (Guttman 1984, "R-trees", here over runs of a chain). In: a polygon
    and two of its vertices (dbu). Out: the distance (dbu). Error: whether edges meet is exact;
-   distances have some ulp of the coordinates. Cost: about ln n boxes where little is near. Test:
-   test_polygon_cut.c, against all vertices. */
-static double cut_clearance(const cut_tree *tree, int i, int j, double least, double most) {
+   distances have some ulp of the coordinates. Cost: about ln n boxes where little is near. *blocked: the edge,
+   or its first vertex, that refused. Test: test_polygon_cut.c, against all vertices. */
+static double cut_clearance(const cut_tree *tree, int i, int j, double least, double most,
+                            int *blocked) {
     fw_geometry_point a = tree->polygon->vertex[i], b = tree->polygon->vertex[j];
     query q = {.tree = tree,
                .i = i,
@@ -130,9 +139,11 @@ static double cut_clearance(const cut_tree *tree, int i, int j, double least, do
                .x = (double)b.x_dbu - a.x_dbu,
                .y = (double)b.y_dbu - a.y_dbu,
                .least = least,
-               .now = most};
+               .now = most,
+               .near = -1};
     q.length = hypot(q.x, q.y);
     if (q.length > 0) visit(&q, 1);
+    if (q.now <= least) *blocked = q.near;
     return q.now;
 }
 
@@ -149,7 +160,9 @@ typedef struct search {
     int least;         /* vertices that lie on either side at least */
     int peel;          /* 0; else one side has no more edges, the cut not counted */
     int tried; /* 0; else pairs with as many edges on either side were tried with the same distance in vain */
-    int i, j;                 /* best so far; -1: none */
+    int i, j; /* best so far; -1: none */
+    int last,
+        *way; /* edges that refused the cut before, and of each sample (nsample) its last one; -1: none */
     double least2, clear_dbu; /* its length, its distance */
 } search;
 
@@ -180,12 +193,23 @@ static bool along(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
     return false;
 }
 
-/* Distance of the line between two vertices from all others where it lies strictly inside and this
+/* is edge k in the way of the line between two vertices? What was in that of their neighbours is in most cases. k -1: there
+   is none */
+static bool crosses(const fw_geometry_polygon *p, int i, int j, int k) {
+    const int next = k + 1 < p->count ? k + 1 : 0;
+    return k >= 0 && k != i && k != j && next != i && next != j &&
+           meet(p->vertex[i], p->vertex[j], p->vertex[k], p->vertex[next]);
+}
+
+/* Distance of the line between two vertices, the second sample m, from all others where it lies strictly inside and this
    is more than `least`; else a number up to it. The four vertices beside its ends first: they are
    nearest most often. */
-static double clearance(const search *s, int i, int j, double least, double most) {
+static double clearance(search *s, int i, int m, double least, double most) {
     const fw_geometry_polygon *p = s->p;
+    const int j = s->sample[m];
     fw_geometry_point a = at(p, i), b = at(p, j);
+    for (int k = 0; k < 2; k++)
+        if (crosses(p, i, j, k ? s->last : s->way[m])) return -1;
     if (!enters(p, i, b) || !enters(p, j, a)) return -1;
     double clear = most;
     const int beside[4] = {i - 1, i + 1, j - 1, j + 1};
@@ -194,7 +218,10 @@ static double clearance(const search *s, int i, int j, double least, double most
         if (clear <= least) return clear;
     }
     if (along(p, i, b) || along(p, j, a)) return -1;
-    return cut_clearance(&s->tree, i, j, least, clear);
+    int blocked = -1;
+    clear = cut_clearance(&s->tree, i, j, least, clear, &blocked);
+    if (blocked >= 0) s->way[m] = s->last = blocked;
+    return clear;
 }
 
 /* the shortest cut that keeps the distance wanted; where none is, that of the largest distance */
@@ -214,7 +241,7 @@ static void search_cut(search *s) {
                 most = s->wanted_dbu;
                 more = most * (1 - 1e-12);
             }
-            double clear = clearance(s, i, j, more, most);
+            double clear = clearance(s, i, m, more, most);
             if (!(clear > more)) continue;
             s->least2 = l2;
             s->clear_dbu = clear;
@@ -233,6 +260,11 @@ static bool is_end(const fw_geometry_polygon *p, int i) {
     return in2 > 2.25 * out2 || out2 > 2.25 * in2 || turn * turn > 0.25 * in2 * out2;
 }
 
+static fw_status ways(fw_arena *arena, search *s) {
+    FW_NEED(s->way = fw_arena_array(arena, int, (size_t)s->nsample + 1));
+    return FW_OK;
+}
+
 /* All vertices of a small polygon; of a large one the ends of straight edges, and of the others as
    many, evenly. */
 static fw_status sample(fw_arena *arena, const fw_geometry_polygon *p, search *s) {
@@ -249,7 +281,7 @@ static fw_status sample(fw_arena *arena, const fw_geometry_polygon *p, search *s
         if (take) list[s->nsample++] = i;
     }
     s->sample = list;
-    return FW_OK;
+    return ways(arena, s);
 }
 
 static fw_status all(fw_arena *arena, const fw_geometry_polygon *p, search *s) {
@@ -259,7 +291,7 @@ static fw_status all(fw_arena *arena, const fw_geometry_polygon *p, search *s) {
         list[i] = i;
     s->sample = list;
     s->nsample = p->count;
-    return FW_OK;
+    return ways(arena, s);
 }
 
 /* How to go about it: a quarter or a third on either side at least, or parts of half the number to
@@ -290,7 +322,7 @@ static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double want
         {true, false, 1},  {true, false, 2},  {true, false, 4}, {true, false, 8},
         {false, false, 2}, {false, false, 8}, {false, true, 1},
     };
-    *s = (search){.p = p, .i = -1, .j = -1};
+    *s = (search){.p = p, .i = -1, .j = -1, .last = -1};
     FW_TRY(cut_tree_new(arena, p, &s->tree));
     FW_TRY(sample(arena, p, s));
     for (size_t k = 0; k < sizeof rounds / sizeof *rounds && s->i < 0; k++) {
@@ -306,6 +338,8 @@ static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double want
         s->wanted_dbu = rounds[k].wanted ? wanted_dbu : 0;
         s->least2 = HUGE_VAL;
         s->clear_dbu = -1;
+        for (int m = 0; m < s->nsample; m++)
+            s->way[m] = -1;
         search_cut(s);
     }
     return s->i >= 0 ? FW_OK : FW_GEOMETRY;
@@ -336,14 +370,15 @@ typedef struct parts {
     double clear_dbu;
 } parts;
 
+/* above_dbu: ends, with parts that are too large, as soon as a cut keeps no more than that */
 static fw_status cut(fw_arena *arena, const fw_geometry_polygon *polygon, int most,
-                     double wanted_dbu, manner how, parts *out) {
+                     double wanted_dbu, double above_dbu, manner how, parts *out) {
     int room = polygon->count; /* triangles are fewer */
     FW_NEED(out->list = fw_arena_array(arena, fw_geometry_polygon, (size_t)room));
     out->list[0] = *polygon;
     out->n = 1;
     out->clear_dbu = HUGE_VAL;
-    for (int k = 0; k < out->n;) {
+    for (int k = 0; k < out->n && out->clear_dbu > above_dbu;) {
         if (out->list[k].count <= most) {
             k++;
             continue;
@@ -378,8 +413,9 @@ fw_status fw_mask_polygon_cut(fw_arena *arena, const fw_geometry_polygon *polygo
     parts best = {.n = 0}, now;
     double wanted_dbu = wanted(polygon);
     for (size_t k = 0; k < sizeof manners / sizeof *manners; k++) {
-        FW_TRY(cut(arena, polygon, most, wanted_dbu, manners[k], &now));
-        if (k == 0 || now.clear_dbu > 1.1 * best.clear_dbu) best = now;
+        const double above_dbu = k == 0 ? -HUGE_VAL : 1.1 * best.clear_dbu;
+        FW_TRY(cut(arena, polygon, most, wanted_dbu, above_dbu, manners[k], &now));
+        if (now.clear_dbu > above_dbu) best = now;
         /* far from it: the outline itself is why, as of a disc in many parts */
         if (best.clear_dbu >= wanted_dbu || best.clear_dbu < wanted_dbu / 8) break;
     }

@@ -175,6 +175,7 @@ static void layer(fw_json *json, const fw_mask_layer *y, const fw_mask_measure *
     fw_json_number(json, "perimeter_um", m->perimeter_m * 1e6, 12);
     fw_json_number(json, "min_width_um", m->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", m->space_m * 1e6, 9);
+    if (m->unfinished) fw_json_truth(json, "unfinished", true);
     fw_json_line(json, 5);
     fw_json_number(json, "rule_width_um", y->min_width_m * 1e6, 9);
     fw_json_number(json, "rule_space_um", y->min_space_m * 1e6, 9);
@@ -476,21 +477,6 @@ static void yes_no(fw_json *json, const char *key, int value) {
         fw_json_truth(json, key, value);
 }
 
-void fw_mask_json_set(fw_json *json, const fw_mask_table *table, const fw_mask_order *order) {
-    const fw_mask_plate_row own = fw_mask_plate_at(table, order->plate_index), *row = &own;
-    if (fw_mask_plates(table) < 2) return;
-    fw_json_line(json, 2);
-    fw_json_object(json, "plate_of_set");
-    fw_json_text(json, "id", row->id);
-    fw_json_text(json, "title", row->title);
-    fw_json_whole(json, "number", order->plate_index + 1);
-    fw_json_whole(json, "of", table->nplate);
-    fw_json_text(json, "aligned_to", row->aligned_to);
-    fw_json_truth(json, "from_the_back", row->back);
-    fw_json_number(json, "overlay_um", row->overlay_m * 1e6, 9);
-    fw_json_end(json);
-}
-
 static void order_head(fw_json *json, const fw_mask *mask, const fw_mask_order *order) {
     static const char *const sense[] = {"right-reading", "wrong-reading"};
     const fw_mask_plate_row own = fw_mask_plate_at(mask->table, order->plate_index), *row = &own;
@@ -520,6 +506,7 @@ static void sizes(fw_json *json, const fw_mask *mask, const fw_mask_order *order
     fw_json_line(json, 2);
     fw_json_number(json, "min_feature_um", order->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", order->space_m * 1e6, 9);
+    if (order->unfinished) fw_json_truth(json, "unfinished", true);
     fw_json_line(json, 2);
     fw_json_number(json, "bias_um_per_edge", fw_mask_plate_bias_m(mask, order->plate_index) * 1e6,
                    9);
@@ -554,6 +541,7 @@ static void order_layer(fw_json *json, const fw_mask *mask, const fw_mask_order 
     fw_json_whole(json, "vertices", vertices);
     fw_json_number(json, "min_width_um", m->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", m->space_m * 1e6, 9);
+    if (m->unfinished) fw_json_truth(json, "unfinished", true);
     fw_json_text(json, "purpose", y->purpose);
     fw_json_end(json);
 }

@@ -116,6 +116,7 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
         order->vertices += vertices;
         order->width_m = fmin(order->width_m, mask->measure[k].width_m);
         order->space_m = fmin(order->space_m, mask->measure[k].space_m);
+        order->unfinished = order->unfinished || mask->measure[k].unfinished;
     }
     return order_sites(arena, mask, order);
 }
@@ -158,11 +159,14 @@ void fw_mask_order_set_lines(fw_text *out, const fw_mask_table *table, const fw_
     fw_mask_order_line(out, "aligned", line);
 }
 
-static void least_line(fw_text *out, const char *what, double value_m) {
+static void least_line(fw_text *out, const char *what, double value_m, bool unfinished) {
     bool there = isfinite(value_m);
-    char number[32], line[64];
+    char number[32], line[128];
     fw_number_text(number, sizeof number, (there ? value_m : FW_MASK_LOOK_M) * 1e6, 7);
-    snprintf(line, sizeof line, "%s%s um", there ? "" : "none below ", number);
+    snprintf(line, sizeof line, "%s%s um%s", there ? "" : "none below ", number,
+             unfinished ? there ? " or less: edges are too many to be looked through (FW-D592)"
+                                : " among those looked at, which are not all (FW-D592)"
+                        : "");
     fw_mask_order_line(out, what, line);
 }
 
@@ -197,11 +201,11 @@ double fw_mask_plate_bias_m(const fw_mask *mask, int plate) {
     return own ? fw_mask_layer_bias_m(mask, first) : mask->bias_m;
 }
 
-void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask,
-                              int plate) {
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, bool unfinished,
+                              const fw_mask *mask, int plate) {
     char line[200], number[32];
-    least_line(out, "least feature", width_m);
-    least_line(out, "least space", space_m);
+    least_line(out, "least feature", width_m, unfinished);
+    least_line(out, "least space", space_m, unfinished);
     bias_line(out, mask, plate);
     snprintf(line, sizeof line, "1 nm; arcs within %s nm",
              fw_number_text(number, sizeof number, mask->tolerance_m * 1e9, 6));
@@ -227,6 +231,21 @@ void fw_mask_json_because(fw_json *json, const fw_mask *mask) {
     fw_json_end(json);
 }
 
+void fw_mask_json_set(fw_json *json, const fw_mask_table *table, const fw_mask_order *order) {
+    const fw_mask_plate_row own = fw_mask_plate_at(table, order->plate_index), *row = &own;
+    if (fw_mask_plates(table) < 2) return;
+    fw_json_line(json, 2);
+    fw_json_object(json, "plate_of_set");
+    fw_json_text(json, "id", row->id);
+    fw_json_text(json, "title", row->title);
+    fw_json_whole(json, "number", order->plate_index + 1);
+    fw_json_whole(json, "of", table->nplate);
+    fw_json_text(json, "aligned_to", row->aligned_to);
+    fw_json_truth(json, "from_the_back", row->back);
+    fw_json_number(json, "overlay_um", row->overlay_m * 1e6, 9);
+    fw_json_end(json);
+}
+
 void fw_mask_order_rejected(fw_text *out, const fw_mask *mask) {
     fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n");
     for (int i = 0; i < mask->nbecause; i++)
@@ -242,7 +261,8 @@ static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) 
     fw_mask_order_line(out, "top cell", mask->cell);
     fw_mask_order_set_lines(out, mask->table, order);
     fw_mask_order_plate_lines(out, "plate", mask->table, order);
-    fw_mask_order_size_lines(out, order->width_m, order->space_m, mask, order->plate_index);
+    fw_mask_order_size_lines(out, order->width_m, order->space_m, order->unfinished, mask,
+                             order->plate_index);
 }
 
 const char *fw_mask_order_gds(char text[FW_MASK_GDS_TEXT], const fw_mask_layer *layer) {

@@ -299,6 +299,7 @@ static void tell_rest(const fw_mask_rules *r, const fw_mask_rule *rule, int more
 static void tell_crowded(const fw_mask_rules *r, fw_diags *diags, int *nbroken) {
     for (int k = 0; k < r->table->nlayer; k++) {
         if (!r->search[k].crowded) continue;
+        if (r->search[k].measure) r->search[k].measure->unfinished = true;
         fw_place place = {0};
         for (int i = 0; i < r->nfinding && !place.line; i++)
             if (r->finding[i].rule->layer == k) place = place_of(r, &r->finding[i]);

@@ -41,15 +41,31 @@ static void look_at_edges(fw_mask_rule_search *out, fw_mask_rule_edge *p, fw_mas
     fw_mask_rule_add(out, f);
 }
 
+enum { FEW = 256 };
+
+/* Edges of a range that may be near a box, in their order: most edges of an outline are elsewhere. Their number, or
+   FEW + 1 for more than FEW. */
+static int edges_near(const fw_mask_rule_edge *edge, const fw_mask_rule_range *of,
+                      const fw_geometry_box *box, double far, int near[FEW]) {
+    int n = 0;
+    for (int i = of->first; i < of->first + of->count && n <= FEW; i++)
+        if (!fw_box_beyond(&edge[i].box, box, far)) {
+            if (n < FEW) near[n] = i;
+            n++;
+        }
+    return n;
+}
+
 static void look_at_ranges(fw_mask_rule_search *out, const fw_mask_rule_search *a,
                            const fw_mask_rule_search *b, const fw_mask_rule_range *r,
                            const fw_mask_rule_range *s, double limit_m) {
     double far = limit_m + a->slack_m + b->slack_m;
+    int near[FEW], n = edges_near(b->edge, s, &r->box, far, near), all = n > FEW ? s->count : n;
     for (int i = 0; i < r->count; i++) {
         fw_mask_rule_edge *p = &a->edge[r->first + i];
-        if (fw_box_gap(p->box, s->box) > far) continue;
-        for (int j = 0; j < s->count; j++) {
-            fw_mask_rule_edge *q = &b->edge[s->first + j];
+        if (fw_box_beyond(&p->box, &s->box, far)) continue;
+        for (int j = 0; j < all; j++) {
+            fw_mask_rule_edge *q = &b->edge[n > FEW ? s->first + j : near[j]];
             if (q->box.x0 - p->box.x1 > far) break;
             look_at_edges(out, p, q, limit_m);
         }

@@ -275,7 +275,7 @@ static void look_inside(fw_mask_rule_search *in, const fw_mask_rule_range *r) {
         double far = reach(in); /* only a pair that was looked at changes it */
         fw_geometry_box own = e[i].box;
         for (int j = i + 1; j < r->count && e[j].box.x0 - own.x1 <= far; j++) {
-            if (fw_box_gap(own, e[j].box) > far) continue;
+            if (fw_box_beyond(&own, &e[j].box, far)) continue;
             look_at_pair(in, &e[i], &e[j]);
             far = reach(in);
         }
@@ -288,9 +288,9 @@ static void look_between(fw_mask_rule_search *in, const fw_mask_rule_range *r,
         fw_mask_rule_edge *p = &in->edge[r->first + i], *q = &in->edge[s->first];
         fw_geometry_box own = p->box;
         double far = reach(in);
-        if (fw_box_gap(own, s->box) > far) continue;
+        if (fw_box_beyond(&own, &s->box, far)) continue;
         for (int j = 0; j < s->count && q[j].box.x0 - own.x1 <= far; j++) {
-            if (fw_box_gap(own, q[j].box) > far) continue;
+            if (fw_box_beyond(&own, &q[j].box, far)) continue;
             look_at_pair(in, p, &q[j]);
             far = reach(in);
         }

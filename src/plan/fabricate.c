@@ -549,5 +549,5 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
         .wiring = pf->wiring,
         .plates_written = pf->wafer || pf->single,
         .test_die = pf->coupons != NULL,
-        .test_dies = pf->wafer ? pf->wafer->tests : 0};
+        .wafer = pf->wafer};
 }

@@ -286,11 +286,25 @@ static fw_status put_order(writer *w, const fw_mask_table *table, int plate, con
     return put(w, "masks/", name, ending, text);
 }
 
-/* an order sheet for each plate; they name what was written before them */
+static bool is_solid(const char *file) {
+    const size_t length = strlen(file);
+    const fw_mask_format *format;
+    for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
+        const size_t end = strlen(format->ending);
+        if (format->solid && length > end && strcmp(file + length - end, format->ending) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* an order sheet for each plate; they name what was written before them, but for what no shop writes a plate from */
 static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
     fw_output_file *own;
-    int n;
+    int n, kept = 0;
     FW_TRY(files_of(w, name, ".", &own, &n));
+    for (int i = 0; i < n; i++)
+        if (!is_solid(own[i].name)) own[kept++] = own[i];
+    n = kept;
     for (int plate = 0; plate < fw_mask_plates(mask->table); plate++) {
         fw_text text = fw_text_new(w->scratch);
         FW_TRY(fw_mask_write_order(mask, plate, own, n, &text));

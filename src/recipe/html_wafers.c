@@ -2,6 +2,8 @@
 /* What people write on the run sheet: a column for every wafer and a cell for every site, what becomes of the lot, what
    deviated; and the hazards, each once, by the bench where they are met. */
 #include "recipe/recipe_words.h"
+#include "base/constants.h"
+#include <math.h>
 #include <string.h>
 
 /* Wafers side by side that still hold five sites that one can write into; cells of a line for each wafer, wide ones and
@@ -347,4 +349,102 @@ void fw_recipe_html_deviations(fw_text *out) {
         fw_text_printf(out, "<tr><td>%d</td><td></td><td></td><td></td><td></td></tr>\n", i);
     fw_text_add(out, "</tbody></table>\n<p>Lot closed: wafers finished ______ scrapped ______"
                      "&ensp; by ____________ date ____________</p>\n");
+}
+
+/* ---- of the first page: what is bought, and where on it things lie ---- */
+
+/* "M01 at (-43.35, 0) mm, M26 at (43.35, 0) mm": middles of these places from the wafer's middle */
+static void places(const fw_wafer *w, fw_wafer_kind kind, bool placed, fw_text *out) {
+    enum { MOST = 8 };
+    int said = 0, left = 0;
+    for (int i = 0; i < w->grid.nsite; i++) {
+        const fw_wafer_site *s = &w->grid.site[i];
+        char name[2 * FW_WAFER_NAME];
+        if (s->kind != kind) continue;
+        if (said == MOST) {
+            left++;
+            continue;
+        }
+        fw_text_printf(out, "%s%s", said++ ? ", " : "", fw_wafer_site_name(w, s, name));
+        if (!placed) continue;
+        fw_text_add(out, " at (");
+        fw_text_number(out, floor(1e-3 * (s->x + 0.5 * w->grid.width) + 0.5) * 1e-3, 6);
+        fw_text_add(out, ", ");
+        fw_text_number(out, floor(1e-3 * (s->y + 0.5 * w->grid.height) + 0.5) * 1e-3, 6);
+        fw_text_add(out, ") mm");
+    }
+    if (left > 0) fw_text_printf(out, " and %d more", left);
+}
+
+/* "3.468 mm apart in x, the middle of a lane at x = 0" */
+static void apart(fw_text *out, const char *axis, int32_t pitch, bool street) {
+    fw_text_number(out, pitch * 1e-6, 9);
+    fw_text_printf(out, " mm apart in %s, the middle of a lane at %s = ", axis, axis);
+    fw_text_number(out, street ? 0 : 0.5e-6 * pitch, 9);
+    fw_text_add(out, street ? "" : " mm");
+}
+
+/* What saw, aligner and inspection ask of the wafer: where places, lanes and alignment sites lie. */
+static void wafer_rows(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
+    static const char *const side[] = {[FW_SIDE_BOTTOM] = "bottom",
+                                       [FW_SIDE_LEFT] = "left",
+                                       [FW_SIDE_RIGHT] = "right",
+                                       [FW_SIDE_TOP] = "top"};
+    const fw_wafer *w = h->wafer;
+    if (!w) return;
+    fw_text_add(out, "<tr><td class=\"k\">Wafer, seen from the front</td><td colspan=\"3\">");
+    fw_text_number(out, w->form.diameter_m * 1e3, 6);
+    fw_text_printf(out, " mm, %s at the %s; %d devices, ", w->form.flat_m > 0 ? "flat" : "notch",
+                   side[w->form.side], w->dies);
+    apart(out, "x", w->grid.pitch_x, w->grid.street_x);
+    fw_text_add(out, " of the wafer's middle; ");
+    apart(out, "y", w->grid.pitch_y, w->grid.street_y);
+    fw_text_add(out, "; map: masks/");
+    fw_text_escaped(out, flow->id);
+    fw_text_add(out, "-wafer-map.svg, list: -wafer.csv beside it</td></tr>\n");
+    if (w->alignments == 0) return;
+    fw_text_add(out, "<tr><td class=\"k\">Alignment sites</td><td colspan=\"3\">");
+    places(w, FW_WAFER_ALIGNMENT, true, out);
+    fw_text_add(out, " from the wafer's middle</td></tr>\n");
+}
+
+/* which way the crystal has to lie on the wafer that is bought */
+static void crystal_row(const fw_recipe_header *h, fw_text *out) {
+    const fw_mechanism_variant *v = h->verdict ? h->verdict->variant : NULL;
+    if (!v || !fw_device_material_is_crystal(&v->material)) return;
+    fw_text_add(out,
+                "<tr><td class=\"k\">Crystal of the device layer</td><td colspan=\"3\">[100] at ");
+    fw_text_number(out, v->orientation_rad * 180 / FW_PI, 6);
+    fw_text_add(out, "° from the drawing's x");
+    if (h->wafer && fabs(remainder(v->orientation_rad - 0.25 * FW_PI, 0.5 * FW_PI)) < 1e-6)
+        fw_text_add(out, ": a (100) wafer whose flat or notch is that of &lt;110&gt;");
+    else if (h->wafer)
+        fw_text_add(
+            out, ": <b>not</b> that of a usual wafer, whose flat or notch is that of &lt;110&gt;");
+    fw_text_add(out, "</td></tr>\n");
+}
+
+/* Where the coupons are that steps read. */
+static void test_die(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
+    if (!h->test_die) return;
+    fw_text_add(out, "<tr><td class=\"k\">Test die, with the coupons</td><td colspan=\"3\">");
+    if (h->wafer && h->wafer->tests > 0) {
+        fw_text_printf(out, "on these plates, %d %s: ", h->wafer->tests,
+                       h->wafer->tests == 1 ? "place of the map" : "places of the map");
+        places(h->wafer, FW_WAFER_TEST, false, out);
+    } else {
+        fw_text_add(out, "<b>not on these plates</b>: place masks/");
+        fw_text_escaped(out, flow->id);
+        fw_text_add(out, "-coupons.gds beside the device, or state test-dies of a &lt;wafer&gt;; "
+                         "without it leave lines of coupons open");
+    }
+    fw_text_add(out, "; what each coupon is for: ");
+    fw_text_escaped(out, flow->id);
+    fw_text_add(out, "-coupons.json</td></tr>\n");
+}
+
+void fw_recipe_wafer_rows(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
+    wafer_rows(flow, h, out);
+    crystal_row(h, out);
+    test_die(flow, h, out);
 }

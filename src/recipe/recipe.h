@@ -9,6 +9,7 @@
 #include "schedule/schedule.h"
 #include "statics/statics.h"
 #include "verdict/verdict.h"
+#include "wafer/wafer.h"
 
 typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of it is shown */
     fw_geometry_cut_line line; /* shown from 0 to length_m along it */
@@ -32,7 +33,7 @@ typedef struct fw_recipe_header {
     const fw_wiring *wiring;                   /* nets and their contacts; NULL: nothing is drawn */
     bool plates_written;                       /* there are plates as the shop writes them, */
     bool test_die;                             /* a test die, */
-    int test_dies;                             /* and so many of it on those plates */
+    const fw_wafer *wafer; /* that those plates are of; NULL: one die, or none */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,

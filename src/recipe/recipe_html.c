@@ -244,24 +244,6 @@ static void plates(const fw_process_flow *flow, const fw_recipe_header *h, fw_te
     }
 }
 
-/* Where the coupons are that steps read. */
-static void test_die(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
-    if (!h->test_die) return;
-    fw_text_add(out, "<tr><td class=\"k\">Test die, with the coupons</td><td colspan=\"3\">");
-    if (h->test_dies > 0)
-        fw_text_printf(out, "on these plates, %d %s", h->test_dies,
-                       h->test_dies == 1 ? "place of the map" : "places of the map");
-    else {
-        fw_text_add(out, "<b>not on these plates</b>: place masks/");
-        fw_text_escaped(out, flow->id);
-        fw_text_add(out, "-coupons.gds beside the device, or state test-dies of a &lt;wafer&gt;; "
-                         "without it leave lines of coupons open");
-    }
-    fw_text_add(out, "; what each coupon is for: ");
-    fw_text_escaped(out, flow->id);
-    fw_text_add(out, "-coupons.json</td></tr>\n");
-}
-
 static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
     fw_text_add(out, "<h1>Run sheet: ");
     fw_text_escaped(out, flow->title);
@@ -283,7 +265,7 @@ static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_tex
     blank_row(out, "Buddy (HF steps)", "Laboratory");
     blank_row(out, "Revision of this sheet", "Approved by, date");
     plates(flow, h, out);
-    test_die(flow, h, out);
+    fw_recipe_wafer_rows(flow, h, out);
     hash_row(out, "Mask set, SHA-256", h->mask_sha256);
     hash_row(out, "Process file, SHA-256", flow->sha256);
     fw_text_add(out, "<tr><td class=\"k\">Process version</td><td>");

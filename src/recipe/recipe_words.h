@@ -71,6 +71,9 @@ void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_st
                                 fw_text *out);
 void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out);
 void fw_recipe_html_deviations(fw_text *out);
+/* rows of the first page: the wafer's places, its crystal, where the coupons are */
+void fw_recipe_wafer_rows(const fw_process_flow *flow, const fw_recipe_header *header,
+                          fw_text *out);
 
 /* recipe_bill.c: what the lot uses up */
 struct fw_json;

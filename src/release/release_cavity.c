@@ -63,6 +63,10 @@ static span span_of(const cell_grid *c, fw_geometry_box b, double room_m) {
                   within(floor((b.y1 + room_m - c->from.y) / s), c->rows - 1)};
 }
 
+static int column_of(const cell_grid *c, double x) {
+    return within(floor((x - c->from.x) / c->step_m), c->columns - 1);
+}
+
 /* what of a box a line may reach in the row at y: all of it, of an arc and of a line that hardly rises */
 static fw_geometry_box reached(const fw_geometry_segment *s, fw_geometry_box box, double y,
                                double reach) {
@@ -87,9 +91,11 @@ static void cells_touch(const cell_grid *cells, const fw_geometry_contour *outli
         const fw_geometry_near near = fw_geometry_near_of(s, reach);
         for (int r = a.r0; r <= a.r1; r++) {
             unsigned char *row = &set[(size_t)r * (size_t)cells->columns];
-            const span in = span_of(cells, reached(s, box, middle(cells, 0, r).y, reach), reach);
-            for (int c = in.c0; c <= in.c1; c++)
-                if (!row[c]) row[c] = fw_geometry_is_near(&near, middle(cells, c, r));
+            const double y = middle(cells, 0, r).y;
+            const fw_geometry_box in = reached(s, box, y, reach);
+            fw_geometry_near_row(&near, cells->from.x, cells->step_m, y,
+                                 column_of(cells, in.x0 - reach), column_of(cells, in.x1 + reach),
+                                 row);
         }
     }
 }

@@ -10,19 +10,67 @@
 /* ---- straight cuts through a body with holes ----
    Whatever the stress is, over a cut that parts an end from the body's hinges it comes to what acts on either side. */
 
-/* where lines of the body cross a straight cut through `at`, ascending along vec_left(across): how many */
+fw_status fw_verdict_pierced_boxes(fw_arena *arena, fw_verdict_pierced *body) {
+    fw_geometry_box *run = fw_arena_array(arena, fw_geometry_box,
+                                          (size_t)(body->n / FW_VERDICT_RUN + 1)),
+                    *wide = fw_arena_array(arena, fw_geometry_box,
+                                           (size_t)(body->n / FW_VERDICT_WIDE + 1));
+    FW_NEED(run && wide);
+    for (int i = 0; i < body->n; i++) {
+        const fw_geometry_vec2 a = body->line[i].a, b = body->line[i].b;
+        const fw_geometry_box own = {fw_lesser(a.x, b.x), fw_lesser(a.y, b.y), fw_greater(a.x, b.x),
+                                     fw_greater(a.y, b.y)};
+        fw_geometry_box *r = &run[i / FW_VERDICT_RUN], *w = &wide[i / FW_VERDICT_WIDE];
+        *r = i % FW_VERDICT_RUN ? fw_box_join(*r, own) : own;
+        *w = i % FW_VERDICT_WIDE ? fw_box_join(*w, own) : own;
+    }
+    body->run = run, body->wide = wide;
+    return FW_OK;
+}
+
+/* may one of the lines in a box cross the cut, or begin on the end's side farther away than *far2_m2? */
+static bool matters_here(const fw_geometry_box *b, fw_geometry_vec2 at, fw_geometry_vec2 across,
+                         double far2_m2) {
+    const double slack_m = 1e-12, hx = 0.5 * (b->x1 - b->x0), hy = 0.5 * (b->y1 - b->y0),
+                 cx = 0.5 * (b->x0 + b->x1) - at.x, cy = 0.5 * (b->y0 + b->y1) - at.y,
+                 middle = cx * across.x + cy * across.y,
+                 half = hx * fabs(across.x) + hy * fabs(across.y) + slack_m;
+    if (middle > half) return false;
+    if (middle > -half) return true;
+    const double x = fabs(cx) + hx + slack_m, y = fabs(cy) + hy + slack_m;
+    return x * x + y * y > far2_m2;
+}
+
+/* one line: *n crossings so far */
+static void cross(const fw_verdict_pierced *body, int i, fw_geometry_vec2 at,
+                  fw_geometry_vec2 across, int *n, double *far2_m2) {
+    const fw_geometry_vec2 a = vec_sub(body->line[i].a, at), b = vec_sub(body->line[i].b, at);
+    const double from = vec_dot(a, across), to = vec_dot(b, across);
+    if (from <= 0) *far2_m2 = fmax(*far2_m2, vec_dot(a, a));
+    if ((from > 0) == (to > 0)) return;
+    body->room[(*n)++] = vec_dot(vec_along(a, from / (from - to), vec_sub(b, a)), vec_left(across));
+}
+
+/* Where lines of the body cross a straight cut through `at`, ascending along vec_left(across): how many. Runs of lines that
+   lie on one side, and no farther than another does, are passed over. */
 static int crossings(const fw_verdict_pierced *body, fw_geometry_vec2 at, fw_geometry_vec2 across,
                      double *far_m) {
-    const fw_geometry_vec2 along = vec_left(across);
     int n = 0;
+    double far2_m2 = *far_m;
     for (int i = 0; i < body->n; i++) {
-        const fw_geometry_vec2 a = vec_sub(body->line[i].a, at), b = vec_sub(body->line[i].b, at);
-        const double from = vec_dot(a, across), to = vec_dot(b, across);
-        if (from <= 0) *far_m = fmax(*far_m, vec_dot(a, a));
-        if ((from > 0) == (to > 0)) continue;
-        body->room[n++] = vec_dot(vec_along(a, from / (from - to), vec_sub(b, a)), along);
+        if (body->wide && i % FW_VERDICT_WIDE == 0 &&
+            !matters_here(&body->wide[i / FW_VERDICT_WIDE], at, across, far2_m2)) {
+            i += FW_VERDICT_WIDE - 1;
+            continue;
+        }
+        if (body->run && i % FW_VERDICT_RUN == 0 &&
+            !matters_here(&body->run[i / FW_VERDICT_RUN], at, across, far2_m2)) {
+            i += FW_VERDICT_RUN - 1;
+            continue;
+        }
+        cross(body, i, at, across, &n, &far2_m2);
     }
-    *far_m = sqrt(*far_m);
+    *far_m = sqrt(far2_m2);
     fw_sort_doubles(body->room, (size_t)n);
     return n;
 }

@@ -526,7 +526,7 @@ static fw_status pierced_of(const grid *g, const end *ends, int nhinge, fw_verdi
     for (int k = 0; k < nhinge; k++)
         out->hinge[k] = ends[k].root;
     out->line = g->line, out->n = g->nline, out->nhinge = nhinge;
-    return FW_OK;
+    return fw_verdict_pierced_boxes(g->arena, out);
 }
 
 /* ends: of hinges (nhinge), then of loads, n in all */

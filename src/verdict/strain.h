@@ -92,14 +92,19 @@ fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int bo
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);
 /* a body with holes, cut straight across: its lines (n), where its hinges are (nhinge), and the end that is asked */
+enum { FW_VERDICT_RUN = 16, FW_VERDICT_WIDE = 256 };
 typedef struct fw_verdict_pierced {
     const fw_verdict_line *line;
+    /* around every FW_VERDICT_RUN and every FW_VERDICT_WIDE of them, which lie beside each other; NULL: all are looked at */
+    const fw_geometry_box *run, *wide;
     int n, nhinge,
         own; /* own: number of the end among the hinges; nhinge and above: none of them */
     fw_geometry_vec2 root, *hinge;
     double hole_m; /* diameter; 0: there are none */
     double *room;  /* (n + 1) */
 } fw_verdict_pierced;
+/* run and wide of its lines */
+fw_status fw_verdict_pierced_boxes(fw_arena *arena, fw_verdict_pierced *body);
 /* rim_... of a piece of the way, where there are holes, `from` to `until`, as a strip of width w between holes and as what straight cuts leave */
 void fw_verdict_arm_rims(const fw_verdict_pierced *body, fw_geometry_vec2 pin,
                          fw_geometry_vec2 from, fw_geometry_vec2 until, double w,

@@ -124,6 +124,13 @@ typedef struct fw_wafer_run { /* a cell, or an equally spaced array of it */
     int32_t step_x, step_y;
 } fw_wafer_run;
 
+/* what stands beside the dies of a plate, as it is drawn; NULL: it is not there */
+typedef struct fw_wafer_beside {
+    const char *title, *line; /* at the top, at the bottom */
+    const char *barcode;      /* its text */
+    bool flat_line;
+} fw_wafer_beside;
+
 typedef struct fw_wafer {
     const fw_device *device;
     const fw_mask_table *table;
@@ -133,6 +140,8 @@ typedef struct fw_wafer {
     int nvariant;
     fw_wafer_variant stand_in;
     const fw_mask *plate; /* title and fiducials, drawn in the top cell; NULL: none */
+    const fw_wafer_beside
+        *beside; /* (plates of the flow) what is drawn of that on each; NULL: nothing */
     const char *top, *title, *flow;
     fw_wafer_cell *cell; /* (ncell) children before the top cell */
     int ncell;
@@ -151,6 +160,9 @@ typedef struct fw_wafer {
     bool rejected;
     const fw_mask *rejecting; /* the first mask of its dies that is; NULL: none */
 } fw_wafer;
+/* "M14": of its row and its column */
+const char *fw_wafer_site_name(const fw_wafer *wafer, const fw_wafer_site *site,
+                               char name[2 * FW_WAFER_NAME]);
 
 fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags *diags,
                          const fw_wafer **wafer);

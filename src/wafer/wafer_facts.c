@@ -120,6 +120,7 @@ static void add_mask(const fw_mask *mask, double times, fw_wafer_sum *s) {
     for (int k = 0; k < mask->table->nlayer; k++) {
         s[k].width_m = fmin(s[k].width_m, mask->measure[k].width_m);
         s[k].space_m = fmin(s[k].space_m, mask->measure[k].space_m);
+        s[k].unfinished = s[k].unfinished || mask->measure[k].unfinished;
     }
 }
 
@@ -205,10 +206,12 @@ static fw_status plate(fw_json *json, const fw_wafer *w, const fw_wafer_sum *s) 
     const fw_mask *any = w->ncell > 0 ? w->cell[0].mask : w->plate;
     FW_TRY(fw_mask_order_gather(json->out->arena, any, w->table->device_plate, &order));
     double width = HUGE_VAL, space = HUGE_VAL;
+    bool unfinished = false;
     for (int k = 0; k < w->table->nlayer; k++)
         if (order.plate[k]) {
             width = fmin(width, s[k].width_m);
             space = fmin(space, s[k].space_m);
+            unfinished = unfinished || s[k].unfinished;
         }
     fw_json_line(json, 2);
     fw_json_object(json, "plate");
@@ -223,6 +226,7 @@ static fw_status plate(fw_json *json, const fw_wafer *w, const fw_wafer_sum *s) 
     fw_json_line(json, 4);
     fw_json_number(json, "min_feature_um", width * 1e6, 9);
     fw_json_number(json, "min_space_um", space * 1e6, 9);
+    if (unfinished) fw_json_truth(json, "unfinished", true);
     fw_json_number(json, "bias_um_per_edge", any->bias_m * 1e6, 9);
     fw_json_line(json, 4);
     fw_json_list(json, "extent_um");
@@ -282,6 +286,7 @@ static void layer(fw_json *json, const fw_mask_layer *y, const fw_wafer_sum *s) 
     fw_json_number(json, "polygon_area_um2", s->area_m2 * 1e12, 17);
     fw_json_number(json, "min_width_um", s->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", s->space_m * 1e6, 9);
+    if (s->unfinished) fw_json_truth(json, "unfinished", true);
     fw_json_end(json);
 }
 

@@ -125,23 +125,22 @@ static fw_status add_cross(fw_wafer_sheet *s, fw_layout_role role, fw_geometry_v
 }
 
 /* one line in the middle of a strip, in strokes that let it fit; false in *fits: even the least do
-   not, and then it ends in '+' */
+   not, and then it ends in '+'. *shown: what is drawn; NULL: nothing */
 static fw_status add_line(fw_wafer_sheet *s, const char *text, double middle, double band,
-                          double length, bool *fits) {
+                          double length, bool *fits, const char **shown) {
     fw_arena *arena = s->maker->arena;
     double stroke = fmin(LARGEST_STROKE_M, floor(band / HIGH * 1e6) * 1e-6);
-    *fits = stroke >= LEAST_STROKE_M;
+    *fits = stroke >= LEAST_STROKE_M, *shown = NULL;
     if (!*fits) return FW_OK;
     while (stroke > LEAST_STROKE_M && fw_layout_text_width(text, HIGH * stroke, stroke) > length)
         stroke -= 10e-6;
     stroke = fw_layout_to_grid(stroke);
-    const char *shown;
-    FW_TRY(fw_layout_text_fit(arena, text, HIGH * stroke, stroke, length, &shown));
-    *fits = strcmp(shown, text) == 0;
-    double width = fw_layout_text_width(shown, HIGH * stroke, stroke);
+    FW_TRY(fw_layout_text_fit(arena, text, HIGH * stroke, stroke, length, shown));
+    *fits = strcmp(*shown, text) == 0;
+    double width = fw_layout_text_width(*shown, HIGH * stroke, stroke);
     return fw_layout_text(
-        arena, shown, (fw_geometry_vec2){-0.5 * width, middle - 0.5 * HIGH * stroke}, HIGH * stroke,
-        stroke, s->role, "plate text", &s->piece, &s->npiece, &s->capacity);
+        arena, *shown, (fw_geometry_vec2){-0.5 * width, middle - 0.5 * HIGH * stroke},
+        HIGH * stroke, stroke, s->role, "plate text", &s->piece, &s->npiece, &s->capacity);
 }
 
 /* a bar along x, from (x0, y0) to (x1, y1) */
@@ -176,7 +175,6 @@ static fw_status add_barcode(fw_wafer_sheet *s, const char *text, double inner, 
 static fw_status add_flat_line(fw_wafer_sheet *s, const fw_wafer_form *form) {
     double half = 0.5 * form->flat_m, r = 0.5 * form->diameter_m, away = sqrt(r * r - half * half);
     double beyond = away + FLAT_LINE_M;
-    if (!(form->flat_m > 0)) return FW_OK;
     switch (form->side) {
     case FW_SIDE_BOTTOM:
         return add_bar(s, "flat line", -half, -beyond, half, -away);
@@ -234,7 +232,8 @@ static const char *title_on(fw_wafer_maker *m, int plate) {
 }
 
 /* crosses, title, identification and what is ordered, on one plate of the flow */
-static fw_status draw_plate(fw_wafer_maker *m, fw_wafer_sheet *s, int plate, bool *whole) {
+static fw_status draw_plate(fw_wafer_maker *m, fw_wafer_sheet *s, int plate, bool *whole,
+                            fw_wafer_beside *drawn) {
     fw_wafer *w = m->wafer;
     if (!role_on(m->input->table, plate, &s->role)) return FW_OK;
     double half = 0.5 * w->form.plate_m, corner = half - RIM_M - ARM_M;
@@ -248,13 +247,15 @@ static fw_status draw_plate(fw_wafer_maker *m, fw_wafer_sheet *s, int plate, boo
     const char *title = title_on(m, plate), *line = identification(m, plate, s->role);
     FW_NEED(title && line ? title : NULL);
     bool above, below, beside = true;
-    FW_TRY(add_line(s, title, 0.5 * (inner + outer), outer - inner, length, &above));
-    FW_TRY(add_line(s, line, -0.5 * (inner + outer), outer - inner, length, &below));
+    FW_TRY(add_line(s, title, 0.5 * (inner + outer), outer - inner, length, &above, &drawn->title));
+    FW_TRY(add_line(s, line, -0.5 * (inner + outer), outer - inner, length, &below, &drawn->line));
     const fw_device_order_asked *order =
         fw_device_order_of(&w->device->wafer, fw_mask_plate_at(w->table, plate).id);
     if (order->barcode) /* title and identification stand beyond it */
         FW_TRY(add_barcode(s, order->barcode, inner, outer, 2 * inner, &beside));
-    if (order->flat_line) FW_TRY(add_flat_line(s, &w->form));
+    drawn->barcode = beside ? order->barcode : NULL;
+    drawn->flat_line = order->flat_line && w->form.flat_m > 0;
+    if (drawn->flat_line) FW_TRY(add_flat_line(s, &w->form));
     if (!beside)
         fw_diag_warning(
             m->diags, 195, order->place,
@@ -311,8 +312,11 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
     const fw_device_wafer_asked *stated = &w->device->wafer;
     if (stated->title)
         FW_TRY(fw_layout_text_check(stated->title, "<wafer>: the title", stated->place, m->diags));
+    fw_wafer_beside *drawn =
+        fw_arena_array(m->arena, fw_wafer_beside, (size_t)fw_mask_plates(w->table));
+    FW_NEED(w->beside = drawn);
     for (int p = 0; p < fw_mask_plates(w->table); p++)
-        FW_TRY(draw_plate(m, &s, p, &whole));
+        FW_TRY(draw_plate(m, &s, p, &whole, &drawn[p]));
     FW_TRY(add_cells(&s));
     if (!whole)
         fw_diag_warning(

@@ -56,14 +56,16 @@ static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
 static void content_of_layers(const fw_wafer *w, const fw_mask_order *order, const fw_mask *any,
                               const fw_wafer_sum *s, fw_text *out) {
     double width = HUGE_VAL, space = HUGE_VAL, polygons = 0, vertices = 0;
+    bool unfinished = false;
     for (int k = 0; k < w->table->nlayer; k++) {
         if (!order->plate[k]) continue;
         width = fmin(width, s[k].width_m);
         space = fmin(space, s[k].space_m);
+        unfinished = unfinished || s[k].unfinished;
         polygons += s[k].polygons;
         vertices += s[k].vertices;
     }
-    fw_mask_order_size_lines(out, width, space, any, order->plate_index);
+    fw_mask_order_size_lines(out, width, space, unfinished, any, order->plate_index);
     fw_mask_order_extent_line(out, fw_wafer_extent(w));
     fw_text_printf(out, "%-22s %d dies, %d alignment sites, %d test dies\n", "places", w->dies,
                    w->alignments, w->tests);

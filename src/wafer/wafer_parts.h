@@ -51,13 +51,12 @@ const char *fw_wafer_values(fw_arena *arena, const fw_wafer *wafer, const fw_waf
 /* of one sweep, in its unit */
 double fw_wafer_value(const fw_wafer *wafer, const fw_wafer_variant *v, int sweep);
 const char *fw_wafer_kind_text(fw_wafer_kind kind);
-const char *fw_wafer_site_name(const fw_wafer *wafer, const fw_wafer_site *site,
-                               char name[2 * FW_WAFER_NAME]);
 /* are the dies of this variant the stand-in's? */
 bool fw_wafer_stood_in(const fw_wafer_variant *v);
 
 typedef struct fw_wafer_sum { /* of one layer over the whole plate */
     double polygons, vertices, area_m2, width_m, space_m;
+    bool unfinished; /* as in fw_mask_measure */
 } fw_wafer_sum;
 fw_status fw_wafer_sums(const fw_wafer *wafer, fw_arena *arena, fw_wafer_sum **sum);
 /* the die whose middle is nearest to a point, not one of those before; NULL: none is left */

@@ -30,7 +30,9 @@ typedef struct sheet {
     fw_mask_plate_row row;
     fw_mask_order order;
     double width_m, space_m; /* least ones of the written polygons; INFINITY: none below 100 um */
+    bool unfinished;         /* the search for them ended before its end */
     said thickness, cd, registration, defect;
+    fw_wafer_beside beside;
     measured *site;
     int nsite, room;
 } sheet;
@@ -84,7 +86,9 @@ static said cd_of(const sheet *s, double least_m) {
     if (!of_device(s)) left = closest_overlay(s) / 3, from = "a third of the closest overlay";
     bool derived = isfinite(left) && left > 0 && left < most;
     return (said){downwards(derived ? left : most, 10e-9),
-                  derived ? from : "a tenth of the least feature or space"};
+                  derived         ? from
+                  : s->unfinished ? "a tenth of the least feature or space that was found"
+                                  : "a tenth of the least feature or space"};
 }
 
 static said registration_of(const sheet *s) {
@@ -161,12 +165,14 @@ static fw_status gather(fw_arena *arena, const fw_wafer *w, const fw_wafer_writt
     *s = (sheet){.wafer = w,
                  .written = written,
                  .any = w->ncell > 0 ? w->cell[0].mask : w->plate,
-                 .row = fw_mask_plate_at(w->table, written->of)};
+                 .row = fw_mask_plate_at(w->table, written->of),
+                 .beside = w->beside ? w->beside[written->of] : (fw_wafer_beside){0}};
     FW_TRY(fw_mask_order_gather(arena, s->any, written->of, &s->order));
     FW_TRY(fw_wafer_sums(w, arena, &sum));
     for (int k = 0; k < w->table->nlayer; k++)
         if (s->order.plate[k])
-            width = fmin(width, sum[k].width_m), space = fmin(space, sum[k].space_m);
+            width = fmin(width, sum[k].width_m), space = fmin(space, sum[k].space_m),
+            s->unfinished = s->unfinished || sum[k].unfinished;
     const fw_device_order_asked *asked = written->asked;
     s->width_m = asked->scale * (asked->inverted ? space : width);
     s->space_m = asked->scale * (asked->inverted ? width : space);
@@ -175,8 +181,10 @@ static fw_status gather(fw_arena *arena, const fw_wafer *w, const fw_wafer_writt
     s->thickness = thickness_of(s);
     s->cd = cd_of(s, least);
     s->registration = registration_of(s);
-    s->defect = isnan(asked->defect_m) ? (said){least / 3, "a third of the least feature or space"}
-                                       : (said){asked->defect_m, "stated"};
+    const char *third = s->unfinished ? "a third of the least feature or space that was found"
+                                      : "a third of the least feature or space";
+    s->defect =
+        isnan(asked->defect_m) ? (said){least / 3, third} : (said){asked->defect_m, "stated"};
     if (asked->inverted && s->order.tone) {
         bool dark = strcmp(s->order.tone, "data dark") == 0;
         s->order.tone = dark ? "data clear" : "data dark";
@@ -231,6 +239,36 @@ static void glass(const sheet *s, fw_text *out) {
     snprintf(text, sizeof text, "%d", o->quantity);
     fw_mask_order_line(out, "quantity", text);
     fw_mask_order_line(out, "pellicle", o->pellicle ? "yes" : "no");
+}
+
+/* the inner edge of the flat line, as the file has it: *along of the coordinate "x" or "y"; false: there is none */
+static bool flat_line_of(const sheet *s, const char **coordinate, double *at_m) {
+    const fw_wafer_form *f = &s->wafer->form;
+    double away = sqrt(0.25 * f->diameter_m * f->diameter_m - 0.25 * f->flat_m * f->flat_m);
+    bool upright = f->side == FW_SIDE_LEFT || f->side == FW_SIDE_RIGHT;
+    bool below = f->side == FW_SIDE_LEFT || f->side == FW_SIDE_BOTTOM;
+    *coordinate = upright ? "x" : "y";
+    *at_m = (below ? -away : away) * (upright && s->written->mirrored ? -1 : 1);
+    return s->beside.flat_line;
+}
+
+/* what stands on the glass besides dies, word by word: it is compared with the plate that comes back */
+static void beside(const sheet *s, fw_text *out) {
+    const fw_wafer_beside *b = &s->beside;
+    char text[300], long_mm[32], at_mm[32];
+    const char *coordinate;
+    double at_m;
+    fw_mask_order_line(out, "text at the top", b->title ? b->title : "none: it has no room");
+    fw_mask_order_line(out, "text at the bottom", b->line ? b->line : "none: it has no room");
+    if (b->barcode)
+        snprintf(text, sizeof text, "%s (Code 39), %s of the wafer", b->barcode,
+                 s->written->mirrored ? "on the right" : "on the left");
+    fw_mask_order_line(out, "barcode", b->barcode ? text : "none");
+    bool line = flat_line_of(s, &coordinate, &at_m);
+    snprintf(text, sizeof text, "%s mm long, its inner edge at %s = %s mm",
+             fw_number_text(long_mm, sizeof long_mm, s->wafer->form.flat_m * 1e3, 6), coordinate,
+             fw_number_text(at_mm, sizeof at_mm, at_m * 1e3, 6));
+    fw_mask_order_line(out, "flat line", line ? text : "none");
 }
 
 static void cuts(const fw_mask_merge_sums *s, bool ids, fw_text *out) {
@@ -323,8 +361,9 @@ fw_status fw_wafer_write_written_order(const fw_wafer *w, const fw_wafer_written
     fw_mask_order_line(out, "top cell", w->top);
     content(&s, out);
     reading(&s, out);
+    beside(&s, out);
     glass(&s, out);
-    fw_mask_order_size_lines(out, s.width_m, s.space_m, s.any, written->of);
+    fw_mask_order_size_lines(out, s.width_m, s.space_m, s.unfinished, s.any, written->of);
     tolerances(&s, out);
     sites(&s, out);
     fw_text_add(out, "\nfiles: sha256, bytes, name\n");
@@ -377,6 +416,7 @@ static void json_data(fw_json *json, const sheet *s) {
     fw_json_line(json, 2);
     fw_json_number(json, "min_feature_um", s->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", s->space_m * 1e6, 9);
+    if (s->unfinished) fw_json_truth(json, "unfinished", true);
     fw_json_number(json, "bias_um_per_edge", fw_mask_plate_bias_m(s->any, written->of) * 1e6, 9);
     fw_json_truth(json, "bias_in_data", true);
     fw_json_whole(json, "mask_cd_bias_um", 0);
@@ -390,8 +430,10 @@ static void json_glass(fw_json *json, const sheet *s) {
     fw_json_number(json, "size_mm", s->wafer->form.plate_m * 1e3, 9);
     fw_json_whole(json, "quantity", o->quantity);
     fw_json_truth(json, "pellicle", o->pellicle);
-    fw_json_text(json, "barcode", o->barcode);
-    fw_json_truth(json, "flat_line", o->flat_line && s->wafer->form.flat_m > 0);
+    fw_json_text(json, "text_at_top", s->beside.title);
+    fw_json_text(json, "text_at_bottom", s->beside.line);
+    fw_json_text(json, "barcode", s->beside.barcode);
+    fw_json_truth(json, "flat_line", s->beside.flat_line);
     json_said(json, "thickness_mm", "thickness_from", s->thickness, 1e-3);
     json_said(json, "cd_tolerance_um", "cd_tolerance_from", s->cd, 1e-6);
     json_said(json, "registration_um", "registration_from", s->registration, 1e-6);

@@ -87,8 +87,8 @@ for name in inverted scaled both; do
 done
 # a flow of three plates, and its plates of one die
 comb=docs/gallery/comb-stage/device.xml glass=silicon-on-glass
-sed '/<wafer /d; s|<die tethers="no"/>|&<wafer diameter="32 mm" flat="10 mm" alignment="2 sites" test-dies="1"/><order plate="cavity" quantity="2"/>|' "$comb" >"$work/three.xml"
-sed '/<wafer /d; s|<die tethers="no"/>|&<order scale="5"/><order plate="pads" tone="inverted" mirror="no" scale="1"/>|' "$comb" >"$work/one.xml"
+sed '/<wafer /d; /<order /d; s|<die tethers="no"/>|&<wafer diameter="32 mm" flat="10 mm" alignment="2 sites" test-dies="1"/><order plate="cavity" quantity="2"/>|' "$comb" >"$work/three.xml"
+sed '/<wafer /d; /<order /d; s|<die tethers="no"/>|&<order scale="5"/><order plate="pads" tone="inverted" mirror="no" scale="1"/>|' "$comb" >"$work/one.xml"
 for name in three one; do
     "$program" mask "$work/$name.xml" -q -o "$work/$name" --corners none --mask-format all >"$work/out" 2>&1 || { cat "$work/out"; failed=1; }
     while read -r plate layer expression; do

@@ -8,7 +8,7 @@ and every vertex limit; the test die with one of three. Rules are rows of the la
   - with a limit of 12 um: every pair of edges that KLayout finds lies in a place that the certificate lists, and every place
     has a pair in it with the value of the certificate, to 1e-3 nm;
   - with the whole nanometres just below and just above the least value on each layer: nothing is found, and something is.
-Left out are pairs that are square but for the grid, where neither edge is of an arc (docs/theory/masks.md); they are counted."""
+Layers of which the program says that it could not end (FW-D592) are left out. Left out are pairs that are square but for the grid, where neither edge is of an arc (docs/theory/masks.md); they are counted."""
 import json
 import math
 import os
@@ -90,7 +90,9 @@ class Mask:
                 continue  # the test die of one device of three
             said = json.loads(path.read_text(encoding="utf-8"))
             for layer in said["layers"]:
-                if layer["polygons"]:
+                if layer.get("unfinished"):  # with these limits too many edges are near each other, which is an error
+                    assert "[FW-D592]" in done.stderr, path
+                elif layer["polygons"]:
                     own = [f for f in said["findings"] if f["layer"] == layer["gds"] and f["rule"] in KINDS]
                     found[path.stem, layer["gds"]] = (path.with_suffix(".gds"), layer, own)
         return found, done

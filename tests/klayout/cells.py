@@ -243,6 +243,11 @@ pya.Application.instance().exit(0)
         self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 20)  # 0.4 s here; minutes before
         self.assertIn("FW-D592", done.stderr)
         self.assertEqual(done.stderr.count("FW-D153"), 0)  # a warning, and -q
+        self.make("saw", '<cell file="saw.gds" x="-0.6 mm" y="3.2 mm" layers="1/0>text"/>', options=("--force",))
+        masks = self.where / "saw" / "masks"
+        cut = [p for p in masks.glob("*.order.txt") if "edges are too many to be looked through (FW-D592)" in p.read_text()]
+        sure = [p for p in masks.glob("*.json") if '"unfinished": true' in p.read_text()]
+        self.assertTrue(cut and any(p.name.endswith(".order.json") for p in sure), (cut, sure))
 
     def test_it_becomes_one_with_the_frame(self):
         """random pads, rings and stars over edges, corners and the seam of the frame: on the mask their union, each place once; a

@@ -153,6 +153,33 @@ static void within_is_nearest(void **state) {
     assert_true(in > 5000 && in < 19000);
 }
 
+/* a row of places at once says what each says by itself, of level lines too, and leaves what was set */
+static void rows_are_their_places(void **state) {
+    (void)state;
+    enum { PLACES = 80 };
+    int level = 0, set = 0;
+    for (int i = 0; i < 4000; i++) {
+        fw_geometry_segment s = random_segment(1e-4);
+        if (i % 2) s.kind = FW_LINE, s.radius = s.sweep_rad = 0;
+        if (i % 4 == 1) s.b.y = s.a.y;
+        double step = uniform(1e-6, 6e-6), from_x = uniform(-2e-4, 0), reach = 0.7072 * step;
+        double y = s.a.y + uniform(-2, 2) * step;
+        unsigned char row[PLACES], before[PLACES];
+        int first = whole(0, PLACES / 2), last = whole(first - 1, PLACES - 1);
+        for (int k = 0; k < PLACES; k++)
+            row[k] = before[k] = uniform(0, 1) < 0.2;
+        fw_geometry_near near = fw_geometry_near_of(&s, reach);
+        fw_geometry_near_row(&near, from_x, step, y, first, last, row);
+        for (int k = 0; k < PLACES; k++) {
+            bool is = k >= first && k <= last &&
+                      fw_geometry_is_near(&near, (fw_geometry_vec2){from_x + (k + 0.5) * step, y});
+            assert_int_equal(row[k], before[k] || is);
+            set += is, level += is && i % 4 == 1;
+        }
+    }
+    assert_true(level > 1000 && set - level > 300);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_lie_on_the_segment),
@@ -161,6 +188,7 @@ int main(void) {
         cmocka_unit_test(overlaps_give_their_ends),
         geo_test(bound_of_an_arc_and_a_box),
         geo_test(within_is_nearest),
+        geo_test(rows_are_their_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -152,8 +152,78 @@ static void several(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* What stands beside the dies is on the order word by word, as the file has it; what has no room or was not asked for is
+   said to be missing. */
+static void lettering(void **state) {
+    (void)state;
+    static const char *const flat[] = {[FW_SIDE_BOTTOM] = "at y = -", [FW_SIDE_TOP] = "at y = ",
+                                       [FW_SIDE_LEFT] = "at x = -", [FW_SIDE_RIGHT] = "at x = "};
+    for (int i = 0; i < 16; i++) {
+        plate *p = plate_new(240);
+        fw_device_order_asked *o = &p->device.wafer.order;
+        bool mirror = i & 4, asked = i & 8;
+        p->device.wafer.side = (fw_device_wafer_side)(i % 4);
+        p->device.wafer.plate_m = 127e-3;
+        o->mirror = mirror ? FW_MIRROR_YES : FW_MIRROR_NO;
+        o->barcode = asked ? "LOT-7" : NULL;
+        o->flat_line = asked;
+        const fw_wafer *w = plate_build(p);
+        fw_wafer_written own = written(p, w, 0);
+        fw_text out = fw_text_new(p->arena), json = fw_text_new(p->arena);
+        assert_int_equal(fw_wafer_write_written_order(w, &own, NULL, 0, &out), FW_OK);
+        assert_int_equal(fw_wafer_write_written_order_json(w, &own, NULL, 0, &json), FW_OK);
+        char line[200];
+        snprintf(line, sizeof line, "text at the top        %s\n", w->title);
+        assert_non_null(strstr(out.data, line));
+        assert_non_null(strstr(out.data, "text at the bottom     "));
+        assert_non_null(strstr(json.data, "\"text_at_bottom\": \""));
+        snprintf(line, sizeof line, "barcode                %s%s\n", asked ? "LOT-7 (Code 39), " : "none",
+                 !asked ? "" : mirror ? "on the right of the wafer" : "on the left of the wafer");
+        assert_non_null(strstr(out.data, line));
+        bool turned = mirror && i % 4 >= FW_SIDE_LEFT;
+        int side = !turned ? i % 4 : i % 4 == FW_SIDE_LEFT ? FW_SIDE_RIGHT : FW_SIDE_LEFT;
+        snprintf(line, sizeof line, "%s%s", asked ? "its inner edge " : "flat line              none",
+                 asked ? flat[side] : "");
+        const char *at = strstr(out.data, line);
+        assert_non_null(at);
+        if (asked) assert_true(at[strlen(line)] != '-');
+        assert_non_null(strstr(json.data, asked ? "\"flat_line\": true" : "\"flat_line\": false"));
+        fw_arena_free(p->arena);
+    }
+    plate *p = plate_new(240); /* on a plate of 3 inches these signs have no room */
+    p->device.wafer.order.barcode = "0123456789012345678901234567890123456789";
+    const fw_wafer *w = plate_build(p);
+    fw_wafer_written own = written(p, w, 0);
+    fw_text out = fw_text_new(p->arena);
+    assert_int_equal(fw_wafer_write_written_order(w, &own, NULL, 0, &out), FW_OK);
+    assert_non_null(strstr(out.data, "barcode                none\n"));
+    fw_arena_free(p->arena);
+}
+
+/* where the search for near edges ended early, the order does not give what it found as the least there is */
+static void unfinished(void **state) {
+    (void)state;
+    for (int of = 0; of < 2; of++) {
+        plate *p = plate_new(240);
+        const fw_wafer *w = plate_build(p);
+        fw_mask_measure *m = (fw_mask_measure *)(uintptr_t)&w->cell[0].mask->measure[0];
+        m->unfinished = of;
+        fw_wafer_written own = written(p, w, 0);
+        fw_text out = fw_text_new(p->arena), json = fw_text_new(p->arena), all = fw_text_new(p->arena);
+        assert_int_equal(fw_wafer_write_written_order(w, &own, NULL, 0, &out), FW_OK);
+        assert_int_equal(fw_wafer_write_written_order_json(w, &own, NULL, 0, &json), FW_OK);
+        assert_int_equal(fw_wafer_write_order(w, 0, NULL, 0, &all), FW_OK);
+        assert_int_equal(strstr(out.data, "um or less: edges are too many") != NULL, of);
+        assert_int_equal(strstr(out.data, "(a third of the least feature or space that was found)") != NULL, of);
+        assert_int_equal(strstr(json.data, "\"unfinished\": true") != NULL, of);
+        assert_int_equal(strstr(all.data, "(FW-D592)") != NULL, of);
+        fw_arena_free(p->arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(inverted), cmocka_unit_test(scaled),
-                                       cmocka_unit_test(scale_and_size), cmocka_unit_test(several)};
+                                       cmocka_unit_test(scale_and_size), cmocka_unit_test(several),
+                                       cmocka_unit_test(lettering), cmocka_unit_test(unfinished)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
