@@ -363,7 +363,8 @@ FW_API void fw_design_cancel_clear(fw_design *design);
 
 /* Called in the thread of the call that works: at most 64 times a motion, else once a step of the work.
    what: what is being done ("judging the device as drawn"; static text). done of `of`: s of the scene,
-   flows, devices, as `unit` says; `of` 0: not known how many. Not 0 as the answer: as fw_design_cancel.
+   flows, devices, as `unit` says; `of` 0: not known how many; below 0: at most -of, for a search that
+   usually ends before. Not 0 as the answer: as fw_design_cancel.
    It must not call into the same design, but fw_design_cancel. */
 typedef int fw_progress_told(void *context, const char *what, double done, double of,
                              const char *unit);

@@ -238,7 +238,12 @@ def flexwright_rule(kind, layer, least, more = {})
   when "angle"
     tell.call(FlexwrightRules.corners(contours.call, least, more[:of] == "outline"))
   when "edge"
-    tell.call(raw.raw.edges.data.with_length(0, least.ceil, false)) if more[:of] == "polygon"
+    if more[:of] == "polygon" # KLayout's own lengths are rounded to the grid, so that 0.6995 um would be 0.7
+      short = RBA::Edges::new
+      short.merged_semantics = false
+      raw.raw.edges.data.with_length(0, least.ceil + 1, false).each { |e| short.insert(e) if e.sq_length < least * least }
+      tell.call(short)
+    end
   when "area"
     tell.call(merged.with_area(0, least.ceil, false), "island") if more[:of].nil? || more[:of] == "island"
     tell.call(merged.holes.with_area(0, least.ceil, false), "hole") if more[:of].nil? || more[:of] == "hole"

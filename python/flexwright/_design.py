@@ -49,6 +49,7 @@ class Progress(NamedTuple):
     done: float
     of: float  #: 0: not known how many
     unit: str  #: what `done` and `of` count
+    at_most: bool = False  #: `of` is the most that a search may come to; it usually ends before
 
 
 ProgressCallback = Callable[[Progress], Any]
@@ -179,7 +180,7 @@ class Design:
 
         def told(_context, what, done, of, unit) -> int:
             try:
-                progress(Progress(_text(what) or "", done, of, _text(unit) or ""))
+                progress(Progress(_text(what) or "", done, abs(of), _text(unit) or "", of < 0))
             except BaseException as error:
                 raised.append(error)
                 return 1

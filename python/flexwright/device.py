@@ -62,7 +62,8 @@ def _checked(options: Mapping[str, Any]) -> Dict[str, Any]:
 
 def show_progress(progress: Progress) -> None:
     """A line on standard error that is written over; for `progress=flexwright.show_progress`."""
-    share = f"{progress.done:.3g} of {progress.of:.3g} {progress.unit}" if progress.of else \
+    most = "at most " if progress.at_most else ""
+    share = f"{progress.done:.3g} of {most}{progress.of:.3g} {progress.unit}" if progress.of else \
         f"{progress.done:.3g} {progress.unit}"
     sys.stderr.write(f"\r\033[K{progress.what}: {share}")
     sys.stderr.flush()
@@ -113,7 +114,8 @@ class Device:
 
     def _begin(self, text: bytes, file: str, directory: Optional[str],
                attributes: Optional[Mapping[str, Value]], options: Optional[Mapping[str, Any]],
-               parameters: Mapping[str, Value]) -> None:
+               parameters: Mapping[str, Value],
+               habit: Optional[Dict[str, Mapping[str, Any]]] = None) -> None:
         self._text, self._file, self._directory = text, file, directory
         self._set: Dict[str, Value] = {**(attributes or {}), **parameters}
         self._options = _checked(options or {})
@@ -124,7 +126,15 @@ class Device:
         self._lock = threading.RLock()
         self._busy: "weakref.WeakSet[Design]" = weakref.WeakSet()
         self._known: "weakref.WeakValueDictionary[tuple, Design]" = weakref.WeakValueDictionary()
-        self._own: Optional[Design] = self._design({})
+        # what was asked last of a device of this family: read with those options, the next need not be read twice
+        self._habit: Dict[str, Mapping[str, Any]] = {"options": {}} if habit is None else habit
+        self._own: Optional[Design] = None
+        try:
+            self._own = self._design(self._habit["options"])
+        except FlexwrightError:
+            if not self._habit["options"]:
+                raise
+            self._own = self._design({})
 
     # ---- designs: one for each set of options ----
 
@@ -157,6 +167,7 @@ class Device:
                 for key in [k for k, d in self._known.items() if d is design]:
                     del self._known[key]
             raise
+        self._habit["options"] = dict(options)
         return design
 
     # ---- what it is ----
@@ -211,7 +222,7 @@ class Device:
         merged = {k: v for k, v in self._options.items()}
         merged.update(_checked(options or {}))
         other._begin(self._text, self._file, self._directory, {**self._set, **(set or {})}, merged,
-                     parameters)
+                     parameters, self._habit)
         return other
 
     def __reduce__(self):  # so that it passes between processes
@@ -313,13 +324,19 @@ class Device:
         """Elements and attributes of descriptions, methods, effects: for forms and editors."""
         return json.loads(self._any.document("table_json"))
 
-    def _repr_svg_(self) -> str:
-        """The drawing, its hinges coloured by utilisation; where that cannot be judged, as it is
-        assembled."""
+    @functools.cached_property
+    def _drawing(self) -> str:
+        """Its hinges coloured by utilisation; where that cannot be judged, as it is assembled."""
         try:
             return self.check(advice="none", corners="none").svg
         except FlexwrightError:
             return self.assemble().svg
+
+    def _repr_svg_(self) -> str:
+        return results.element_of(self._drawing)
+
+    def _repr_html_(self) -> str:
+        return results.picture_of(self._drawing)
 
 
 def _again(text: bytes, file: str, directory: Optional[str], attributes: Mapping[str, Value],

@@ -2,6 +2,7 @@
 """What a device answers. All numbers are SI and come from the library as they are."""
 from __future__ import annotations
 
+import base64
 import functools
 import json
 from typing import Any, Dict, Mapping, Optional, Tuple
@@ -10,7 +11,19 @@ import numpy as np
 
 from ._design import DOCUMENTS, Design
 from .errors import Diagnostic
-from .tables import Named, Row, Table, table
+from .tables import ByName, Named, Row, Table, table
+
+
+def picture_of(svg: str) -> str:
+    """A picture as an image of a page: what makes pages from notebooks refuses the declaration of an SVG document that
+    stands in its text, or drops the elements that HTML does not have, and names in two pictures of a page may meet."""
+    return ('<img style="max-width:100%" src="data:image/svg+xml;base64,'
+            + base64.b64encode(svg.encode()).decode() + '"/>')
+
+
+def element_of(svg: str) -> str:
+    """The element of an SVG document, without what stands before it."""
+    return svg[svg.index("<svg"):]
 
 
 class Result:
@@ -59,7 +72,10 @@ class Result:
         self._design.cancel()
 
     def _repr_svg_(self) -> str:
-        return self.svg
+        return element_of(self.svg)
+
+    def _repr_html_(self) -> str:
+        return picture_of(self.svg)
 
     def _named(self, numbers: str, array: str, axis: int) -> Named:
         return Named(self._design.numbers(numbers)[array], axis)
@@ -146,9 +162,9 @@ class Verdict(Result):
             return Utilisation(h["made_utilisation"][i], h["made_utilisation_low"][i],
                                h["made_utilisation_high"][i])
 
-        return {id_: Utilisation(h["utilisation"][i], h["utilisation_low"][i],
-                                 h["utilisation_high"][i], made(i))
-                for i, id_ in enumerate(h["id"])}
+        return ByName({id_: Utilisation(h["utilisation"][i], h["utilisation_low"][i],
+                                        h["utilisation_high"][i], made(i))
+                       for i, id_ in enumerate(h["id"])})
 
     @functools.cached_property
     def flows(self) -> Table:
@@ -182,7 +198,7 @@ class Verdict(Result):
                      for item in self.json.get("advice") or ())
 
     def _repr_html_(self) -> str:
-        return (f"<p><b>{self.decision}</b></p>{self.svg}{self.hinges._repr_html_()}")
+        return (f"<p><b>{self.decision}</b></p>{picture_of(self.svg)}{self.hinges._repr_html_()}")
 
 
 class Motion(Result):
@@ -529,7 +545,7 @@ class Fabrication(Result):
     @staticmethod
     def _by_flow(document: Dict[str, Any], several: str) -> Dict[str, Dict[str, Any]]:
         items = document[several] if several in document else [document]
-        return {item["flow"]: item for item in items}
+        return ByName({item["flow"]: item for item in items})
 
     @functools.cached_property
     def masks(self) -> Dict[str, Dict[str, Any]]:

@@ -24,6 +24,13 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
+class ByName(dict):
+    """Values by name; a name that is not there is told which are."""
+
+    def __missing__(self, name: str) -> Any:
+        raise KeyError(f"{name!r}: there are {', '.join(self) or 'none'}")
+
+
 class Table(dict):
     """Columns by name, as NumPy arrays of equal length: `pandas.DataFrame(table)` takes it as it is.
 
@@ -72,7 +79,9 @@ class Table(dict):
                        for name in self)
         body = "".join("<tr>" + "".join(f"<td>{cell(v)}</td>" for v in vars(row).values()) + "</tr>"
                        for row in self.rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        # forty columns are wider than a page: the table is moved in its own frame, not the page
+        return ("<div style='overflow-x:auto;max-width:100%'><table>"
+                f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>")
 
 
 class Named(MappingABC):

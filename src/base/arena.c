@@ -78,6 +78,19 @@ void fw_arena_tell_with(fw_arena *arena, const fw_progress *progress) {
     arena->progress = progress;
 }
 
+static int tell_whole(void *context, const char *what, double done, double of, const char *unit) {
+    const fw_progress_whole *w = context;
+    (void)what, (void)done, (void)of, (void)unit; /* of the part */
+    return w->outer->told(w->outer->context, w->what, w->done, w->of, w->unit);
+}
+
+void fw_arena_tell_of(fw_arena *part, fw_progress_whole *whole) {
+    if (!fw_arena_tells(part)) return;
+    whole->outer = part->progress;
+    whole->own = (fw_progress){tell_whole, whole, part->progress->cancel};
+    part->progress = &whole->own;
+}
+
 bool fw_arena_tells(const fw_arena *arena) {
     return arena->progress && arena->progress->told;
 }

@@ -20,13 +20,23 @@ void fw_cancel_request(fw_cancel *cancel, int number); /* async-signal-safe */
 void fw_cancel_clear(fw_cancel *cancel);               /* not what stands above it */
 int fw_cancel_requested(const fw_cancel *cancel);      /* the number, or 0; NULL is never stopped */
 
-/* Who is told what the work is at, done of `of` (0: not known), each in `unit`. Texts live as long as
-   the arena. An answer that is not 0 asks to stop. */
+/* Who is told what the work is at, done of `of` (0: not known; below 0: of at most -of), each in `unit`.
+   Texts live as long as the arena. An answer that is not 0 asks to stop. */
 typedef struct fw_progress {
     int (*told)(void *context, const char *what, double done, double of, const char *unit);
     void *context;
     fw_cancel *cancel; /* by which it is stopped then */
 } fw_progress;
+
+/* Work of many parts that would each tell of itself: what they tell is told as this, so that who listens is asked as
+   often, and hears how far the whole is. Lives as long as the arena of the part does. */
+typedef struct fw_progress_whole {
+    const char *what;
+    double done, of;
+    const char *unit;
+    fw_progress own;
+    const fw_progress *outer;
+} fw_progress_whole;
 
 typedef struct fw_arena fw_arena;
 typedef struct fw_mark {
@@ -47,6 +57,7 @@ const fw_cancel *fw_arena_request(const fw_arena *arena);          /* or NULL */
 bool fw_arena_cancelled(const fw_arena *arena);
 /* likewise of those who are told: parts of the arena that are made from then on tell them, too */
 void fw_arena_tell_with(fw_arena *arena, const fw_progress *progress); /* NULL: nobody */
+void fw_arena_tell_of(fw_arena *part, fw_progress_whole *whole);
 bool fw_arena_tells(const fw_arena *arena); /* is there anybody to compose a text for? */
 void fw_arena_tell(const fw_arena *arena, const char *what, double done, double of,
                    const char *unit);

@@ -216,3 +216,78 @@ int fw_status_exit(fw_status status) {
     }
     return 70;
 }
+
+/* ---- what was probably meant ---- */
+
+int fw_edit_distance(const char *a, const char *b, int limit) {
+    enum { LONGEST = 64 };
+    size_t na = strlen(a), nb = strlen(b);
+    if (na > LONGEST || nb > LONGEST) return limit + 1;
+    int row[3][LONGEST + 1];
+    for (size_t j = 0; j <= nb; j++)
+        row[0][j] = (int)j;
+    for (size_t i = 1; i <= na; i++) {
+        int *now = row[i % 3], *up = row[(i + 2) % 3], *up2 = row[(i + 1) % 3];
+        now[0] = (int)i;
+        for (size_t j = 1; j <= nb; j++) {
+            int best = up[j - 1] + (a[i - 1] != b[j - 1]);
+            if (up[j] + 1 < best) best = up[j] + 1;
+            if (now[j - 1] + 1 < best) best = now[j - 1] + 1;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+                up2[j - 2] + 1 < best)
+                best = up2[j - 2] + 1;
+            now[j] = best;
+        }
+    }
+    int d = row[na % 3][nb];
+    return d > limit ? limit + 1 : d;
+}
+
+/* The one name that begins as the word does, for four letters or more and nearly all of the shorter of the two:
+   "requirement" for "require", "step" for "step-load". Several that do so equally well are none. */
+static const char *begins_alike(const char *word, const char *const *names, size_t count) {
+    const char *best = NULL;
+    size_t most = 3, length = strlen(word);
+    bool several = false;
+    for (size_t i = 0; i < count; i++) {
+        const size_t other = strlen(names[i]), shorter = length < other ? length : other;
+        size_t same = 0;
+        while (same < shorter && word[same] == names[i][same])
+            same++;
+        if (same < most || same < 4 || 4 * same < 3 * shorter) continue;
+        several = same == most && best && strcmp(best, names[i]) != 0;
+        most = same, best = names[i];
+    }
+    return several ? NULL : best;
+}
+
+const char *fw_did_you_mean(const char *word, const char *const *names, size_t count) {
+    const char *best = NULL;
+    int least = 3;
+    for (size_t i = 0; i < count; i++) {
+        int d = fw_edit_distance(word, names[i], 2);
+        if (d < least && (size_t)d < strlen(names[i])) {
+            least = d;
+            best = names[i];
+        }
+    }
+    return best ? best : begins_alike(word, names, count);
+}
+
+const char *fw_text_meant(fw_arena *arena, const char *word, const char *const *names,
+                          size_t count) {
+    enum { MOST = 12 };
+    const char *near = fw_did_you_mean(word, names, count);
+    if (near) return fw_arena_printf(arena, "; did you mean '%s'?", near);
+    fw_text list = fw_text_new(arena);
+    fw_text_add(&list, "");
+    for (size_t i = 0, same, listed = 0; i < count && listed <= MOST; i++) {
+        for (same = 0; strcmp(names[same], names[i]) != 0;)
+            same++;
+        if (same < i) continue;
+        fw_text_printf(&list, "%s%s", listed ? " " : "; there are ",
+                       listed < MOST ? names[i] : "...");
+        listed++;
+    }
+    return fw_text_end(&list) == FW_OK ? list.data : NULL;
+}

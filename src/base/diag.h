@@ -82,4 +82,19 @@ void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const
 const fw_diag_entry *fw_diag_table(size_t *count);
 const fw_diag_entry *fw_diag_find(int number); /* NULL when there is none */
 
+/* ---- what was probably meant ---- */
+
+/* edit distance (insert, delete, replace, swap), at most `limit`+1; for "did you mean" */
+int fw_edit_distance(const char *a, const char *b, int limit);
+/* best match among count names within distance 2, else the one that begins alike, or NULL */
+const char *fw_did_you_mean(const char *word, const char *const *names, size_t count);
+/* that name in a message, by "%s%s%s" behind what is wrong: "; did you mean 'um'?", or nothing for NULL */
+#define FW_DID_YOU_MEAN(near)                                                                      \
+    (near) ? "; did you mean '" : "", (near) ? (near) : "", (near) ? "'?" : ""
+
+/* Behind what is wrong: that, or where nothing is near the first of what there is, "; there are A B ..."; "" of no names.
+   NULL: no memory. Test: test_growing_text.c */
+const char *fw_text_meant(fw_arena *arena, const char *word, const char *const *names,
+                          size_t count);
+
 #endif

@@ -429,43 +429,6 @@ int fw_number_parse(const char *string, size_t n, double *value) {
     return isfinite(*value);
 }
 
-int fw_edit_distance(const char *a, const char *b, int limit) {
-    enum { LONGEST = 64 };
-    size_t na = strlen(a), nb = strlen(b);
-    if (na > LONGEST || nb > LONGEST) return limit + 1;
-    int row[3][LONGEST + 1];
-    for (size_t j = 0; j <= nb; j++)
-        row[0][j] = (int)j;
-    for (size_t i = 1; i <= na; i++) {
-        int *now = row[i % 3], *up = row[(i + 2) % 3], *up2 = row[(i + 1) % 3];
-        now[0] = (int)i;
-        for (size_t j = 1; j <= nb; j++) {
-            int best = up[j - 1] + (a[i - 1] != b[j - 1]);
-            if (up[j] + 1 < best) best = up[j] + 1;
-            if (now[j - 1] + 1 < best) best = now[j - 1] + 1;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-                up2[j - 2] + 1 < best)
-                best = up2[j - 2] + 1;
-            now[j] = best;
-        }
-    }
-    int d = row[na % 3][nb];
-    return d > limit ? limit + 1 : d;
-}
-
-const char *fw_did_you_mean(const char *word, const char *const *names, size_t count) {
-    const char *best = NULL;
-    int least = 3;
-    for (size_t i = 0; i < count; i++) {
-        int d = fw_edit_distance(word, names[i], 2);
-        if (d < least && (size_t)d < strlen(names[i])) {
-            least = d;
-            best = names[i];
-        }
-    }
-    return best;
-}
-
 bool fw_word_next(const char **rest, const char *separators, fw_word *word) {
     word->at = *rest + strspn(*rest, separators);
     word->length = strcspn(word->at, separators);

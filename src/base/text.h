@@ -72,14 +72,6 @@ static inline int fw_number_plain(double value, int digits) {
 char *fw_percent_text(char *buffer, size_t n, double part);
 /* whole string is one finite number ('.' decimal, optional exponent, no hex, inf or nan)? */
 int fw_number_parse(const char *string, size_t n, double *value);
-/* edit distance (insert, delete, replace, swap), at most `limit`+1; for "did you mean" */
-int fw_edit_distance(const char *a, const char *b, int limit);
-/* best match among count names within distance 2, or NULL */
-const char *fw_did_you_mean(const char *word, const char *const *names, size_t count);
-/* that name in a message, by "%s%s%s" behind what is wrong: "; did you mean 'um'?", or nothing for NULL */
-#define FW_DID_YOU_MEAN(near)                                                                      \
-    (near) ? "; did you mean '" : "", (near) ? (near) : "", (near) ? "'?" : ""
-
 /* Words of a list: letters between separators (of which there may be several). */
 typedef struct fw_word {
     const char *at; /* not ended by a NUL */

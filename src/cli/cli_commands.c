@@ -36,8 +36,8 @@ int fw_cli_unknown_command(const char *name) {
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
         names[i] = commands[i].name;
     const char *near = fw_did_you_mean(name, names, sizeof commands / sizeof commands[0]);
-    return fw_cli_usage("unknown command '%s'%s%s%s; see flexwright --help", name,
-                        near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
+    return fw_cli_usage("unknown command '%s'%s%s%s flexwright --help", name,
+                        near ? "; did you mean " : "", near ? near : "", near ? "? See" : "; see");
 }
 
 /* ---- help ---- */
@@ -144,8 +144,9 @@ static bool unknown_option(const fw_cli_command *command, const char *argument) 
     for (size_t i = 0; i < count && n < MOST_OPTIONS; i++)
         if (table[i].group & command->options) names[n++] = table[i].name;
     const char *near = argument[1] == '-' ? fw_did_you_mean(argument + 2, names, n) : NULL;
-    fw_cli_usage("%s has no option '%s'%s%s%s; see flexwright %s --help", command->name, argument,
-                 near ? "; did you mean --" : "", near ? near : "", near ? "?" : "", command->name);
+    fw_cli_usage("%s has no option '%s'%s%s%s flexwright %s --help", command->name, argument,
+                 near ? "; did you mean --" : "", near ? near : "", near ? "? See" : "; see",
+                 command->name);
     return false;
 }
 

@@ -158,6 +158,9 @@ static fw_status write_figure(fw_arena *arena, const fw_cli_options *options, fw
 }
 
 int fw_cli_command_figure(fw_cli_options *options) {
+    if (!options->output && isatty(STDOUT_FILENO)) /* its bytes would only upset a terminal */
+        return fw_cli_usage("a PDF is nothing for a terminal: name a file with -o, or send it to "
+                            "another program; -o - writes it here all the same");
     fw_arena *arena = fw_arena_new(0);
     if (!arena) return fw_status_exit(FW_NOMEM);
     fw_diags diags = fw_diags_new(arena);
@@ -174,7 +177,8 @@ int fw_cli_command_figure(fw_cli_options *options) {
 int fw_cli_command_explain(fw_cli_options *options) {
     const char *code = options->device;
     const char *digits = code;
-    if (strncasecmp(digits, "FW-", 3) == 0) digits += 3;
+    if (strncasecmp(digits, "FW", 2) == 0) digits += 2;
+    digits += strspn(digits, "-_ ");
     if (*digits == 'D' || *digits == 'd') digits++;
     double number;
     const fw_diag_entry *entry = NULL;

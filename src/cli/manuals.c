@@ -78,6 +78,27 @@ static void environment(fw_text *out) {
                 "FORCE_COLOR\nas usual\n");
 }
 
+/* a first hour, and where the rest is told: a reader of this page may have nothing else yet */
+static void beginning(fw_text *out) {
+    fw_text_add(out, ".SH EXAMPLES\n.EX\n");
+    put(out, "flexwright init my-device > device.xml      # a small six-bar with comments\n"
+             "flexwright check device.xml                 # the verdict\n"
+             "flexwright check device.xml --set t=\"12 um\"\n"
+             "flexwright plan device.xml -o out           # out/report.html, masks, recipes\n"
+             "flexwright serve device.xml                 # the same on a page, moving\n"
+             "flexwright explain FW-D204                  # the long text of a message\n");
+    fw_text_add(out, ".EE\n.SH FILES\nBelow the prefix of the installation, /usr of a package:\n"
+                     ".TP\n.I share/doc/flexwright/docs\n"
+                     "the documentation: index.md, tutorial.md, reference/device.md (every element "
+                     "and attribute of a device file), python.md, c\\-api.md, klayout.md\n"
+                     ".TP\n.I share/doc/flexwright/docs/gallery\ndevices to start from\n"
+                     ".TP\n.I share/flexwright/processes, share/flexwright/masks\n"
+                     "process packs and layer tables, which are data: a laboratory edits a copy\n"
+                     ".TP\n.I share/flexwright/device.rng, share/flexwright/catalog.xml\n"
+                     "schema of device files for editors\n"
+                     ".TP\n.I share/flexwright/klayout\nthe package for KLayout\n");
+}
+
 static void program(fw_text *out) {
     size_t n;
     const fw_cli_command *command = fw_cli_command_table(&n);
@@ -94,6 +115,7 @@ static void program(fw_text *out) {
         put(out, command[i].summary);
         fw_text_add(out, "\n");
     }
+    beginning(out);
     statuses(out);
     environment(out);
 }
@@ -195,6 +217,7 @@ const char *fw_cli_option_values(const fw_cli_option_row *row, fw_cli_value *kin
     if (!row->argument) return NULL;
     if (strcmp(row->argument, "DIR") == 0) *kind = FW_VALUE_DIRECTORY;
     if (strcmp(row->argument, "FILE") == 0) *kind = FW_VALUE_FILE;
+    if (strcmp(row->name, "flow") == 0) *kind = FW_VALUE_FLOW;
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (strcmp(known[i].option, row->name) != 0) continue;
         *kind = FW_VALUE_WORDS;
@@ -236,6 +259,9 @@ static bool takes_device(const fw_cli_command *command) {
     return command->argument && strstr(command->argument, ".xml");
 }
 
+/* the flows that are installed, of what `doctor` says: those that have a table of masks */
+#define FLOWS "sed -n \"s,^masks/\\([^ ]*\\)\\.xml .*,\\1,p\""
+
 /* ---- bash ---- */
 
 static void bash_values(const fw_cli_command *command, fw_text *out) {
@@ -255,6 +281,9 @@ static void bash_values(const fw_cli_command *command, fw_text *out) {
             break;
         case FW_VALUE_DIRECTORY:
             fw_text_add(out, ") _flexwright_take -d ;;\n");
+            break;
+        case FW_VALUE_FLOW:
+            fw_text_add(out, ") _flexwright_take -W \"$(_flexwright_flows)\" ;;\n");
             break;
         case FW_VALUE_OTHER:
             fw_text_add(out, ") COMPREPLY=() ;;\n");
@@ -280,6 +309,7 @@ static void bash(const fw_cli_command *command, size_t n, fw_text *out) {
     fw_text_add(
         out,
         "# bash completion of flexwright; generated from its tables, do not edit\n"
+        "_flexwright_flows() {\n    \"${COMP_WORDS[0]}\" doctor 2>/dev/null | " FLOWS "\n}\n"
         "_flexwright_take() {\n"
         "    [ \"$1\" = -W ] || compopt -o filenames 2>/dev/null\n"
         "    mapfile -t COMPREPLY < <(compgen \"$@\" -- \"$current\")\n}\n"
@@ -324,6 +354,9 @@ static void zsh_option(const fw_cli_option_row *row, fw_text *out) {
         case FW_VALUE_DIRECTORY:
             fw_text_add(out, ":_files -/");
             break;
+        case FW_VALUE_FLOW:
+            fw_text_add(out, ":_flexwright_flows");
+            break;
         case FW_VALUE_OTHER:
             fw_text_add(out, ": ");
             break;
@@ -335,6 +368,8 @@ static void zsh_option(const fw_cli_option_row *row, fw_text *out) {
 static void zsh(const fw_cli_command *command, size_t n, fw_text *out) {
     fw_text_add(out,
                 "#compdef flexwright\n# generated from the tables of the program, do not edit\n"
+                "_flexwright_flows() {\n    compadd -- $(flexwright doctor 2>/dev/null | " FLOWS
+                ")\n}\n"
                 "_flexwright() {\n    local -a commands\n    commands=(\n");
     for (size_t i = 0; i < n; i++) {
         fw_text_printf(out, "        '%s:", command[i].name);
@@ -381,6 +416,8 @@ static void fish(const fw_cli_command *command, size_t n, fw_text *out) {
             if (kind == FW_VALUE_FILE) fw_text_add(out, " -r -F");
             if (kind == FW_VALUE_DIRECTORY)
                 fw_text_add(out, " -x -a '(__fish_complete_directories)'");
+            if (kind == FW_VALUE_FLOW)
+                fw_text_add(out, " -x -a '(flexwright doctor 2>/dev/null | " FLOWS ")'");
             if (kind == FW_VALUE_OTHER && row->argument) fw_text_add(out, " -x");
             fw_text_add(out, " -d '");
             sentence(out, row->help);

@@ -164,6 +164,7 @@ typedef enum fw_cli_value {
     FW_VALUE_WORDS,
     FW_VALUE_FILE,
     FW_VALUE_DIRECTORY,
+    FW_VALUE_FLOW, /* of those that are installed where it is typed: `doctor` knows */
     FW_VALUE_OTHER
 } fw_cli_value;
 const char *fw_cli_option_values(const fw_cli_option_row *row, fw_cli_value *kind);

@@ -2,6 +2,7 @@
 #include "base/output.h"
 #include "cli/session.h"
 #include "plan/design.h"
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,15 +49,15 @@ static int show(void *context, const char *what, double done, double of, const c
     if (now - shown.start_s < 1.0 || now - shown.said_s < 0.1) return 0;
     shown.said_s = now;
     fprintf(stderr, "\r\033[K%s", what);
-    const double since = now - shown.what_s;
-    const double left = of > 0 && done > 0 ? since * (of / done - 1.0) : 0.0;
-    if (of > 0)
-        fprintf(stderr, ": %.3g of %.3g %s", done, of, unit);
+    const double since = now - shown.what_s, all = fabs(of);
+    const double left = all > 0 && done > 0 ? since * (all / done - 1.0) : 0.0;
+    if (all > 0)
+        fprintf(stderr, ": %.3g of %s%.3g %s", done, of < 0 ? "at most " : "", all, unit);
     else if (done > 0)
         fprintf(stderr, ": %.3g %s so far", done, unit);
     if (left >= 1.0 && since >= 1.0)
-        fprintf(stderr, ", about %.0f s left", left);
-    else if (!(of > 0) && since >= 1.0)
+        fprintf(stderr, ", %s %.0f s left", of < 0 ? "at most" : "about", left);
+    else if (!(all > 0) && since >= 1.0)
         fprintf(stderr, ", %.0f s", since); /* nobody knows how many there will be */
     fflush(stderr);
     return 0;

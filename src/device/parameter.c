@@ -275,10 +275,10 @@ static fw_xml_attribute value_of(const edit *set, const char *name) {
 
 static void unknown_path(fw_device_reader *r, const edit *set, const char *what, const char *word,
                          const char *const *names, size_t n) {
-    const char *better = word && n ? fw_did_you_mean(word, names, n) : NULL;
-    fw_diag_error(r->diags, 55, set->place, "%s%s%s%s", what, better ? "; did you mean '" : "",
-                  better ? better : "",
-                  better ? "'?"
+    const char *meant = word && n ? fw_text_meant(r->arena, word, names, n) : NULL;
+    const bool near = meant && strstr(meant, "did you mean");
+    fw_diag_error(r->diags, 55, set->place, "%s%s%s", what, meant ? meant : "",
+                  near ? ""
                   : strchr(set->path, '.')
                       ? "; a value of a process, such as cavity.d, is set in a laboratory pack "
                         "(--lab FILE)"

@@ -124,6 +124,11 @@ static void report_dangling(fw_device_reader *r, const fw_xml_record *record,
                 (size_t)snprintf(list + used, sizeof list - used, "%s%s", listed++ ? " " : "", id);
     }
     fw_xml_label(record, label);
+    if (row->ground && fw_edit_distance(a->value, "ground", 2) < least) {
+        fw_diag_error(r->diags, 46, a->place, "%s: there is no %s '%.64s'; did you mean 'ground'?",
+                      label, kind, a->value);
+        return;
+    }
     if (better && strlen(a->value) > 2)
         fw_diag_error(r->diags, 46, a->place,
                       "%s: there is no %s '%.64s'; did you mean '%s', declared at %d:%d? Make the "

@@ -57,6 +57,8 @@ static fw_status flatten_dxf(fw_drawing_flat *flat, const char *data, size_t n) 
                              "cell is of GDSII files, and %s is none; remove it", a->file);
     for (int i = 0; i < flat->nmap; i++) {
         fw_drawing_asked asked = {.file = a->file,
+                                  .segments_most = FW_DRAWING_DXF_MOST,
+                                  .outlines_most = FW_DRAWING_PARTS_MOST,
                                   .layer = flat->map[i].from,
                                   .unit = a->unit,
                                   .unit_m = a->unit_m,

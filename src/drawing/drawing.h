@@ -58,6 +58,8 @@ typedef struct fw_drawing_asked {
     const char *file;     /* as in messages */
     const char *layer;    /* NULL: the only one that has closed outlines */
     const char *cell;     /* GDSII; NULL: the only one */
+    int segments_most;    /* of a DXF file; 0: FW_DRAWING_SEGMENTS_MOST, */
+    int outlines_most;    /* 0: FW_DRAWING_OUTLINES_MOST */
     double unit_m;        /* what one unit of a DXF file is; NaN: what the file says */
     const char *unit;     /* its symbol; NULL: not stated */
     fw_place place;       /* where the file was asked for, */
@@ -89,7 +91,8 @@ enum {
     FW_DRAWING_SHAPES_MOST = 1000000, /* polygons, and references followed, of one cell */
     FW_DRAWING_POINTS_MOST = 2000000, /* of its polygons before they are merged, */
     FW_DRAWING_PARTS_MOST = 4000,     /* polygons after that, */
-    FW_DRAWING_CORNERS_MOST = 200000, /* and their vertices */
+    FW_DRAWING_CORNERS_MOST = 200000, /* and their vertices; */
+    FW_DRAWING_DXF_MOST = 20000,      /* lines and arcs of one of its layers */
 };
 
 typedef struct fw_drawing_map { /* layers="FROM>TO; ..." */

@@ -80,10 +80,10 @@ static bool scale_edges(reader *r, double unit_m) {
 static fw_status trace(reader *r, const fw_drawing_piece *piece, int n, fw_geometry_vec2 start,
                        int line, fw_drawing *out) {
     fw_drawing_flaw flaw;
-    if (out->count == FW_DRAWING_OUTLINES_MOST)
+    const int most = r->asked->outlines_most ? r->asked->outlines_most : FW_DRAWING_OUTLINES_MOST;
+    if (out->count == most)
         return fw_diag_error(r->diags, 319, place_at(r, line),
-                             "more than %d outlines are taken from one file",
-                             (int)FW_DRAWING_OUTLINES_MOST);
+                             "more than %d outlines are taken from one file", most);
     fw_drawing_outline *o = &out->outline[out->count];
     fw_status status = fw_drawing_trace(r->arena, start, piece, n, &o->contour, &flaw);
     if (status == FW_GEOMETRY) {

@@ -147,13 +147,18 @@ static fw_geometry_vec2 placed(const fw_drawing_frame *f, fw_geometry_vec2 p) {
     return (fw_geometry_vec2){f->xx * p.x + f->xy * p.y + f->x, f->yx * p.x + f->yy * p.y + f->y};
 }
 
+/* a mask's drawing may have more than a body's outline */
+static int segments_most(const reader *r) {
+    return r->asked->segments_most ? r->asked->segments_most : FW_DRAWING_SEGMENTS_MOST;
+}
+
 static fw_status add_edge(reader *r, fw_geometry_vec2 a, fw_geometry_vec2 b, double sweep_rad,
                           int line) {
-    if (r->nedge == FW_DRAWING_SEGMENTS_MOST) {
+    if (r->nedge == segments_most(r)) {
         fw_diag_error(r->diags, 319, place_at(r, line),
                       "more than %d lines and arcs are taken from one file; draw fewer points, or "
                       "use several layers",
-                      (int)FW_DRAWING_SEGMENTS_MOST);
+                      segments_most(r));
         r->failed = true;
         return FW_OK;
     }
@@ -219,7 +224,7 @@ typedef struct vertices {
 } vertices;
 
 static fw_status add_vertex(reader *r, vertices *v) {
-    if (v->count > FW_DRAWING_SEGMENTS_MOST) return FW_OK; /* said when edges are made of them */
+    if (v->count > segments_most(r)) return FW_OK; /* said when edges are made of them */
     if (v->count == v->room) {
         int more = v->room ? 2 * v->room : 64;
         FW_NEED(v->item = fw_arena_grow(r->arena, v->item, (size_t)v->count, (size_t)more,

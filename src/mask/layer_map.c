@@ -297,6 +297,35 @@ static const char *names_of(fw_arena *arena, const fw_mask_table *const *table, 
     return fw_text_end(&names) == FW_OK && names.length ? names.data : "";
 }
 
+/* of a line for `flow`, or for all: what it was probably meant for, "; did you mean 'text'?"; ":" */
+static const char *layer_meant(fw_arena *arena, const fw_mask_layer_entry *e,
+                               const fw_mask_table *const *table, int ntable) {
+    size_t n = 1 + FW_ROLE_COUNT, of = 0;
+    for (int i = 0; i < ntable; i++)
+        n += (size_t)table[i]->nlayer;
+    const char **name = fw_arena_array(arena, const char *, n);
+    if (!name) return NULL;
+    for (const char *const *role = fw_mask_role_names(); *role; role++)
+        name[of++] = *role;
+    name[of++] = "plate";
+    for (int i = 0; i < ntable; i++)
+        for (int k = 0; (!e->flow || strcmp(table[i]->flow, e->flow) == 0) && k < table[i]->nlayer;
+             k++)
+            name[of++] = table[i]->layer[k].id;
+    const char *near = fw_did_you_mean(e->layer, name, of);
+    return near ? fw_arena_printf(arena, "; did you mean '%s'?", near) : ":";
+}
+
+static const char *flow_meant(fw_arena *arena, const char *flow, const fw_mask_table *const *table,
+                              int ntable) {
+    const char **name = fw_arena_array(arena, const char *, (size_t)ntable);
+    if (!name) return NULL;
+    for (int i = 0; i < ntable; i++)
+        name[i] = table[i]->flow;
+    const char *near = fw_did_you_mean(flow, name, (size_t)ntable);
+    return near ? fw_arena_printf(arena, "; did you mean '%s'?", near) : "";
+}
+
 fw_status fw_mask_layer_map_finish(fw_arena *arena, const fw_mask_layer_map *map,
                                    const fw_mask_table *const *table, int ntable, fw_diags *diags) {
     size_t errors = diags->errors;
@@ -307,17 +336,20 @@ fw_status fw_mask_layer_map_finish(fw_arena *arena, const fw_mask_layer_map *map
         for (int k = 0; k < ntable; k++)
             planned = planned || strcmp(table[k]->flow, e->flow) == 0;
         if (e->used) continue;
+        const char *meant = planned ? layer_meant(arena, e, table, ntable)
+                                    : flow_meant(arena, e->flow, table, ntable);
+        FW_NEED(meant);
         if (planned)
             fw_diag_error(diags, 381, e->place,
-                          "no layer has the id or the role \"%s\": %s; roles are structure, "
+                          "no layer has the id or the role \"%s\"%s %s; roles are structure, "
                           "flexure, frame, tether, text, mark, dicing, back, cavity, land, metal; "
                           "\"plate\" is the layer of the plate as it is written",
-                          e->layer, names_of(arena, table, ntable, e->flow));
+                          e->layer, meant, names_of(arena, table, ntable, e->flow));
         else if (!told || strcmp(told, e->flow) != 0)
             fw_diag_warning(diags, 383, e->place,
-                            "flow %s is not planned here, so that its lines do nothing; the name "
-                            "is that of its process pack",
-                            told = e->flow);
+                            "flow %s is not planned here, so that its lines do nothing%s (the name "
+                            "is that of its process pack)",
+                            told = e->flow, meant);
     }
     if (diags->failed) return FW_NOMEM;
     return diags->errors > errors ? FW_INPUT : FW_OK;

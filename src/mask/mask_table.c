@@ -11,6 +11,10 @@ static const char *const role_names[] = {
     [FW_ROLE_TETHER] = "tether",       [FW_ROLE_TEXT] = "text",       [FW_ROLE_MARK] = "mark",
     [FW_ROLE_DICING] = "dicing",       [FW_ROLE_BACK] = "back",       [FW_ROLE_CAVITY] = "cavity",
     [FW_ROLE_LAND] = "land",           [FW_ROLE_METAL] = "metal",     [FW_ROLE_COUNT] = NULL};
+const char *const *fw_mask_role_names(void) {
+    return role_names;
+}
+
 static const char *const tones[] = {"data clear", "data dark", NULL};
 
 /* ---- forms of text ---- */

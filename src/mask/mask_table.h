@@ -87,6 +87,7 @@ fw_status fw_mask_layer_map_finish(fw_arena *arena, const fw_mask_layer_map *map
 bool fw_mask_gds_pair(const char *text, int *number, int *datatype);
 /* 1 to 32 of A-Z a-z 0-9 _ - */
 bool fw_mask_is_name(const char *text);
+const char *const *fw_mask_role_names(void); /* as tables have them; NULL behind the last */
 /* the layer that a role, as the table says it, is drawn on; -1: none */
 int fw_mask_layer_of_role(const fw_mask_table *table, const char *role);
 

@@ -183,10 +183,10 @@ static const char *unknown_joint(const fw_plan *plan, const char *id) {
         if (d->revolute[j].id) name[n++] = d->revolute[j].id;
         if (d->revolute[j].flexure != FW_NONE) name[n++] = d->flexure[d->revolute[j].flexure].id;
     }
-    const char *near = name ? fw_did_you_mean(id, name, n) : NULL;
-    return fw_arena_printf(plan->arena,
-                           "no drawn hinge or flexure of this device has that id%s%s%s",
-                           FW_DID_YOU_MEAN(near));
+    const char *meant = name ? fw_text_meant(plan->arena, id, name, n) : NULL;
+    return meant ? fw_arena_printf(plan->arena,
+                                   "no drawn hinge or flexure of this device has that id%s", meant)
+                 : NULL;
 }
 
 /* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through

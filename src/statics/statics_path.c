@@ -373,7 +373,8 @@ static fw_status walk(follower *f) {
         if (f->w->until_unstable && f->next.negative > f->at.negative) return FW_OK;
         if (searched) FW_TRY(correct(f, &f->at, length, &f->next));
         FW_TRY(record(f, &f->next, FW_PATH_POINT, FW_NONE));
-        fw_arena_tell(f->w->arena, "following the load path", f->path->count, 0, "equilibria");
+        fw_arena_tell(f->w->arena, "following the load path", f->path->count, -f->most,
+                      "equilibria");
         copy_state(f, &f->next, &f->at);
         length = fmin(fw_longest, 1.5 * length);
     }

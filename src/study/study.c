@@ -36,24 +36,24 @@ static const char *beside(fw_arena *arena, const char *file, const char *name) {
 }
 
 static fw_status choose(fw_study *study, const fw_device *device) {
-    const char *wanted = study->options.study;
-    fw_text names = fw_text_new(study->arena);
+    const char *wanted = study->options.study, *called = wanted ? wanted : "", *known;
+    const fw_place at = {.file = study->options.file};
+    const char **name = fw_arena_array(study->arena, const char *, (size_t)device->nstudy);
+    FW_NEED(name);
     for (int i = 0; i < device->nstudy; i++) {
-        if (!wanted || strcmp(device->study[i].name, wanted) == 0) {
-            if (wanted || device->nstudy == 1) {
-                study->asked = &device->study[i];
-                return FW_OK;
-            }
-        }
-        fw_text_printf(&names, " %s", device->study[i].name);
+        name[i] = device->study[i].name;
+        if (wanted ? strcmp(name[i], wanted) != 0 : device->nstudy > 1) continue;
+        study->asked = &device->study[i];
+        return FW_OK;
     }
     if (device->nstudy == 0)
-        return fw_diag_error(&study->diags, 494, (fw_place){.file = study->options.file},
+        return fw_diag_error(&study->diags, 494, at,
                              "the device file has no <study>; add one, or name a study file");
-    return fw_diag_error(&study->diags, 494, (fw_place){.file = study->options.file},
-                         wanted ? "there is no study '%s'; there are%s"
-                                : "%sseveral studies; name one with --study:%s",
-                         wanted ? wanted : "", names.failed ? "" : names.data);
+    FW_NEED(known = fw_text_meant(study->arena, called, name, (size_t)device->nstudy));
+    return fw_diag_error(&study->diags, 494, at,
+                         wanted ? "there is no study '%s'%s"
+                                : "%sseveral studies; name one with --study%s",
+                         called, known);
 }
 
 static fw_status read_study_file(fw_study *study, char *xml, size_t n) {

@@ -244,6 +244,18 @@ static void into_list(walk *w, const json_t *node, const char *path) {
     }
 }
 
+/* the key of an object that was probably meant; NULL: none is near */
+static const char *nearest(const json_t *node, const char *word) {
+    const char *key, *best = NULL;
+    json_t *value;
+    int least = 3;
+    json_object_foreach((json_t *)node, key, value) {
+        const int d = fw_edit_distance(word, key, 2);
+        if (d < least && (size_t)d < strlen(key)) least = d, best = key;
+    }
+    return best;
+}
+
 static void into_object(walk *w, const json_t *node, const char *path) {
     size_t n = strcspn(path, ".[");
     char key[80], names[220];
@@ -258,7 +270,9 @@ static void into_object(walk *w, const json_t *node, const char *path) {
         return;
     }
     names_of(node, names, sizeof names);
-    say(w, "there is no '%s'%s%s", key, names[0] ? "; there are " : "", names);
+    const char *near = nearest(node, key);
+    say(w, "there is no '%s'%s%s%s%s%s", key, FW_DID_YOU_MEAN(near),
+        names[0] ? near ? " There are " : "; there are " : "", names);
 }
 
 static void go(walk *w, const json_t *node, const char *path) {

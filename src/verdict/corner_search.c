@@ -39,39 +39,14 @@ static fw_status describe(const fw_verdict_search *s, const double *x, const cha
 
 /* ---- checks ---- */
 
-static double between(double used) {
-    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
-    return fmin(fmax(used, least), most);
-}
-
-/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
-   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
-   much as is asked for. */
-static double used_by_nearest(const fw_verdict_clearance *c) {
-    const fw_clearance_least *l = &c->least;
-    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
-    double used = target / l->m;
-    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
-    if (c->box == FW_NONE && l->start_m <= target) used = most;
-    if (l->m <= 0) used = 1 / l->share;
-    return between(used);
-}
-
-/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
-   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
-static double used_by_any(const fw_verdict_clearance *c, bool by_nearest) {
-    const bool meet = c->least.m <= 0 && c->least.share > 0;
-    const double nearest = by_nearest || meet ? used_by_nearest(c) : 0;
-    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
-}
-
 /* Only where a pair has lost much of its distance may a corner take the rest: loads move a device
    further by half where its flexures are a sixth thinner. Below that a corner only proves that enough
    is left. */
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest) {
     for (int i = 0; i < v->nclearance; i++) {
         const fw_verdict_clearance *c = &v->clearance[i];
-        const double used = by_nearest ? used_by_nearest(c) : used_by_any(c, true);
+        const double used =
+            by_nearest ? fw_verdict_search_used_nearest(c) : fw_verdict_search_used(c, true);
         if (used > fw_verdict_clearance_counts) return true;
     }
     return false;
@@ -93,7 +68,8 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
     for (int i = 0; s->clearances && i < now->nclearance; i++) {
         const fw_verdict_clearance *c = &now->clearance[i];
         int at = c->box == FW_NONE ? c->scene_index : scenes + c->box;
-        if (c->box == FW_NONE || s->nearest) clearance[at] = log(used_by_any(c, s->nearest));
+        if (c->box == FW_NONE || s->nearest)
+            clearance[at] = log(fw_verdict_search_used(c, s->nearest));
     }
     for (int r = 0; r < hinges; r++)
         ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
@@ -300,6 +276,9 @@ fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
             .id = s->v->hinge[k].id, .joint = s->v->hinge[k].joint, .decision = FW_INCONCLUSIVE};
     fw_arena *scratch = fw_arena_part(s->arena, 0); /* given back at once: there may be many */
     FW_NEED(scratch);
+    fw_arena_tell_of(scratch, s->told);
+    fw_arena_tell(scratch, "", 0, 0, "");
+    s->told->done++;
     fw_status status = judge_point(s, scratch, x, corner, ln);
     fw_arena_free(scratch);
     return status;
@@ -376,10 +355,10 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     int point = fabricated->ncorner;
     if (point >= FW_MOST_POINTS) return FW_OK; /* never: there is room for all that is ever run */
     double *ln = s->ln + (size_t)point * (size_t)s->ncheck;
-    fw_arena_tell(s->arena, "judging what a flow makes of it", point, 0, "devices");
     fw_verdict_known known;
     if (!s->sign && known_device(s, x, &known)) {
         FW_TRY(take_known(s, &known, x, &fabricated->corner[point], ln));
+        s->told->done++;
     } else {
         FW_TRY(fw_verdict_search_point(s, x, &fabricated->corner[point], ln));
         s->judged++;
@@ -409,6 +388,17 @@ typedef enum answer {
     UNDECIDED,
     REFUSED
 } answer; /* undecided: closer numbers may decide */
+
+/* No more boxes are asked than there are ends to hold, their bisections, and all together. Each has at most the devices
+   that were not accepted. */
+static double most_asked(const fw_verdict_search *s) {
+    double boxes = s->v->ninput + 1, failed = 0;
+    for (int i = 0; i < STAGES; i++)
+        boxes += ceil(-log2(left_open[i]));
+    for (int c = 0; c < s->fabricated->ncorner; c++)
+        failed += s->fabricated->corner[c].decision != FW_ACCEPT;
+    return boxes * failed;
+}
 
 /* a device at a point of the ranges, not kept as a corner */
 static fw_status ask_point(const fw_verdict_search *from, const double *x, const signed char *sign,
@@ -581,6 +571,8 @@ static fw_status hold_all(fw_verdict_search *s) {
 /* the inputs one by one, the one that makes most of the governing check first; then all together */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s) {
     int check = governing_check(s), n = s->v->ninput;
+    s->told->what = "looking for what would have to be held", s->told->done = 0;
+    s->told->of = -most_asked(s);
     bool tried[FW_FABRICATION_INPUTS] = {false}, done = false;
     for (int turn = 0; turn < n; turn++) {
         int next = FW_NONE;

@@ -241,3 +241,21 @@ void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]
     band[0] = isnan(r->all_low) ? r->low : r->all_low;
     band[1] = isnan(r->all_high) ? r->high : r->all_high;
 }
+
+/* ---- how many there may be, for who waits ---- */
+
+/* No more points are run than the nominal one, one for the slopes of each input, all corners, each hinge alone and the
+   patterns of hinges that differ. Usually first order leaves a few of them, which nobody knows before. */
+fw_status fw_verdict_search_most(fw_verdict_search *s) {
+    const unsigned fixed = fw_verdict_search_without_range(s->v);
+    int free = 0, apart = 0;
+    for (int i = 0; i < s->v->ninput; i++) {
+        free += !(fixed >> i & 1u);
+        if (s->v->input[i].local != 0.0) apart = s->device->nrevolute + FW_MOST_APART;
+    }
+    FW_NEED(s->told = fw_arena_one(s->arena, fw_progress_whole));
+    *s->told = (fw_progress_whole){.what = "judging what a flow makes of it",
+                                   .of = -(1.0 + free + (1u << free) + s->v->nsuspect + apart),
+                                   .unit = "devices"};
+    return FW_OK;
+}

@@ -361,6 +361,21 @@ static fw_status take_suspects(const fw_verdict_trial *trial, fw_arena *scratch,
     return FW_OK;
 }
 
+/* An arena of its own, given back at once: a plan runs dozens of trials. What a trial is at is told as how much of the
+   work that all may take has been done: no search goes on beyond that, and most end before. */
+static fw_arena *scratch_of(fw_verdict_trial *trial) {
+    fw_arena *scratch = fw_arena_part(trial->arena, 0);
+    if (!scratch) return NULL;
+    const double most = trial->most_work, share = most > 0 ? trial->work / most : 0.0;
+    trial->told = (fw_progress_whole){.what = "looking for changes that would be accepted",
+                                      .done = 100 * fmin(share, 1.0),
+                                      .of = most > 0 ? -100 : 0,
+                                      .unit = "%"};
+    fw_arena_tell_of(scratch, &trial->told);
+    fw_arena_tell(scratch, "", 0, 0, "");
+    return scratch;
+}
+
 static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_device_set *set,
                          int nset, const fw_verdict_options *options) {
     const fw_verdict_restated *r = &trial->options->restated;
@@ -420,7 +435,7 @@ static fw_status keep_accepted(fw_verdict_trial *trial, const fw_device_set *set
 fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
                                    fw_verdict_look look) {
     const fw_verdict_options o = options_of(trial, look);
-    fw_arena *scratch = fw_arena_part(trial->arena, 0);
+    fw_arena *scratch = scratch_of(trial);
     FW_NEED(scratch);
     fw_status status = restate(trial, scratch, set, nset, &o);
     fw_arena_free(scratch);
@@ -447,12 +462,10 @@ double fw_verdict_trial_excess(const fw_verdict_trial *trial) {
 
 /* ---- a copy that was changed ---- */
 
-/* in an arena of its own, given back at once: a plan runs dozens of trials */
 fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look) {
     int n = trial->verdict->nvariant;
-    fw_arena *scratch = fw_arena_part(trial->arena, 0);
+    fw_arena *scratch = scratch_of(trial);
     FW_NEED(scratch);
-    fw_arena_tell(trial->arena, "looking for changes that would be accepted", 0, 0, "trials");
     fw_diags diags = fw_diags_new(scratch);
     const fw_layout *layout = NULL;
     const fw_verdict_options o = options_of(trial, look);

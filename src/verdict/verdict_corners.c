@@ -515,7 +515,7 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
     s->fabricated->ncheck = s->ncheck;
     s->fabricated->held = FW_NONE;
     s->fabricated->held_share = (double)NAN;
-    return FW_OK;
+    return fw_verdict_search_most(s);
 }
 
 /* the search that follows may come to the corners that were run, and does not run them again */

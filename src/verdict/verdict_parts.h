@@ -152,8 +152,9 @@ typedef struct fw_verdict_search {
     const signed char *sign; /* how hinges differ at what is run now; NULL: not at all */
     int most_looks; /* at a point, each closer than the one before; 0: as many as its decision needs */
     int judged;     /* points that were run, and not known */
-    int first;      /* how many points there were when the slopes were known */
-    double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
+    fw_progress_whole *told; /* how many points were run, of how many at most */
+    int first;               /* how many points there were when the slopes were known */
+    double *slope;           /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
     /* of each input: that whose slopes were taken, scaled by the edges, and the point where it was off
        its nominal value; FW_NONE: no range */
     int slope_like[FW_FABRICATION_INPUTS], slope_point[FW_FABRICATION_INPUTS];
@@ -170,6 +171,7 @@ enum {
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s);
+fw_status fw_verdict_search_most(fw_verdict_search *s); /* s->told */
 /* the nominal device, its slopes, the corners that may govern; all corners where first order is not
    to be trusted */
 fw_status fw_verdict_search_corners(fw_verdict_search *s);
@@ -187,8 +189,10 @@ unsigned fw_verdict_ends_next(const fw_verdict_search *s);
 fw_status fw_verdict_ends_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
-/* corner_search.c, shared */
+/* decision.c, corner_search.c and requirement_corners.c, shared */
 /* has any clearance (by_nearest: any by its nearest pair) used so much that a corner may take the rest? */
+double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);
+double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest);
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
 void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x);

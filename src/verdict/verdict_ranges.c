@@ -156,6 +156,7 @@ static fw_status judge(fw_arena *scratch, fw_arena *arena, const fw_device *devi
     fw_verdict_options glance = *options;
     glance.at_a_glance = true; /* the value counts, not the decision */
     FW_TRY(fw_verdict_search_begin(scratch, device, layout, &glance, v, &s));
+    s.told->of = 0; /* who draws them counts them */
     FW_TRY(fw_verdict_search_run(&s, x, FW_NO_CORNER));
     const fw_verdict_fabricated_corner *c = &s.fabricated->corner[0];
     *out = (fw_verdict_made){.decision = c->decision, .ln = -HUGE_VAL, .up = 0, .down = 0};

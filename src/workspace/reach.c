@@ -495,7 +495,7 @@ static fw_status measured(search *s, fw_workspace_proof_effort effort, fw_worksp
     for (long done = 1; s->count > 0 && s->boxes + children <= effort.most; done++) {
         if (done % 1024 == 0) {
             fw_arena_tell(s->arena, "proving the reachable set", (double)s->boxes,
-                          (double)effort.most, "boxes");
+                          -(double)effort.most, "boxes");
             if (fw_arena_cancelled(s->arena)) return FW_CANCELLED;
         }
         FW_TRY(split(s));

@@ -81,22 +81,22 @@ static void unknown_attribute(fw_xml_reader *r, fw_xml_record *record, const fw_
     const fw_place place = numbers->at_value ? a->place : a->name_place;
     char list[512] = "it has none";
     size_t used = 0;
-    int best = -1, least = 3;
-    for (int i = 0; i < record->nattribute; i++) {
-        const char *name = record->attribute[i].name;
-        int distance = fw_xml_full(r->diags) ? 3 : fw_edit_distance(a->name, name, 2);
-        if (distance < least && (size_t)distance < strlen(name)) {
-            least = distance;
-            best = i;
-        }
+    const char *names[FW_XML_ATTRIBUTES_MOST];
+    const size_t all = (size_t)record->nattribute,
+                 n = all < FW_XML_ATTRIBUTES_MOST ? all : FW_XML_ATTRIBUTES_MOST;
+    for (size_t i = 0; i < n; i++) {
+        const char *name = names[i] = record->attribute[i].name;
         if (used + strlen(name) + 2 < sizeof list)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i ? " " : "", name);
     }
-    if (best >= 0) {
+    const char *better = fw_xml_full(r->diags) ? NULL : fw_did_you_mean(a->name, names, n);
+    if (better) {
+        size_t best = 0;
+        while (names[best] != better)
+            best++;
         record->cell[best].missing = true;
         fw_diag_error(r->diags, numbers->attribute, place,
-                      "<%s> has no attribute '%s'; did you mean '%s'?", row->name, a->name,
-                      record->attribute[best].name);
+                      "<%s> has no attribute '%s'; did you mean '%s'?", row->name, a->name, better);
     } else
         fw_diag_error(r->diags, numbers->attribute, place,
                       "<%s> has no attribute '%.64s'; known are: %s", row->name, a->name, list);

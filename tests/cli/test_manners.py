@@ -19,14 +19,15 @@ import xml.etree.ElementTree as ET
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 SIX_BAR = str(ROOT / "docs/gallery/reference-six-bar/device.xml")
+COMB = ROOT / "docs/gallery/comb-stage/device.xml"
 LONG = ["simulate", SIX_BAR, "--rtol", "1e-13", "--integrator", "rk4", "--samples"]  # how many: test_progress
 
 
 def run(*arguments, **named):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, cwd=ROOT, **named)
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, check=False, cwd=ROOT, **{"text": True, **named})
 
 
-def on_terminal(*arguments, term="xterm"):
+def on_terminal(*arguments, term="xterm", expected=(0,)):
     """What the program writes to a terminal that is its standard error."""
     ours, theirs = pty.openpty()
     with subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.DEVNULL, stderr=theirs, cwd=ROOT,
@@ -42,7 +43,7 @@ def on_terminal(*arguments, term="xterm"):
                 break
             seen += part
         os.close(ours)
-        assert child.wait() == 0, seen
+        assert child.wait() in expected, seen
     return seen.decode()
 
 
@@ -62,6 +63,23 @@ class Manners(unittest.TestCase):
         self.assertEqual(on_terminal(*motion, "-q"), "")
         self.assertEqual(on_terminal(*motion, term="dumb"), "")
         self.assertNotIn("motion of a scene", run(*motion).stderr)
+
+    def test_searches_say_how_much_is_left_at_most(self):
+        seen = on_terminal("check", str(COMB), "--set", "volts=100 V", "--time-limit", "6", expected=(1, 4, 6))
+        said = re.findall(r"looking for changes that would be accepted: ([\d.]+) of at most 100 %, at most (\d+) s left", seen)
+        self.assertGreater(len(said), 1, seen[-400:])
+        self.assertTrue(all(float(a[0]) <= float(b[0]) for a, b in zip(said, said[1:])))
+        self.assertLessEqual(float(said[-1][0]), 100)
+
+    def test_no_pdf_on_a_terminal(self):
+        ours, theirs = pty.openpty()
+        with subprocess.Popen([PROGRAM, "figure", "docs/pictures/theory-masks.svg"], stdout=theirs, stderr=subprocess.PIPE, cwd=ROOT) as child:
+            said = child.communicate()[1].decode()
+        os.close(theirs)
+        os.close(ours)
+        self.assertEqual(child.returncode, 2)
+        self.assertIn("name a file with -o", said)
+        self.assertTrue(run("figure", "docs/pictures/theory-masks.svg", "-o", "-", text=None).stdout.startswith(b"%PDF"))
 
     def test_directory_refused_before_the_work(self):
         with tempfile.TemporaryDirectory() as scratch:
@@ -91,10 +109,39 @@ class Manners(unittest.TestCase):
                                        ("hinge", ("--level", "continum"), "did you mean continuum?"), ("check", ("--corners", "non"), "did you mean none?"),
                                        ("modes", ("--at", "equilibrum"), "did you mean equilibrium?"), ("recipe", ("--planned", "S3=1 s", *fast), "'S03'?"),
                                        ("simulate", ("--scene", "step-laod"), "'step-load'?"), ("simulate", ("--method", "chian"), "did you mean chain?"),
-                                       ("simulate", ("--integrator", "radua5"), "did you mean radau5?"), ("check", ("--effects", "fricton"), "'friction'?")):
+                                       ("simulate", ("--integrator", "radua5"), "did you mean radau5?"), ("check", ("--effects", "fricton"), "'friction'?"),
+                                       ("check", ("--set", "flexure[AA]/@length=1 um"), "has this id; there are A B C D E F;"), ("chek", (), "mean check? See flexwright --help"),
+                                       ("recipe", ("--cut", "flexure:AA", *fast), "that id; there are A B C D E F")):
             done = run(command, SIX_BAR, *options)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(near, done.stderr)
+
+        whole = pathlib.Path(SIX_BAR).read_text()
+        self.assertIn("did you mean 'ground'?", run("check", "-", input=COMB.read_text().replace('a="ground"', 'a="grond"')).stderr)
+        # nothing is a letter or two off, but one name begins alike
+        for wrong, near in ((("<require ", "<requirment "), "did you mean <require>?"), (("<probe ", "<prob-point "), "did you mean <probe>?")):
+            text = whole.replace("<die ", '<probe id="tip" on="CD" x="0" y="0"/><require name="x" probe="tip" at-least="1 um"/><die ')
+            self.assertIn(near, run("check", "-", input=text.replace(*wrong)).stderr)
+        self.assertIn("'step-load'?", run("simulate", SIX_BAR, "--scene", "step").stderr)
+        with tempfile.TemporaryDirectory() as scratch:
+            layers = pathlib.Path(scratch, "layers")
+            for line, near in (("structre 7/0\n", "did you mean 'structure'?"), ("devic 7/0\n", "did you mean 'device'?"), ("flow al-maskd-rie\nstructure 7/0\n", "did you mean 'al-masked-rie'?")):
+                layers.write_text(line)
+                self.assertIn(near, run("mask", SIX_BAR, "--layers", layers, "-o", scratch + "/out", *fast).stderr)
+            laboratory = pathlib.Path(scratch, "laboratory.xml")
+            pack = (ROOT / "tests/fuzz/seeds/laboratory.xml").read_text()
+            for right, wrong in (("pan.R", "pan.Rr"), ('<q id="', '<tool equipment="rie" closd="2026-12-25"/><q id="')):
+                laboratory.write_text(pack.replace(right, wrong))
+                self.assertIn("did you mean", run("check", SIX_BAR, "--lab", laboratory, *fast).stderr)
+        self.assertIn("'hand-made'?", run("study", "docs/studies/largest-workspace.xml", "--study", "hand-mad", "--plan").stderr)
+
+        for value, near in (("hinges[C].limit_angle_rd", "did you mean 'limit_angle_rad'? There are"), ("hinge[C].limit_angle_rad", "did you mean 'hinges'?")):
+            study = ('<study name="s" kind="size" samples="4"><vary what="flexure[C]/@width" from="8 um" to="13 um"/>'
+                     '<respond name="r" value="%s" goal="minimise"/></study></device>' % value)
+            with tempfile.TemporaryDirectory() as scratch:
+                file = pathlib.Path(scratch, "device.xml")
+                file.write_text(whole.replace("</device>", study))
+                self.assertIn(near, run("study", file, "--plan").stderr)
 
     def test_report_is_folded(self):
         with tempfile.TemporaryDirectory() as scratch:
@@ -135,6 +182,7 @@ class Manners(unittest.TestCase):
         want = run("explain", "FW-D204").stdout
         for code in ("fw-d204", "Fw-D204", "D204", "d204", "204"):
             self.assertEqual(run("explain", code).stdout, want)
+        self.assertEqual({run("explain", code).stdout for code in ("fwd204", "FW 204", "d204")}, {run("explain", "FW-D204").stdout})
         for code in ("FW-D999", "fw-dd204", "fw-x204", "dfw-204"):
             self.assertEqual(run("explain", code).returncode, 2)
 

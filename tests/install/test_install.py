@@ -145,6 +145,10 @@ class Tree(unittest.TestCase):
         self.assertIn("udwadia-kalaba", self.complete("flexwright", "simulate", "--method", ""))
         self.assertEqual(self.complete("flexwright", "simulate", "--integrator", "=", "dop8"), ["dop853"])
         self.assertEqual(self.complete("flexwright", "modes", "x.xml", "--at", "eq"), ["equilibrium"])
+        flows = {path.stem for path in (self.prefix / "share/flexwright/masks").glob("*.xml")}
+        self.assertGreaterEqual(len(flows), 5)
+        self.assertEqual(set(self.complete(self.prefix / "bin/flexwright", "plan", "x.xml", "--flow", "")), flows)
+        self.assertEqual(self.complete(self.prefix / "bin/flexwright", "calibrate", "--flow", "al-"), ["al-masked-rie"])
         pathlib.Path(self.scratch.name, "my device.xml").touch()
         pathlib.Path(self.scratch.name, "my notes.txt").touch()
         self.assertEqual(self.complete("flexwright", "check", "my"), ["my device.xml"])

@@ -145,6 +145,15 @@ class Cells(unittest.TestCase):
             self.assertLess(off, 1e-5 * area)
             self.assertEqual(wide, 0)  # nothing wider than the chords of both, 5 nm each
 
+    def test_own_coupons_come_back(self):
+        """a die of test structures, more than four thousand lines on one layer of its DXF file"""
+        shutil.copy(self.where / ("plain/masks/%s-coupons.dxf" % FLOW), self.where / "coupons.dxf")
+        self.own("coupons", '<cell file="coupons.dxf" layers="AL_MASK>111/0; TEXT>112/0"/>', formats="gds")
+        drawn = "plain/masks/%s-coupons.gds" % FLOW
+        for area, off, _ in self.compare([["coupons/masks/%s.gds" % FLOW, [110 + k, 0], [[drawn, [k, 0]]]] for k in (1, 2)]):
+            self.assertGreater(area, 0)
+            self.assertLess(off, 1e-5 * area)
+
     def test_blocks_of_dxf_are_placed(self):
         """blocks within blocks, turned, mirrored, larger and in rows, as KLayout has them"""
         def insert(name, x, y, **more):

@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -105,6 +106,14 @@ class Package(unittest.TestCase):
         self.assertIn("cannot be read", " ".join(self.out["errors"]["absent"]))
         self.assertIn("NAME=VALUE", " ".join(self.out["errors"]["bad pairs"]))
         self.assertEqual([t for t in self.out["errors"]["any"] if "error" in t], [])
+
+    def test_script_of_the_page(self):
+        """what docs/klayout.md says of scripts without a window is run as it stands there"""
+        code = re.search(r"^```python\n(import pya\n.*?)^```", (ROOT / "docs/klayout.md").read_text(), re.M | re.S).group(1)
+        (self.here / "place.py").write_text(code.replace('"placed.gds"', repr(str(self.here / "placed.gds"))))
+        done = klayout(self.here, self.here / "place.py", view=False, FLEXWRIGHT_PROGRAM=str(PROGRAM))
+        self.assertIn("'p_arc': '230 deg'", done.stdout, done.stdout + done.stderr)
+        self.assertGreater((self.here / "placed.gds").stat().st_size, 20000)
 
     def test_plan_and_markers(self):
         self.assertEqual(self.out["technologies_shown"], ["flexwright-al-masked-rie"] * self.out["views"])

@@ -100,7 +100,7 @@ class Pages(unittest.TestCase):
             last = "".join(cell["source"]).splitlines()[-1]
             if re.fullmatch(r"[\w.]+(\[.*\])?", last):
                 shown = eval(last, space)
-                picture = getattr(shown, "_repr_svg_", None)
+                picture = getattr(shown, "_repr_html_", None)
                 self.assertTrue(picture() if picture else repr(shown))
         self.assertIn("accept", printed)
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """test_package.py BUILD: the Python package against the documents of the program."""
+import base64
 import csv
 import faulthandler
 import gc
@@ -333,9 +334,35 @@ class Descriptions(unittest.TestCase):
         self.assertEqual(d.settings, {"arc": "230 deg"})
         self.assertTrue(d.check().accepted)
 
+    def test_a_loop_reads_each_device_once(self):
+        """read is a twentieth of a check; with options of the question it was done twice for each"""
+        d, seen, call = flexwright.Device(SIX_BAR), [], _design.Design.call
+
+        def told(design, name, *arguments, **named):
+            seen.append(name)
+            return call(design, name, *arguments, **named)
+
+        with mock.patch.object(_design.Design, "call", told):
+            used = [d.with_(arc=(arc, "deg")).check(advice="none", corners="none").utilisation["A"] for arc in (225, 230, 235)]
+            self.assertEqual(seen.count("read_memory"), 4)  # the first learns what is asked
+            self.assertEqual(used[1], d.with_(arc="230 deg").check(corners="none").utilisation["A"])
+            # options of a question that the next device refuses are no reason to refuse it
+            other = d.with_(set={"flow[copper-on-porous-silicon]/@thickness": "9.5 um"})
+            other.check(flow="al-masked-rie", advice="none", corners="none")
+            with self.assertRaises(flexwright.InputError) as caught:
+                d.with_(arc="400 deg")
+            self.assertIn("arc", str(caught.exception))
+
     def test_draws_itself(self):
-        self.assertTrue(flexwright.Device(SIX_BAR)._repr_svg_().lstrip().startswith(("<?xml", "<svg")))
-        self.assertIn("accept", flexwright.Device(SIX_BAR).check()._repr_html_())
+        d = flexwright.Device(SIX_BAR)
+        v = d.check()
+        self.assertIn("accept", v._repr_html_())
+        for shown in (d, v, d.simulate("step-load"), d.modes()):
+            self.assertTrue(shown._repr_svg_().startswith("<svg"))
+            # a page of a notebook keeps images; of an SVG element in its text nbconvert drops what HTML does not know
+            image = re.search(r'<img [^>]*src="data:image/svg\+xml;base64,([^"]+)"/>', shown._repr_html_())
+            self.assertIn(shown._repr_svg_(), base64.b64decode(image.group(1)).decode())
+            self.assertNotIn("<svg", shown._repr_html_())
 
 
 class Files(unittest.TestCase):

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/diag.h"
 #include "base/text.h"
 #include "test.h"
 
@@ -114,6 +115,13 @@ static void spelling(void **state) {
     assert_string_equal(fw_did_you_mean("simualte", names, 3), "simulate");
     assert_string_equal(fw_did_you_mean("plam", names, 3), "plan");
     assert_null(fw_did_you_mean("serve", names, 3));
+    /* nothing is near: the one that begins alike, where there is one */
+    const char *const words[] = {"require", "step-load", "gentle-step", "width-front", "width-rear", "arc"};
+    assert_string_equal(fw_did_you_mean("requirment", words, 6), "require");
+    assert_string_equal(fw_did_you_mean("step", words, 6), "step-load");
+    assert_null(fw_did_you_mean("width", words, 6));
+    assert_null(fw_did_you_mean("requests", words, 6));
+    assert_null(fw_did_you_mean("archway", words, 6));
     assert_int_equal(fw_edit_distance("ab", "ba", 2), 1);
     assert_int_equal(fw_edit_distance("", "abc", 2), 3);
     assert_int_equal(fw_edit_distance("kitten", "sitting", 5), 3);
@@ -181,13 +189,26 @@ static void orders_are_not_given(void **state) {
     fw_arena_free(arena);
 }
 
+static void what_was_meant(void **state) {
+    (void)state;
+    static const char *const ids[] = {"A", "left", "A", "stage"};
+    static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n"};
+    fw_arena *arena = fw_arena_new(1 << 20);
+    assert_string_equal(fw_text_meant(arena, "stag", ids, 4), "; did you mean 'stage'?");
+    assert_string_equal(fw_text_meant(arena, "B7", ids, 4), "; there are A left stage");
+    assert_string_equal(fw_text_meant(arena, "B7", ids, 0), "");
+    assert_string_equal(fw_text_meant(arena, "B7", many, 12), "; there are a b c d e f g h i j k l");
+    assert_string_equal(fw_text_meant(arena, "B7", many, 14), "; there are a b c d e f g h i j k l ...");
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(orders_are_not_given),       cmocka_unit_test(zero_has_no_sign),
         cmocka_unit_test(numbers_round_trip),         cmocka_unit_test(numbers_are_strict),
         cmocka_unit_test(fixed_and_escaped),          cmocka_unit_test(fixed_as_printf),
         cmocka_unit_test(short_memory_sticks),        cmocka_unit_test(spelling),
-        cmocka_unit_test(percents_keep_three_digits),
+        cmocka_unit_test(percents_keep_three_digits), cmocka_unit_test(what_was_meant),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
