@@ -363,7 +363,7 @@ class Study(unittest.TestCase):
         path.write_text(text.replace("<device ", "<!-- no urn:flexwright:study:1 of its own --><device ", 1))
         done = run("study", path, *FLOW)
         self.assertEqual(done.returncode, 3)
-        self.assertIn("name one with --study: a b", done.stderr)
+        self.assertIn("name one with --study; there are a b", done.stderr)
         self.run_study(path, "a", "--study", "a")
         self.assertEqual(len(self.rows("a")), 8)
         worst = self.run_study(path, "b", "--study", "b")["responses"][0]
