@@ -348,8 +348,8 @@ fw_flexure_crystal fw_flexure_crystal_cubic(double c11_Pa, double c12_Pa, double
    is in plane strain in its middle; w: the fillets of an arc are not mirror images. psi' is the
    direction of the strip from [100] 1.35 rho/R before the root; sine > 0: the fillet on the inside of
    the arc turns towards the stiff <110>, the other one away from it; a straight strip has one on either
-   side, of which that counts which turns towards it. Of an unknown direction the worst. Other cubic crystals: cosine and sine times the share that
-   a1/a0 has of silicon's (not compared).
+   side, of which that counts which turns towards it. Of an unknown direction the worst. Other cubic
+   crystals: cosine and sine times the share that a1/a0 has of silicon's (not compared).
 
    G holds for fillets to 1.25 t (silicon from 0.15 t) and depths of t/2 to 10 t. Beyond, it goes on from the
    range's end as the former law does (tables EVEN, LEAF_...), which was fitted to solids of fillets to 2 t and
@@ -363,8 +363,8 @@ fw_flexure_crystal fw_flexure_crystal_cubic(double c11_Pa, double c12_Pa, double
    (675 isotropic), 0.81 % (390 leaves of silicon) and 0.88 % (fillets of 1033 halves of its arcs) within the
    range. Fits that have not seen a tenth of the solids are 0.12 to 0.85 %, 0.13 to 1.08 % and -0.17 to 1.43 % above
    that tenth; 179 solids drawn and solved after the fit 0.2 to 1.0 % (root_strain_after.csv). The solids' own error
-   is 0.3 %. A crystal's strip shorter than 2.45 h is strained up to 1.5 % less. Cost 0.5 us, of a crystal's arc
-   1.5 us.
+   is 0.3 %. A crystal's strip shorter than 2.45 h is strained up to 1.5 % less. Cost 0.2 us, of a crystal's arc
+   0.4 us, of an unknown direction 17 us.
    source: docs/theory/root-strain.md eq. 11a, docs/theory/flexure-silicon.md eq. 14; solids and fit:
    tools/solids; test_root_strain.c, test_crystal.c peak_stress_of_silicon */
 typedef struct strip_term {

@@ -121,16 +121,17 @@ static void lint_bare(fw_process_pack *pack, const fw_process_step *s, const aro
             s->id);
 }
 
-/* the quantity of a limit "{=al.d*0.95}"; NULL: it names none */
-static const fw_quantity *limit_of(const fw_process_flow *f, const char *const *limit) {
+const fw_quantity *fw_process_limit_quantity(const fw_process_flow *f, const char *const *limit,
+                                             const char **raw) {
     for (int i = 0; i < f->ntext; i++) {
         char id[FW_LABEL];
-        const char *raw = f->text[i].raw;
-        if (f->text[i].slot != (const char **)limit || strncmp(raw, "{=", 2) != 0) continue;
-        const size_t n = strcspn(raw + 2, "*}");
+        const char *text = f->text[i].raw;
+        if (f->text[i].slot != (const char **)limit || strncmp(text, "{=", 2) != 0) continue;
+        const size_t n = strcspn(text + 2, "*}");
         if (n >= sizeof id) continue;
-        memcpy(id, raw + 2, n);
+        memcpy(id, text + 2, n);
         id[n] = '\0';
+        if (raw) *raw = text;
         return fw_process_flow_quantity(f, id);
     }
     return NULL;
@@ -247,7 +248,8 @@ fw_status fw_process_lint_measured(fw_process_pack *pack) {
             const fw_process_accept *a = &s->accept[k];
             lint_coupon(pack, s, &wafer, a);
             if (is_elsewhere(a) || counts_none(a)) continue;
-            const fw_quantity *low = limit_of(f, &a->low), *q = low ? low : limit_of(f, &a->high);
+            const fw_quantity *q = fw_process_limit_quantity(f, &a->low, NULL);
+            if (!q) q = fw_process_limit_quantity(f, &a->high, NULL);
             lint_film(pack, i, &wafer, q, "accepts a wafer by");
             const fw_process_step *etch = etched_later(f, i, q);
             if (etch)

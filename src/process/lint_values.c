@@ -271,22 +271,13 @@ static void lint_short(fw_process_pack *pack, const fw_process_step *s) {
 /* "{=al.d*0.95}" is a number in the unit of al.d, and the limit is read in that of the measurement */
 static void lint_limit_in(fw_process_pack *pack, const fw_process_step *s,
                           const fw_process_accept *a, const char *const *limit) {
-    const fw_process_flow *f = pack->flow;
-    for (int i = 0; i < f->ntext; i++) {
-        char id[FW_LABEL];
-        const char *raw = f->text[i].raw;
-        if (f->text[i].slot != (const char **)limit || strncmp(raw, "{=", 2) != 0) continue;
-        const size_t n = strcspn(raw + 2, "*}");
-        if (n >= sizeof id) continue;
-        memcpy(id, raw + 2, n);
-        id[n] = '\0';
-        const fw_quantity *q = fw_process_flow_quantity(f, id);
-        if (!q || !q->unit || strcmp(q->unit, a->unit) == 0) continue;
-        fw_diag_error(pack->diags, 342, a->place,
-                      "step %s measures '%s' in %s, and its limit %s is a number in %s; write "
-                      "unit=\"%s\"",
-                      s->id, a->measure, a->unit, raw, q->unit, q->unit);
-    }
+    const char *raw;
+    const fw_quantity *q = fw_process_limit_quantity(pack->flow, limit, &raw);
+    if (!q || !q->unit || strcmp(q->unit, a->unit) == 0) return;
+    fw_diag_error(pack->diags, 342, a->place,
+                  "step %s measures '%s' in %s, and its limit %s is a number in %s; write "
+                  "unit=\"%s\"",
+                  s->id, a->measure, a->unit, raw, q->unit, q->unit);
 }
 
 /* what is measured has a unit, or is counted in a word of the laboratory: not in a misspelt unit */

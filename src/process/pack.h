@@ -142,6 +142,9 @@ fw_status fw_process_lint_reworked(fw_process_pack *pack);
 fw_status fw_process_lint_accepted(fw_process_pack *pack);
 /* what is measured and undermined: lint_measured.c (FW-D623, FW-D624, FW-D634) */
 fw_status fw_process_lint_measured(fw_process_pack *pack);
+/* the quantity that a limit "{=al.d*0.95}" names, and its text (raw, or NULL); NULL: it names none */
+const fw_quantity *fw_process_limit_quantity(const fw_process_flow *flow, const char *const *limit,
+                                             const char **raw);
 fw_status fw_process_lint_undermined(fw_process_pack *pack);
 /* hazards of what a step uses up (FW-D374) */
 fw_status fw_process_lint_uses(fw_process_pack *pack);
