@@ -349,8 +349,10 @@ static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
             put_text(out, "value", s->text);
         else
             put_number(out, "value", s->value);
-        put_number(out, "planned", s->q->unknown ? (double)NAN : fw_quantity_in_unit(s->q));
-        put_text(out, "unit", s->q->unit);
+        /* a log that was read without its plan may set what no step has */
+        const bool planned = s->q && !s->q->unknown;
+        put_number(out, "planned", planned ? fw_quantity_in_unit(s->q) : (double)NAN);
+        put_text(out, "unit", s->q ? s->q->unit : NULL);
         fw_json_truth(out, "accepted", fw_recipe_asrun_allowed(s));
         fw_json_end(out);
     }
