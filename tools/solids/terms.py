@@ -173,6 +173,16 @@ def bow(deep, nu):
     return 1.0 if x < 1e-2 else 2 / x * (math.cosh(x) - math.cos(x)) / (math.sinh(x) + math.sin(x))
 
 
+def ranges(rng, many):
+    """draws `many` between two bounds, a third of them at these"""
+
+    def in_range(low, high):
+        end = rng.rand(many)
+        return np.where(end < 1 / 6, low, np.where(end > 5 / 6, high, rng.uniform(low, high, many)))
+
+    return in_range
+
+
 class Narrow:
     """Fillets within the range of the narrow band, and places between them: numpy arrays by the names of the powers and what is asked of
     each. A solid has one value of each of its fillets that is known: of an isotropic strip the larger one, of a leaf of silicon that of the
@@ -212,11 +222,7 @@ class Narrow:
 
     def places(self, rng, many):
         """at random in the range, a third of them at its ends: at, by"""
-
-        def in_range(low, high):
-            end = rng.rand(many)
-            return np.where(end < 1 / 6, low, np.where(end > 5 / 6, high, rng.uniform(low, high, many)))
-
+        in_range = ranges(rng, many)
         z, p = in_range(-1, 1), in_range(-1, 1)
         if self.name == "STRIP":
             nu, curved = in_range(0.05, 0.4), np.where(rng.rand(many) < 0.3, 0, in_range(0, 0.05))
@@ -337,10 +343,7 @@ class Fillets(Narrow):
         self.known, self.inside = np.r_[self.known, leaves.known], np.r_[self.inside, leaves.inside]
 
     def places(self, rng, many):
-        def in_range(low, high):
-            end = rng.rand(many)
-            return np.where(end < 1 / 6, low, np.where(end > 5 / 6, high, rng.uniform(low, high, many)))
-
+        in_range = ranges(rng, many)
         side = 1 if self.name == "INNER" else -1
         z, p, curved, four = in_range(2 * math.log(1.5) / math.log(12.5) - 1, 1), in_range(-1, 1), in_range(0, 0.05), rng.uniform(0, 2 * math.pi, many)
         n = 0.312 * self.free(p, curved, 0.28)
