@@ -158,7 +158,8 @@ static const char *take_day(fw_cli_options *o, const char *v) {
                ? NULL
                : "needs times like 08:00-18:00 or 08:00-12:00,13:00-18:00, or none; and \" from "
                  "2026-11-23\" behind them for a first day, \"T13:00\" for a time of it, \" UTC\" "
-                 "or \" UTC+01:00\" for a zone";
+                 "or \" UTC+01:00\" for a zone, \" CET-1CEST,M3.5.0,M10.5.0/3\" for one whose "
+                 "clocks are changed (the last line of its file in /usr/share/zoneinfo)";
 }
 
 static const char *take_lab(fw_cli_options *o, const char *v) {
@@ -450,7 +451,8 @@ static const fw_cli_option_row table[] = {
      "working day, Monday to Friday; default 08:00-18:00; with breaks 08:00-12:00,13:00-18:00; "
      "none: round the clock; "
      "\"08:00-18:00 from 2026-11-23T13:00 UTC+01:00\": the first day, with a time of it and a zone "
-     "where they matter. What needs nobody may go on over night",
+     "where they matter; a zone whose clocks are changed as POSIX writes it, \"08:00-18:00 from "
+     "2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3\". What needs nobody may go on over night",
      FW_OPT_SCHEDULE, take_day},
     {"planned", 0, "LIST",
      "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked "

@@ -383,6 +383,14 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
         fw_json_whole(out, "zone_min", shop->calendar.zone_min);
     else
         fw_json_null(out, "zone_min");
+    fw_json_list(out, "clock_changes");
+    for (int k = 0; k < shop->calendar.changes; k++) {
+        fw_json_object(out, NULL);
+        fw_json_number(out, "at_s", shop->calendar.change_s[k], FW_PLAIN_DIGITS);
+        fw_json_number(out, "ahead_s", shop->calendar.ahead_s[k], FW_PLAIN_DIGITS);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
     fw_json_truth(out, "feasible", s->feasible);
     words(out, "why", s->why);
     words(out, "at_stop_times", s->late);

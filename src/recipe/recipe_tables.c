@@ -213,9 +213,10 @@ static fw_status property(fw_text *out, const char *name, const char *value, boo
     return FW_OK;
 }
 
-/* "UTC+0100", as a zone of the calendar is called; NULL: the plan states none, or it is UTC itself */
+/* "UTC+0100", as a zone of the calendar is called; NULL: the plan states none, it is UTC itself, or its clocks are changed,
+   so that times are written as those of UTC */
 static const char *zone_name(fw_arena *arena, const fw_schedule_calendar *c) {
-    int ahead = c && c->zoned ? c->zone_min : 0, size = abs(ahead);
+    int ahead = c && c->zoned && !c->changes ? c->zone_min : 0, size = abs(ahead);
     return ahead ? fw_arena_printf(arena, "UTC%c%02d%02d", ahead < 0 ? '-' : '+', size / 60,
                                    size % 60)
                  : NULL;
@@ -239,7 +240,7 @@ static fw_status date_property(fw_text *out, const fw_schedule *plan, const char
     const fw_schedule_calendar *c = plan ? &plan->shop->calendar : NULL;
     const char *of = zone_name(out->arena, c);
     fw_text text = fw_text_new(out->arena);
-    put_date(&text, seconds);
+    put_date(&text, c && c->changes ? seconds - 60L * c->zone_min : seconds);
     if (c && c->zoned && !of) fw_text_add(&text, "Z");
     FW_TRY(fw_text_end(&text));
     if (of) FW_NEED(name = fw_arena_printf(out->arena, "%s;TZID=%s", name, of));
@@ -331,9 +332,9 @@ static fw_status scheduled(fw_text *out, const fw_process_flow *flow,
 static fw_status in_a_row(fw_text *out, const fw_process_flow *flow,
                           const fw_recipe_header *header) {
     const fw_schedule *plan = header->schedule;
-    long at = midnight(plan) + (plan && plan->shop->calendar.first_s > 0.0
-                                    ? lround(plan->shop->calendar.first_s)
-                                    : 8L * 3600L);
+    const fw_schedule_calendar *c = plan ? &plan->shop->calendar : &fw_schedule_round_the_clock;
+    long at = midnight(plan) +
+              lround(fw_schedule_calendar_elapsed(c, c->first_s > 0.0 ? c->first_s : 8.0 * 3600.0));
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         double run = fmin(s->booked_s, 1e8);

@@ -169,7 +169,7 @@ int fw_recipe_wafers(const fw_recipe_header *header) {
 }
 
 void fw_recipe_put_moment(fw_text *out, const fw_schedule_calendar *c, double seconds) {
-    long minutes = lround(seconds / 60.0), civil[3];
+    long minutes = lround(fw_schedule_calendar_clock(c, seconds) / 60.0), civil[3];
     if (c->dated) {
         fw_quantity_civil(c->first_day + minutes / 1440, civil);
         fw_text_printf(out, "%s %04ld-%02ld-%02ld, %02ld:%02ld",
@@ -191,14 +191,30 @@ static void put_span(fw_text *out, double from_s, double to_s) {
     fw_text_printf(out, "%02ld:%02ld to %02ld:%02ld", from / 60, from % 60, to / 60, to % 60);
 }
 
-static void put_zone(fw_text *out, const fw_schedule_calendar *c) {
-    int size = abs(c->zone_min);
-    if (!c->zoned) return;
-    fw_text_add(out, ", UTC");
-    if (size) fw_text_printf(out, "%c%02d:%02d", c->zone_min < 0 ? '-' : '+', size / 60, size % 60);
+static void put_utc(fw_text *out, int zone_min) {
+    const int size = abs(zone_min);
+    fw_text_add(out, "UTC");
+    if (size) fw_text_printf(out, "%c%02d:%02d", zone_min < 0 ? '-' : '+', size / 60, size % 60);
 }
 
-static void put_day(fw_text *out, const fw_schedule_calendar *c) {
+/* and where its clocks are changed before the plan ends */
+static void put_zone(fw_text *out, const fw_schedule_calendar *c, double end_s) {
+    if (!c->zoned) return;
+    fw_text_add(out, ", ");
+    put_utc(out, c->zone_min);
+    for (int k = 0; k < c->changes && c->change_s[k] < end_s; k++) {
+        const double before = k ? c->ahead_s[k - 1] : 0.0;
+        fw_text_printf(out, ", the clock goes %s by ", c->ahead_s[k] > before ? "forward" : "back");
+        fw_schedule_put_duration(out, fabs(c->ahead_s[k] - before));
+        fw_text_add(out, " at ");
+        fw_recipe_put_moment(out, c, c->change_s[k]);
+        fw_text_add(out, " (then ");
+        put_utc(out, c->zone_min + (int)lround(c->ahead_s[k] / 60.0));
+        fw_text_add(out, ")");
+    }
+}
+
+static void put_day(fw_text *out, const fw_schedule_calendar *c, double end_s) {
     if (fw_schedule_calendar_round(c))
         fw_text_add(out, "round the clock");
     else {
@@ -209,7 +225,7 @@ static void put_day(fw_text *out, const fw_schedule_calendar *c) {
         fw_text_add(out, i ? ", " : ", nobody there ");
         put_span(out, c->break_s[i][0], c->break_s[i][1]);
     }
-    put_zone(out, c);
+    put_zone(out, c, end_s);
 }
 
 static void put_machine_days(fw_text *out, const fw_schedule_calendar *c) {
@@ -272,7 +288,7 @@ void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s) {
         stated += shop->task[i].stated;
     fw_text_printf(out, "%d wafer%s, %d operator%s, ", shop->wafers, shop->wafers > 1 ? "s" : "",
                    shop->operators, shop->operators > 1 ? "s" : "");
-    put_day(out, &shop->calendar);
+    put_day(out, &shop->calendar, s->feasible ? s->start_s + s->makespan_s : 0.0);
     if (!s->feasible) {
         fw_text_add(out, ": there is no schedule. ");
         fw_text_escaped(out, s->why ? s->why : "");
@@ -367,22 +383,23 @@ static void one_wafer(fw_text *out, const fw_schedule *s) {
     fw_text_add(out, "<p class=\"small\"><b>Begins:</b> ");
     for (int k = 0; k < s->nrun; k++) {
         const fw_schedule_run *r = &s->run[k];
-        long minutes = lround(r->start_s / 60.0);
+        const double clock_s = fw_schedule_calendar_clock(&s->shop->calendar, r->start_s);
+        long minutes = lround(clock_s / 60.0);
         fw_text_add(out, k ? ", " : "");
         fw_text_escaped(out, s->shop->task[r->task].id);
         fw_text_add(out, s->shop->task[r->task].unknown ? " (time unknown) " : " ");
-        if (floor(r->start_s / 86400.0) > day)
+        if (floor(clock_s / 86400.0) > day)
             fw_recipe_put_moment(out, &s->shop->calendar, r->start_s);
         else
             fw_text_printf(out, "%02ld:%02ld", minutes / 60 % 24, minutes % 60);
-        day = floor(r->start_s / 86400.0);
+        day = floor(clock_s / 86400.0);
     }
     fw_text_add(out, ".</p>\n");
 }
 
 /* with its day where that is another one than that of the moment before; *day is kept */
 static void put_after(fw_text *out, const fw_schedule_calendar *c, double seconds, long *day) {
-    const long minutes = lround(seconds / 60.0);
+    const long minutes = lround(fw_schedule_calendar_clock(c, seconds) / 60.0);
     if (minutes / 1440 != *day)
         fw_recipe_put_moment(out, c, seconds);
     else

@@ -234,7 +234,8 @@ static void grid(const picture *p, double bottom, const char *title) {
     }
     for (double t = ceil(p->open_s / hour) * hour; t <= p->close_s + 1e-6; t += hour) {
         char text[16];
-        long minutes = lround(t / 60.0) % 1440;
+        const fw_schedule_calendar *c = &p->s->shop->calendar;
+        long minutes = lround(fw_schedule_calendar_clock(c, t) / 60.0) % 1440;
         snprintf(text, sizeof text, "%02ld:%02ld", minutes / 60, minutes % 60);
         fw_svg_put(out, "path class='g' d='M{2} {2}V{2}'\n", px(p, t), top, bottom);
         label(out, px(p, t), p->y + 24.0, "t", text);
@@ -275,16 +276,17 @@ static void panels(picture *p) {
             char title[40];
             p->open_s = t;
             p->close_s = p->next_s = t + piece;
-            snprintf(title, sizeof title, "day %d", (int)(t / 86400.0) + 1);
+            snprintf(title, sizeof title, "day %d",
+                     (int)(fw_schedule_calendar_clock(c, t) / 86400.0) + 1);
             if (anything(p)) panel(p, title);
         }
         return;
     }
     for (double t = fw_schedule_calendar_fit(c, 0.0, 1.0); t < end - 1e-6; t = p->next_s) {
         char title[40];
-        int day = (int)(t / 86400.0);
-        p->open_s = day * 86400.0 + c->open_s;
-        p->close_s = day * 86400.0 + c->close_s;
+        int day = (int)(fw_schedule_calendar_clock(c, t) / 86400.0);
+        p->open_s = fw_schedule_calendar_elapsed(c, day * 86400.0 + c->open_s);
+        p->close_s = fw_schedule_calendar_elapsed(c, day * 86400.0 + c->close_s);
         p->next_s = fw_schedule_calendar_fit(c, p->close_s, 1.0);
         snprintf(title, sizeof title, "day %d, %s", day + 1,
                  name[fw_schedule_calendar_weekday(c, day)]);

@@ -24,6 +24,26 @@ int fw_schedule_calendar_weekday(const fw_schedule_calendar *c, long day) {
     return (int)((monday % 7 + 7) % 7);
 }
 
+static double ahead_of(const fw_schedule_calendar *c, int k) {
+    return k < 0 ? 0.0 : c->ahead_s[k];
+}
+
+double fw_schedule_calendar_clock(const fw_schedule_calendar *c, double t) {
+    int k = c->changes - 1;
+    while (k >= 0 && t < c->change_s[k])
+        k--;
+    return t + ahead_of(c, k);
+}
+
+double fw_schedule_calendar_elapsed(const fw_schedule_calendar *c, double clock_s) {
+    for (int k = -1; k < c->changes; k++) {
+        const double t = clock_s - ahead_of(c, k);
+        if (k >= 0 && t < c->change_s[k]) return c->change_s[k]; /* an hour that never is */
+        if (k + 1 == c->changes || t < c->change_s[k + 1]) return t;
+    }
+    return clock_s;
+}
+
 static bool working(const fw_schedule_calendar *c, double day) {
     int weekday = fw_schedule_calendar_weekday(c, (long)day);
     return (c->weekends || weekday < 5) && !(c->closed_days >> weekday & 1u);
@@ -51,20 +71,23 @@ double fw_schedule_calendar_fit(const fw_schedule_calendar *c, double from_s, do
     double span[2];
     if (fw_schedule_calendar_round(c)) return from_s;
     if (length_s > longest_stretch(c) + 1e-9 || !isfinite(from_s)) return (double)INFINITY;
-    for (double day = floor(from_s / day_s);; day += 1.0)
+    for (double day = floor(fw_schedule_calendar_clock(c, from_s) / day_s);; day += 1.0)
         for (int k = 0; working(c, day) && stretch(c, k, span); k++) {
-            double t = fmax(from_s, day * day_s + span[0]);
-            if (t + length_s <= day * day_s + span[1] + 1e-9) return t;
+            double t = fmax(from_s, fw_schedule_calendar_elapsed(c, day * day_s + span[0]));
+            if (t + length_s <= fw_schedule_calendar_elapsed(c, day * day_s + span[1]) + 1e-9)
+                return t;
         }
 }
 
 /* End of the stretch that is open at t. Midnight closes too, where the day goes on: what follows is
    the next day's stretch. */
 static double day_closes(const fw_schedule_calendar *c, double t) {
-    double span[2], day = floor(t / day_s);
-    for (int k = 0; stretch(c, k, span); k++)
-        if (t < day * day_s + span[1]) return day * day_s + span[1];
-    return (day + 1.0) * day_s;
+    double span[2], day = floor(fw_schedule_calendar_clock(c, t) / day_s);
+    for (int k = 0; stretch(c, k, span); k++) {
+        const double close = fw_schedule_calendar_elapsed(c, day * day_s + span[1]);
+        if (t < close) return close;
+    }
+    return fw_schedule_calendar_elapsed(c, (day + 1.0) * day_s);
 }
 
 /* Earliest t with a working time of work_s between from_s and t. Test: test_calendar.c. */
@@ -72,9 +95,10 @@ double fw_schedule_calendar_worked(const fw_schedule_calendar *c, double from_s,
     double span[2];
     if (fw_schedule_calendar_round(c)) return from_s + work_s;
     if (work_s <= 0.0 || !isfinite(from_s)) return from_s;
-    for (double day = floor(from_s / day_s);; day += 1.0)
+    for (double day = floor(fw_schedule_calendar_clock(c, from_s) / day_s);; day += 1.0)
         for (int k = 0; working(c, day) && stretch(c, k, span); k++) {
-            double open = fmax(from_s, day * day_s + span[0]), close = day * day_s + span[1];
+            double open = fmax(from_s, fw_schedule_calendar_elapsed(c, day * day_s + span[0])),
+                   close = fw_schedule_calendar_elapsed(c, day * day_s + span[1]);
             if (open >= close) continue;
             if (work_s <= close - open) return open + work_s;
             work_s -= close - open;
@@ -82,7 +106,21 @@ double fw_schedule_calendar_worked(const fw_schedule_calendar *c, double from_s,
 }
 
 double fw_schedule_calendar_start(const fw_schedule_calendar *c) {
-    return fw_schedule_calendar_fit(c, c->first_s, 1.0);
+    return fw_schedule_calendar_fit(c, fw_schedule_calendar_elapsed(c, c->first_s), 1.0);
+}
+
+fw_schedule_calendar fw_schedule_usual_day(const fw_schedule_calendar *of) {
+    fw_schedule_calendar day = *of;
+    day.open_s = 8.0 * 3600.0;
+    day.close_s = 18.0 * 3600.0;
+    day.breaks = 0;
+    day.weekends = false;
+    return day;
+}
+
+bool fw_schedule_same_day(const fw_schedule_calendar *a, const fw_schedule_calendar *b) {
+    const double apart_s = fabs(a->open_s - b->open_s) + fabs(a->close_s - b->close_s);
+    return apart_s < 1.0 && a->breaks == 0 && b->breaks == 0 && a->weekends == b->weekends;
 }
 
 /* "08:00" at text; 24:00 is the end of the day */
@@ -95,12 +133,148 @@ static const char *clock_of(const char *text, double *seconds) {
     return minute > 59 || *seconds > day_s ? NULL : text + 5;
 }
 
-/* " UTC", " UTC+01:00" or nothing, to the end of the text; zones reach from UTC-12:00 to UTC+14:00 */
+/* ---- zones whose clocks are changed ----
+   A rule as POSIX writes it (IEEE Std 1003.1-2017, chapter 8.3, TZ): "CET-1CEST,M3.5.0,M10.5.0/3" are one hour before UTC
+   in winter (its sign is that of what is added to have UTC), summer from the last Sunday of March at 2:00 to the last one of
+   October at 3:00. Ways of naming a day: Mm.w.d, the w-th (5: last) day d of the week of month m; Jn, the n-th of the year
+   without 29 February; n, counted from 0 with it. The last line of a file of the system's zones is such a rule.
+   Test: test_calendar.c, against zones of the system. */
+
+typedef struct rule {
+    char kind; /* 'M', 'J' or '0' */
+    long month, week, day;
+    double at_s; /* of that day's clock */
+} rule;
+
+static const char *number_of(const char *text, long least, long most, long *value) {
+    if (!text || *text < '0' || *text > '9') return NULL;
+    for (*value = 0; *text >= '0' && *text <= '9' && *value <= most; text++)
+        *value = 10 * *value + (*text - '0');
+    return *value < least || *value > most ? NULL : text;
+}
+
+/* "1", "5:30", "-3:45:00"; hours of a time of change reach over a week */
+static const char *span_of(const char *text, long most_h, double *seconds) {
+    long part[3] = {0};
+    const double sign = text && *text == '-' ? -1.0 : 1.0;
+    if (text && (*text == '-' || *text == '+')) text++;
+    text = number_of(text, 0, most_h, &part[0]);
+    for (int k = 1; k < 3 && text && *text == ':'; k++)
+        text = number_of(text + 1, 0, 59, &part[k]);
+    *seconds = sign * (3600.0 * (double)part[0] + 60.0 * (double)part[1] + (double)part[2]);
+    return text;
+}
+
+/* "CET" or "<+0330>" */
+static const char *behind_name(const char *text) {
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz",
+                      signs[] = "0123456789+-";
+    const bool quoted = text && *text == '<';
+    if (!text) return NULL;
+    size_t n = quoted ? 0 : strspn(text, letters);
+    if (quoted)
+        while (text[1 + n] && (strchr(letters, text[1 + n]) || strchr(signs, text[1 + n])))
+            n++;
+    if (n < 3 || (quoted && text[1 + n] != '>')) return NULL;
+    return text + n + (quoted ? 2 : 0);
+}
+
+static const char *rule_of(const char *text, rule *r) {
+    *r = (rule){.kind = '0', .at_s = 7200.0};
+    if (!text || *text++ != ',') return NULL;
+    if (*text == 'M') {
+        r->kind = 'M';
+        text = number_of(text + 1, 1, 12, &r->month);
+        text = text && *text == '.' ? number_of(text + 1, 1, 5, &r->week) : NULL;
+        text = text && *text == '.' ? number_of(text + 1, 0, 6, &r->day) : NULL;
+    } else if (*text == 'J') {
+        r->kind = 'J';
+        text = number_of(text + 1, 1, 365, &r->day);
+    } else
+        text = number_of(text, 0, 365, &r->day);
+    return text && *text == '/' ? span_of(text + 1, 167, &r->at_s) : text;
+}
+
+static long first_of(long year, long month) { /* days since 1970-01-01 */
+    const long y = year + (month > 12), m = month > 12 ? 1 : month;
+    static const int before[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+    const long leaps = (y - 1) / 4 - (y - 1) / 100 + (y - 1) / 400, until_1970 = 477;
+    const bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
+    return 365 * (y - 1970) + leaps - until_1970 + before[m - 1] + (leap && m > 2);
+}
+
+/* s since 1970 of the clock as it was until then */
+static double change_in(const rule *r, long year) {
+    const long january = first_of(year, 1), leap = first_of(year, 3) - january - 59;
+    long day = january + r->day;
+    if (r->kind == 'J') day += (leap && r->day > 59 ? 1 : 0) - 1;
+    if (r->kind == 'M') {
+        const long first = first_of(year, r->month), next = first_of(year, r->month + 1),
+                   sunday = ((first + 4) % 7 + 7) % 7; /* 1970 began on a Thursday, which is 4 */
+        day = first + (r->day - sunday + 7) % 7 + 7 * (r->week - 1);
+        while (day >= next)
+            day -= 7;
+    }
+    return day_s * (double)day + r->at_s;
+}
+
+/* What the clock does from 0:00 of the first day on, for as long as a plan may last. Zones south of the equator begin a
+   year in summer: the rules come in the order of time, whichever is first. */
+static void clock_changes(fw_schedule_calendar *c, const rule rules[2], const double ahead_s[2]) {
+    long civil[3];
+    fw_quantity_civil(c->first_day, civil);
+    double at[8], to[8], midnight = day_s * (double)c->first_day, first = ahead_s[0];
+    int n = 0;
+    for (long year = civil[0] - 1; year <= civil[0] + 2; year++) {
+        const double begin = change_in(&rules[0], year) - ahead_s[0],
+                     end = change_in(&rules[1], year) - ahead_s[1];
+        const int summer = begin < end ? 0 : 1;
+        at[n + summer] = begin, to[n + summer] = ahead_s[1];
+        at[n + 1 - summer] = end, to[n + 1 - summer] = ahead_s[0];
+        n += 2;
+    }
+    for (int k = 0; k < n && at[k] <= midnight - first; k++)
+        first = to[k];
+    c->zone_min = (int)lround(first / 60.0);
+    for (int k = 0; k < n; k++) {
+        const double when = at[k] - (midnight - first);
+        if (!(when > 0.0) || c->changes == (int)(sizeof c->change_s / sizeof *c->change_s))
+            continue;
+        c->change_s[c->changes] = when;
+        c->ahead_s[c->changes++] = to[k] - first;
+    }
+}
+
+static bool posix_zone(const char *text, fw_schedule_calendar *c) {
+    rule rules[2];
+    double west_s, summer_s;
+    text = span_of(behind_name(text), 24, &west_s);
+    if (!text) return false;
+    const double winter_s = -west_s;
+    c->zoned = true;
+    c->zone_min = (int)lround(winter_s / 60.0);
+    if (!*text) return true;
+    text = behind_name(text);
+    summer_s = winter_s + 3600.0;
+    if (text && *text != ',') {
+        text = span_of(text, 24, &west_s);
+        summer_s = -west_s;
+    }
+    text = rule_of(rule_of(text, &rules[0]), &rules[1]);
+    if (!text || *text) return false;
+    clock_changes(c, rules, (const double[]){winter_s, summer_s});
+    return true;
+}
+
+/* " UTC", " UTC+01:00", a rule or nothing, to the end of the text; zones reach from UTC-12:00 to UTC+14:00. "UTC+1" and
+   the like are no rules: their sign is the other way round there, and nobody means that */
 static bool zone_of(const char *text, fw_schedule_calendar *c) {
     static const char utc[] = " UTC";
     double ahead_s = 0.0;
     if (!*text) return true;
-    if (strncmp(text, utc, sizeof utc - 1) != 0) return false;
+    if (strncmp(text, utc, sizeof utc - 1) != 0)
+        return *text == ' ' && posix_zone(text + 1, c) && c->zone_min >= -12 * 60 &&
+               c->zone_min <= 14 * 60;
     text += sizeof utc - 1;
     const char sign = *text, *end = sign ? clock_of(text + 1, &ahead_s) : text;
     if (!end || *end || (sign && sign != '+' && sign != '-')) return false;
@@ -276,6 +450,9 @@ static fw_status hours_of(making *w, const fw_process_tool_time *t, fw_schedule_
     FW_TRY(read_hours(t, c, w->diags));
     c->dated = w->day->dated;
     c->first_day = w->day->first_day;
+    c->changes = w->day->changes;
+    memcpy(c->change_s, w->day->change_s, sizeof c->change_s);
+    memcpy(c->ahead_s, w->day->ahead_s, sizeof c->ahead_s);
     m->nhours++;
     return FW_OK;
 }
@@ -289,8 +466,8 @@ static fw_status closed_of(making *w, const fw_process_tool_time *t, fw_schedule
                              "--day \"08:00-18:00 from %s\"",
                              t->equipment, t->from);
     double *span = w->closed_s[m->nclosed++];
-    span[0] = day_s * (double)(from - w->day->first_day);
-    span[1] = day_s * (double)(to + 1 - w->day->first_day);
+    span[0] = fw_schedule_calendar_elapsed(w->day, day_s * (double)(from - w->day->first_day));
+    span[1] = fw_schedule_calendar_elapsed(w->day, day_s * (double)(to + 1 - w->day->first_day));
     return FW_OK;
 }
 

@@ -75,6 +75,10 @@ fw_status fw_schedule_tool_hours(fw_arena *arena, const fw_process_flow *flow,
 /* Earliest t >= from at which a run of the task fits into the working day and the hours of its machine, whoever else is
    there; INFINITY: never. It never falls when `from` rises: what the bounds rest on. Test: test_tools.c */
 double fw_schedule_alone_fit(const fw_schedule_shop *shop, int task, double from_s);
+/* the day that most plans are made for, FW_WORKING_DAY from Monday to Friday, from the same date on */
+fw_schedule_calendar fw_schedule_usual_day(const fw_schedule_calendar *of);
+/* are people there at the same times, without breaks? */
+bool fw_schedule_same_day(const fw_schedule_calendar *a, const fw_schedule_calendar *b);
 /* earliest t by which the machine has been open for work_s since from, stretches shorter than least_s > 0 left out;
    INFINITY: never */
 double fw_schedule_machine_worked(const fw_schedule_machine *machine, double from_s, double work_s,

@@ -21,6 +21,9 @@ typedef struct fw_schedule_calendar {
     bool
         zoned; /* its times are zone_min ahead of UTC; without it those of the laboratory's own clock */
     int zone_min;
+    int changes;                    /* of the clock, in the order of time, while a plan may last */
+    double change_s[6], ahead_s[6]; /* when, and how far it is ahead from then on of one that was
+                                       never changed */
 } fw_schedule_calendar;
 
 typedef struct fw_schedule_machine { /* takes one load at a time, or so many wafers on their own */
@@ -121,8 +124,8 @@ typedef struct fw_schedule_options {
 } fw_schedule_options;
 
 /* "08:00-18:00", "08:00-12:00,13:00-18:00" with breaks between, or "none"; behind it " from 2026-11-23" where the plan
-   begins on a date, "T13:00" where on a time of it, " UTC" or " UTC+01:00" where its zone is stated; false: it is none of
-   these */
+   begins on a date, "T13:00" where on a time of it, " UTC" or " UTC+01:00" where its zone is stated, or a rule of POSIX for one whose clocks are changed, " CET-1CEST,M3.5.0,M10.5.0/3";
+   false: it is none of these */
 /* calendar.c: are the hours and dates of a laboratory's machines such? FW-D376. It is asked where a laboratory pack is read, also
    where nothing is scheduled */
 fw_status fw_schedule_tool_words(const fw_process_flow *flow, fw_diags *diags);
@@ -162,6 +165,10 @@ bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round 
 extern const fw_schedule_calendar fw_schedule_round_the_clock;
 /* when the first working day begins, s from 0:00 of day 1 */
 double fw_schedule_calendar_start(const fw_schedule_calendar *calendar);
+/* Times of a plan go on evenly from 0:00 of day 1. What the clock on the wall shows at t, and the first time at which it
+   shows that; they differ where it is changed on the way. Test: test_calendar.c */
+double fw_schedule_calendar_clock(const fw_schedule_calendar *calendar, double t);
+double fw_schedule_calendar_elapsed(const fw_schedule_calendar *calendar, double clock_s);
 extern const char *const fw_schedule_weekday[7]; /* "Mon" ... */
 /* 0: Monday; `day` counts from 0 */
 int fw_schedule_calendar_weekday(const fw_schedule_calendar *calendar, long day);

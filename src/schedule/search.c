@@ -422,77 +422,111 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     return name_operators(arena, shop, s.best.run, s.best.nrun);
 }
 
-/* does a schedule of a relaxed problem keep the working day and the hours of the machines? */
-static bool keeps_hours(const fw_schedule_shop *shop, const fw_schedule *of) {
-    for (int i = 0; i < of->nrun; i++) {
-        double start = of->run[i].start_s;
-        if (fw_schedule_alone_fit(shop, of->run[i].task, start) > start + 1e-6) return false;
+/* Least shift, from `shift` on, by which all runs of a schedule lie inside the working day and the hours of the machines;
+   INFINITY: beyond `most`. Each run alone never fits earlier when it is shifted by more, so that the least fixed point is
+   reached from below. Windows, places and people do not mind a shift. */
+static double fitting_shift(const fw_schedule_shop *shop, const fw_schedule *of, double shift,
+                            double most) {
+    for (double before = -(double)INFINITY; shift > before + 1e-6;) {
+        before = shift;
+        for (int i = 0; i < of->nrun && shift <= most; i++) {
+            const double start = of->run[i].start_s;
+            shift =
+                fmax(shift, fw_schedule_alone_fit(shop, of->run[i].task, start + shift) - start);
+        }
+        if (!(shift <= most)) return (double)INFINITY;
     }
-    return true;
+    return shift;
 }
 
-static void take_over(const fw_schedule *of, fw_schedule *out) {
+static fw_status take_over(fw_arena *arena, const fw_schedule *of, double shift, fw_schedule *out) {
+    fw_schedule_run *run = fw_arena_array(arena, fw_schedule_run, (size_t)of->nrun);
+    FW_NEED(run);
+    for (int i = 0; i < of->nrun; i++) {
+        run[i] = of->run[i];
+        run[i].start_s += shift;
+        run[i].end_s += shift;
+    }
     out->feasible = true;
     out->why = NULL;
     out->rule = of->rule;
-    out->run = of->run;
+    out->run = run;
     out->nrun = of->nrun;
-    out->makespan_s = of->makespan_s;
+    out->makespan_s = of->start_s + of->makespan_s + shift - out->start_s;
     measure(out);
-}
-
-static bool better(const fw_schedule *a, const fw_schedule *b) {
-    return a->feasible && (!b->feasible || a->makespan_s < b->makespan_s - 1e-6);
-}
-
-static fw_status solve_relaxed(fw_arena *arena, const fw_schedule_shop *shop,
-                               const fw_schedule_shop *relaxed, int effort, fw_schedule *out) {
-    fw_schedule other = *out;
-    other.feasible = false;
-    FW_TRY(solve(arena, relaxed, effort, &other));
-    if (better(&other, out) && keeps_hours(shop, &other)) take_over(&other, out);
     return FW_OK;
 }
 
-/* without breaks, round the clock, without the hours of machines, without both: what is stated of them */
-static fw_status solve_without_hours(fw_arena *arena, const fw_schedule_shop *shop, int effort,
-                                     fw_schedule *out) {
+static bool is_ever_done(const fw_schedule_shop *shop) {
+    for (int i = 0; i < shop->ntask; i++)
+        if (isinf(fw_schedule_alone_fit(shop, i, 0.0))) return false;
+    return true;
+}
+
+/* what is found for the other hours is handed out where it keeps those of the shop, moved to where it begins */
+static fw_status solve_other(fw_arena *arena, const fw_schedule_shop *shop,
+                             const fw_schedule_shop *as, double from_s, int effort,
+                             fw_schedule *out) {
+    fw_schedule other = *out;
+    other.feasible = false;
+    other.start_s = fmax(from_s, fw_schedule_calendar_start(&as->calendar));
+    if (out->optimal || !is_ever_done(as)) return FW_OK;
+    FW_TRY(solve(arena, as, effort, &other));
+    if (!other.feasible) return FW_OK;
+    const double earliest = fmin(0.0, out->start_s - other.start_s),
+                 end = other.start_s + other.makespan_s,
+                 most =
+                     (out->feasible ? out->start_s + out->makespan_s - 1e-6 : FW_HORIZON_S) - end,
+                 shift = fitting_shift(shop, &other, earliest, most);
+    return isfinite(shift) ? take_over(arena, &other, shift, out) : FW_OK;
+}
+
+/* Hours that leave out some of what the shop's state, and shorter ones: without breaks, round the clock, the usual day; with
+   the hours of the machines and without */
+static fw_status solve_other_hours(fw_arena *arena, const fw_schedule_shop *shop,
+                                   const fw_schedule_shop *people, int effort, fw_schedule *out) {
     fw_schedule_machine *open = fw_arena_array(arena, fw_schedule_machine, (size_t)shop->nmachine);
     FW_NEED(open);
     bool hours = false, by_day = !fw_schedule_calendar_round(&shop->calendar);
+    const fw_schedule_calendar usual = fw_schedule_usual_day(&shop->calendar);
     for (int m = 0; m < shop->nmachine; m++) {
         open[m] = shop->machine[m];
         hours = hours || open[m].nhours + open[m].nclosed > 0;
         open[m].nhours = open[m].nclosed = 0;
     }
-    for (int machines = 0; machines <= (int)hours; machines++)
-        for (int day = 0; day < 3 && !out->optimal; day++) {
-            fw_schedule_shop relaxed = *shop;
-            if (machines) relaxed.machine = open;
-            if (day == 1) relaxed.calendar.breaks = 0;
-            if (day == 2) relaxed.calendar = fw_schedule_round_the_clock;
-            bool another = day == 0 ? machines : day == 1 ? shop->calendar.breaks > 0 : by_day;
-            if (another) FW_TRY(solve_relaxed(arena, shop, &relaxed, effort, out));
-        }
+    for (int machines = 0; machines <= (int)hours; machines++) {
+        fw_schedule_shop as = *people;
+        if (machines) as.machine = open;
+        if (machines) FW_TRY(solve_other(arena, shop, &as, out->start_s, effort, out));
+        as.calendar.breaks = 0;
+        if (shop->calendar.breaks > 0)
+            FW_TRY(solve_other(arena, shop, &as, out->start_s, effort, out));
+        as.calendar = fw_schedule_round_the_clock;
+        if (by_day) FW_TRY(solve_other(arena, shop, &as, out->start_s, effort, out));
+        if (hours && !by_day) /* as the usual day's plan tries it */
+            FW_TRY(solve_other(arena, shop, &as, fw_schedule_calendar_start(&usual), effort, out));
+        as.calendar = usual;
+        if (machines || !fw_schedule_same_day(&usual, &shop->calendar))
+            FW_TRY(solve_other(arena, shop, &as, out->start_s, effort, out));
+    }
     return FW_OK;
 }
 
-/* The search is no proof, so that it may miss what it finds for fewer people, or without hours: neither may be better
-   than what is handed out. Cost: one search more for every operator that can be busy at once, and one for each kind of
-   hours. */
+/* The search is no proof, so that it may miss what it finds for fewer people, or other hours: neither may be better
+   than what is handed out. Cost: one search more for every operator that can be busy at once and each kind of
+   hours. Test: test_schedule.c, never_worse_than_its_relaxations. */
 static fw_status solve_with_less(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                                  fw_schedule *out) {
-    fw_schedule_shop less = *shop;
-    fw_schedule other = *out;
     int most = shop->operators < shop->wafers ? shop->operators : shop->wafers;
     if (most > shop->nmachine) most = shop->nmachine;
+    FW_TRY(solve_other_hours(arena, shop, shop, effort, out));
     for (int k = shop->operators > most ? most : shop->operators - 1; k > 0 && !out->optimal; k--) {
+        fw_schedule_shop less = *shop;
         less.operators = k;
-        other.feasible = false;
-        FW_TRY(solve(arena, &less, effort, &other));
-        if (better(&other, out)) take_over(&other, out);
+        FW_TRY(solve_other(arena, shop, &less, out->start_s, effort, out));
+        FW_TRY(solve_other_hours(arena, shop, &less, effort, out));
     }
-    return solve_without_hours(arena, shop, effort, out);
+    return FW_OK;
 }
 
 /* NULL, or why nobody can ever stand there long enough */

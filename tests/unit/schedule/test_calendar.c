@@ -2,6 +2,8 @@
 /* The working day, minute by minute against its definition. */
 #include "schedule/schedule.h"
 #include "test.h"
+#include <stdlib.h>
+#include <time.h>
 
 static bool there(const fw_schedule_calendar *c,
                   long minute) { /* during the minute that starts now */
@@ -138,8 +140,90 @@ static void centuries(void **state) {
     assert_false(fw_schedule_calendar_parse("none from 9999-01-01", &c));
 }
 
+/* The rule against the C library's own, hour by hour over the years of a plan: north, south of the equator, half hours,
+   zones without summer, days counted through the year, changes beyond midnight. */
+static void zones(void **state) {
+    (void)state;
+    static const char *const rules[] = {"CET-1CEST,M3.5.0,M10.5.0/3", "EST5EDT,M3.2.0,M11.1.0",
+                                        "AEST-10AEDT,M10.1.0,M4.1.0/3",
+                                        "<+1030>-10:30<+11>-11,M10.1.0,M4.1.0", "JST-9",
+                                        "IST-1GMT0,M10.5.0,M3.5.0/1", "ABC3DEF2,J60/0,J300/26:30",
+                                        "<-02>2<-01>,M3.5.0/-1,M10.5.0/0", "XYZ-3:30ZYX,59,303/4"};
+    static const char *const days[] = {"2026-03-20", "2026-10-20", "2028-02-25", "2027-01-01",
+                                       "2026-12-31", "2026-03-29", "2026-10-25"};
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        for (size_t k = 0; k < sizeof days / sizeof *days; k++) {
+            fw_schedule_calendar c;
+            char text[96];
+            snprintf(text, sizeof text, "none from %s %s", days[k], rules[i]);
+            if (!fw_schedule_calendar_parse(text, &c)) fail_msg("%s", text);
+            setenv("TZ", rules[i], 1);
+            tzset();
+            struct tm first = {.tm_isdst = -1, .tm_mday = 1};
+            long civil[3];
+            fw_quantity_civil(c.first_day, civil);
+            first.tm_year = (int)civil[0] - 1900;
+            first.tm_mon = (int)civil[1] - 1;
+            first.tm_mday = (int)civil[2];
+            const time_t begin = mktime(&first);
+            for (long hour = 0; hour < 400L * 24L; hour++) {
+                const time_t at = begin + 3600 * hour + 900;
+                struct tm is;
+                localtime_r(&at, &is);
+                const double clock = fw_schedule_calendar_clock(&c, 3600.0 * (double)hour + 900.0);
+                const long minutes = lround(clock / 60.0);
+                fw_quantity_civil(c.first_day + minutes / 1440, civil);
+                if (civil[2] != is.tm_mday || civil[1] != is.tm_mon + 1 ||
+                    minutes / 60 % 24 != is.tm_hour || minutes % 60 != is.tm_min)
+                    fail_msg("%s: hour %ld is %02ld:%02ld, not %02d:%02d", text, hour,
+                             minutes / 60 % 24, minutes % 60, is.tm_hour, is.tm_min);
+            }
+        }
+    unsetenv("TZ");
+    static const char *const bad[] = {"Europe/Berlin", "CET", "CE-1CEST,M3.5.0,M10.5.0",
+                                      "CET-1CEST,M13.5.0,M10.5.0", "CET-1CEST,M3.5.0",
+                                      "CET-1CEST,M3.6.0,M10.5.0", "CET-1CEST,M3.5.7,M10.5.0",
+                                      "CET-1CEST,M3.5.0,M10.5.0/3x", "CET-25", "CET-1CEST",
+                                      "<CET-1", "CET-1CEST,J0,J300", "CET-1CEST,366,12"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        fw_schedule_calendar c;
+        char text[96];
+        snprintf(text, sizeof text, "none from 2026-03-20 %s", bad[i]);
+        if (fw_schedule_calendar_parse(text, &c)) fail_msg("%s is taken", text);
+    }
+}
+
+/* people come when the clock on the wall says so; what lasts, lasts as long as ever */
+static void clock_changes(void **state) {
+    (void)state;
+    fw_schedule_calendar c;
+    const double h = 3600.0, day = 24 * h;
+    assert_true(fw_schedule_calendar_parse(
+        "08:00-18:00 from 2026-03-27 CET-1CEST,M3.5.0,M10.5.0/3", &c)); /* a Friday */
+    assert_int_equal(c.zone_min, 60);
+    assert_true(c.changes >= 2);
+    assert_near(c.change_s[0], 2 * day + 2 * h, 1e-9);
+    assert_near(fw_schedule_calendar_start(&c), 8 * h, 1e-9);
+    assert_near(fw_schedule_calendar_fit(&c, 18 * h, 60.0), 3 * day + 7 * h, 1e-9);
+    assert_near(fw_schedule_calendar_worked(&c, 8 * h, 12 * h), 3 * day + 9 * h, 1e-9);
+    assert_near(fw_schedule_calendar_clock(&c, 3 * day + 7 * h), 3 * day + 8 * h, 1e-9);
+    assert_near(fw_schedule_calendar_elapsed(&c, 2 * day + 2.5 * h), 2 * day + 2 * h, 1e-9);
+    assert_true(fw_schedule_calendar_parse(
+        "08:00-18:00 from 2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3", &c));
+    assert_int_equal(c.zone_min, 120);
+    assert_near(fw_schedule_calendar_fit(&c, 18 * h, 60.0), 3 * day + 9 * h, 1e-9);
+    assert_near(fw_schedule_calendar_elapsed(&c, 2 * day + 2.5 * h), 2 * day + 2.5 * h, 1e-9);
+    /* there and back, but for the hour that is twice and the one that never is */
+    for (double t = 0.0; t < 500 * day; t += 1800.0) {
+        const double back = fw_schedule_calendar_elapsed(&c, fw_schedule_calendar_clock(&c, t));
+        assert_true(back <= t + 1e-6 && back >= t - h - 1e-6);
+        assert_near(fw_schedule_calendar_clock(&c, back), fw_schedule_calendar_clock(&c, t), 1e-6);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(by_minutes), cmocka_unit_test(parsing),
-                                       cmocka_unit_test(centuries)};
+                                       cmocka_unit_test(centuries), cmocka_unit_test(zones),
+                                       cmocka_unit_test(clock_changes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

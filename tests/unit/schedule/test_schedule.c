@@ -194,35 +194,44 @@ static void brute_force(void **state) {
     assert_true(optimal >= 0.97 * all);
 }
 
+typedef struct larger {
+    row rows[8];
+    fw_schedule_hold hold[4];
+    fw_schedule_shop shop;
+} larger;
+
+static void random_larger(larger *l) {
+    static const char *const id[] = {"A", "B", "C", "D", "E", "F", "G", "H"};
+    static const char *const machine[] = {"m", "n", "o", "p", "shelf"};
+    for (int i = 0; i < 8; i++) {
+        double run = 1 + below(200);
+        l->rows[i] = (row){id[i], machine[below(5)], below(8) ? 1 + below(4) : 99, run,
+                           below(4) ? below((int)run + 1) : 0};
+        if (strcmp(l->rows[i].machine, "shelf") == 0) l->rows[i].attended_min = 0;
+    }
+    l->shop = shop_of(arena, l->rows, 8, 1 + below(8), 1 + below(3));
+    l->shop.nhold = below(4);
+    l->shop.hold = l->hold;
+    for (int k = 0; k < l->shop.nhold; k++) {
+        int from = below(7), to = from + 1 + below(7 - from < 2 ? 7 - from : 2);
+        double between = to > from + 1 ? l->shop.task[from + 1].duration_s : 0.0;
+        l->hold[k] = hold_of(from, to, -(double)INFINITY, between + 60.0 * below(300));
+    }
+}
+
 /* random larger shops with batches, holds, days and people: every rule of a schedule holds */
 static void random_shops(void **state) {
     (void)state;
-    static const char *const id[] = {"A", "B", "C", "D", "E", "F", "G", "H"};
-    static const char *const machine[] = {"m", "n", "o", "p", "shelf"};
     int found = 0;
     int rounds = test_cases(120, 40);
     for (int round = 0; round < rounds; round++) {
-        row rows[8];
-        fw_schedule_hold hold[4];
-        for (int i = 0; i < 8; i++) {
-            double run = 1 + below(200);
-            rows[i] = (row){id[i], machine[below(5)], below(8) ? 1 + below(4) : 99, run,
-                            below(4) ? below((int)run + 1) : 0};
-            if (strcmp(rows[i].machine, "shelf") == 0) rows[i].attended_min = 0;
-        }
-        fw_schedule_shop shop = shop_of(arena, rows, 8, 1 + below(8), 1 + below(3));
-        shop.nhold = below(4);
-        shop.hold = hold;
-        for (int k = 0; k < shop.nhold; k++) {
-            int from = below(7), to = from + 1 + below(7 - from < 2 ? 7 - from : 2);
-            double between = to > from + 1 ? shop.task[from + 1].duration_s : 0.0;
-            hold[k] = hold_of(from, to, -(double)INFINITY, between + 60.0 * below(300));
-        }
+        larger l;
+        random_larger(&l);
         if (below(2))
-            shop.calendar = (fw_schedule_calendar){
+            l.shop.calendar = (fw_schedule_calendar){
                 .open_s = 8 * 3600.0, .close_s = 18 * 3600.0, .weekends = below(2) == 0};
         fw_schedule got;
-        assert_int_equal(fw_schedule_solve(arena, &shop, 20, &got), FW_OK);
+        assert_int_equal(fw_schedule_solve(arena, &l.shop, 20, &got), FW_OK);
         assert_true(got.feasible || got.why);
         if (!got.feasible) continue;
         check_schedule(&got);
@@ -303,10 +312,59 @@ static void never_worse_than_its_relaxations(void **state) {
         }
 }
 
+static fw_schedule solved(const fw_schedule_shop *shop, fw_schedule_calendar calendar,
+                          fw_schedule_shop *kept) {
+    fw_schedule got;
+    *kept = *shop;
+    kept->calendar = calendar;
+    assert_int_equal(fw_schedule_solve(arena, kept, 20, &got), FW_OK);
+    if (got.feasible) check_schedule(&got);
+    return got;
+}
+
+/* Random shops round the clock and by day, for one person and for two, some with a machine that has
+   hours: less restricted is never later. */
+static void longer_hours_are_never_later(void **state) {
+    (void)state;
+    static const fw_schedule_calendar day = {.open_s = 8 * 3600.0, .close_s = 18 * 3600.0};
+    int compared = 0, rounds = test_cases(150, 30);
+    for (int round = 0; round < rounds; round++) {
+        larger l;
+        random_larger(&l);
+        fw_schedule_calendar hours = {.open_s = 9 * 3600.0, .close_s = 20 * 3600.0, .weekends = true};
+        if (below(4) == 0) {
+            fw_schedule_machine *m =
+                fw_arena_array(arena, fw_schedule_machine, (size_t)l.shop.nmachine);
+            memcpy(m, l.shop.machine, (size_t)l.shop.nmachine * sizeof *m);
+            m[0].hours = &hours;
+            m[0].nhours = 1;
+            l.shop.machine = m;
+        }
+        double before = (double)INFINITY;
+        for (int k = 1; k <= 2; k++) {
+            fw_schedule_shop at[2];
+            l.shop.operators = k;
+            const fw_schedule all = solved(&l.shop, fw_schedule_round_the_clock, &at[0]),
+                              open = solved(&l.shop, day, &at[1]);
+            if (open.feasible) {
+                assert_true(all.feasible);
+                assert_true(all.start_s + all.makespan_s <= open.start_s + open.makespan_s + 1e-6);
+                if (l.shop.machine[0].nhours == 0)
+                    assert_true(all.makespan_s <= open.makespan_s + 1e-6);
+                assert_true(open.makespan_s <= before + 1e-6);
+                before = open.makespan_s;
+                compared++;
+            }
+        }
+    }
+    assert_true(compared > rounds);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(greedy_reference), cmocka_unit_test(brute_force),
         cmocka_unit_test(random_shops),     cmocka_unit_test(line),
-        cmocka_unit_test(repeatable),       cmocka_unit_test(never_worse_than_its_relaxations)};
+        cmocka_unit_test(repeatable),       cmocka_unit_test(never_worse_than_its_relaxations),
+        cmocka_unit_test(longer_hours_are_never_later)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
