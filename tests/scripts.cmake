@@ -79,6 +79,8 @@ fw_script_test(judge.self LABEL quick COMMAND ${Python3_EXECUTABLE} tests/judge/
                tests/data/hinge)
 # every step of the packs left out, every pair exchanged: docs/process-orders.md
 fw_script_test(process.orders COMMAND ${Python3_EXECUTABLE} tests/process/orders.py $<TARGET_FILE:lint_packs>)
+# every quantity of the packs with values that nobody can mean
+fw_script_test(process.absurd COMMAND ${Python3_EXECUTABLE} tests/process/absurd.py $<TARGET_FILE:lint_packs>)
 fw_script_test(process.coupons COMMAND ${Python3_EXECUTABLE} tests/process/coupons.py)
 # a seed is the same device on every machine; what a long run says is in tests/judge/README.md
 fw_first_part_of(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py --judge $<TARGET_FILE:judge>

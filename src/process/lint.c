@@ -206,6 +206,7 @@ static const struct {
     {"is a layer accepted that is as thick as it is meant?", fw_process_lint_accepted, true},
     {"is nothing dissolved below a film that stays?", fw_process_lint_undermined, false},
     {"is what is measured there, and what a step is timed for?", fw_process_lint_measured, false},
+    {"is what is sawn covered, and what was pressed on cleaned?", fw_process_lint_dust, false},
     {"is what lifts off thinner than its resist?", fw_process_lint_lifted, true},
     {"is what a step requires of the wafer true of the wafer that comes?", fw_process_lint_required,
      false},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is what a step measures, is timed for or works on there, by the films on the wafer alone? And does nothing lie on what was
-   dissolved? Each question is a function here and a row in lint.c. Cost: steps times layers. Test: test_measured.c. */
+   dissolved? Each question is a function here and a row in lint.c, but that of units, which is asked with set points (lint_values.c). Cost: steps times layers. Test: test_measured.c. */
 #include "base/text.h"
 #include "process/films.h"
 #include "process/pack.h"
@@ -210,6 +210,33 @@ static void lint_coupon(fw_process_pack *pack, const fw_process_step *s, const a
                   s->id, a->coupon, of ? of : "the wafer");
 }
 
+/* what was mounted that is as stiff as a wafer; NULL: nothing */
+static const char *carrier_on(const fw_process_flow *f, int at, const fw_process_stack *stack) {
+    const double least_m = 1e-4; /* films, wax and paste bend along */
+    for (int i = 0; i < at; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (fw_process_step_is_op(&f->step[i], "mount") && strcmp(c->kind, "add") == 0 &&
+                c->thickness && !c->thickness->unknown && c->thickness->value >= least_m &&
+                holds(stack, c->material))
+                return c->material;
+        }
+    return NULL;
+}
+
+/* a wafer that is bonded flat to another one has that one's bow */
+static void lint_bow(fw_process_pack *pack, int at, const around *wafer,
+                     const fw_process_accept *a) {
+    const fw_process_flow *f = pack->flow;
+    const bool bow = is_word_in(a->measure, "bow") || is_word_in(a->measure, "warp");
+    const char *carrier = bow ? carrier_on(f, at, &wafer->before) : NULL;
+    if (carrier)
+        fw_diag_error(pack->diags, 600, a->place,
+                      "step %s measures '%s' of a wafer that is on '%s', which holds it flat: what "
+                      "is read says nothing of its films; measure it before it is mounted",
+                      f->step[at].id, a->measure, carrier);
+}
+
 static void lint_read(fw_process_pack *pack, const fw_process_step *s, const around *wafer,
                       const fw_process_accept *a) {
     const fw_process_flow *f = pack->flow;
@@ -258,7 +285,63 @@ fw_status fw_process_lint_measured(fw_process_pack *pack) {
                               "look after it",
                               s->id, q->id, etch->id);
             lint_read(pack, s, &wafer, a);
+            lint_bow(pack, i, &wafer, a);
         }
+    }
+    return FW_OK;
+}
+
+/* ---- what falls on a wafer ----
+   A blade throws chips and water, and the plates of a bonder leave grains where they press. Test: test_measured.c. */
+
+/* is a coat on top of every column of the front? */
+static bool is_covered(const fw_process_flow *f, const fw_process_stack *stack) {
+    bool all = stack->columns > 0;
+    for (int column = 0; column < stack->columns; column++) {
+        const fw_process_cell *top = fw_process_stack_top(stack, column, false);
+        bool coat = false;
+        for (int i = 0; top && i < f->nstep; i++)
+            for (int k = 0; k < f->step[i].nchange; k++)
+                coat = coat || (fw_process_step_is_op(&f->step[i], "coat") &&
+                                strcmp(f->step[i].change[k].material, top->material) == 0);
+        all = all && (coat || !fw_process_where_holds(f, "structure", column));
+    }
+    return all;
+}
+
+/* the first step behind `at` that films or etches the wafer; NULL: none does */
+static const fw_process_step *worked_on_later(const fw_process_flow *f, int at) {
+    static const char ops[] = "dry-etch wet-etch deposit coat plate bond";
+    for (int i = at + 1; i < f->nstep; i++)
+        if (fw_words_hold(ops, " ", f->step[i].op)) return &f->step[i];
+    return NULL;
+}
+
+fw_status fw_process_lint_dust(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *pressed = NULL;
+    for (int i = 0; i < f->nstep; i++) {
+        const fw_process_step *s = &f->step[i], *later = worked_on_later(f, i);
+        if (fw_process_step_is_op(s, "dice") && later) {
+            fw_process_stack before;
+            FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &before, NULL));
+            if (!is_covered(f, &before))
+                fw_diag_warning(pack->diags, 601, s->place,
+                                "step %s saws or breaks a wafer whose structures lie open, and "
+                                "step %s works on them later: chips of the cut mask that; do it "
+                                "while resist covers them",
+                                s->id, later->id);
+        }
+        if (fw_process_step_is_op(s, "clean")) pressed = NULL;
+        if (pressed && (fw_process_step_is_op(s, "coat") || fw_process_step_is_op(s, "deposit"))) {
+            fw_diag_warning(pack->diags, 602, s->place,
+                            "step %s covers a face that step %s has pressed on, and nothing cleans "
+                            "it between: grains of its plates make holes in what comes on it; add "
+                            "a step with op=\"clean\"",
+                            s->id, pressed->id);
+            pressed = NULL;
+        }
+        if (fw_process_step_is_op(s, "bond")) pressed = s;
     }
     return FW_OK;
 }
@@ -310,4 +393,38 @@ fw_status fw_process_lint_undermined(fw_process_pack *pack) {
                               f->step[i].id, c->material, above, above);
         }
     return FW_OK;
+}
+
+/* ---- in what unit? ---- */
+
+/* "{=al.d*0.95}" is a number in the unit of al.d, and the limit is read in that of the measurement */
+static void lint_limit_in(fw_process_pack *pack, const fw_process_step *s,
+                          const fw_process_accept *a, const char *const *limit) {
+    const char *raw;
+    const fw_quantity *q = fw_process_limit_quantity(pack->flow, limit, &raw);
+    if (!q || !q->unit || strcmp(q->unit, a->unit) == 0) return;
+    fw_diag_error(pack->diags, 342, a->place,
+                  "step %s measures '%s' in %s, and its limit %s is a number in %s; write "
+                  "unit=\"%s\"",
+                  s->id, a->measure, a->unit, raw, q->unit, q->unit);
+}
+
+/* what is measured has a unit, or is counted in a word of the laboratory: not in a misspelt unit */
+static void lint_measured_in(fw_process_pack *pack, const fw_process_step *s,
+                             const fw_process_accept *a) {
+    fw_quantity_unit unit;
+    const size_t n = strlen(a->unit), longest = 4;
+    if (n == 0 || n > longest || fw_quantity_unit_parse(a->unit, n, &unit, NULL, NULL)) return;
+    const char *better = fw_quantity_unit_suggestion(a->unit, n, NULL);
+    if (better)
+        fw_diag_warning(pack->diags, 533, a->place,
+                        "step %s measures '%s' in '%s', which is no unit; did you mean '%s'?",
+                        s->id, a->measure, a->unit, better);
+}
+
+void fw_process_lint_unit(fw_process_pack *pack, const fw_process_step *s,
+                          const fw_process_accept *a) {
+    lint_measured_in(pack, s, a);
+    lint_limit_in(pack, s, a, &a->low);
+    lint_limit_in(pack, s, a, &a->high);
 }

@@ -2,6 +2,7 @@
 /* Do the values make sense, wherever they come from: a pack, a laboratory, calibrate? Read once with the pack and again
    when a laboratory has replaced some (fw_process_flow_lint_values). Are their uncertainties ones? Can the prices be
    added? Does a filling serve a wafer? */
+#include "process/calibrate.h"
 #include "process/films.h"
 #include "process/pack.h"
 #include "xml/xml_reader.h"
@@ -36,13 +37,29 @@ static units read_units(void) {
 }
 
 /* index, or -1 */
-static int range_of(const units *u, const fw_quantity *q) {
-    const char *name = q->range ? q->range : "";
+static int row_of(const units *u, const char *name, fw_quantity_dimension dimension) {
     for (int i = 0; i < RANGES; i++)
         if (strcmp(ranges[i].name, name) == 0 &&
-            fw_quantity_dimension_equal(u->of[i].dimension, q->dimension))
+            fw_quantity_dimension_equal(u->of[i].dimension, dimension))
             return i;
     return -1;
+}
+
+/* How exactly something is read, and how long a wafer may wait, is found by its id (calibrate.h, wafer_state.c): each is of
+   a kind whose range it need not name. */
+static int row_of_id(const units *u, const fw_quantity *q) {
+    static const char waits[] = "-longest";
+    const size_t n = q->id ? strlen(q->id) : 0, of_wait = sizeof waits - 1;
+    if (n > of_wait && strcmp(q->id + n - of_wait, waits) == 0)
+        return row_of(u, "wait", q->dimension);
+    return n && strncmp(q->id, FW_PROCESS_READ, strlen(FW_PROCESS_READ)) == 0
+               ? row_of(u, "reading", q->dimension)
+               : -1;
+}
+
+static int range_of(const units *u, const fw_quantity *q) {
+    const int by_id = q->range ? -1 : row_of_id(u, q);
+    return by_id >= 0 ? by_id : row_of(u, q->range ? q->range : "", q->dimension);
 }
 
 /* has its kind a plausible range at all? Else nothing could be told of its values, and mostly its unit is a slip */
@@ -268,38 +285,6 @@ static void lint_short(fw_process_pack *pack, const fw_process_step *s) {
                   s->id, t->id);
 }
 
-/* "{=al.d*0.95}" is a number in the unit of al.d, and the limit is read in that of the measurement */
-static void lint_limit_in(fw_process_pack *pack, const fw_process_step *s,
-                          const fw_process_accept *a, const char *const *limit) {
-    const char *raw;
-    const fw_quantity *q = fw_process_limit_quantity(pack->flow, limit, &raw);
-    if (!q || !q->unit || strcmp(q->unit, a->unit) == 0) return;
-    fw_diag_error(pack->diags, 342, a->place,
-                  "step %s measures '%s' in %s, and its limit %s is a number in %s; write "
-                  "unit=\"%s\"",
-                  s->id, a->measure, a->unit, raw, q->unit, q->unit);
-}
-
-/* what is measured has a unit, or is counted in a word of the laboratory: not in a misspelt unit */
-static void lint_measured_in(fw_process_pack *pack, const fw_process_step *s,
-                             const fw_process_accept *a) {
-    fw_quantity_unit unit;
-    const size_t n = strlen(a->unit), longest = 4;
-    if (n == 0 || n > longest || fw_quantity_unit_parse(a->unit, n, &unit, NULL, NULL)) return;
-    const char *better = fw_quantity_unit_suggestion(a->unit, n, NULL);
-    if (better)
-        fw_diag_warning(pack->diags, 533, a->place,
-                        "step %s measures '%s' in '%s', which is no unit; did you mean '%s'?",
-                        s->id, a->measure, a->unit, better);
-}
-
-static void lint_accept(fw_process_pack *pack, const fw_process_step *s,
-                        const fw_process_accept *a) {
-    lint_measured_in(pack, s, a);
-    lint_limit_in(pack, s, a, &a->low);
-    lint_limit_in(pack, s, a, &a->high);
-}
-
 /* thicknesses, depths and widths of laws: a length below 0 is an edge's, which no law takes */
 static void lint_lengths(fw_process_pack *pack, const fw_process_step *s,
                          const fw_process_argument *argument, int n) {
@@ -327,41 +312,93 @@ static void lint_between(fw_process_pack *pack, const fw_process_step *s) {
                   s->id, least->id, most->id);
 }
 
-/* The fastest that a kind of step is known to work; a rate beyond it is a slip of the unit. Wider than what records say. */
-static const struct {
-    const char *op;
-    double um_per_min;
-    const char *why;
-} fastest[] = {
-    {"wet-etch", 150, "the fastest bath, hydrofluoric with nitric acid on silicon, takes some 100"},
-    {"dry-etch", 60, "deep etchers of silicon reach 30 to 50"},
-    {"deposit", 60, "the fastest evaporators reach a micrometre in a second"},
-    {"displace", 10, "displacement gives some 0.1"},
-    {"plate", 50, "fast baths give some 10"},
-    {"strip", 200, "solvents take resist at some 10 to 100"},
-    {"release", 200, "the fastest release, of porous silicon, takes some 100"},
+/* ---- what a kind of step can do ---- */
+
+typedef struct step_range {
+    const char *op, *at, *name, *unit;
+    double least, most; /* in the unit */
+    const char *reason;
+} step_range;
+
+static const step_range step_ranges[] = {
+#define X(op, at, name, unit, least, most, reason) {op, at, name, unit, least, most, reason},
+#include "process/step_ranges.def"
+#undef X
 };
 
-static void lint_fast(fw_process_pack *pack, const fw_process_step *s,
-                      const fw_process_argument *argument, int n) {
-    for (int i = 0; i < n; i++) {
-        const fw_quantity *q = argument[i].q;
-        if (q->unknown || strcmp(argument[i].name, "rate") != 0 ||
-            !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_SPEED))
+static bool is_oven(const fw_process_step *s) {
+    return fw_process_step_load(s) > 1 || (s->equipment && s->equipment->vacuum);
+}
+
+static bool is_of_step(const step_range *r, const fw_process_step *s, const char *name) {
+    const bool any =
+        strcmp(r->name, "*") == 0 && strcmp(name, "finish") != 0 && strcmp(name, "uses") != 0;
+    return (r->op[0] == '\0' || fw_process_step_is_op(s, r->op)) &&
+           (any || strcmp(r->name, name) == 0) && (r->at[0] == '\0' || is_oven(s));
+}
+
+static void not_of_step(fw_process_pack *pack, const fw_process_step *s, const step_range *r,
+                        const fw_quantity *q, bool fast) {
+    char is[32], least[32], most[32];
+    const char *value = fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 4),
+               *low = fw_number_text(least, sizeof least, r->least, 4),
+               *high = fw_number_text(most, sizeof most, r->most, 4), *id = q->id ? q->id : "q",
+               *unit = q->unit;
+    const fw_place place = q->replaced ? q->place : s->place;
+    if (fast)
+        fw_diag_error(pack->diags, 544, place,
+                      "step %s (%s) computes with a rate of %s %s (%s), but none is above %s %s: "
+                      "%s; correct the value or its unit",
+                      s->id, s->op, value, unit, id, high, r->unit, r->reason);
+    else
+        fw_diag_error(pack->diags, 587, place,
+                      "step %s (%s) takes %s %s (%s), where only %s to %s %s make sense: %s; "
+                      "correct the value or its unit",
+                      s->id, s->op, value, unit, id, low, high, r->unit, r->reason);
+}
+
+/* name: what the step takes it for. A stated time of none is FW-D534 */
+static void lint_of_step(fw_process_pack *pack, const fw_process_step *s, const char *name,
+                         const fw_quantity *q) {
+    const bool no_time = q && !(q->value > 0.0) && !(q->value < 0.0) && strcmp(name, "time") == 0;
+    if (!q || q->unknown || no_time) return;
+    for (size_t i = 0; i < sizeof step_ranges / sizeof step_ranges[0]; i++) {
+        const step_range *r = &step_ranges[i];
+        fw_quantity_unit unit;
+        if (!is_of_step(r, s, name) ||
+            !fw_quantity_unit_parse(r->unit, strlen(r->unit), &unit, NULL, NULL) ||
+            !fw_quantity_dimension_equal(unit.dimension, q->dimension))
             continue;
-        for (size_t k = 0; k < sizeof fastest / sizeof fastest[0]; k++) {
-            char is[32], most[32];
-            if (!fw_process_step_is_op(s, fastest[k].op) ||
-                q->value <= fastest[k].um_per_min * 1e-6 / 60)
-                continue;
-            fw_diag_error(pack->diags, 544, q->replaced ? q->place : s->place,
-                          "step %s (%s) computes with a rate of %s um/min (%s), but none is above "
-                          "%s: %s; correct the value or its unit",
-                          s->id, s->op, fw_number_text(is, sizeof is, q->value * 60e6, 4), q->id,
-                          fw_number_text(most, sizeof most, fastest[k].um_per_min, 4),
-                          fastest[k].why);
-        }
+        const bool small =
+            q->value<fw_quantity_unit_to_si(&unit, r->least) * (1.0 - 1e-9), large = q->value>
+                fw_quantity_unit_to_si(&unit, r->most) *
+            (1.0 + 1e-9);
+        if (!small && !large) continue;
+        not_of_step(pack, s, r, q, large && strcmp(r->name, "rate") == 0);
+        return;
     }
+}
+
+/* a time that is worked out is another thing than one that is stated */
+static void lint_arguments(fw_process_pack *pack, const fw_process_step *s, const char *law,
+                           const fw_process_argument *argument, int n) {
+    const fw_process_law *of = fw_process_law_find(law);
+    for (int i = 0; i < n; i++)
+        if (strcmp(argument[i].name, "time") != 0 || (of && of->stated))
+            lint_of_step(pack, s, argument[i].name, argument[i].q);
+}
+
+static void lint_step_ranges(fw_process_pack *pack, const fw_process_step *s) {
+    lint_arguments(pack, s, s->law, s->argument, s->nargument);
+    for (int k = 0; k < s->nderive; k++)
+        lint_arguments(pack, s, s->derive[k].law, s->derive[k].argument, s->derive[k].nargument);
+    for (int k = 0; k < s->nsetting; k++)
+        lint_of_step(pack, s, "set", s->setting[k].q);
+    for (int k = 0; k < s->nfinish; k++)
+        lint_of_step(pack, s, "finish", s->finish[k].time);
+    for (int k = 0; k < s->nuse; k++)
+        lint_of_step(pack, s, "uses", s->use[k].q);
+    lint_of_step(pack, s, "pulse", s->pulse);
 }
 
 fw_status fw_process_lint_settings(fw_process_pack *pack) {
@@ -370,16 +407,14 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
         for (int k = 0; k < s->nsetting; k++)
             lint_setting(pack, s, &s->setting[k]), lint_cold(pack, s, &s->setting[k]);
         for (int k = 0; k < s->naccept; k++)
-            lint_accept(pack, s, &s->accept[k]);
+            fw_process_lint_unit(pack, s, &s->accept[k]);
         lint_between(pack, s);
         lint_short(pack, s);
         lint_pairs(pack, s, s->argument, s->nargument);
-        lint_fast(pack, s, s->argument, s->nargument);
+        lint_step_ranges(pack, s);
         if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);
-        for (int k = 0; k < s->nderive; k++) {
+        for (int k = 0; k < s->nderive; k++)
             lint_pairs(pack, s, s->derive[k].argument, s->derive[k].nargument);
-            lint_fast(pack, s, s->derive[k].argument, s->derive[k].nargument);
-        }
         for (int k = 0; k < s->naccept; k++)
             limits_cross(pack, s, s->accept[k].measure, bound_of(s->accept[k].low),
                          bound_of(s->accept[k].high), s->accept[k].place);

@@ -142,6 +142,7 @@ fw_status fw_process_lint_reworked(fw_process_pack *pack);
 fw_status fw_process_lint_accepted(fw_process_pack *pack);
 /* what is measured and undermined: lint_measured.c (FW-D623, FW-D624, FW-D634) */
 fw_status fw_process_lint_measured(fw_process_pack *pack);
+fw_status fw_process_lint_dust(fw_process_pack *pack);
 /* the quantity that a limit "{=al.d*0.95}" names, and its text (raw, or NULL); NULL: it names none */
 const fw_quantity *fw_process_limit_quantity(const fw_process_flow *flow, const char *const *limit,
                                              const char **raw);
@@ -154,6 +155,9 @@ fw_status fw_process_lint_wafer(fw_arena *arena, fw_process_flow *flow,
 /* values (FW-D278, FW-D342, FW-D344) */
 fw_status fw_process_lint_ranges(fw_process_pack *pack);
 fw_status fw_process_lint_settings(fw_process_pack *pack);
+/* FW-D342, FW-D533: is what is measured, and are its limits, in a unit, and in the same one? */
+void fw_process_lint_unit(fw_process_pack *pack, const fw_process_step *s,
+                          const fw_process_accept *a);
 /* FW-D531: a measured value, or one in the place of `was` (NULL: of nothing), without an uncertainty */
 void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diags *diags);
 fw_status fw_process_lint_prices(fw_process_pack *pack);

@@ -105,6 +105,38 @@ nothing is said.
 | flow | step | before | why that is right |
 |---|---|---|---|
 """
+BARE = """
+## Without a single `<requires>`
+
+The same flows, cases and moves of neighbours where a pack says nothing of the wafer that a step wants: those that are
+accepted then and not above, with the reason why films, liquids and states are not asked for more. The pack's own
+`<requires>` refuses each of them.
+
+| flow | case | step | why that is all that can be known |
+|---|---|---|---|
+"""
+SEEN = "nothing on the wafer is harmed, and what is missing is seen at once at the bench"
+FINE_BARE = {
+    "S10 S11": "a developed resist bears the bake; whether it needed one before is not stated of it",
+    "S11 S10": "a developed resist bears the bake; whether it needed one before is not stated of it",
+    "S10 once more after S16": "a wafer without resist bears the bake",
+    "C14": "a spinner may take the bead off in its own recipe; the contact check of the jig finds a rim that is covered",
+    "C15": "only some resists take up water again, and the resist is not stated",
+    "C16 C15": "only some resists take up water again, and the resist is not stated",
+    "C17 C16": "a coated resist bears the hold, and no heat follows the exposure",
+    "C18 C17": "a developed resist bears the hold, and no heat follows the exposure",
+    "D13 D12": "it measures what is cut; that the released device is not looked at is as without it",
+    "B21 B20": "nothing is seen through a window that is not cut, and nothing is harmed",
+    "B24 B23": "it measures what is cut; that the released device is not looked at is as without it",
+    "G38": "a tool does not say whether it cuts or breaks, so that a step which parts the wafer may be a saw; glass that is not cut breaks anywhere",
+    "G49": LOOKS, "G51": LOOKS,
+    "G50": "the sheet says before use that tethers are to be broken",
+    "G52": "a chip that lies loose is not bonded: " + SEEN,
+    "G49 G48": "the wafer may be looked at before it is broken",
+    "G51 G50": "a device that its tethers hold does not move: " + SEEN,
+    "G52 G51": "the chip may be driven in its package as well",
+    "G53 G52": "a chip that lies loose is not bonded: " + SEEN,
+}
 FINE_ELSEWHERE = {
     "S06": "the primer lies on the aluminium all the same, and is looked at with it",
     "C01": "what comes in may be measured after it was cleaned",
@@ -343,8 +375,11 @@ def outcome(lines, plain):
     return word, first
 
 
-def said(program, name, folder):
-    made = list(cases((ROOT / f"processes/{name}.xml").read_text(encoding="utf-8")))
+def said(program, name, folder, keep_requires=True):
+    text = (ROOT / f"processes/{name}.xml").read_text(encoding="utf-8")
+    if not keep_requires:
+        text = re.sub(r" *<requires [^>]*/>\n", "", text)
+    made = list(cases(text))
     files = []
     for i, (_, _, text) in enumerate(made):
         files.append(folder / f"{i:03d}.xml")
@@ -360,6 +395,31 @@ def said(program, name, folder):
                                     {tuple(c) for c in plain} if case != "as it is" else {("accepted",)})
 
 
+def key_of(case):
+    return case.replace("without ", "").replace(" before ", " ")
+
+
+def reason(case):
+    return FINE_AGAIN.get(case.split()[0], "") if " once more" in case else FINE.get(key_of(case), "")
+
+
+def bare(program, count):
+    """what only the pack's own words refuse"""
+    out = [BARE]
+    with tempfile.TemporaryDirectory() as kept:
+        for name in PACKS:
+            folder = pathlib.Path(kept) / name
+            folder.mkdir()
+            for case, title, word, _ in said(program, name, folder, keep_requires=False):
+                if word != "accepted" or case == "as it is" or reason(case):
+                    continue
+                why = FINE_BARE.get(key_of(case), "")
+                if not why:
+                    count.setdefault("unexplained", []).append(f"{name}, no requires: {case}")
+                out.append(f"| {name} | {case} | {title} | {why} |\n")
+    return "".join(out)
+
+
 def page(program):
     out = [HEAD]
     count = {}
@@ -369,8 +429,7 @@ def page(program):
             folder.mkdir()
             out.append(f"\n## {name}\n\n| case | step | outcome | first message |\n|---|---|---|---|\n")
             for case, title, word, first in said(program, name, folder):
-                key = case.replace("without ", "").replace(" before ", " ")
-                why = FINE_AGAIN.get(case.split()[0], "") if " once more" in case else FINE.get(key, "")
+                why = reason(case)
                 text = f"{first[2]}: {first[3]}" if first and len(first) > 3 else why
                 if word == "accepted" and case != "as it is" and not why:
                     count.setdefault("unexplained", []).append(f"{name}: {case}")
@@ -383,6 +442,7 @@ def main():
     text, count = page(sys.argv[1])
     golden = ROOT / "docs/process-orders.md"
     text += baths(sys.argv[1], count)
+    text += bare(sys.argv[1], count)
     if os.environ.get("FW_TEST_ALL"):
         text += moves(sys.argv[1], count)
     else:

@@ -249,6 +249,14 @@ static void mistakes_of_a_flow(void **state) {
          "is a voltage per length"},
         /* no time for it */
         {SILICON, "id=\"hard.t\" value=\"5\" u=\"0.5\" unit=\"min\"", "id=\"hard.t\" value=\"5\" u=\"0.5\" unit=\"s\"", 532, "less than ten seconds"},
+        /* values that no step of their kind takes, whatever their dimension allows */
+        {SILICON, "id=\"hmds.t\" value=\"20\" u=\"3\" unit=\"min\"", "id=\"hmds.t\" value=\"20\" u=\"3\" unit=\"s\"", 587, "step S06 (bake) takes 20 s"},
+        {SILICON, "id=\"rie.power\" value=\"250\" u=\"2\"", "id=\"rie.power\" value=\"0\" u=\"0\"", 587, "no plasma burns with less"},
+        {SILICON, "id=\"resist.w0\" value=\"4000\" u=\"20\"", "id=\"resist.w0\" value=\"4\" u=\"0\"", 587, "step S07 (coat) takes 4 rpm"},
+        {SILICON, "id=\"strip.t\" value=\"15\" u=\"2\" unit=\"min\"", "id=\"strip.t\" value=\"15\" u=\"2\" unit=\"ms\"", 587, "step S16 (strip)"},
+        {SILICON, "id=\"pan.water\" value=\"10\" u=\"0.2\"", "id=\"pan.water\" value=\"0\" u=\"0\"", 278, "what is not in it is left out"},
+        {SILICON, "id=\"read.si.d\" value=\"0.15\"", "id=\"read.si.d\" value=\"0\"", 278, "no instrument reads a length"},
+        {SILICON, "id=\"paste.d\" value=\"50\" u=\"30\"", "id=\"paste.d\" value=\"5e-6\" u=\"0\"", 278, "at least an atom"},
         {SILICON, "id=\"rie.part\" value=\"30\"", "id=\"rie.part\" value=\"0\"", 278, "parts of less than a second"},
         {SILICON, "id=\"al-rinse.t\" value=\"5\" u=\"0.5\"", "id=\"al-rinse.t\" value=\"0\" u=\"0\"", 347, "in no time (al-rinse.t)"},
         /* words that say nothing, and dates that are none */

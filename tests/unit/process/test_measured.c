@@ -62,7 +62,7 @@ static const fw_diag *said(const char *pack, const char *text, int number, const
 }
 
 static const char GLASS[] = "silicon-on-glass";
-static const int OURS[] = {623, 624, 633, 634};
+static const int OURS[] = {600, 601, 602, 623, 624, 633, 634};
 
 static void judged(const char *pack, const char *text, int number, fw_severity severity, const char *says) {
     const fw_diag *d = said(pack, text, number, says);
@@ -156,6 +156,21 @@ static void doses(void **state) {
     assert_null(said(SILICON, in_place(bare(SILICON), unknown, "<q id=\"expose.D\" value=\"150\" u=\"5\""), 278, ""));
 }
 
+static const char *made_a(const char *text, const char *id, const char *op, const char *other) {
+    const char *step = step_text(text, id);
+    return in_place(text, step, in_place(step, op, other));
+}
+
+/* what holds a wafer flat, what throws chips on it, and what presses on it */
+static void flat_and_dusty(void **state) {
+    (void)state;
+    judged(SILICON, put_before(bare(SILICON), "S05", "S04"), 600, FW_ERROR, "step S04 measures 'bow'");
+    judged(GLASS, put_before(bare(GLASS), "G39", "G38"), 601, FW_WARNING, "step G38 saws or breaks");
+    judged(GLASS, made_a(bare(GLASS), "G20", "op=\"clean\"", "op=\"inspect\""), 602, FW_WARNING, "that step G19 has pressed on");
+    /* behind all that is worked on it may be sawn open */
+    assert_null(said(GLASS, bare(GLASS), 601, ""));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(packs_are_fine, setup, teardown),
@@ -164,6 +179,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(parted_and_undermined, setup, teardown),
         cmocka_unit_test_setup_teardown(other_chemistry, setup, teardown),
         cmocka_unit_test_setup_teardown(doses, setup, teardown),
+        cmocka_unit_test_setup_teardown(flat_and_dusty, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
