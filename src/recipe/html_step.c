@@ -345,7 +345,8 @@ static fw_status quantities(const fw_process_flow *flow, const fw_process_step *
                      "</thead><tbody>\n");
     for (int i = 0; i < n; i++) {
         if (row[i].derived && derived++ == 0)
-            fw_text_add(out, "<tr><th colspan=\"5\">Computed for this step</th></tr>\n");
+            fw_text_add(out,
+                        "<tr class=\"group\"><th colspan=\"5\">Computed for this step</th></tr>\n");
         quantity_row(flow, &row[i], number, out);
     }
     fw_text_add(out, "</tbody></table>\n");

@@ -129,7 +129,7 @@ static const char style[] =
     "th{font-weight:bold;background:#f0f0f0;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}\n"
     "td.n,th.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}\n"
-    "tr{break-inside:avoid}\nthead{display:table-header-group}\n"
+    "tr{break-inside:avoid}\ntr.group{break-after:avoid}\nthead{display:table-header-group}\n"
     ".blank td{height:6.4mm}\n.blank td.k{width:21%;background:#f7f7f7}\n"
     ".hash{font-family:'DejaVu Sans Mono',monospace;font-size:7pt;word-break:break-all}\n"
     ".box{display:inline-block;width:3.3mm;height:3.3mm;border:1pt solid #000;"
