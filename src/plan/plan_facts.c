@@ -120,8 +120,10 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
     add_areas(marked, insulated, facts);
     narrowest(device, layout, facts);
     for (int i = 0; table && i < table->nlayer; i++)
-        if (table->layer[i].biased)
+        if (table->layer[i].biased) {
             facts->least_space_m = fmax(facts->least_space_m, table->layer[i].min_space_m);
+            facts->least_width_m = fmax(facts->least_width_m, table->layer[i].min_width_m);
+        }
     return name_gaps(arena, device, layout, variant->flow, facts);
 }
 

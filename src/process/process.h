@@ -434,7 +434,10 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     const fw_release *release;
     const fw_release_hold *hold; /* what holds its bodies meanwhile; NULL: not looked for */
     const char *release_change;  /* what opens a window for it; NULL: not looked for */
-    double least_space_m; /* what the rules of the biased layers ask for on the mask; 0: nothing */
+    /* what the rules of the biased layers ask for on the mask; 0: nothing */
+    double least_space_m, least_width_m;
+    double
+        least_hollow_m; /* radius of a hollow corner, which no mask can grow over; 0: not known */
 } fw_process_mask_facts;
 
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that

@@ -267,16 +267,19 @@ typedef struct trial {
     double fold_gap_m, fold_anisotropy;
 } trial;
 
-/* once more as the flow and `facts` are now: does it refuse nothing? What cannot be computed is not made */
+/* once more as the flow and `facts` are now: does it refuse nothing, and can its mask be drawn, lines and slots as wide there
+   as its rules ask for, with a grid of 1 nm at either edge and the digits of a proposal? What cannot be computed is not made */
 static fw_status judge_again(trial *t, const fw_process_mask_facts *facts, bool *made) {
     fw_diags quiet = fw_diags_new(t->arena);
     fw_status status = t->compute(t->arena, t->flow, facts, &quiet);
-    *made = status == FW_OK && t->flow->manufacturable != 0;
+    const double grid = 4e-9, bias = t->flow->bias_m;
+    *made = status == FW_OK && t->flow->manufacturable != 0 &&
+            facts->narrowest_slot_m - 2.0 * bias >= facts->least_space_m + grid &&
+            facts->narrowest_line_m + 2.0 * bias >= facts->least_width_m + grid;
     return status == FW_INPUT ? FW_OK : status;
 }
 
-/* every opening at least so wide: made, printed with the gap of the flow, not in perfect contact only, and as wide on the
-   mask as its rules ask for, with a grid of 1 nm at either edge */
+/* every opening at least so wide: made, and printed with the gap of the flow, not in perfect contact only */
 static fw_status with_gap(trial *t, double gap_m, bool *made) {
     fw_process_mask_facts facts = *t->facts;
     *made = false;
@@ -288,8 +291,7 @@ static fw_status with_gap(trial *t, double gap_m, bool *made) {
     facts.gap = t->gap;
     facts.narrowest_slot_m = fmax(facts.narrowest_slot_m, gap_m);
     fw_status status = judge_again(t, &facts, made);
-    *made = *made && !t->flow->tight &&
-            facts.narrowest_slot_m - 2.0 * t->flow->bias_m >= facts.least_space_m + 2e-9;
+    *made = *made && !t->flow->tight;
     return status;
 }
 
@@ -322,7 +324,9 @@ static fw_status with_anisotropy(trial *t, fw_quantity *q, double value, bool *m
     *made = false;
     if (value < t->fold_anisotropy) return FW_OK;
     q->value = value;
-    return judge_again(t, t->facts, made);
+    fw_status status = judge_again(t, t->facts, made);
+    *made = *made && !t->flow->tight;
+    return status;
 }
 
 /* of the cut of the device, where it is known; to 1e-4 */

@@ -72,6 +72,7 @@ CASES = {
     "Ranges that a pack does not know": (LEAF, None, "check", "0.99 to 1 is assumed, and the verdict holds there only"),
     "Motion and strain of bodies with release holes": (SIX, ('<die width="5.6 mm"', '<die release-pitch="30 um" width="5.6 mm"'),
                                                "mask --corners none --advice none", "no hole can be opened near.*FW-D189"),
+    "Corners of the mask in a proposed": (SIX, None, "mask --flow al-masked-rie --force --set flexure[A]/@gap=3um", "FW-D145"),
     "Times of handling steps": (SIX, None, "recipe --flow al-masked-rie", r'class="tag assumed"'),
     "What the release reaches": (SIX, None, "recipe --flow copper-on-porous-silicon", "NOT COMPUTABLE, missing: "),
 }
@@ -79,7 +80,7 @@ CASES = {
 SILENT = ["Breaking tethers", "Faces and corners of contacts", "Stiffness of contacts", "Residual stress that varies", "Resistance of nets", "Bond wires and guides",
           "Tight bounds", "Pulses of an expression", "Peaks of joint forces at singular", "Differences within one device",
           "Bias that differs from place", "Polygons that others make of the arcs", "Safety instructions",
-          "Leaves that bend out between",
+          "Leaves that bend out between", "What only the words of a pack",
           "Contacts and weight in the picture", "Studies on the page", "Browsers other than Chromium", "Wide kernels and FMA"]
 # looked at by another test
 ELSEWHERE = {"OASIS as cells": "tests/klayout/cells.py",
