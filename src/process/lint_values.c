@@ -326,6 +326,18 @@ static const step_range step_ranges[] = {
 #undef X
 };
 
+enum { STEP_RANGES = sizeof step_ranges / sizeof step_ranges[0] };
+
+typedef struct step_units { /* of the rows, read once */
+    fw_quantity_unit of[STEP_RANGES];
+} step_units;
+
+static void read_step_units(step_units *u) {
+    for (int i = 0; i < STEP_RANGES; i++)
+        fw_quantity_unit_parse(step_ranges[i].unit, strlen(step_ranges[i].unit), &u->of[i], NULL,
+                               NULL);
+}
+
 static bool is_oven(const fw_process_step *s) {
     return fw_process_step_load(s) > 1 || (s->equipment && s->equipment->vacuum);
 }
@@ -358,21 +370,18 @@ static void not_of_step(fw_process_pack *pack, const fw_process_step *s, const s
 }
 
 /* name: what the step takes it for. A stated time of none is FW-D534 */
-static void lint_of_step(fw_process_pack *pack, const fw_process_step *s, const char *name,
-                         const fw_quantity *q) {
+static void lint_of_step(fw_process_pack *pack, const step_units *u, const fw_process_step *s,
+                         const char *name, const fw_quantity *q) {
     const bool no_time = q && !(q->value > 0.0) && !(q->value < 0.0) && strcmp(name, "time") == 0;
     if (!q || q->unknown || no_time) return;
-    for (size_t i = 0; i < sizeof step_ranges / sizeof step_ranges[0]; i++) {
+    for (int i = 0; i < STEP_RANGES; i++) {
         const step_range *r = &step_ranges[i];
-        fw_quantity_unit unit;
-        if (!is_of_step(r, s, name) ||
-            !fw_quantity_unit_parse(r->unit, strlen(r->unit), &unit, NULL, NULL) ||
-            !fw_quantity_dimension_equal(unit.dimension, q->dimension))
+        const fw_quantity_unit *unit = &u->of[i];
+        if (!fw_quantity_dimension_equal(unit->dimension, q->dimension) || !is_of_step(r, s, name))
             continue;
-        const bool small =
-            q->value<fw_quantity_unit_to_si(&unit, r->least) * (1.0 - 1e-9), large = q->value>
-                fw_quantity_unit_to_si(&unit, r->most) *
-            (1.0 + 1e-9);
+        const double least = fw_quantity_unit_to_si(unit, r->least) * (1.0 - 1e-9),
+                     most = fw_quantity_unit_to_si(unit, r->most) * (1.0 + 1e-9);
+        const bool small = q->value<least, large = q->value> most;
         if (!small && !large) continue;
         not_of_step(pack, s, r, q, large && strcmp(r->name, "rate") == 0);
         return;
@@ -380,28 +389,30 @@ static void lint_of_step(fw_process_pack *pack, const fw_process_step *s, const 
 }
 
 /* a time that is worked out is another thing than one that is stated */
-static void lint_arguments(fw_process_pack *pack, const fw_process_step *s, const char *law,
-                           const fw_process_argument *argument, int n) {
+static void lint_arguments(fw_process_pack *pack, const step_units *u, const fw_process_step *s,
+                           const char *law, const fw_process_argument *argument, int n) {
     const fw_process_law *of = fw_process_law_find(law);
     for (int i = 0; i < n; i++)
         if (strcmp(argument[i].name, "time") != 0 || (of && of->stated))
-            lint_of_step(pack, s, argument[i].name, argument[i].q);
+            lint_of_step(pack, u, s, argument[i].name, argument[i].q);
 }
 
-static void lint_step_ranges(fw_process_pack *pack, const fw_process_step *s) {
-    lint_arguments(pack, s, s->law, s->argument, s->nargument);
+static void lint_step_ranges(fw_process_pack *pack, const step_units *u, const fw_process_step *s) {
+    lint_arguments(pack, u, s, s->law, s->argument, s->nargument);
     for (int k = 0; k < s->nderive; k++)
-        lint_arguments(pack, s, s->derive[k].law, s->derive[k].argument, s->derive[k].nargument);
+        lint_arguments(pack, u, s, s->derive[k].law, s->derive[k].argument, s->derive[k].nargument);
     for (int k = 0; k < s->nsetting; k++)
-        lint_of_step(pack, s, "set", s->setting[k].q);
+        lint_of_step(pack, u, s, "set", s->setting[k].q);
     for (int k = 0; k < s->nfinish; k++)
-        lint_of_step(pack, s, "finish", s->finish[k].time);
+        lint_of_step(pack, u, s, "finish", s->finish[k].time);
     for (int k = 0; k < s->nuse; k++)
-        lint_of_step(pack, s, "uses", s->use[k].q);
-    lint_of_step(pack, s, "pulse", s->pulse);
+        lint_of_step(pack, u, s, "uses", s->use[k].q);
+    lint_of_step(pack, u, s, "pulse", s->pulse);
 }
 
 fw_status fw_process_lint_settings(fw_process_pack *pack) {
+    step_units of_steps;
+    read_step_units(&of_steps);
     for (int i = 0; i < pack->flow->nstep; i++) {
         const fw_process_step *s = &pack->flow->step[i];
         for (int k = 0; k < s->nsetting; k++)
@@ -411,7 +422,7 @@ fw_status fw_process_lint_settings(fw_process_pack *pack) {
         lint_between(pack, s);
         lint_short(pack, s);
         lint_pairs(pack, s, s->argument, s->nargument);
-        lint_step_ranges(pack, s);
+        lint_step_ranges(pack, &of_steps, s);
         if (s->expression[0] == '\0') lint_lengths(pack, s, s->argument, s->nargument);
         for (int k = 0; k < s->nderive; k++)
             lint_pairs(pack, s, s->derive[k].argument, s->derive[k].nargument);
