@@ -470,6 +470,7 @@ static fw_status solve_other(fw_arena *arena, const fw_schedule_shop *shop,
     fw_schedule other = *out;
     other.feasible = false;
     other.start_s = fmax(from_s, fw_schedule_calendar_start(&as->calendar));
+    other.bound.best_s -= other.start_s - out->start_s; /* it is of an end, and counts from there */
     if (out->optimal || !is_ever_done(as)) return FW_OK;
     FW_TRY(solve(arena, as, effort, &other));
     if (!other.feasible) return FW_OK;
@@ -503,7 +504,7 @@ static fw_status solve_other_hours(fw_arena *arena, const fw_schedule_shop *shop
             FW_TRY(solve_other(arena, shop, &as, out->start_s, effort, out));
         as.calendar = fw_schedule_round_the_clock;
         if (by_day) FW_TRY(solve_other(arena, shop, &as, out->start_s, effort, out));
-        if (hours && !by_day) /* as the usual day's plan tries it */
+        if (!by_day) /* as the usual day's plan tries it */
             FW_TRY(solve_other(arena, shop, &as, fw_schedule_calendar_start(&usual), effort, out));
         as.calendar = usual;
         if (machines || !fw_schedule_same_day(&usual, &shop->calendar))

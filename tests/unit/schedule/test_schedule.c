@@ -317,7 +317,7 @@ static fw_schedule solved(const fw_schedule_shop *shop, fw_schedule_calendar cal
     fw_schedule got;
     *kept = *shop;
     kept->calendar = calendar;
-    assert_int_equal(fw_schedule_solve(arena, kept, 20, &got), FW_OK);
+    assert_int_equal(fw_schedule_solve(arena, kept, 40, &got), FW_OK);
     if (got.feasible) check_schedule(&got);
     return got;
 }
@@ -328,6 +328,7 @@ static void longer_hours_are_never_later(void **state) {
     (void)state;
     static const fw_schedule_calendar day = {.open_s = 8 * 3600.0, .close_s = 18 * 3600.0};
     int compared = 0, rounds = test_cases(150, 30);
+    seed = 14184652527849212424u; /* the first shop is one whose plan round the clock was later than the one by day */
     for (int round = 0; round < rounds; round++) {
         larger l;
         random_larger(&l);
