@@ -196,18 +196,20 @@ fw_status fw_plan_say_no_room(fw_plan *plan, const fw_plan_flow *pf,
         room ? fw_arena_printf(plan->arena, "with <die %s> they are there", room)
              : "no wider frame and no taller die that was tried has room: write a shorter title";
     FW_NEED(mend);
-    fw_diag_warning(
-        &plan->diags, 619, plan->device->die.frame_place,
-        "flow %s: %d of the %d marks %s on the frame of every die, by which its plates are put on each other, "
-        "find no room: in the upright at (%s, %s) um, %s um wide, nothing of %s um by %s um is free and 12 um "
-        "clear of its edges; %s%s",
-        pf->flow->id, no_room->count, no_room->of, no_room->id ? no_room->id : "",
-        fw_number_text(at[0], sizeof at[0], 0.5e6 * (b->x0 + b->x1), 6),
-        fw_number_text(at[1], sizeof at[1], 0.5e6 * (b->y0 + b->y1), 6),
-        fw_number_text(upright, sizeof upright, 1e6 * (b->x1 - b->x0), 6),
-        fw_number_text(mark[0], sizeof mark[0], 1e6 * no_room->width_m, 6),
-        fw_number_text(mark[1], sizeof mark[1], 1e6 * no_room->height_m, 6), mend,
-        sites ? "; the alignment sites of the wafer have them" : "; a <wafer> has sites with them");
+    fw_diag_warning(&plan->diags, 619, plan->device->die.frame_place,
+                    "flow %s: %d of the %d marks %s on the frame of every die, by which its plates "
+                    "are put on each other, "
+                    "find no room: in the upright at (%s, %s) um, %s um wide, nothing of %s um by "
+                    "%s um is free and 12 um "
+                    "clear of its edges; %s%s",
+                    pf->flow->id, no_room->count, no_room->of, no_room->id ? no_room->id : "",
+                    fw_number_text(at[0], sizeof at[0], 0.5e6 * (b->x0 + b->x1), 6),
+                    fw_number_text(at[1], sizeof at[1], 0.5e6 * (b->y0 + b->y1), 6),
+                    fw_number_text(upright, sizeof upright, 1e6 * (b->x1 - b->x0), 6),
+                    fw_number_text(mark[0], sizeof mark[0], 1e6 * no_room->width_m, 6),
+                    fw_number_text(mark[1], sizeof mark[1], 1e6 * no_room->height_m, 6), mend,
+                    sites ? "; the alignment sites of the wafer have them"
+                          : "; a <wafer> has sites with them");
     return plan->diags.failed ? FW_NOMEM : FW_OK;
 }
 

@@ -339,13 +339,16 @@ static void say_no_room(const fw_wafer_sheet *s, const fw_layout_pattern *p, dou
                         double q) {
     char mark[32], room[32], die[32];
     if (fw_mask_plates(s->maker->input->table) < 2) return;
-    fw_diag_warning(
-        s->maker->diags, 620, s->maker->input->device->wafer.place,
-        "flow %s: marks %s, %s um wide, find no room on the alignment sites, %s um between the arms of their "
-        "crosses: plates are put on each other by the marks on the frames alone; a die of %s um by %s um has room",
-        s->maker->wafer->flow, p->id ? p->id : "", fw_number_text(mark, sizeof mark, 1e6 * mark_m, 6),
-        fw_number_text(room, sizeof room, 5e6 * q, 6),
-        fw_number_text(die, sizeof die, ceil(1e6 * 14.0 * mark_m / (5.0 * 0.6)), 6), die);
+    fw_diag_warning(s->maker->diags, 620, s->maker->input->device->wafer.place,
+                    "flow %s: marks %s, %s um wide, find no room on the alignment sites, %s um "
+                    "between the arms of their "
+                    "crosses: plates are put on each other by the marks on the frames alone; a die "
+                    "of %s um by %s um has room",
+                    s->maker->wafer->flow, p->id ? p->id : "",
+                    fw_number_text(mark, sizeof mark, 1e6 * mark_m, 6),
+                    fw_number_text(room, sizeof room, 5e6 * q, 6),
+                    fw_number_text(die, sizeof die, ceil(1e6 * 14.0 * mark_m / (5.0 * 0.6)), 6),
+                    die);
 }
 
 /* Where a flow aligns plates to each other: the window that its table has for the frame of a die, with

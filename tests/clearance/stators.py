@@ -52,7 +52,7 @@ def device(seed):
         gaps.append(gap)
         text += ('    <comb-drive id="drive%d" kind="comb" on="CD" x="%s" y="%s" direction="90 deg" fingers="%d" gap="%s" '
                  'overlap="%s" length="%s" voltage="5 V"/>\n'
-                 % (side + 2, um(side * width * 0.27), um(height / 2 + more + overlap / 2), r.randint(4, 9), um(gap), um(overlap),
+                 % (side + 2, um(side * width * 0.17), um(height / 2 + more + overlap / 2), r.randint(4, 9), um(gap), um(overlap),
                     um(overlap + more)))
     room = min(gaps) * r.choice((0.4, 0.7, 0.7, 1.3))  # the last of them touches
     share = r.uniform(0.2, 0.8)
