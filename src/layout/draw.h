@@ -407,10 +407,17 @@ void fw_layout_sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
    stub near a corner that somebody drew would leave a slit. Segment -1: it is not */
 fw_layout_ray_hit fw_layout_finger_edge(const fw_layout_drawing *d, int body,
                                         fw_layout_window_side side, double along);
-/* what stands in the way of the finger that comes nearest to having room, and by how much it would have
-   to stand aside: a clause (tether_finger.c) */
-fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_geometry_vec2 *at,
-                                const char **why, const char **room);
+/* What stands in the way of the finger that comes nearest to having room, and by how much it would have
+   to stand aside, or an opening to be wider: clauses (tether_finger.c). fit: fingers in whose way there is nothing;
+   then there are no clauses */
+enum { FW_LAYOUT_FITS = 8 };
+typedef struct fw_layout_fit {
+    fw_layout_window_side side;
+    double along;
+} fw_layout_fit;
+fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_layout_fit fit[FW_LAYOUT_FITS],
+                                int *nfit, fw_geometry_vec2 *at, const char **why,
+                                const char **room);
 
 /* ---- release holes of one body while they are made ---- */
 

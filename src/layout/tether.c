@@ -228,13 +228,31 @@ static bool needs_tether(const fw_device *device, int body) {
     return plates ? is_heavy(device, body) : fw_layout_steps_to_ground(device, body) == most;
 }
 
+/* places between those that were tried, where an opening has just room for a finger; *done: it is drawn */
+static fw_status hold_in_openings(fw_layout_drawing *d, int body, const fw_layout_fit *fit,
+                                  int nfit, bool *done) {
+    const double into = 30e-6;
+    *done = false;
+    for (int i = 0; i < nfit && !*done; i++) {
+        fw_layout_ray_hit hit = fw_layout_finger_edge(d, body, fit[i].side, fit[i].along);
+        if (hit.segment < 0) continue;
+        fw_geometry_vec2 out = fw_layout_window_outward(fit[i].side);
+        FW_TRY(try_finger(d, body, fit[i].side, fw_add(hit.at, -into, out), done));
+    }
+    return FW_OK;
+}
+
 static fw_status say_missing(fw_layout_drawing *d, int body) {
     fw_layout_missing m = {.number = 127, .body = body, .place = d->device->body[body].place};
+    fw_layout_fit fit[FW_LAYOUT_FITS];
+    bool done;
+    int nfit;
     const char *label = fw_layout_body_label(d, body);
     FW_NEED(label);
     FW_NEED(m.name = fw_arena_printf(d->arena, "the tethers of %s", label));
-    FW_TRY(fw_layout_tether_room(d, body, &m.at, &m.why, &m.room));
-    return fw_layout_missing_add(d, m);
+    FW_TRY(fw_layout_tether_room(d, body, fit, &nfit, &m.at, &m.why, &m.room));
+    FW_TRY(hold_in_openings(d, body, fit, nfit, &done));
+    return done ? FW_OK : fw_layout_missing_add(d, m);
 }
 
 /* fingers to a body, as its kind has them */

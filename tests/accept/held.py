@@ -41,14 +41,14 @@ def um(x):
     return "%.3f um" % x
 
 
-def gimbal(r):
+def gimbal(r, wider=0):
     """a plate within a ring that is open on one side"""
     leaf, bar = r.uniform(220, 380), r.uniform(80, 140)
     w, h = r.uniform(300, 600), r.uniform(400, 900)
     stem = r.uniform(110, 160)  # between a hinge and what it holds: hinges keep a circle of their own
     x, y = w / 2 + leaf + 2 * stem, h / 2 + r.uniform(90, 250)  # inner edges of the ring
     outer, inner = x + bar + stem + leaf / 2, w / 2 + stem + leaf / 2  # of both hinges
-    gap, side = r.uniform(20, 140), r.choice((-1, 1))
+    gap, side = r.uniform(20, 140) + wider, r.choice((-1, 1))
     at = r.uniform(-0.25, 0.25) * w
     rows = [(-x - bar / 2, -y - bar, -x - bar / 2, y + bar), (x + bar / 2, -y - bar, x + bar / 2, y + bar),
             (-x - bar / 2, -side * (y + bar / 2), x + bar / 2, -side * (y + bar / 2)),
@@ -68,13 +68,13 @@ def gimbal(r):
     return text, gap, side
 
 
-def device(seed):
+def device(seed, wider=0):
     """(text, flow, opening in um or None)"""
     r = random.Random(seed)
     flow = list(FLOWS)[seed % len(FLOWS)]
     material, thick = FLOWS[flow]
     if seed % 2:
-        body, gap, _ = gimbal(r)
+        body, gap, _ = gimbal(r, wider)
         return HEAD % (seed, material, thick, flow) + body + "</device>\n", flow, gap
     text = random_devices.device(seed // 2)[0]
     text = re.sub(r"<flow\b[^>]*/>\s*", "", text)
@@ -146,9 +146,24 @@ def check(program, seed, where):
         has = any(h.split()[-1] == "plate" for h in held)
         if has and gap < FINGER + 2 * CLEAR - 0.01:
             wrong.append("seed %d: a tether goes through an opening of %.1f um" % (seed, gap))
-        if not has and gap > FINGER + 2 * CLEAR + 20:
+        if not has and gap > FINGER + 2 * CLEAR + 0.1:
             wrong.append("seed %d: no tether goes through an opening of %.1f um: %s" % (seed, gap, [r["text"] for r in reasons]))
+        wrong += [w for r in reasons if "link plate" in r["text"] for w in wider(program, seed, gap, r["text"], where)]
     return verdict + (" missing" if reasons else ""), wrong
+
+
+def wider(program, seed, gap, text, where):
+    """the room that is named for a plate in a ring: what is wrong with it"""
+    named = re.search(r"the opening beside [^;]*? (\d+) um wider", text)
+    if not named:
+        return ["seed %d: an opening of %.1f um is not named: %s" % (seed, gap, text)]
+    if gap + int(named[1]) > FINGER + 2 * CLEAR + 2:
+        return ["seed %d: an opening of %.1f um needs no %s um more" % (seed, gap, named[1])]
+    path = pathlib.Path(where) / ("wider-%d.xml" % seed)
+    path.write_text(device(seed, int(named[1]))[0], encoding="utf-8")
+    run = subprocess.run([program, "check", path, "--json", *FAST], capture_output=True, text=True, check=False)
+    left = [r["text"] for r in json.loads(run.stdout)["reasons"] if r["code"] == "FW-D127" and "link plate" in r["text"]]
+    return ["seed %d: %.1f um and %s um do not do: %s" % (seed, gap, named[1], left)] if left else []
 
 
 def main():
