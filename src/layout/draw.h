@@ -270,6 +270,9 @@ fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry
                                fw_geometry_contour *out, double *radius_m, fw_geometry_vec2 *where);
 /* how far an outline is from what a mask can show; >= 1 is good, else *where */
 double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *where);
+/* Does it take a process that moves its edges by 1.5 um to either side? sound: of this outline; 0: not known */
+fw_status fw_layout_takes_bias(fw_arena *arena, const fw_geometry_contour *contour, double sound,
+                               bool *good);
 /* What is wrong with the outline that a body and a comb's rotor would have together, as a reason; of a flaw of its own
    fingers with the width that has none. *why NULL: nothing that a mask could not show. */
 fw_status fw_layout_rotor_flaw(fw_layout_drawing *d, int body, const fw_layout_comb_plan *p,
