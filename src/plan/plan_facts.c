@@ -184,11 +184,20 @@ static fw_status find_room(fw_plan *plan, const fw_plan_flow *pf, const fw_layou
     return FW_OK;
 }
 
+/* as wide as fw_wafer_alignment_mask makes them */
+static bool sites_have_room(const fw_plan *plan, const fw_layout_no_room *no_room) {
+    const fw_geometry_box *die = &plan->layout->die;
+    const double least_m = fmin(die->x1 - die->x0, die->y1 - die->y0),
+                 arm_m = fmin(0.6 * least_m, 2e-3) / 14.0;
+    return plan->device->wafer.alignment &&
+           fmax(no_room->width_m, no_room->height_m) <= 5.0 * arm_m;
+}
+
 fw_status fw_plan_say_no_room(fw_plan *plan, const fw_plan_flow *pf,
                               const fw_layout_no_room *no_room) {
     if (no_room->count == 0 || fw_mask_plates(pf->table) < 2) return FW_OK;
     const fw_geometry_box *b = &no_room->upright;
-    const bool sites = plan->device->wafer.asked && plan->device->wafer.alignment;
+    const fw_device_wafer_asked *wafer = &plan->device->wafer;
     char mark[2][32], upright[32], at[2][32];
     const char *room;
     FW_TRY(find_room(plan, pf, no_room, &room));
@@ -208,9 +217,19 @@ fw_status fw_plan_say_no_room(fw_plan *plan, const fw_plan_flow *pf,
                     fw_number_text(upright, sizeof upright, 1e6 * (b->x1 - b->x0), 6),
                     fw_number_text(mark[0], sizeof mark[0], 1e6 * no_room->width_m, 6),
                     fw_number_text(mark[1], sizeof mark[1], 1e6 * no_room->height_m, 6), mend,
-                    sites ? "; the alignment sites of the wafer have them"
-                          : "; a <wafer> has sites with them");
-    return plan->diags.failed ? FW_NOMEM : FW_OK;
+                    wafer->asked && wafer->alignment
+                        ? "; without them there are only the alignment sites of the wafer"
+                        : "; or add a <wafer> with alignment sites, which have them");
+    if (plan->diags.failed) return FW_NOMEM;
+    if (!wafer->asked || no_room->count < no_room->of || sites_have_room(plan, no_room))
+        return FW_OK;
+    return fw_process_flow_add_reason(
+        plan->arena, pf->flow, 0,
+        fw_arena_printf(plan->arena,
+                        "nothing on the wafer shows how its plates lie on each other: no frame has "
+                        "room for the "
+                        "marks %s, and no alignment site has them; %s [FW-D619]",
+                        no_room->id ? no_room->id : "", mend));
 }
 
 /* ---- the electrical side ----

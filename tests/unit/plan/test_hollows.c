@@ -176,6 +176,26 @@ static void marks_without_room_are_said(void **state) {
     }
 }
 
+/* without marks on the frames, sites of the wafer must have them */
+static void plates_without_any_mark_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *die;
+        bool refused;
+    } row[] = {{"<die frame=\"140 um\"/>", false}, /* whose plate it is put on is not said */
+               {"<die frame=\"140 um\"/><wafer diameter=\"100 mm\"/>", true},
+               {"<die frame=\"140 um\"/><wafer diameter=\"100 mm\" alignment=\"2 sites\"/>", false},
+               {"<wafer diameter=\"100 mm\"/>", false}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        die = row[i].die;
+        fw_plan *plan = judged("20 um");
+        die = "";
+        assert_int_equal(reason_of(plan, "shows how its plates lie on each other") != NULL, row[i].refused);
+        assert_int_equal(plan->flow[0].flow->manufacturable == 0, row[i].refused);
+        fw_plan_free(plan);
+    }
+}
+
 static void other_air(void **state) {
     (void)state;
     static const struct {
@@ -403,6 +423,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(wires_follow_the_pads, set_up, tear_down),
         cmocka_unit_test_setup_teardown(marks_without_room_are_said, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(plates_without_any_mark_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(as_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_air, set_up, tear_down),
         cmocka_unit_test_setup_teardown(travel, set_up, tear_down),
