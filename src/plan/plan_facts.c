@@ -184,15 +184,6 @@ static fw_status find_room(fw_plan *plan, const fw_plan_flow *pf, const fw_layou
     return FW_OK;
 }
 
-/* as wide as fw_wafer_alignment_mask makes them */
-static bool sites_have_room(const fw_plan *plan, const fw_layout_no_room *no_room) {
-    const fw_geometry_box *die = &plan->layout->die;
-    const double least_m = fmin(die->x1 - die->x0, die->y1 - die->y0),
-                 arm_m = fmin(0.6 * least_m, 2e-3) / 14.0;
-    return plan->device->wafer.alignment &&
-           fmax(no_room->width_m, no_room->height_m) <= 5.0 * arm_m;
-}
-
 fw_status fw_plan_say_no_room(fw_plan *plan, const fw_plan_flow *pf,
                               const fw_layout_no_room *no_room) {
     if (no_room->count == 0 || fw_mask_plates(pf->table) < 2) return FW_OK;
@@ -220,16 +211,7 @@ fw_status fw_plan_say_no_room(fw_plan *plan, const fw_plan_flow *pf,
                     wafer->asked && wafer->alignment
                         ? "; without them there are only the alignment sites of the wafer"
                         : "; or add a <wafer> with alignment sites, which have them");
-    if (plan->diags.failed) return FW_NOMEM;
-    if (!wafer->asked || no_room->count < no_room->of || sites_have_room(plan, no_room))
-        return FW_OK;
-    return fw_process_flow_add_reason(
-        plan->arena, pf->flow, 0,
-        fw_arena_printf(plan->arena,
-                        "nothing on the wafer shows how its plates lie on each other: no frame has "
-                        "room for the "
-                        "marks %s, and no alignment site has them; %s [FW-D619]",
-                        no_room->id ? no_room->id : "", mend));
+    return plan->diags.failed ? FW_NOMEM : FW_OK;
 }
 
 /* ---- the electrical side ----
@@ -373,10 +355,39 @@ static fw_status judge_bearing(fw_plan *plan, fw_process_flow *flow, const fw_pr
                         fw_number_text(bears, sizeof bears, s->bears->value, 4), s->bears->id));
 }
 
+/* as wide as fw_wafer_alignment_mask makes them */
+static bool sites_have_room(const fw_plan *plan, const fw_layout_no_room *no_room) {
+    const fw_geometry_box *die = &plan->layout->die;
+    const double least_m = fmin(die->x1 - die->x0, die->y1 - die->y0),
+                 arm_m = fmin(0.6 * least_m, 2e-3) / 14.0;
+    return plan->device->wafer.alignment &&
+           fmax(no_room->width_m, no_room->height_m) <= 5.0 * arm_m;
+}
+
+/* plates on a wafer without any of those marks */
+static fw_status judge_marks(fw_plan *plan, fw_plan_flow *pf) {
+    const fw_layout *layout;
+    fw_layout_no_room no_room;
+    if (!plan->device->wafer.asked || fw_mask_plates(pf->table) < 2) return FW_OK;
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &no_room));
+    if (no_room.count == 0 || no_room.count < no_room.of || sites_have_room(plan, &no_room))
+        return FW_OK;
+    return fw_process_flow_add_reason(
+        plan->arena, pf->flow, 0,
+        fw_arena_printf(
+            plan->arena,
+            "nothing on the wafer shows how its plates lie on each other: no frame has room for "
+            "the "
+            "marks %s, and no alignment site has them; write the <die> that the warning names, or "
+            "<wafer alignment=\"2 sites\"> where dies are large enough [FW-D619]",
+            no_room.id ? no_room.id : ""));
+}
+
 fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
     const fw_layout *layout;
     fw_layout_no_room no_room;
     if (!pf->flow || !plan->layout || !plan->layout->drawn) return FW_OK;
+    FW_TRY(judge_marks(plan, pf));
     if (!pf->wiring) {
         const fw_verdict_variant_verdict *v = verdict_of(plan, pf);
         fw_wiring_asked asked = {.flow = pf->variant.flow, .wall_m = walls_of(pf->flow)};
