@@ -100,6 +100,11 @@ fw_script_test(clearance.gaps COMMAND /usr/bin/python3 tests/clearance/gaps.py
 set_tests_properties(clearance.gaps PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(clearance.between COMMAND ${Python3_EXECUTABLE} tests/clearance/between.py
                $<TARGET_FILE:clearance_outlines>)
+# stators over required poses, against a search of our own; nothing loose and all held, in every flow
+fw_script_test(clearance.stators COMMAND /usr/bin/python3 tests/clearance/stators.py
+               $<TARGET_FILE:clearance_outlines> ${FW_PROGRAM} 801 2)
+fw_script_test(accept.held COMMAND /usr/bin/python3 tests/accept/held.py ${FW_PROGRAM} 6001 14)
+set_tests_properties(clearance.stators accept.held PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(clearance.cases COMMAND ${Python3_EXECUTABLE} tests/clearance/cases.py ${FW_PROGRAM})
 fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples.py ${FW_PROGRAM})
 fw_script_test(judge.frequencies COMMAND ${Python3_EXECUTABLE} tests/judge/frequencies.py ${FW_PROGRAM} $<TARGET_FILE:judge>)

@@ -213,6 +213,7 @@ static void build_die(fw_device *d, const fw_xml_record *record) {
                              .fill = fill && strcmp(fill, "yes") == 0,
                              .width_place = fw_xml_place_of(record, "width"),
                              .height_place = fw_xml_place_of(record, "height"),
+                             .frame_place = fw_xml_place_of(record, "frame"),
                              .title_place = fw_xml_place_of(record, "title")};
     d->release_pitch_m = fw_xml_number_of(record, "release-pitch");
     d->release_hole_m = fw_xml_number_of(record, "release-hole");

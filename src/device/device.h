@@ -362,7 +362,7 @@ typedef struct fw_device_die { /* <die>; NaN: from the drawn mechanism */
     const char *title;
     bool tethers;
     bool fill; /* what the flow has for the window: thief and fill */
-    fw_place width_place, height_place, title_place;
+    fw_place width_place, height_place, frame_place, title_place;
 } fw_device_die;
 
 enum { FW_CELL_ROLE_OPEN = -2, FW_CELL_ROLE_NONE = -1 };

@@ -178,6 +178,11 @@ fw_status fw_geometry_contour_round(fw_arena *arena, const fw_geometry_contour *
    change: a concave arc with radius <= d, or a clearance <= 2 d. */
 fw_status fw_geometry_contour_offset(fw_arena *arena, const fw_geometry_contour *contour,
                                      double d_m, fw_geometry_contour *out, int *i, int *j);
+/* likewise, where it is known that its clearance on the side that d closes is clear_m at least: that need not be
+   looked for again */
+fw_status fw_geometry_contour_offset_clear(fw_arena *arena, const fw_geometry_contour *contour,
+                                           double d_m, double clear_m, fw_geometry_contour *out,
+                                           int *i, int *j);
 
 /* ---- strips ----
 

@@ -185,8 +185,9 @@ static fw_status refuse(int *i, int *j, int first, int second) {
 }
 
 /* Check first (docs/theory/contours.md): no arc on the hollow side with radius <= |d|, and twice
-   |d| less than the least space (growing) or width (shrinking) */
-static fw_status check_room(const fw_geometry_contour *contour, double d, int *i, int *j) {
+   |d| less than the least space (growing) or width (shrinking), which is clear_m at least */
+static fw_status check_room(const fw_geometry_contour *contour, double d, double clear_m, int *i,
+                            int *j) {
     for (int k = 0; k < contour->count; k++) {
         const fw_geometry_segment *s = &contour->segment[k];
         if (s->kind == FW_ARC && !(s->radius + (s->sweep_rad > 0 ? d : -d) > FW_COINCIDENT_M))
@@ -194,6 +195,7 @@ static fw_status check_room(const fw_geometry_contour *contour, double d, int *i
     }
     int p, q;
     double most = 2 * fabs(d) * (1 + 1e-15) + 1e-18; /* a clearance of 2 d is refused */
+    if (clear_m > most) return FW_OK;
     if (fw_geometry_contour_clearance_below(contour, d < 0, most, &p, &q) <= 2 * fabs(d))
         return refuse(i, j, p, q);
     return FW_OK;
@@ -220,6 +222,12 @@ static fw_status build(const fw_geometry_contour *contour, double d, const junct
 
 fw_status fw_geometry_contour_offset(fw_arena *arena, const fw_geometry_contour *contour,
                                      double d_m, fw_geometry_contour *out, int *i, int *j) {
+    return fw_geometry_contour_offset_clear(arena, contour, d_m, 0.0, out, i, j);
+}
+
+fw_status fw_geometry_contour_offset_clear(fw_arena *arena, const fw_geometry_contour *contour,
+                                           double d_m, double clear_m, fw_geometry_contour *out,
+                                           int *i, int *j) {
     *out = (fw_geometry_contour){0};
     if (!isfinite(d_m) || !fw_geometry_contour_valid(contour)) return refuse(i, j, -1, -1);
     int n = contour->count;
@@ -232,7 +240,7 @@ fw_status fw_geometry_contour_offset(fw_arena *arena, const fw_geometry_contour 
         *out = made;
         return FW_OK;
     }
-    FW_TRY(check_room(contour, d_m, i, j));
+    FW_TRY(check_room(contour, d_m, clear_m, i, j));
     fw_mark mark = fw_arena_mark(arena);
     junction *vertex = fw_arena_raw(arena, (size_t)n * sizeof *vertex);
     FW_NEED(vertex);

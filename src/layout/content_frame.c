@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const double CLEAR_M = 12e-6, BESIDE_M = 40e-6; /* of edges; of other marks */
-static const double STEP_M = 20e-6;
+static const double STEP_M = 20e-6, NOTHING_M = 1e-12;
 
 typedef struct sheet {
     fw_arena *arena;
@@ -39,7 +39,8 @@ static bool is_free(const sheet *s, const fw_geometry_contour *place) {
         const fw_layout_piece *p = &s->piece[i];
         if (apart(b, s->box[i], in_frame(p) ? BESIDE_M : CLEAR_M)) continue;
         if (in_frame(p)) return false;
-        if (fw_geometry_contour_distance_below(place, &p->contour, CLEAR_M, NULL, NULL) < CLEAR_M)
+        if (fw_geometry_contour_distance_below(place, &p->contour, CLEAR_M, NULL, NULL) <
+            CLEAR_M - NOTHING_M)
             return false;
         if (!fw_geometry_contour_contains(&p->contour, middle)) continue;
         if (p->role != FW_ROLE_FRAME) return false;
@@ -61,20 +62,27 @@ static fw_status find_boxes(sheet *s) {
     return FW_OK;
 }
 
-/* lower left corner of a free place in an upright, from the top */
-static fw_status find_place(sheet *s, bool right, double width, double height, fw_geometry_vec2 *at,
-                            bool *found) {
+/* one bar of the frame, beside the window */
+static fw_status find_upright(sheet *s, bool right, fw_geometry_box *upright) {
     const fw_layout *d = s->device;
     double lane = HUGE_VAL; /* the frame begins where the lane ends */
     FW_TRY(find_boxes(s));
     for (int i = 0; i < s->npiece; i++)
         if (s->piece[i].role == FW_ROLE_FRAME) lane = fmin(lane, d->die.x1 - s->box[i].x1);
-    double x0 = right ? d->window.x1 : d->die.x0 + lane;
-    double x1 = right ? d->die.x1 - lane : d->window.x0;
+    *upright = (fw_geometry_box){right ? d->window.x1 : d->die.x0 + lane, d->window.y0,
+                                 right ? d->die.x1 - lane : d->window.x0, d->window.y1};
+    return FW_OK;
+}
+
+/* lower left corner of a free place in an upright, from the top */
+static fw_status find_place(sheet *s, const fw_geometry_box *upright, double width, double height,
+                            fw_geometry_vec2 *at, bool *found) {
+    const fw_layout *d = s->device;
+    const double x0 = upright->x0, x1 = upright->x1;
     double x = fw_layout_to_grid(0.5 * (x0 + x1 - width));
     int steps = (int)floor((d->window.y1 - d->window.y0 - height) / STEP_M);
     *found = false;
-    for (int i = 0; i <= steps && !*found && x - x0 >= CLEAR_M; i++) {
+    for (int i = 0; i <= steps && !*found && x - x0 >= CLEAR_M - NOTHING_M; i++) {
         double y = d->window.y1 - height - i * STEP_M;
         *at = (fw_geometry_vec2){x, fw_layout_to_grid(y)};
         fw_geometry_contour place;
@@ -353,13 +361,23 @@ static fw_status in_window(fw_arena *arena, const fw_layout *device,
     return FW_OK;
 }
 
+static void take_no_room(const fw_layout_pattern *p, const fw_layout_coupon *c,
+                         const fw_geometry_box *upright, fw_layout_no_room *no_room) {
+    if (no_room->count++ > 0) return;
+    no_room->id = p->id;
+    no_room->upright = *upright;
+    no_room->width_m = c->width_m;
+    no_room->height_m = c->height_m;
+    no_room->frame_m = 1e-6 * ceil(1e6 * (c->width_m + 2.0 * CLEAR_M) - 1e-6);
+}
+
 fw_status fw_layout_content_on_frame(fw_arena *arena, const fw_layout *device,
                                      const fw_layout_pattern *pattern, int npattern,
                                      double width_rule_m, double space_rule_m,
-                                     const fw_layout **out, int *left_out) {
+                                     const fw_layout **out, fw_layout_no_room *no_room) {
     int n = 0;
     *out = device;
-    *left_out = 0;
+    *no_room = (fw_layout_no_room){0};
     for (int i = 0; i < npattern; i++)
         n += pattern[i].kind->on_frame + (device->fill && pattern[i].kind->in_window);
     if (n == 0 || !device->drawn) return FW_OK;
@@ -375,12 +393,15 @@ fw_status fw_layout_content_on_frame(fw_arena *arena, const fw_layout *device,
         FW_TRY(fw_layout_pattern_draw(arena, &pattern[i], width_rule_m, space_rule_m, 0, &c));
         for (int k = 0; k < pattern[i].kind->on_frame; k++) {
             fw_geometry_vec2 at;
+            fw_geometry_box upright;
             bool found;
-            FW_TRY(find_place(&s, k == 1, c.width_m, c.height_m, &at, &found));
+            FW_TRY(find_upright(&s, k == 1, &upright));
+            FW_TRY(find_place(&s, &upright, c.width_m, c.height_m, &at, &found));
             if (found)
                 FW_TRY(fw_layout_coupon_put(arena, &c, at, &s.piece, &s.npiece, &s.capacity));
-            else
-                ++*left_out;
+            else if (pattern[i].kind->aligns)
+                take_no_room(&pattern[i], &c, &upright, no_room);
+            no_room->of += pattern[i].kind->aligns;
         }
     }
     if (device->fill) FW_TRY(in_window(arena, device, pattern, npattern, s.piece, s.npiece));

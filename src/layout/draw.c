@@ -290,3 +290,30 @@ fw_status fw_layout_body_measure(fw_layout_drawing *d, int body, const fw_geomet
                              &to->edge_m3);
     return FW_OK;
 }
+
+/* ---- what a process does to an outline ---- */
+
+/* its soundness says how wide its spaces and widths are, but for those that a description draws */
+static bool has_drawn(const fw_geometry_contour *c) {
+    for (int i = 0; i < c->count; i++)
+        if (c->segment[i].flags & FW_SEGMENT_DRAWN) return true;
+    return false;
+}
+
+/* a process moves the edges by about 1 um to either side; sound: of this outline */
+fw_status fw_layout_takes_bias(fw_arena *arena, const fw_geometry_contour *c, double sound,
+                               bool *good) {
+    static const double bias_m[] = {1.5e-6, -1.5e-6};
+    const double known = has_drawn(c) ? 0.0 : 0.999 * fmin(1.0, sound);
+    const double clear_m[] = {known * fw_layout_rule.own_space_m,
+                              known * fw_layout_rule.own_width_m};
+    *good = true;
+    for (int i = 0; i < 2 && *good; i++) {
+        fw_geometry_contour moved;
+        fw_status status =
+            fw_geometry_contour_offset_clear(arena, c, bias_m[i], clear_m[i], &moved, NULL, NULL);
+        *good = status == FW_OK;
+        if (status != FW_GEOMETRY) FW_TRY(status);
+    }
+    return FW_OK;
+}

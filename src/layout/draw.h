@@ -270,6 +270,9 @@ fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry
                                fw_geometry_contour *out, double *radius_m, fw_geometry_vec2 *where);
 /* how far an outline is from what a mask can show; >= 1 is good, else *where */
 double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *where);
+/* Does it take a process that moves its edges by 1.5 um to either side? sound: of this outline; 0: not known */
+fw_status fw_layout_takes_bias(fw_arena *arena, const fw_geometry_contour *contour, double sound,
+                               bool *good);
 /* What is wrong with the outline that a body and a comb's rotor would have together, as a reason; of a flaw of its own
    fingers with the width that has none. *why NULL: nothing that a mask could not show. */
 fw_status fw_layout_rotor_flaw(fw_layout_drawing *d, int body, const fw_layout_comb_plan *p,
@@ -407,10 +410,17 @@ void fw_layout_sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
    stub near a corner that somebody drew would leave a slit. Segment -1: it is not */
 fw_layout_ray_hit fw_layout_finger_edge(const fw_layout_drawing *d, int body,
                                         fw_layout_window_side side, double along);
-/* what stands in the way of the finger that comes nearest to having room, and by how much it would have
-   to stand aside: a clause (tether_finger.c) */
-fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_geometry_vec2 *at,
-                                const char **why, const char **room);
+/* What stands in the way of the finger that comes nearest to having room, and by how much it would have
+   to stand aside, or an opening to be wider: clauses (tether_finger.c). fit: fingers in whose way there is nothing;
+   then there are no clauses */
+enum { FW_LAYOUT_FITS = 8 };
+typedef struct fw_layout_fit {
+    fw_layout_window_side side;
+    double along;
+} fw_layout_fit;
+fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_layout_fit fit[FW_LAYOUT_FITS],
+                                int *nfit, fw_geometry_vec2 *at, const char **why,
+                                const char **room);
 
 /* ---- release holes of one body while they are made ---- */
 

@@ -114,6 +114,15 @@ typedef struct fw_layout_cell {
     const fw_device_cell *of;
 } fw_layout_cell;
 
+/* marks that a flow aligns its plates by and that find no room on the frame */
+typedef struct fw_layout_no_room {
+    int count, of;            /* so many of so many */
+    const char *id;           /* of the pattern of the first of them */
+    fw_geometry_box upright;  /* of the frame, where that one was looked for */
+    double width_m, height_m; /* of its box */
+    double frame_m;           /* least width of a frame that it lies across */
+} fw_layout_no_room;
+
 typedef struct fw_layout_tether { /* a straight finger of the frame with a neck at the body */
     int body;
     const char *label;           /* of its piece: "tether of link AB" */

@@ -149,19 +149,6 @@ static bool keeps_joints(const fw_geometry_contour *before, const fw_geometry_co
     return true;
 }
 
-/* a process moves the edges by about 1 um to either side */
-static fw_status takes_bias(fw_arena *arena, const fw_geometry_contour *c, bool *good) {
-    static const double bias_m[] = {1.5e-6, -1.5e-6};
-    *good = true;
-    for (int i = 0; i < 2 && *good; i++) {
-        fw_geometry_contour moved;
-        fw_status status = fw_geometry_contour_offset(arena, c, bias_m[i], &moved, NULL, NULL);
-        *good = status == FW_OK;
-        if (status != FW_GEOMETRY) FW_TRY(status);
-    }
-    return FW_OK;
-}
-
 /* Rounded without a word, and no worse for a mask than the outline before, whose soundness *sound is; else not *good,
    and what was there stays, and *sound with it. */
 static fw_status rounds(fw_layout_drawing *d, int slot, int body, const fw_geometry_contour *raw,
@@ -174,7 +161,7 @@ static fw_status rounds(fw_layout_drawing *d, int slot, int body, const fw_geome
     d->diags = said;
     const double now = status == FW_OK ? fw_layout_body_soundness(&plain, &where) : 0.0;
     *good = status == FW_OK && now > 0.95 * *sound;
-    if (*good && *sound > 0.0) FW_TRY(takes_bias(d->arena, &plain, good));
+    if (*good && *sound > 0.0) FW_TRY(fw_layout_takes_bias(d->arena, &plain, now, good));
     if (*good) d->plain[slot] = plain, *sound = fmin(1.0, now);
     return status == FW_GEOMETRY ? FW_OK : status;
 }
@@ -233,7 +220,7 @@ static fw_status frame_soundness(fw_layout_drawing *d, const fw_geometry_contour
         fw_geometry_contour_round(d->arena, raw, 0.0, fw_layout_rule.corner_m, &round, &where);
     *sound = status == FW_OK ? fmin(1.0, fw_layout_body_soundness(&round, &where)) : 0.0;
     bool good = true;
-    if (status == FW_OK) FW_TRY(takes_bias(d->arena, &round, &good));
+    if (status == FW_OK) FW_TRY(fw_layout_takes_bias(d->arena, &round, 0.0, &good));
     if (!good) *sound = 0.0;
     return status == FW_GEOMETRY ? FW_OK : status;
 }

@@ -155,14 +155,14 @@ fw_status fw_layout_content_build(fw_arena *arena, const fw_layout_pattern *patt
 
 /* the device's drawing with what its table has for the frame (kinds with on_frame): the pieces of
    `device` and, behind them, marks in its uprights, from the top, where they lie 12 um clear of
-   every edge and 40 um of lettering and other marks. What finds no room is left out (*left_out
-   counts). */
-/* the pieces of a drawn pattern with its box at `at` */
-fw_status fw_layout_coupon_put(fw_arena *arena, const fw_layout_coupon *coupon, fw_geometry_vec2 at,
-                               fw_layout_piece **list, int *count, int *capacity);
+   every edge and 40 um of lettering and other marks. What finds no room is left out, and is what
+   *no_room says. */
 fw_status fw_layout_content_on_frame(fw_arena *arena, const fw_layout *device,
                                      const fw_layout_pattern *pattern, int npattern,
                                      double width_rule_m, double space_rule_m,
-                                     const fw_layout **out, int *left_out);
+                                     const fw_layout **out, fw_layout_no_room *no_room);
+/* the pieces of a drawn pattern with its box at `at` */
+fw_status fw_layout_coupon_put(fw_arena *arena, const fw_layout_coupon *coupon, fw_geometry_vec2 at,
+                               fw_layout_piece **list, int *count, int *capacity);
 
 #endif

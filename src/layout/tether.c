@@ -210,6 +210,25 @@ static fw_status hold_anywhere(fw_layout_drawing *d, int body, int *held) {
     return FW_OK;
 }
 
+/* one finger to a place between those, where an opening has just room for it */
+static fw_status hold_in_opening(fw_layout_drawing *d, int body, int *held) {
+    const double into = 30e-6;
+    fw_layout_fit fit[FW_LAYOUT_FITS];
+    fw_geometry_vec2 at;
+    const char *why, *room;
+    int nfit;
+    FW_TRY(fw_layout_tether_room(d, body, fit, &nfit, &at, &why, &room));
+    for (int i = 0; i < nfit && *held < 1; i++) {
+        fw_layout_ray_hit hit = fw_layout_finger_edge(d, body, fit[i].side, fit[i].along);
+        fw_geometry_vec2 out = fw_layout_window_outward(fit[i].side);
+        bool done = false;
+        if (hit.segment >= 0)
+            FW_TRY(try_finger(d, body, fit[i].side, fw_add(hit.at, -into, out), &done));
+        *held += done;
+    }
+    return FW_OK;
+}
+
 static bool is_heavy(const fw_device *device, int body) {
     return !isnan(device->body[body].plate_width_m) || fw_layout_has_shapes(device, body);
 }
@@ -230,10 +249,12 @@ static bool needs_tether(const fw_device *device, int body) {
 
 static fw_status say_missing(fw_layout_drawing *d, int body) {
     fw_layout_missing m = {.number = 127, .body = body, .place = d->device->body[body].place};
+    fw_layout_fit fit[FW_LAYOUT_FITS];
+    int nfit;
     const char *label = fw_layout_body_label(d, body);
     FW_NEED(label);
     FW_NEED(m.name = fw_arena_printf(d->arena, "the tethers of %s", label));
-    FW_TRY(fw_layout_tether_room(d, body, &m.at, &m.why, &m.room));
+    FW_TRY(fw_layout_tether_room(d, body, fit, &nfit, &m.at, &m.why, &m.room));
     return fw_layout_missing_add(d, m);
 }
 
@@ -246,7 +267,8 @@ static fw_status hold(fw_layout_drawing *d, int body, int *held) {
         FW_TRY(hold_plate(d, body, held));
     else
         FW_TRY(hold_bar(d, body, held));
-    return *held == 0 ? hold_anywhere(d, body, held) : FW_OK;
+    if (*held == 0) FW_TRY(hold_anywhere(d, body, held));
+    return *held == 0 ? hold_in_opening(d, body, held) : FW_OK;
 }
 
 /* fingers to all bodies in this order; *without: how many of them have none, *first the first of them */

@@ -5,6 +5,7 @@
 #include "layout/draw.h"
 #include "layout/layout_text.h"
 #include <math.h>
+#include <string.h>
 
 /* ---- where one may ---- */
 
@@ -143,12 +144,18 @@ fw_layout_ray_hit fw_layout_finger_edge(const fw_layout_drawing *d, int body,
    A body without a tether: of all straight fingers that could reach its edge were it alone, the one
    whose way has the least in it.
 
-   Fingers are looked at every 20 um along the body on all four sides. Of each part in the way counted
-   is how far it has to stand aside, along the side of the window: beyond the finger and its clearance
-   with all that it has in the finger's depth. Arcs by 16 chords and their rise, so that a part may be
-   asked to go farther than it must, by 1 % of its radius at most. In: a drawing with its base and its
-   rings and stators. Out: clauses. Cost: some ms, only for what is refused.
-   Test: tests/unit/layout/test_missing.c */
+   Fingers are looked at every 20 um along the body on all four sides. A part that lies across a finger has to stand aside,
+   along the side of the window: beyond the finger and its clearance with all that it has in the finger's depth. What
+   lies on either side of it leaves an opening: where that is wide enough the finger goes into its middle, else it has
+   to be wider. Arcs by 16 chords and their rise, so that a part may be asked to go farther than it must, by 1 % of its
+   radius at most. In: a drawing with its base and its rings and stators. Out: a finger that fits, or clauses. Cost: some
+   ms, only for what is refused. Test: tests/unit/layout/test_missing.c, tests/accept/held.py */
+
+typedef struct flank { /* of the opening that a finger stands in */
+    double
+        by_m; /* how far it reaches into the finger and its clearance; below 0: that much is free */
+    const char *name;
+} flank;
 
 typedef struct way { /* of one finger */
     fw_layout_window_side side;
@@ -157,11 +164,18 @@ typedef struct way { /* of one finger */
     int parts;
     const char *first; /* of them the one that is most in the way */
     double first_m;
+    flank left, right; /* of what does not lie across it */
+    double wider_m;    /* > 0: by how much their opening is too narrow */
 } way;
 
 typedef struct extent { /* along the side, of what lies in the depth of a finger */
-    double low, high;
+    double low, high;   /* low > high: nothing */
+    double left,
+        right; /* where what is left and what is right of the finger's line ends; -+HUGE_VAL: nothing */
+    bool across; /* something lies across that line */
 } extent;
+
+static const extent NO_EXTENT = {HUGE_VAL, -HUGE_VAL, -HUGE_VAL, HUGE_VAL, false};
 
 static bool is_upright(fw_layout_window_side side) {
     return side == FW_LEFT || side == FW_RIGHT;
@@ -173,22 +187,34 @@ static double depth_of(const fw_layout *l, fw_layout_window_side side, fw_geomet
                   fw_layout_window_outward(side));
 }
 
-static void take_chord(extent *e, double a0, double d0, double a1, double d1, double most,
-                       double more) {
+static void take_range(extent *e, double along, double low, double high) {
+    e->low = fmin(e->low, low);
+    e->high = fmax(e->high, high);
+    const double touches_m = 1e-9;
+    if (high < along - touches_m)
+        e->left = fmax(e->left, high);
+    else if (low > along + touches_m)
+        e->right = fmin(e->right, low);
+    else
+        e->across = true;
+}
+
+static void take_chord(extent *e, double along, double a0, double d0, double a1, double d1,
+                       double most, double more) {
     double t0 = 0.0, t1 = 1.0;
     if (fmin(d0, d1) > most) return;
     if (d0 > most) t0 = (most - d0) / (d1 - d0);
     if (d1 > most) t1 = (most - d0) / (d1 - d0);
     double p = a0 + t0 * (a1 - a0), q = a0 + t1 * (a1 - a0);
-    e->low = fmin(e->low, fmin(p, q) - more);
-    e->high = fmax(e->high, fmax(p, q) + more);
+    take_range(e, along, fmin(p, q) - more, fmax(p, q) + more);
 }
 
 /* of an outline less deep than `most`; low > high: nothing of it */
-static extent extent_of(const fw_layout *l, fw_layout_window_side side, double most,
+static extent extent_of(const fw_layout *l, const way *w, double most,
                         const fw_geometry_contour *c) {
     enum { CHORDS = 16 };
-    extent e = {HUGE_VAL, -HUGE_VAL};
+    const fw_layout_window_side side = w->side;
+    extent e = NO_EXTENT;
     for (int i = 0; i < c->count; i++) {
         const fw_geometry_segment *s = &c->segment[i];
         bool line = s->kind == FW_LINE;
@@ -202,7 +228,7 @@ static extent extent_of(const fw_layout *l, fw_layout_window_side side, double m
                 q = fw_v(s->centre.x + x * r.x - y * r.y, s->centre.y + y * r.x + x * r.y);
             }
             bool up = is_upright(side);
-            take_chord(&e, up ? p.y : p.x, depth_of(l, side, p), up ? q.y : q.x,
+            take_chord(&e, w->along, up ? p.y : p.x, depth_of(l, side, p), up ? q.y : q.x,
                        depth_of(l, side, q), most + rise, rise);
             p = q;
         }
@@ -210,16 +236,42 @@ static extent extent_of(const fw_layout *l, fw_layout_window_side side, double m
     return e;
 }
 
+static void take_flank(flank *f, double by_m, const char *name) {
+    if (by_m > f->by_m) *f = (flank){by_m, name};
+}
+
 /* e: of a part that keeps space_m from the finger */
 static void take_part(way *w, extent e, double space_m, const char *name) {
     double half = 0.5 * fw_layout_rule.tether_m + space_m;
+    if (e.low > e.high) return;
+    if (!e.across) {
+        take_flank(&w->left, e.left - (w->along - half), name);
+        take_flank(&w->right, (w->along + half) - e.right, name);
+        return;
+    }
     double aside = fmin(e.high - (w->along - half), (w->along + half) - e.low);
-    if (e.low > e.high || aside <= 0.0) return;
     w->aside_m += aside;
     w->parts++;
     if (aside <= w->first_m) return;
     w->first_m = aside;
     w->first = name;
+}
+
+/* the finger goes into the middle of its opening, as far as it has to */
+static void take_opening(way *w) {
+    const double left = w->left.by_m, right = w->right.by_m;
+    w->wider_m = left + right;
+    if (left <= 0.0 && right <= 0.0) return;
+    if (isfinite(left) && isfinite(right))
+        w->along += 0.5 * (left - right);
+    else
+        w->along += left > 0.0 ? left : -right;
+    if (!(w->wider_m > 0.0)) return;
+    w->aside_m += w->wider_m;
+    w->parts++;
+    if (w->wider_m <= w->first_m) return;
+    w->first_m = w->wider_m;
+    w->first = w->left.name;
 }
 
 static fw_status take_all(fw_layout_drawing *d, int body, way *w) {
@@ -230,13 +282,13 @@ static fw_status take_all(fw_layout_drawing *d, int body, way *w) {
         if (s == body || d->plain[s].count == 0) continue;
         const char *name = fw_layout_body_label(d, s < d->device->nbody ? s : FW_GROUND);
         FW_NEED(name);
-        take_part(w, extent_of(l, w->side, most, &d->plain[s]), space, name);
+        take_part(w, extent_of(l, w, most, &d->plain[s]), space, name);
     }
     for (int i = 0; i < d->nlug; i++)
-        take_part(w, extent_of(l, w->side, most, &d->lug[i]), space, "an eyelet or a stator");
+        take_part(w, extent_of(l, w, most, &d->lug[i]), space, "an eyelet or a stator");
     for (int i = 0; i < d->nattachment; i++)
         if (d->attachment[i].finger.count > 0)
-            take_part(w, extent_of(l, w->side, most, &d->attachment[i].finger),
+            take_part(w, extent_of(l, w, most, &d->attachment[i].finger),
                       fw_layout_rule.fingers_apart_m, "another tether");
     for (int j = 0; j < d->device->nrevolute; j++) {
         const fw_layout_hinge_layout *h = &l->hinge[j];
@@ -245,15 +297,24 @@ static fw_status take_all(fw_layout_drawing *d, int body, way *w) {
         const char *name =
             fw_arena_printf(d->arena, "%s%s", FW_NAMED("hinge", d->device->revolute[j].id));
         FW_NEED(name);
+        extent disc = NO_EXTENT;
         if (depth_of(l, w->side, h->centre) - r < w->deep)
-            take_part(w, (extent){along - r, along + r}, 0.0, name);
+            take_range(&disc, w->along, along - r, along + r);
+        take_part(w, disc, 0.0, name);
     }
     return FW_OK;
 }
 
+static void keep_fit(const way *w, fw_layout_fit fit[FW_LAYOUT_FITS], int *nfit) {
+    const double same_m = 1e-6;
+    for (int i = 0; i < *nfit; i++)
+        if (fit[i].side == w->side && fabs(fit[i].along - w->along) < same_m) return;
+    if (*nfit < FW_LAYOUT_FITS) fit[(*nfit)++] = (fw_layout_fit){w->side, w->along};
+}
+
 /* the finger at `along`, if the body alone would take it */
 static fw_status look_at(fw_layout_drawing *d, int body, fw_layout_window_side side, double along,
-                         way *best) {
+                         way *best, fw_layout_fit fit[FW_LAYOUT_FITS], int *nfit) {
     const double into = 30e-6;
     fw_layout_attachment a = {.body = body};
     fw_layout_ray_hit hit = fw_layout_finger_edge(d, body, side, along);
@@ -266,31 +327,64 @@ static fw_status look_at(fw_layout_drawing *d, int body, fw_layout_window_side s
     double deep = depth_of(d->layout, side, from);
     double cut = fw_layout_finger_cut(d, &a, fw_layout_to_grid(along), deep);
     if (cut < fw_layout_rule.finger_least_m) return FW_OK;
-    way w = {.side = side, .along = along, .deep = cut};
+    way w = {.side = side,
+             .along = along,
+             .deep = cut,
+             .left = {.by_m = -HUGE_VAL},
+             .right = {.by_m = -HUGE_VAL}};
     FW_TRY(take_all(d, body, &w));
-    if (w.parts > 0 && w.aside_m < best->aside_m) *best = w;
+    take_opening(&w);
+    if (w.parts == 0)
+        keep_fit(&w, fit, nfit);
+    else if (w.aside_m < best->aside_m)
+        *best = w;
     return FW_OK;
 }
 
-fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_geometry_vec2 *at,
-                                const char **why, const char **room) {
+/* what would have to be otherwise for the finger to have room; NULL: FW_NOMEM */
+static const char *way_clear(fw_arena *arena, const way *w, const char *side) {
+    char at[32], um[32], aside[32];
+    const char *of = "", *others = "";
+    const bool opening = w->wider_m > 0.0 && w->first_m == w->wider_m;
+    if (opening && strcmp(w->left.name, w->right.name) != 0)
+        of = fw_arena_printf(arena, " and %s", w->right.name);
+    if (w->parts > 1)
+        others = fw_arena_printf(arena, ", and %d more beside it, %s um altogether", w->parts - 1,
+                                 fw_layout_um(um, w->aside_m));
+    if (!of || !others) return NULL;
+    return fw_arena_printf(arena,
+                           "a finger from the %s side at %s = %s um, were %s%s%s %s um %s%s; or "
+                           "<die tethers=\"no\"/>, and the released device is handled with care",
+                           side, is_upright(w->side) ? "y" : "x", fw_layout_um(at, w->along),
+                           opening ? "the opening beside " : "", w->first, of,
+                           fw_number_text(aside, sizeof aside, ceil(w->first_m * 1e6), 6),
+                           opening ? "wider" : "farther aside", others);
+}
+
+fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_layout_fit fit[FW_LAYOUT_FITS],
+                                int *nfit, fw_geometry_vec2 *at, const char **why,
+                                const char **room) {
     static const char *const side_name[] = {
         [FW_LEFT] = "left", [FW_RIGHT] = "right", [FW_BOTTOM] = "lower", [FW_TOP] = "upper"};
     const double step = 20e-6;
     fw_geometry_box box = fw_geometry_contour_box(&d->plain[body]);
     way best = {.aside_m = HUGE_VAL};
-    char um[2][32];
     *at = d->layout->body[body].centroid;
+    *nfit = 0;
     for (int s = FW_LEFT; s <= FW_TOP; s++) {
         bool up = is_upright((fw_layout_window_side)s);
         for (double p = up ? box.y0 : box.x0; p < (up ? box.y1 : box.x1); p += step)
-            FW_TRY(look_at(d, body, (fw_layout_window_side)s, p, &best));
+            FW_TRY(look_at(d, body, (fw_layout_window_side)s, p, &best, fit, nfit));
     }
     *why =
         "no straight finger of the frame reaches it without crossing another part, so that nothing "
         "holds it between release and use";
     *room = "no straight edge of the body faces the frame at all: give it one 60 um long, or say "
             "<die tethers=\"no\"/> and handle the released device with care";
+    if (*nfit > 0 && best.parts == 0)
+        *room = "an edge of the body that is straight for 60 um and away from its corners, "
+                "contacts and "
+                "springs, or <die tethers=\"no\"/>, and the released device is handled with care";
     if (best.parts == 0) return FW_OK;
     *at = fw_layout_window_point(d->layout, best.side, best.along, best.deep);
     FW_NEED(*why = fw_arena_printf(
@@ -300,19 +394,6 @@ fw_status fw_layout_tether_room(fw_layout_drawing *d, int body, fw_geometry_vec2
                 "%s side, where the way is clearest, %s), so that nothing holds it between release "
                 "and use",
                 side_name[best.side], best.first));
-    const char *others = best.parts > 1
-                             ? fw_arena_printf(d->arena,
-                                               ", and %d more beside it, %s um "
-                                               "altogether",
-                                               best.parts - 1, fw_layout_um(um[1], best.aside_m))
-                             : "";
-    FW_NEED(others);
-    FW_NEED(*room = fw_arena_printf(
-                d->arena,
-                "a finger from the %s side at %s = %s um, were %s %s um farther aside%s; or "
-                "<die tethers=\"no\"/>, and the released device is handled with care",
-                side_name[best.side], is_upright(best.side) ? "y" : "x",
-                fw_layout_um(um[0], best.along), best.first,
-                fw_number_text((char[32]){0}, 32, ceil(best.first_m * 1e6), 6), others));
+    FW_NEED(*room = way_clear(d->arena, &best, side_name[best.side]));
     return FW_OK;
 }

@@ -129,6 +129,7 @@ static fw_status judge_pad_metal(const fw_mask_content *content, const fw_mask_t
         if (!is_held(layout, p)) continue;
         FW_TRY(square_of(verdict->arena, content, layout, i, &b));
         bool room = b.x1 - b.x0 >= content->value[LEAST] - 1e-12;
+        verdict->pads += room;
         if (p->body == FW_GROUND) grounded = grounded || room;
         if (room || p->body == FW_GROUND) continue;
         FW_TRY(fw_mask_verdict_add(

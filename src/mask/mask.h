@@ -265,9 +265,9 @@ fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
                                 const fw_mask_coupon_options *options, fw_diags *diags,
                                 const fw_mask_coupons **coupons);
 /* the device's drawing with the marks that the table has for its frame; the device itself where it
-   has none */
+   has none. *no_room: what of them plates are put on each other by and finds none */
 fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const fw_layout *device,
-                              const fw_layout **layout, int *left_out);
+                              const fw_layout **layout, fw_layout_no_room *no_room);
 /* ... and with what its other plates draw (<content>) */
 fw_status fw_mask_contents_add(fw_arena *arena, const fw_mask_table *table, const fw_layout *marked,
                                const fw_layout **layout);
@@ -277,6 +277,7 @@ typedef struct fw_mask_verdict {
     const char **reason; /* (n) sentences */
     int n, room;
     double widest_hollow_m; /* side of the largest square within one; 0: there is none */
+    int pads;               /* that have metal for a wire */
 } fw_mask_verdict;
 fw_status fw_mask_contents_judge(fw_arena *arena, const fw_mask_table *table,
                                  const fw_layout *layout, fw_mask_verdict *verdict);

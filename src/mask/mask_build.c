@@ -361,11 +361,11 @@ static const fw_mask_layer *structure_layer(const fw_mask_table *table) {
 }
 
 fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const fw_layout *device,
-                              const fw_layout **layout, int *left_out) {
+                              const fw_layout **layout, fw_layout_no_room *no_room) {
     const fw_mask_layer *layer = structure_layer(table);
     double width = layer ? layer->min_width_m : 0, space = layer ? layer->min_space_m : 0;
     FW_TRY(fw_layout_content_on_frame(arena, device, table->pattern, table->npattern, width, space,
-                                      layout, left_out));
+                                      layout, no_room));
     return fw_mask_contents_add(arena, table, *layout, layout);
 }
 

@@ -27,13 +27,14 @@ static int64_t cut_cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_p
 static double cut_distance(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
     double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
     double u = (double)c.x_dbu - a.x_dbu, w = (double)c.y_dbu - a.y_dbu;
-    double t = fmin(1, fmax(0, (x * u + y * w) / (x * x + y * y)));
+    double t = fw_lesser(1, fw_greater(0, (x * u + y * w) / (x * x + y * y)));
     double dx = u - t * x, dy = w - t * y;
     return sqrt(dx * dx + dy * dy);
 }
 
 static cut_box join(cut_box a, cut_box b) {
-    return (cut_box){fmin(a.x0, b.x0), fmin(a.y0, b.y0), fmax(a.x1, b.x1), fmax(a.y1, b.y1)};
+    return (cut_box){fw_lesser(a.x0, b.x0), fw_lesser(a.y0, b.y0), fw_greater(a.x1, b.x1),
+                     fw_greater(a.y1, b.y1)};
 }
 
 static fw_status cut_tree_new(fw_arena *arena, const fw_geometry_polygon *polygon, cut_tree *tree) {
@@ -62,18 +63,21 @@ typedef struct query {
     cut_box box;         /* of the segment */
     double x, y, length; /* its direction, not normed */
     double least, now;   /* what need not be undercut; what was found so far */
+    double
+        line; /* beside the segment's line a vertex with a product beyond that is farther than `now` */
     int near; /* number of the vertex, or of the edge behind it, that set `now`; -1: none */
 } query;
 
 /* no more than the distance between the segment and a box: that of their boxes along an axis, and
    that of the box from the line */
 static double at_least(const query *q, cut_box b) {
-    double gap_x = fmax(b.x0 - q->box.x1, q->box.x0 - b.x1);
-    double gap_y = fmax(b.y0 - q->box.y1, q->box.y0 - b.y1);
+    double gap_x = fw_greater(b.x0 - q->box.x1, q->box.x0 - b.x1);
+    double gap_y = fw_greater(b.y0 - q->box.y1, q->box.y0 - b.y1);
+    if (gap_x > q->now || gap_y > q->now) return HUGE_VAL;
     double cx = 0.5 * (b.x0 + b.x1) - q->a.x_dbu, cy = 0.5 * (b.y0 + b.y1) - q->a.y_dbu;
     double reach = 0.5 * ((b.x1 - b.x0) * fabs(q->y) + (b.y1 - b.y0) * fabs(q->x));
     double beside = (fabs(q->x * cy - q->y * cx) - reach) / q->length;
-    return fmax(beside, fmax(gap_x, gap_y));
+    return fw_greater(beside, fw_greater(gap_x, gap_y));
 }
 
 static bool between(fw_geometry_point a, fw_geometry_point b,
@@ -94,13 +98,22 @@ static bool meet(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c,
            (cda == 0 && between(c, d, a)) || (cdb == 0 && between(c, d, b));
 }
 
+/* with what is lost in it */
+static void nearer(query *q, double now) {
+    q->now = now;
+    q->line = now * q->length * (1 + 1e-9);
+}
+
 /* vertex k, and the edge behind it */
 static void look(query *q, int k) {
     const fw_geometry_polygon *p = q->tree->polygon;
     const int next = k + 1 < p->count ? k + 1 : 0;
     const bool own = k == q->i || k == q->j, next_own = next == q->i || next == q->j;
-    const double far = own ? HUGE_VAL : cut_distance(q->a, q->b, p->vertex[k]);
-    if (far < q->now) q->now = far, q->near = k;
+    const double beside = q->x * ((double)p->vertex[k].y_dbu - q->a.y_dbu) -
+                          q->y * ((double)p->vertex[k].x_dbu - q->a.x_dbu);
+    const double far =
+        own || fabs(beside) > q->line ? HUGE_VAL : cut_distance(q->a, q->b, p->vertex[k]);
+    if (far < q->now) q->near = k, nearer(q, far);
     if (!own && !next_own && meet(q->a, q->b, p->vertex[k], p->vertex[next]))
         q->now = -1, q->near = k;
 }
@@ -139,9 +152,9 @@ static double cut_clearance(const cut_tree *tree, int i, int j, double least, do
                .x = (double)b.x_dbu - a.x_dbu,
                .y = (double)b.y_dbu - a.y_dbu,
                .least = least,
-               .now = most,
                .near = -1};
     q.length = hypot(q.x, q.y);
+    nearer(&q, most);
     if (q.length > 0) visit(&q, 1);
     if (q.now <= least) *blocked = q.near;
     return q.now;
@@ -149,7 +162,15 @@ static double cut_clearance(const cut_tree *tree, int i, int j, double least, do
 
 /* Nothing below is worth asking for: a quarter of the spot of a fine laser writer. */
 static const double CLEAR_DBU = 50;
-enum { SAMPLES = 1024 };
+enum { SAMPLES = 1024, REFUSED = 8 };
+
+/* Edges at a vertex: what a line from there must have on its left to leave into the polygon, of both where it is no
+   hollow corner. */
+typedef struct cone {
+    fw_geometry_point v;
+    int64_t in_x, in_y, out_x, out_y;
+    bool hollow;
+} cone;
 
 typedef struct search {
     const fw_geometry_polygon *p;
@@ -160,9 +181,11 @@ typedef struct search {
     int least;         /* vertices that lie on either side at least */
     int peel;          /* 0; else one side has no more edges, the cut not counted */
     int tried; /* 0; else pairs with as many edges on either side were tried with the same distance in vain */
-    int i, j; /* best so far; -1: none */
-    int last,
-        *way; /* edges that refused the cut before, and of each sample (nsample) its last one; -1: none */
+    int i, j;   /* best so far; -1: none */
+    cone *cone; /* (nsample) of each sample */
+    int *way;   /* (nsample) edge that refused the last cut to it; -1: none */
+    int refused[REFUSED],
+        nrefused;             /* edges that refused cuts before, the last of them at nrefused - 1 */
     double least2, clear_dbu; /* its length, its distance */
 } search;
 
@@ -175,11 +198,22 @@ static double length2(fw_geometry_point a, fw_geometry_point b) {
     return x * x + y * y;
 }
 
-/* does the line from vertex i to q leave into the polygon? */
-static bool enters(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
+static cone cone_of(const fw_geometry_polygon *p, int i) {
     fw_geometry_point v = at(p, i), before = at(p, i - 1), after = at(p, i + 1);
-    bool left_of_out = cut_cross(v, after, q) > 0, left_of_in = cut_cross(before, v, q) > 0;
-    return cut_cross(before, v, after) > 0 ? left_of_out && left_of_in : left_of_out || left_of_in;
+    return (cone){v,
+                  (int64_t)v.x_dbu - before.x_dbu,
+                  (int64_t)v.y_dbu - before.y_dbu,
+                  (int64_t)after.x_dbu - v.x_dbu,
+                  (int64_t)after.y_dbu - v.y_dbu,
+                  cut_cross(before, v, after) <= 0};
+}
+
+/* does the line from there to q leave into the polygon? Exact */
+static bool enters(const cone *c, fw_geometry_point q) {
+    const int64_t x = (int64_t)q.x_dbu - c->v.x_dbu, y = (int64_t)q.y_dbu - c->v.y_dbu;
+    const bool left_of_out = c->out_x * y - c->out_y * x > 0,
+               left_of_in = c->in_x * y - c->in_y * x > 0;
+    return c->hollow ? left_of_out || left_of_in : left_of_out && left_of_in;
 }
 
 /* does the line from vertex i to q run over one of the edges there? */
@@ -193,60 +227,77 @@ static bool along(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
     return false;
 }
 
-/* is edge k in the way of the line between two vertices? What was in that of their neighbours is in most cases. k -1: there
-   is none */
+/* is edge k in the way of the line between two vertices? k -1: there is none */
 static bool crosses(const fw_geometry_polygon *p, int i, int j, int k) {
     const int next = k + 1 < p->count ? k + 1 : 0;
     return k >= 0 && k != i && k != j && next != i && next != j &&
            meet(p->vertex[i], p->vertex[j], p->vertex[k], p->vertex[next]);
 }
 
-/* Distance of the line between two vertices, the second sample m, from all others where it lies strictly inside and this
+/* What was in the way of their neighbours is in most cases. */
+static bool refused(const search *s, int i, int m) {
+    const int j = s->sample[m];
+    for (int k = 0; k < s->nrefused && k < REFUSED; k++)
+        if (crosses(s->p, i, j, s->refused[(s->nrefused - 1 - k) % REFUSED])) return true;
+    return crosses(s->p, i, j, s->way[m]);
+}
+
+/* Distance of the line between two samples from all other vertices where it lies strictly inside and this
    is more than `least`; else a number up to it. The four vertices beside its ends first: they are
    nearest most often. */
-static double clearance(search *s, int i, int m, double least, double most) {
+static double clearance(search *s, int k, int m, double least, double most) {
     const fw_geometry_polygon *p = s->p;
-    const int j = s->sample[m];
-    fw_geometry_point a = at(p, i), b = at(p, j);
-    for (int k = 0; k < 2; k++)
-        if (crosses(p, i, j, k ? s->last : s->way[m])) return -1;
-    if (!enters(p, i, b) || !enters(p, j, a)) return -1;
+    const int i = s->sample[k], j = s->sample[m];
+    fw_geometry_point a = s->cone[k].v, b = s->cone[m].v;
+    if (!enters(&s->cone[k], b) || !enters(&s->cone[m], a)) return -1;
+    if (refused(s, i, m)) return -1;
     double clear = most;
     const int beside[4] = {i - 1, i + 1, j - 1, j + 1};
-    for (int k = 0; k < 4; k++) {
-        clear = fmin(clear, cut_distance(a, b, at(p, beside[k])));
+    for (int side = 0; side < 4; side++) {
+        clear = fw_lesser(clear, cut_distance(a, b, at(p, beside[side])));
         if (clear <= least) return clear;
     }
     if (along(p, i, b) || along(p, j, a)) return -1;
     int blocked = -1;
     clear = cut_clearance(&s->tree, i, j, least, clear, &blocked);
-    if (blocked >= 0) s->way[m] = s->last = blocked;
+    if (blocked >= 0) s->way[m] = s->refused[s->nrefused++ % REFUSED] = blocked;
     return clear;
+}
+
+/* Samples that are no ends of a cut from vertex i, in the middle of those that leave enough on either side: they were
+   tried, or would leave too much on both. */
+static void left_out(const search *s, int i, int *low, int *high) {
+    const int n = s->p->count;
+    *low = i + n, *high = i;
+    if (s->tried) *low = i + s->tried, *high = i + n - s->tried;
+    if (s->peel && i + s->peel + 1 < *low) *low = i + s->peel + 1, *high = i + n - s->peel - 1;
 }
 
 /* the shortest cut that keeps the distance wanted; where none is, that of the largest distance */
 static void search_cut(search *s) {
     int n = s->p->count, least = s->least;
-    for (int k = 0, far = 0; k < s->nsample; k++) {
-        int i = s->sample[k];
+    for (int k = 0, far = 0, behind = 0; k < s->nsample; k++) {
+        int i = s->sample[k], low, high;
+        left_out(s, i, &low, &high);
         while (far < s->nsample && s->sample[far] < i + least)
             far++;
+        while (behind < s->nsample && s->sample[behind] <= high)
+            behind++;
         for (int m = far; m < s->nsample && s->sample[m] <= i + n - least; m++) {
-            int j = s->sample[m];
-            if (s->tried && j - i >= s->tried && n - j + i >= s->tried) continue;
-            if (s->peel && j - i > s->peel && n - j + i > s->peel) continue;
-            double l2 = length2(at(s->p, i), at(s->p, j)), most = HUGE_VAL, more = s->clear_dbu;
+            if (s->sample[m] >= low && m < behind) m = behind;
+            if (m == s->nsample || s->sample[m] > i + n - least) break;
+            double l2 = length2(s->cone[k].v, s->cone[m].v), most = HUGE_VAL, more = s->clear_dbu;
             if (s->wanted_dbu > 0) {
                 if (!(l2 < s->least2)) continue;
                 most = s->wanted_dbu;
                 more = most * (1 - 1e-12);
             }
-            double clear = clearance(s, i, m, more, most);
+            double clear = clearance(s, k, m, more, most);
             if (!(clear > more)) continue;
             s->least2 = l2;
             s->clear_dbu = clear;
             s->i = i;
-            s->j = j;
+            s->j = s->sample[m];
         }
     }
 }
@@ -260,8 +311,12 @@ static bool is_end(const fw_geometry_polygon *p, int i) {
     return in2 > 2.25 * out2 || out2 > 2.25 * in2 || turn * turn > 0.25 * in2 * out2;
 }
 
-static fw_status ways(fw_arena *arena, search *s) {
+/* what is asked of every sample */
+static fw_status look_at_samples(fw_arena *arena, search *s) {
     FW_NEED(s->way = fw_arena_array(arena, int, (size_t)s->nsample + 1));
+    FW_NEED(s->cone = fw_arena_array(arena, cone, (size_t)s->nsample + 1));
+    for (int m = 0; m < s->nsample; m++)
+        s->cone[m] = cone_of(s->p, s->sample[m]);
     return FW_OK;
 }
 
@@ -281,7 +336,7 @@ static fw_status sample(fw_arena *arena, const fw_geometry_polygon *p, search *s
         if (take) list[s->nsample++] = i;
     }
     s->sample = list;
-    return ways(arena, s);
+    return look_at_samples(arena, s);
 }
 
 static fw_status all(fw_arena *arena, const fw_geometry_polygon *p, search *s) {
@@ -291,7 +346,7 @@ static fw_status all(fw_arena *arena, const fw_geometry_polygon *p, search *s) {
         list[i] = i;
     s->sample = list;
     s->nsample = p->count;
-    return ways(arena, s);
+    return look_at_samples(arena, s);
 }
 
 /* How to go about it: a quarter or a third on either side at least, or parts of half the number to
@@ -322,7 +377,7 @@ static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double want
         {true, false, 1},  {true, false, 2},  {true, false, 4}, {true, false, 8},
         {false, false, 2}, {false, false, 8}, {false, true, 1},
     };
-    *s = (search){.p = p, .i = -1, .j = -1, .last = -1};
+    *s = (search){.p = p, .i = -1, .j = -1};
     FW_TRY(cut_tree_new(arena, p, &s->tree));
     FW_TRY(sample(arena, p, s));
     for (size_t k = 0; k < sizeof rounds / sizeof *rounds && s->i < 0; k++) {
@@ -340,6 +395,7 @@ static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double want
         s->clear_dbu = -1;
         for (int m = 0; m < s->nsample; m++)
             s->way[m] = -1;
+        s->nrefused = 0;
         search_cut(s);
     }
     return s->i >= 0 ? FW_OK : FW_GEOMETRY;

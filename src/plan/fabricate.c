@@ -425,9 +425,10 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     FW_TRY(edges_of(plan, pf->flow, &options.edges));
     FW_TRY(fw_plan_layer_bias(plan, pf, &options.layer_bias_m));
     const fw_layout *layout;
-    int left_out; /* a mark that finds no room on the frame is no mistake */
+    fw_layout_no_room no_room;
     warn_of_loose_cells(plan, pf);
-    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &no_room));
+    FW_TRY(fw_plan_say_no_room(plan, pf, &no_room));
     const fw_mask *mask = NULL;
     const size_t before = plan->diags.count;
     fw_status status = fw_mask_examine(plan->arena, layout, pf->table, plan->device->name, &options,

@@ -2,6 +2,7 @@
 /* What the mask of one die hands to a flow: areas, edges and openings for the process, and the electrical
    side of the device. */
 #include "base/text.h"
+#include "layout/layout_rules.h"
 #include "plan/stages.h"
 #include <math.h>
 #include <string.h>
@@ -115,8 +116,8 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
     *facts = (fw_process_mask_facts){.dies = 1, .device_thickness_m = variant->thickness_m};
     if (!layout || !layout->drawn) return FW_OK;
     const fw_layout *marked; /* marks of the flow are taken out of the frame */
-    int left_out;
-    FW_TRY(fw_mask_frame_marks(arena, table, layout, &marked, &left_out));
+    fw_layout_no_room no_room;
+    FW_TRY(fw_mask_frame_marks(arena, table, layout, &marked, &no_room));
     add_areas(marked, insulated, facts);
     narrowest(device, layout, facts);
     for (int i = 0; table && i < table->nlayer; i++)
@@ -125,6 +126,94 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
             facts->least_width_m = fmax(facts->least_width_m, table->layer[i].min_width_m);
         }
     return name_gaps(arena, device, layout, variant->flow, facts);
+}
+
+/* ---- marks on the frame ----
+   Plates of a flow that prints several are put on each other by marks in the uprights of every frame. Where they find no
+   room there, the device is drawn again with a wider frame, and where that does not help with a taller die, until
+   they do: the die grows by as much, so that nothing within the frame moves. Test: test_hollows.c */
+
+static const double FRAME_STEP_M = 25e-6, HEIGHT_STEP_M = 100e-6;
+enum { FRAME_TRIES = 8 };
+
+/* are all marks there with that frame and height? NaN: from the mechanism, as before */
+static fw_status have_room(fw_plan *plan, const fw_plan_flow *pf, double frame_m, double height_m,
+                           bool *have) {
+    fw_device device = *plan->device;
+    fw_device_die *die = &device.die;
+    const double was_m = isnan(die->frame_m) ? fw_layout_rule.frame_m : die->frame_m;
+    const fw_layout *layout = NULL;
+    fw_layout_no_room no_room = {.count = 1};
+    fw_diags quiet = fw_diags_new(plan->arena);
+    fw_mark mark = fw_arena_mark(plan->arena);
+    die->width_m += 2.0 * (frame_m - was_m);
+    die->height_m = isnan(height_m) ? die->height_m + 2.0 * (frame_m - was_m) : height_m;
+    die->frame_m = frame_m;
+    fw_status status = fw_layout_build(plan->arena, &device, &quiet, &layout);
+    if (status == FW_OK && layout->drawn)
+        status = fw_mask_frame_marks(plan->arena, pf->table, layout, &layout, &no_room);
+    *have = status == FW_OK && no_room.count == 0;
+    fw_arena_rewind(plan->arena, mark);
+    return status == FW_GEOMETRY || status == FW_INPUT ? FW_OK : status;
+}
+
+/* "frame="224 um"" */
+static fw_status find_room(fw_plan *plan, const fw_plan_flow *pf, const fw_layout_no_room *no_room,
+                           const char **room) {
+    const double was_m = no_room->upright.x1 - no_room->upright.x0,
+                 from_m = fmax(no_room->frame_m, was_m),
+                 height_m = plan->layout->die.y1 - plan->layout->die.y0;
+    bool have = false;
+    char um[32];
+    *room = NULL;
+    for (int k = 0; k < FRAME_TRIES && !have; k++) {
+        const double wide_m = from_m + k * FRAME_STEP_M;
+        if (!(wide_m > was_m + 1e-9)) continue; /* as it is */
+        FW_TRY(have_room(plan, pf, wide_m, (double)NAN, &have));
+        if (have)
+            FW_NEED(*room = fw_arena_printf(plan->arena, "frame=\"%s um\"",
+                                            fw_number_text(um, sizeof um, wide_m * 1e6, 7)));
+    }
+    for (int k = 1; k <= FRAME_TRIES && !have; k++) {
+        const double tall_m = height_m + 2.0 * (from_m - was_m) + k * HEIGHT_STEP_M;
+        char tall[32];
+        FW_TRY(have_room(plan, pf, from_m, tall_m, &have));
+        if (have)
+            FW_NEED(*room = fw_arena_printf(plan->arena, "frame=\"%s um\" height=\"%s um\"",
+                                            fw_number_text(um, sizeof um, from_m * 1e6, 7),
+                                            fw_number_text(tall, sizeof tall, tall_m * 1e6, 8)));
+    }
+    return FW_OK;
+}
+
+fw_status fw_plan_say_no_room(fw_plan *plan, const fw_plan_flow *pf,
+                              const fw_layout_no_room *no_room) {
+    if (no_room->count == 0 || fw_mask_plates(pf->table) < 2) return FW_OK;
+    const fw_geometry_box *b = &no_room->upright;
+    const fw_device_wafer_asked *wafer = &plan->device->wafer;
+    char mark[2][32], upright[32], at[2][32];
+    const char *room;
+    FW_TRY(find_room(plan, pf, no_room, &room));
+    const char *mend =
+        room ? fw_arena_printf(plan->arena, "with <die %s> they are there", room)
+             : "no wider frame and no taller die that was tried has room: write a shorter title";
+    FW_NEED(mend);
+    fw_diag_warning(&plan->diags, 619, plan->device->die.frame_place,
+                    "flow %s: %d of the %d marks %s on the frame of every die, by which its plates "
+                    "are put on each other, "
+                    "find no room: in the upright at (%s, %s) um, %s um wide, nothing of %s um by "
+                    "%s um is free and 12 um "
+                    "clear of its edges; %s%s",
+                    pf->flow->id, no_room->count, no_room->of, no_room->id ? no_room->id : "",
+                    fw_number_text(at[0], sizeof at[0], 0.5e6 * (b->x0 + b->x1), 6),
+                    fw_number_text(at[1], sizeof at[1], 0.5e6 * (b->y0 + b->y1), 6),
+                    fw_number_text(upright, sizeof upright, 1e6 * (b->x1 - b->x0), 6),
+                    fw_number_text(mark[0], sizeof mark[0], 1e6 * no_room->width_m, 6),
+                    fw_number_text(mark[1], sizeof mark[1], 1e6 * no_room->height_m, 6), mend,
+                    wafer->asked && wafer->alignment
+                        ? "; without them there are only the alignment sites of the wafer"
+                        : "; or add a <wafer> with alignment sites, which have them");
+    return plan->diags.failed ? FW_NOMEM : FW_OK;
 }
 
 /* ---- the electrical side ----
@@ -268,16 +357,45 @@ static fw_status judge_bearing(fw_plan *plan, fw_process_flow *flow, const fw_pr
                         fw_number_text(bears, sizeof bears, s->bears->value, 4), s->bears->id));
 }
 
+/* as wide as fw_wafer_alignment_mask makes them */
+static bool sites_have_room(const fw_plan *plan, const fw_layout_no_room *no_room) {
+    const fw_geometry_box *die = &plan->layout->die;
+    const double least_m = fmin(die->x1 - die->x0, die->y1 - die->y0),
+                 arm_m = fmin(0.6 * least_m, 2e-3) / 14.0;
+    return plan->device->wafer.alignment &&
+           fmax(no_room->width_m, no_room->height_m) <= 5.0 * arm_m;
+}
+
+/* plates on a wafer without any of those marks */
+static fw_status judge_marks(fw_plan *plan, fw_plan_flow *pf) {
+    const fw_layout *layout;
+    fw_layout_no_room no_room;
+    if (!plan->device->wafer.asked || fw_mask_plates(pf->table) < 2) return FW_OK;
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &no_room));
+    if (no_room.count == 0 || no_room.count < no_room.of || sites_have_room(plan, &no_room))
+        return FW_OK;
+    return fw_process_flow_add_reason(
+        plan->arena, pf->flow, 0,
+        fw_arena_printf(
+            plan->arena,
+            "nothing on the wafer shows how its plates lie on each other: no frame has room for "
+            "the "
+            "marks %s, and no alignment site has them; write the <die> that the warning names, or "
+            "<wafer alignment=\"2 sites\"> where dies are large enough [FW-D619]",
+            no_room.id ? no_room.id : ""));
+}
+
 fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
     const fw_layout *layout;
-    int left_out;
+    fw_layout_no_room no_room;
     if (!pf->flow || !plan->layout || !plan->layout->drawn) return FW_OK;
+    FW_TRY(judge_marks(plan, pf));
     if (!pf->wiring) {
         const fw_verdict_variant_verdict *v = verdict_of(plan, pf);
         fw_wiring_asked asked = {.flow = pf->variant.flow, .wall_m = walls_of(pf->flow)};
         if (v) asked.moved = v->stator, asked.nmoved = v->nstator;
         FW_TRY(carrier_of(plan, pf, &asked.carrier));
-        FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
+        FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &no_room));
         FW_TRY(fw_wiring_find(plan->arena, plan->device, layout, &asked, &pf->wiring));
     }
     const fw_wiring *w = pf->wiring;

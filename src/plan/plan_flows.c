@@ -53,8 +53,8 @@ static const double FINEST_M = 27e-6, COARSEST_M = 400e-6, STEP_M = 1e-6, WIDEST
 static fw_status solve_release(fw_plan *plan, const fw_plan_flow *pf, const fw_layout *layout,
                                const fw_release **release) {
     const fw_layout *marked;
-    int left_out;
-    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, layout, &marked, &left_out));
+    fw_layout_no_room no_room;
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, layout, &marked, &no_room));
     return fw_release_solve(plan->arena, marked, fw_plan_insulated(pf),
                             fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
                             release);
@@ -348,6 +348,7 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     FW_TRY(facts_of(plan, pf, &facts));
     FW_TRY(fw_mask_contents_judge(plan->arena, pf->table, plan->layout, &contents));
     facts.widest_hollow_m = contents.widest_hollow_m;
+    facts.pads = contents.pads;
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
     if (pf->flow->no_window && !pf->release_change) {
         fw_diags said = fw_diags_new(plan->arena);

@@ -64,13 +64,13 @@ static fw_status report_ladders(fw_plan *plan, fw_plan_ladders *ladders) {
 static fw_status draw_release(fw_plan *plan, fw_plan_flow *pf, fw_text *file) {
     const fw_layout *marked;
     const fw_release_map *map;
-    int left_out;
+    fw_layout_no_room no_room;
     if (!pf->flow || !pf->flow->release || !plan->layout) return FW_OK;
     if (pf->release_svg.length && !file) return FW_OK;
     fw_arena *scratch = fw_arena_part(plan->arena, plan->options.memory_cap);
     FW_NEED(scratch);
     bool islands = fw_plan_insulated(pf);
-    fw_status status = fw_mask_frame_marks(scratch, pf->table, plan->layout, &marked, &left_out);
+    fw_status status = fw_mask_frame_marks(scratch, pf->table, plan->layout, &marked, &no_room);
     if (status == FW_OK) status = fw_recipe_release_map(scratch, pf->flow, marked, islands, &map);
     if (status == FW_OK && map && pf->release_svg.length == 0) {
         pf->release_svg = fw_text_new(plan->arena);

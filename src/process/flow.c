@@ -99,6 +99,7 @@ static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     fill(flow, "mask.open-area", all_area(m) - all_structure(m), 0.0);
     fill(flow, "mask.perimeter", all_perimeter(m), 0.0);
     fill(flow, "mask.dies", m->dies, 0.0);
+    fill(flow, "mask.pads", m->pads > 0 ? m->pads : (double)NAN, 0.0);
     fill(flow, "mask.narrowest-slot", m->narrowest_slot_m, u);
     fill(flow, "mask.narrowest-line", m->narrowest_line_m, u);
     fill(flow, "mask.narrowest-flexure", flexure, u);

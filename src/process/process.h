@@ -420,6 +420,7 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
     /* side of the largest square within a hollow below the device; 0: it has none */
     double widest_hollow_m;
+    int pads; /* of one die, with metal for a wire; 0: it has none */
     int dies; /* on the wafer or coupon */
     /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
        die's own */

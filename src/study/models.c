@@ -260,7 +260,7 @@ static fw_status one(fw_study_problem *p, const fw_plan_flow *pf, const fw_layou
 fw_status fw_study_tradeoff_masks(fw_study_problem *p, fw_study_tradeoff *t) {
     fw_plan_flow *pf = masked_flow(p);
     const fw_layout *layout;
-    int left_out;
+    fw_layout_no_room no_room;
     if (!pf) t->mask_why = "the device names no process flow";
     if (pf && (!p->plan->layout || !p->plan->layout->drawn))
         t->mask_why = "the device has no shapes to draw";
@@ -268,7 +268,7 @@ fw_status fw_study_tradeoff_masks(fw_study_problem *p, fw_study_tradeoff *t) {
         t->mask_why = "no bias brings the edges to where they are drawn";
     if (t->mask_why) return FW_OK;
     FW_NEED(t->mask = fw_arena_array(p->arena, fw_study_tradeoff_mask, COUNT));
-    FW_TRY(fw_mask_frame_marks(p->arena, pf->table, p->plan->layout, &layout, &left_out));
+    FW_TRY(fw_mask_frame_marks(p->arena, pf->table, p->plan->layout, &layout, &no_room));
     double usual = p->plan->options.mask_tolerance_m;
     if (!(usual > 0)) usual = 5e-9;
     for (int i = 0; i < COUNT; i++) {

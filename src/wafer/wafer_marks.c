@@ -334,6 +334,23 @@ static fw_status add_target(fw_wafer_sheet *s, fw_layout_role role, fw_geometry_
     return sheet_add(s, role, "alignment site", p, FW_LAYOUT_CROSS);
 }
 
+/* sides of a site: 14 q, that is 0.6 of the die (fw_wafer_alignment_mask) */
+static void say_no_room(const fw_wafer_sheet *s, const fw_layout_pattern *p, double mark_m,
+                        double q) {
+    char mark[32], room[32], die[32];
+    if (fw_mask_plates(s->maker->input->table) < 2) return;
+    fw_diag_warning(s->maker->diags, 620, s->maker->input->device->wafer.place,
+                    "flow %s: marks %s, %s um wide, find no room on the alignment sites, %s um "
+                    "between the arms of their "
+                    "crosses: plates are put on each other by the marks on the frames alone; a die "
+                    "of %s um by %s um has room",
+                    s->maker->wafer->flow, p->id ? p->id : "",
+                    fw_number_text(mark, sizeof mark, 1e6 * mark_m, 6),
+                    fw_number_text(room, sizeof room, 5e6 * q, 6),
+                    fw_number_text(die, sizeof die, ceil(1e6 * 14.0 * mark_m / (5.0 * 0.6)), 6),
+                    die);
+}
+
 /* Where a flow aligns plates to each other: the window that its table has for the frame of a die, with
    the cross of the other side and bars of metal, in each quarter of the block where it has room. So two
    sites have of every pair of plates what a die has, at the wafer's rim. */
@@ -349,7 +366,10 @@ static fw_status add_pair_marks(fw_wafer_sheet *s, fw_geometry_vec2 o, double q)
         FW_TRY(fw_layout_pattern_draw(s->maker->arena, &table->pattern[i], frame->min_width_m,
                                       frame->min_space_m, 0, &c));
         /* between the arms, q wide, and the edge of the block */
-        if (fmax(c.width_m, c.height_m) > 5 * q) continue;
+        if (fmax(c.width_m, c.height_m) > 5 * q) {
+            say_no_room(s, &table->pattern[i], fmax(c.width_m, c.height_m), q);
+            continue;
+        }
         for (int k = 0; k < 4; k++) {
             fw_geometry_vec2 at = {o.x + (k % 2 ? 4 * q : -4 * q) - 0.5 * c.width_m,
                                    o.y + (k / 2 ? 4 * q : -4 * q) - 0.5 * c.height_m};

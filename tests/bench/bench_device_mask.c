@@ -84,7 +84,7 @@ static size_t run(const source *device_file, const source *table_file, double bi
     const fw_release_map *map;
     const fw_layout *drawn, *layout;
     const fw_mask *mask;
-    int left_out;
+    fw_layout_no_room no_room;
     at[0] = cpu_seconds();
     must(fw_device_read(arena, device_file->path, device_file->text, device_file->length, NULL, 0,
                         &diags, &device),
@@ -95,7 +95,7 @@ static size_t run(const source *device_file, const source *table_file, double bi
     device = &pierced;
     must(fw_layout_build(arena, device, &diags, &drawn), "layout", &diags);
     at[2] = cpu_seconds();
-    must(fw_mask_frame_marks(arena, &table, drawn, &layout, &left_out), "marks", &diags);
+    must(fw_mask_frame_marks(arena, &table, drawn, &layout, &no_room), "marks", &diags);
     fw_mask_options options = {.bias_m = bias_m};
     must(fw_mask_build(arena, layout, &table, device->name, &options, &diags, &mask), "mask",
          &diags);

@@ -34,9 +34,9 @@ static made *make(bool fill, bool thief_too, double keep_m) {
     const fw_layout_pattern pattern[] = {
         row("window-fill", (double[]){80e-6, 20e-6, 0.5, keep_m}), /* the thief is drawn first */
         row("window-thief", (double[]){60e-6, keep_m})};
-    int left_out;
+    fw_layout_no_room no_room;
     assert_int_equal(fw_layout_content_on_frame(arena, m->plain, pattern, thief_too ? 2 : 1, 4e-6,
-                                                4e-6, &m->filled, &left_out),
+                                                4e-6, &m->filled, &no_room),
                      FW_OK);
     return m;
 }

@@ -345,10 +345,10 @@ static void marks_on_the_frame(void **state) {
     die *d = read_table(flows[0]);
     framed f;
     const fw_layout *out;
-    int left_out;
+    fw_layout_no_room no_room;
     frame_of(d->arena, 250, &f);
-    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
-    assert_int_equal(left_out, 0);
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &no_room), FW_OK);
+    assert_int_equal(no_room.count, 0);
     assert_int_equal(out->npiece, 2 + 2 * 2 + 4);
     fw_geometry_vec2 cross[2];
     int n = 0;
@@ -369,7 +369,7 @@ static void marks_on_the_frame(void **state) {
     f.piece[2] =
         (fw_layout_piece){FW_ROLE_TEXT, FW_NONE - 1, FW_NONE, "title", polygon(d->arena, at, 4)};
     f.layout.npiece = 3;
-    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &no_room), FW_OK);
     for (int i = 3; i < out->npiece; i++) {
         fw_geometry_box b = fw_geometry_contour_box(&out->piece[i].contour);
         assert_true(b.x0 > 0 || b.y1 <= 2910 * UM + 1e-12);
@@ -377,11 +377,11 @@ static void marks_on_the_frame(void **state) {
     assert_true(fw_geometry_contour_box(&out->piece[4].contour).y1 < top);
     /* a frame too narrow has none, and is handed back as it is */
     frame_of(d->arena, 100, &f);
-    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
-    assert_int_equal(left_out, 3);
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &no_room), FW_OK);
+    assert_int_equal(no_room.count, 3);
     assert_int_equal(out->npiece, 2);
     d->table.npattern = 0;
-    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &no_room), FW_OK);
     assert_ptr_equal(out, &f.layout);
     fw_arena_free(d->arena);
 }

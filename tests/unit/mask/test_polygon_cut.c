@@ -85,6 +85,169 @@ static double shortest_dbu(const fw_geometry_polygon *p) {
     return least;
 }
 
+/* ---- the plain search ----
+   What fw_mask_polygon_cut searches cleverly, as its comment says it: all pairs of vertices in order, each against all
+   vertices and edges. Of polygons without more vertices than it looks at (1024). */
+
+static int64_t plain_cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
+    return ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - a.y_dbu) -
+           ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - a.x_dbu);
+}
+
+static fw_geometry_point plain_at(const fw_geometry_polygon *p, int i) {
+    return p->vertex[(i + p->count) % p->count];
+}
+
+static double plain_length2(fw_geometry_point a, fw_geometry_point b) {
+    double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
+    return x * x + y * y;
+}
+
+static double plain_distance(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
+    double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
+    double u = (double)c.x_dbu - a.x_dbu, w = (double)c.y_dbu - a.y_dbu;
+    double t = fmin(1, fmax(0, (x * u + y * w) / (x * x + y * y)));
+    double dx = u - t * x, dy = w - t * y;
+    return sqrt(dx * dx + dy * dy);
+}
+
+/* c on the segment from a to b, if it is on its line */
+static bool plain_between(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
+    return ((int64_t)c.x_dbu - a.x_dbu) * ((int64_t)c.x_dbu - b.x_dbu) <= 0 &&
+           ((int64_t)c.y_dbu - a.y_dbu) * ((int64_t)c.y_dbu - b.y_dbu) <= 0;
+}
+
+static bool plain_meet(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c,
+                       fw_geometry_point d) {
+    int64_t abc = plain_cross(a, b, c), abd = plain_cross(a, b, d), cda = plain_cross(c, d, a),
+            cdb = plain_cross(c, d, b);
+    if (abc && abd && cda && cdb) return (abc > 0) != (abd > 0) && (cda > 0) != (cdb > 0);
+    return (abc == 0 && plain_between(a, b, c)) || (abd == 0 && plain_between(a, b, d)) ||
+           (cda == 0 && plain_between(c, d, a)) || (cdb == 0 && plain_between(c, d, b));
+}
+
+static bool plain_enters(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
+    fw_geometry_point v = plain_at(p, i), before = plain_at(p, i - 1), after = plain_at(p, i + 1);
+    bool out = plain_cross(v, after, q) > 0, in = plain_cross(before, v, q) > 0;
+    return plain_cross(before, v, after) > 0 ? out && in : out || in;
+}
+
+static bool plain_along(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
+    for (int side = -1; side <= 1; side += 2) {
+        fw_geometry_point v = plain_at(p, i), w = plain_at(p, i + side);
+        int64_t x = ((int64_t)w.x_dbu - v.x_dbu) * ((int64_t)q.x_dbu - v.x_dbu);
+        int64_t y = ((int64_t)w.y_dbu - v.y_dbu) * ((int64_t)q.y_dbu - v.y_dbu);
+        if (plain_cross(v, w, q) == 0 && x >= 0 && y >= 0) return true;
+    }
+    return false;
+}
+
+/* -1: not strictly inside */
+static double plain_clear(const fw_geometry_polygon *p, int i, int j, double most) {
+    fw_geometry_point a = p->vertex[i], b = p->vertex[j];
+    double clear = most;
+    if (!plain_enters(p, i, b) || !plain_enters(p, j, a)) return -1;
+    if (plain_along(p, i, b) || plain_along(p, j, a)) return -1;
+    for (int k = 0; k < p->count; k++) {
+        int next = (k + 1) % p->count;
+        bool own = k == i || k == j;
+        if (!own) clear = fmin(clear, plain_distance(a, b, p->vertex[k]));
+        if (!own && next != i && next != j && plain_meet(a, b, p->vertex[k], p->vertex[next]))
+            return -1;
+    }
+    return clear;
+}
+
+typedef struct plain_found {
+    int i, j;
+    double length2, clear;
+} plain_found;
+
+static plain_found plain_round(const fw_geometry_polygon *p, double wanted, int least, int peel) {
+    plain_found best = {-1, -1, HUGE_VAL, -1};
+    int n = p->count;
+    for (int i = 0; i < n; i++)
+        for (int j = i + least; j < n && j <= i + n - least; j++) {
+            double l2 = plain_length2(p->vertex[i], p->vertex[j]);
+            double more = wanted > 0 ? wanted * (1 - 1e-12) : best.clear;
+            if (peel && j - i > peel && n - j + i > peel) continue;
+            if (wanted > 0 && !(l2 < best.length2)) continue;
+            double clear = plain_clear(p, i, j, wanted > 0 ? wanted : HUGE_VAL);
+            if (clear > more) best = (plain_found){i, j, l2, clear};
+        }
+    return best;
+}
+
+static plain_found plain_find(const fw_geometry_polygon *p, double wanted, int most, int share,
+                              bool peels) {
+    static const int part[] = {1, 2, 4, 8, 2, 8, 1};
+    plain_found best = {-1, -1, 0, 0};
+    for (int k = 0; k < 7 && best.i < 0; k++) {
+        bool peel = peels && k < 6 && p->count / 64 < most;
+        int of = peel && 2 * most < p->count ? 2 * most : p->count, least = of / (part[k] * share);
+        best = plain_round(p, k < 4 ? wanted : 0, least > 2 ? least : 2, peel ? most - 1 : 0);
+    }
+    return best;
+}
+
+/* into parts of `list`; the least distance of a cut */
+static double plain_cut(fw_arena *arena, const fw_geometry_polygon *p, int most, double wanted,
+                        double above, int share, bool peels, fw_geometry_polygon *list, int *n) {
+    double clear = HUGE_VAL;
+    list[0] = *p;
+    *n = 1;
+    for (int k = 0; k < *n && clear > above;) {
+        fw_geometry_polygon whole = list[k];
+        if (whole.count <= most) {
+            k++;
+            continue;
+        }
+        plain_found f = plain_find(&whole, fmin(wanted, clear), most, share, peels);
+        assert_true(f.i >= 0);
+        clear = fmin(clear, f.clear);
+        memmove(&list[k + 2], &list[k + 1], (size_t)(*n - k - 1) * sizeof *list);
+        for (int side = 0; side < 2; side++) {
+            int from = side ? f.j : f.i, to = side ? f.i + whole.count : f.j;
+            list[k + side].count = to - from + 1;
+            list[k + side].vertex =
+                fw_arena_array(arena, fw_geometry_point, (size_t)(to - from + 1));
+            for (int m = from; m <= to; m++)
+                list[k + side].vertex[m - from] = plain_at(&whole, m);
+        }
+        (*n)++;
+    }
+    return clear;
+}
+
+/* the parts are those of the plain search, vertex by vertex */
+static void assert_plain(fw_arena *arena, const fw_geometry_polygon *p, int most) {
+    static const struct {
+        int share;
+        bool peels;
+    } manner[] = {{4, true}, {4, false}, {3, false}, {8, false}};
+    fw_geometry_polygon *part, *now = fw_arena_array(arena, fw_geometry_polygon, (size_t)p->count),
+                               *best = fw_arena_array(arena, fw_geometry_polygon, (size_t)p->count);
+    double clear, least = -1, wanted = fmax(50, FW_CUT_SHARE * shortest_dbu(p));
+    int npart, n = 0, nbest = 0;
+    for (int k = 0; k < 4; k++) {
+        double above = k == 0 ? -HUGE_VAL : 1.1 * least;
+        double found = plain_cut(arena, p, most, wanted, above, manner[k].share, manner[k].peels, now, &n);
+        if (found > above) {
+            least = found;
+            nbest = n;
+            memcpy(best, now, (size_t)n * sizeof *now);
+        }
+        if (least >= wanted || least < wanted / 8) break;
+    }
+    assert_int_equal(fw_mask_polygon_cut(arena, p, most, &part, &npart, &clear), FW_OK);
+    assert_int_equal(npart, nbest);
+    assert_near(clear, least, 1e-9 * fabs(least));
+    for (int k = 0; k < npart; k++) {
+        assert_int_equal(part[k].count, best[k].count);
+        assert_memory_equal(part[k].vertex, best[k].vertex, (size_t)part[k].count * sizeof *part[k].vertex);
+    }
+}
+
 static fw_geometry_polygon flat(fw_arena *arena, const fw_geometry_contour *c, double tolerance_m) {
     fw_geometry_polygon p;
     assert_int_equal(fw_geometry_tessellate(arena, c, tolerance_m, &p), FW_OK);
@@ -157,6 +320,40 @@ static void random_outlines(void **state) {
         fw_geometry_polygon_report report;
         assert_int_equal(fw_geometry_polygon_check(arena, &p, &report), FW_OK);
         if (report.simple) cut_and_check(arena, &p, 8 + (int)(60 * random01(&seed)), n);
+        fw_arena_free(arena);
+    }
+}
+
+/* stars, combs with teeth of any length, and rows of bays as dense holes leave them */
+static void as_the_plain_search(void **state) {
+    (void)state;
+    uint64_t seed = 71;
+    for (int run = 0; run < test_cases(30, 6); run++) {
+        fw_arena *arena = fw_arena_new(0);
+        int n = 0, teeth = 6 + (int)(20 * random01(&seed)), kind = run % 3;
+        int size = run % 2 ? 40000 : 900;
+        fw_geometry_point v[400];
+        if (kind == 0)
+            for (int i = 0; i < 4 * teeth; i++) {
+                double r = size * (0.3 + random01(&seed)), angle = 2 * PI * i / (4 * teeth);
+                v[n++] = (fw_geometry_point){(int32_t)lround(r * cos(angle)),
+                                             (int32_t)lround(r * sin(angle))};
+            }
+        for (int side = 0; side < 2 && kind > 0; side++) /* below to the right, above to the left */
+            for (int i = 0; i < teeth; i++) {
+                int32_t x = size * i / 2, deep = (int32_t)(size * (kind == 1 ? random01(&seed) : 0.3)),
+                        y = side ? 3 * size : 0, sign = side ? -1 : 1;
+                const int32_t at[6][2] = {{x, y}, {x + size / 6, y}, {x + size / 6, y + sign * deep / 2},
+                                          {x + size / 4, y + sign * deep}, {x + size / 3, y + sign * deep / 2},
+                                          {x + size / 3, y}};
+                for (int k = 0; k < 6; k++)
+                    v[n++] = (fw_geometry_point){side ? size * teeth / 2 - at[k][0] : at[k][0], at[k][1]};
+            }
+        fw_geometry_polygon p = {v, n};
+        fw_geometry_polygon_report report;
+        assert_int_equal(fw_geometry_polygon_check(arena, &p, &report), FW_OK);
+        if (report.simple && fw_geometry_polygon_area2(&p) > 0)
+            assert_plain(arena, &p, 8 + (int)(0.4 * n * random01(&seed)));
         fw_arena_free(arena);
     }
 }
@@ -294,6 +491,7 @@ int main(void) {
         cmocka_unit_test(discs_and_rings),
         cmocka_unit_test(necks_are_preferred),
         cmocka_unit_test(random_outlines),
+        cmocka_unit_test(as_the_plain_search),
         cmocka_unit_test(combs),
         cmocka_unit_test(fingers_leave_no_slivers),
         cmocka_unit_test(rounded_plates),

@@ -26,9 +26,9 @@ static const char device_form[] =
     "<revolute id=\"D\" a=\"right\" a-x=\"0 mm\" a-y=\"-0.75 mm\" b=\"ground\" b-x=\"1.8 mm\" "
     "b-y=\"0 mm\" hinge=\"leaf\"/></mechanism>"
     "<scene name=\"push\" duration=\"3 ms\"><force on=\"stage\" fx=\"%s\"/>"
-    "<air kind=\"slide\" on=\"stage\" gap=\"%s\"/></scene></device>";
+    "<air kind=\"slide\" on=\"stage\" gap=\"%s\"/></scene>%s</device>";
 
-static const char *fx = "4 uN";
+static const char *fx = "4 uN", *die = "";
 static char folder[] = "fw-hollows-XXXXXX";
 
 /* a file of the data directory, with one text exchanged */
@@ -92,7 +92,7 @@ static fw_plan *asked(const char *gap, fw_status *loaded) {
     fw_plan_options options = fw_plan_options_default();
     options.data_directory = folder;
     fw_plan *plan = fw_plan_new(&options);
-    snprintf(xml, sizeof xml, device_form, fx, gap);
+    snprintf(xml, sizeof xml, device_form, fx, gap, die);
     *loaded = fw_plan_load_memory(plan, "stage.xml", xml, strlen(xml));
     return plan;
 }
@@ -130,6 +130,70 @@ static void as_it_is(void **state) {
     assert_false(hollow->unknown); /* below the stage: 500 um and both margins, on a grid */
     assert_near(hollow->value, 580e-6, 25e-6);
     fw_plan_free(plan);
+}
+
+/* one wire from each pad that is drawn, of the chips that are packaged, and those that are pulled */
+static void wires_follow_the_pads(void **state) {
+    (void)state;
+    fw_plan *plan = judged("20 um");
+    const fw_layout *marked;
+    fw_layout_no_room no_room;
+    int pads = 0;
+    assert_int_equal(fw_mask_frame_marks(plan->arena, plan->flow[0].table, plan->layout, &marked, &no_room), FW_OK);
+    for (int i = 0; i < marked->npiece; i++)
+        pads += strcmp(marked->piece[i].label, "metal of a bond pad") == 0;
+    assert_true(pads > 0);
+    static const char *const id[] = {"mask.pads", "chips", "wire.pulls", "wires"};
+    double value[4];
+    for (int i = 0; i < 4; i++) {
+        const fw_quantity *q = fw_process_flow_quantity(plan->flow[0].flow, id[i]);
+        assert_non_null(q);
+        assert_false(q->unknown);
+        value[i] = q->value;
+    }
+    assert_near(value[0], pads, 1e-12);
+    assert_near(value[3], value[1] * pads + value[2], 1e-9);
+    fw_plan_free(plan);
+}
+
+/* a frame that has no room for the marks of its plates says so, and the one that is named has it */
+static void marks_without_room_are_said(void **state) {
+    (void)state;
+    static const struct {
+        const char *die;
+        bool said;
+    } row[] = {{"", false},
+               {"<die frame=\"140 um\"/>", true},
+               {"<die frame=\"223 um\"/>", true},
+               {"<die frame=\"224 um\"/>", false}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        die = row[i].die;
+        fw_plan *plan = judged("20 um");
+        die = "";
+        assert_int_equal(said(plan, 619, "2 of the 2 marks frame-mark on the frame"), row[i].said);
+        assert_int_equal(said(plan, 619, "with <die frame=\"224 um\"> they are there"), row[i].said);
+        fw_plan_free(plan);
+    }
+}
+
+/* without marks on the frames, sites of the wafer must have them */
+static void plates_without_any_mark_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *die;
+        bool refused;
+    } row[] = {{"<die frame=\"140 um\"/>", false}, /* whose plate it is put on is not said */
+               {"<die frame=\"140 um\"/><wafer diameter=\"100 mm\"/>", true},
+               {"<die frame=\"140 um\"/><wafer diameter=\"100 mm\" alignment=\"2 sites\"/>", false},
+               {"<wafer diameter=\"100 mm\"/>", false}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        die = row[i].die;
+        fw_plan *plan = judged("20 um");
+        die = "";
+        assert_int_equal(reason_of(plan, "shows how its plates lie on each other") != NULL, row[i].refused);
+        assert_int_equal(plan->flow[0].flow->manufacturable == 0, row[i].refused);
+        fw_plan_free(plan);
+    }
 }
 
 static void other_air(void **state) {
@@ -357,6 +421,9 @@ static void disagreements(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(wires_follow_the_pads, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(marks_without_room_are_said, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(plates_without_any_mark_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(as_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_air, set_up, tear_down),
         cmocka_unit_test_setup_teardown(travel, set_up, tear_down),
