@@ -95,7 +95,7 @@ static void beginning(fw_text *out) {
                      ".TP\n.I share/flexwright/processes, share/flexwright/masks\n"
                      "process packs and layer tables, which are data: a laboratory edits a copy\n"
                      ".TP\n.I share/flexwright/device.rng, share/flexwright/catalog.xml\n"
-                     "schema of device files for editors\n"
+                     "schemas of device files and process packs for editors\n"
                      ".TP\n.I share/flexwright/klayout\nthe package for KLayout\n");
 }
 

@@ -85,6 +85,10 @@ class Tree(unittest.TestCase):
         if shutil.which("xmlcatalog"):
             found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:device:1").strip()
             self.assertTrue(found.endswith("/device.rng"), found)
+            found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:process:1").strip().removeprefix("file://")
+            self.assertTrue(pathlib.Path(found).samefile(data / "processes/packs.rng"), found)
+            for pack in (data / "processes").glob("*.xml"):
+                run("xmllint", "--nonet", "--noout", "--relaxng", found, pack)
 
     def test_pages(self):
         """every page is there with all that it links to, and the devices that its examples name"""
