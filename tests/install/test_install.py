@@ -166,6 +166,9 @@ class Tree(unittest.TestCase):
             for option in options(command):
                 self.assertIn("--" + option, part)
                 self.assertIn(f"'__fish_seen_subcommand_from {command}' -l {option} ", fish)
+        for shell in (zsh, fish):  # a colon and an apostrophe are the shell's own: the words keep a comma, and theirs
+            self.assertIn("only the verdict, does a hinge leave its elastic range?", shell)
+            self.assertIn("equilibrium under a scene\u2019s loads", shell)
         for line in zsh.splitlines() + fish.splitlines():  # quotes are closed
             self.assertEqual(line.count("'") % 2, 0, line)
         for shell, name in (("zsh", "share/zsh/vendor-completions/_flexwright"),
