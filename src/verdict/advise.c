@@ -55,7 +55,8 @@ static bool change_each(fw_verdict_trial *trial, change_one *change, double extr
 
 /* repeats `change`, and judges, until all are accepted; gives up when a change is not possible or the
    worst hinge gets no better by it. Glances lead there; the end is judged wholly, or, if *glanced may stay so, left to
-   a glance that accepts it as made, too: what is proposed lies nearer, and is judged wholly in any case. */
+   a glance that accepts it as made, too: what is proposed lies nearer, and is judged wholly in any case. It may where
+   something was accepted wholly before, from which the corners that govern there are known. */
 static fw_status repeat(fw_verdict_trial *trial, change_one *change, bool *glanced) {
     const bool may_be_glanced = *glanced;
     *glanced = false;
@@ -210,7 +211,7 @@ static fw_status change_by(advice *a, const char *kind, change_one *change,
     *added = false;
     if (!may_begin(a, kind)) return FW_OK;
     for (int turn = 0; turn < 2 && !*added; turn++) {
-        bool glanced = turn == 0;
+        bool glanced = turn == 0 && a->trial->accepted;
         FW_TRY(start_again(a));
         FW_TRY(repeat(a->trial, change, &glanced));
         if (accepted(a->trial))
