@@ -181,14 +181,14 @@ class Cells(unittest.TestCase):
         self.assertEqual(wide, 0)
 
     def test_wafer(self):
-        wafer = '<wafer diameter="100 mm"><cell file="logo.gds" x="%s mm" y="-58 mm" layers="1/0>mask"/></wafer>'
+        wafer = '<wafer diameter="50.8 mm"><cell file="logo.gds" x="%s mm" y="-32 mm" layers="1/0>mask"/></wafer>'
         self.own("wafer", "", wafer % "5", "gds")
-        self.own("empty", "", '<wafer diameter="100 mm"/>', "gds")
-        at = [5000000, -58000000, 0, False]
+        self.own("empty", "", '<wafer diameter="50.8 mm"/>', "gds")
+        at = [5000000, -32000000, 0, False]
         (area, off, _), = self.compare([["wafer/masks/%s-wafer.gds" % FLOW, [1, 0], [["empty/masks/%s-wafer.gds" % FLOW, [1, 0]], ["logo.gds", [1, 0], at]]]])
         self.assertGreater(area, 0)
         self.assertEqual(off, 0)
-        done = self.make("over", "", (wafer % "0").replace("-58", "0"))
+        done = self.make("over", "", (wafer % "0").replace("-32", "0"))
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("FW-D571", done.stderr)
 
