@@ -95,9 +95,10 @@ bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 /* which requirements there are in this flow, before anything is run: v->requirement */
 fw_status fw_verdict_requirements_list(fw_arena *arena, const fw_mechanism *mechanism,
                                        fw_verdict_variant_verdict *v);
-/* probe monitors of both runs of scene i; *monitor NULL where no probe has a course in it */
+/* probe monitors of both runs of scene i; *monitor NULL where no probe has a course in it. required: those alone that a
+   requirement reads there, since nobody sees the others */
 fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *mechanism, int scene,
-                                        const fw_verdict_variant_verdict *v,
+                                        const fw_verdict_variant_verdict *v, bool required,
                                         fw_probe_monitor *monitor[2]);
 /* "stroke (final) is 47.9 um (46.7 um to 49 um), and at least 40 um is required" */
 const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r);
