@@ -274,7 +274,8 @@ fw_status fw_flexure_across_strain(fw_arena *arena, const fw_flexure_input *in,
                 strain[0] = fmax(strain[0], fabs(M) * face * (straight ? 1 : halves));
             }
             const double warped = is.warp_m > 0 ? twists * w * h / (4 * is.warp_m) : 0;
-            strain[1] = fmax(strain[1], 2 * (bends + warped) + 0.5 * twists * fmin(w, h));
+            const double here = 2 * (bends + warped) + 0.5 * twists * fmin(w, h);
+            if (!(here <= strain[1])) strain[1] = isnan(here) ? (double)INFINITY : here;
         }
     }
     fw_arena_rewind(arena, mark);

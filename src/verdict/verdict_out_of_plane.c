@@ -304,6 +304,13 @@ static fw_status tell_strained(fw_arena *arena, const fw_device_scene *s, double
     to->decision = fw_verdict_worse(to->decision, decision);
     fw_percent_text(used, sizeof used, sure ? to->strained_sure : to->strained);
     fw_percent_text(plane, sizeof plane, in);
+    if (!isfinite(to->strained) && !sure)
+        return add(v, s, 641, decision, 0.5,
+                   fw_arena_printf(arena,
+                                   "what hinges bear across the plane in %s%s is not known: "
+                                   "nothing bounds the law of its shock; state it as a table, "
+                                   "or by a law that has a largest value",
+                                   FW_NAMED("scene", s->name)));
     return add(v, s, 641, decision, 0.95 / (sure ? to->strained_sure : to->strained),
                fw_arena_printf(arena,
                                "%s%s bends across the plane in %s%s, and uses %s%s %% of its "
@@ -335,8 +342,9 @@ static fw_status judge_strain(fw_arena *arena, both *is, fw_verdict_variant_verd
         const double most = in + strain[1] * (1 + is->rigid.error) / limit;
         const double sure = strain[0] / (1 + is->rigid.error) / limit;
         to->strained_sure = fmax(to->strained_sure, sure);
-        if (!(most > to->strained)) continue;
-        to->strained = most, worst_in = in;
+        if (most <= to->strained) continue;
+        /* a law that nothing bounds: inf, or inf times what does not move */
+        to->strained = isnan(most) ? (double)INFINITY : most, worst_in = in;
         to->strained_hinge = m->pin[h->pin].id;
     }
     return tell_strained(arena, s, worst_in, v, to);

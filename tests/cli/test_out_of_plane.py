@@ -201,6 +201,10 @@ class OutOfPlane(unittest.TestCase):
         shaken = self.across(f'<base-motion az="100 m/s^2" {law}/>', flow=GLASS)
         self.assertEqual(shaken[0]["verdict"], "inconclusive")
         self.assertIn("580", json.dumps(shaken[0]["reasons"]))
+        etched_through = self.across(f'<base-motion az="100 m/s^2" {law}/>')  # nothing is below it
+        self.assertEqual(etched_through[0]["verdict"], "inconclusive")
+        self.assertIn("nothing bounds the law", json.dumps(etched_through[0]["reasons"]))
+        self.assertIsNone(etched_through[2]["strained"])
 
     def test_a_law_that_is_bounded_by_intervals(self):
         """a formula whose largest value is proved is judged as a ramp of that size is, and a shock of it is decided"""
