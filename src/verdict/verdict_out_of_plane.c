@@ -134,6 +134,15 @@ static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_sc
     if (!below->known || below->open || !(-to->lowest_m > below->low_m)) return FW_OK;
     bool sure = -to->sure_m / (1 + is->rigid.error) > below->high_m;
     to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
+    if (!sure && !isfinite(to->lowest_m))
+        return add(v, s, 580, to->decision, 0.5,
+                   fw_arena_printf(arena,
+                                   "how far the device comes down in %s%s is not known, and below "
+                                   "it are %s um (%s): nothing bounds the law of its shock; state "
+                                   "it as a table, or by a law that has a largest value",
+                                   FW_NAMED("scene", s->name),
+                                   fw_number_text(has, sizeof has, 1e6 * below->m, 3),
+                                   below->words));
     return add(v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
                fw_arena_printf(
                    arena,
