@@ -124,52 +124,43 @@ double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double 
 
 /* ---- what it does to an oscillator ---- */
 
-typedef struct oscillator {
-    const fw_quantity_law *law;
-    double at[JOLTS + 1]; /* (count + 1) where pieces end */
-    int count;
-    double step_s;
-} oscillator;
+enum { PER_PERIOD = 24 };
 
-/* Largest |q| at samples, of one frequency. With f linear over a step h, (q - f, q'/w - f'/w) turns by w h. */
-static double swing(const oscillator *o, double omega_per_s) {
-    double q = 0, p = 0, most = 0, from = 0, value[3];
-    for (int i = 0; i <= o->count; i++) {
-        const double piece = 0.5 * (from + o->at[i]), length = o->at[i] - from;
-        if (!(length > 0)) continue;
-        const double n = ceil(length / o->step_s), h = length / n;
-        const double c = cos(omega_per_s * h), s = sin(omega_per_s * h);
-        fw_quantity_law_value(o->law, from, piece, value);
-        double f = value[0];
-        for (double k = 1; k <= n; k++) {
-            fw_quantity_law_value(o->law, from + k * h, piece, value);
-            const double slope = (value[0] - f) / (h * omega_per_s), x = q - f, y = p - slope;
-            q = value[0] + x * c + y * s;
-            p = slope - x * s + y * c;
-            f = value[0];
-            most = fmax(most, fabs(q));
-        }
-        from = o->at[i];
+double fw_quantity_law_swing(const fw_quantity_law *law, double end_s, double omega_per_s,
+                             double damping) {
+    const double most_steps = 4e6, fastest = fw_quantity_law_wave_of(law).fastest_Hz;
+    const double n = ceil(PER_PERIOD * end_s * fmax(omega_per_s / (2 * FW_PI), fastest));
+    if (!(n < most_steps) || !(damping < 1)) return -1;
+    const double h = end_s / n, w = omega_per_s, turn = w * sqrt(1 - damping * damping);
+    const double decay = exp(-damping * w * h), c = decay * cos(turn * h),
+                 s = decay * sin(turn * h) / turn;
+    double q = 0, v = 0, most = 0, value[3];
+    fw_quantity_law_value(law, 0, 0.5 * h, value);
+    double f = value[0];
+    for (double k = 1; k <= n; k++) {
+        fw_quantity_law_value(law, k * h, (k - 0.5) * h, value);
+        const double slope = (value[0] - f) / h, late = 2 * damping * slope / w;
+        const double x = q - f + late, y = v - slope; /* from what follows f, 2 zeta/w behind */
+        q = value[0] - late + x * c + (y + damping * w * x) * s;
+        v = slope + y * c - (w * w * x + damping * w * y) * s;
+        f = value[0];
+        most = fmax(most, fabs(q));
     }
     return most;
 }
 
 /* of all frequencies of [low, high]; -1: it would take too long, or samples could miss something of the law */
 static double swings(const fw_quantity_law *law, double end_s, double low, double high) {
-    const double per_period = 24, apart = 0.5, most_steps = 4e6;
+    const double apart = 0.5, most_steps = 4e6;
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
-    oscillator o = {.law = law};
     if (!(wave.fastest_Hz > 0) && !fw_quantity_law_is_straight(law)) return -1;
-    o.count = fw_quantity_law_breaks_of(law, end_s, o.at, JOLTS);
-    if (o.count > JOLTS) return -1;
-    fw_sort_doubles(o.at, (size_t)o.count);
-    o.at[o.count] = end_s;
-    o.step_s = 1 / (per_period * fmax(high / (2 * FW_PI), wave.fastest_Hz));
     const double n = 1 + ceil((high - low) * end_s / apart);
-    if (!(n * (end_s / o.step_s + o.count) < most_steps)) return -1;
+    if (!(n * PER_PERIOD * end_s * fmax(high / (2 * FW_PI), wave.fastest_Hz) < most_steps))
+        return -1;
     double most = 0;
     for (double k = 0; k < n; k++)
-        most = fmax(most, swing(&o, n > 1 ? low + (high - low) * k / (n - 1) : high));
+        most = fmax(most, fw_quantity_law_swing(
+                              law, end_s, n > 1 ? low + (high - low) * k / (n - 1) : high, 0));
     return most;
 }
 

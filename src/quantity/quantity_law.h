@@ -83,6 +83,12 @@ double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double 
 double fw_quantity_law_answer(const fw_quantity_law *law, double end_s, double low_per_s,
                               double high_per_s);
 
+/* Largest |q| of q'' + 2 damping w q' + w^2 q = w^2 f(t), at rest before, by exact steps of f that is linear between 24
+   samples to a period of w or of what the law is made of; below by 2 % at most. damping: share of the critical one, < 1.
+   -1: beyond 4e6 steps. Test: test_time_law.c answers */
+double fw_quantity_law_swing(const fw_quantity_law *law, double end_s, double omega_per_s,
+                             double damping);
+
 /* ---- steps that see all of it (stride.c) ---- */
 
 typedef struct

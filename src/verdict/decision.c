@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Decisions, their order, the errors of the model that they allow for, and what a refined computation may decide. */
+#include "statics/statics.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
+#include <string.h>
 
 /* motion: largest difference of any hinge's peak section moment, joint force included, between
    ideal pins and geometrically exact flexures over the four reference load cases of a whole
@@ -153,4 +155,200 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
     const bool meet = c->least.m <= 0 && c->least.share > 0;
     const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
     return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
+}
+
+/* ---- what a law does near a resonance ----
+   Bands hold what a stiffness is off by in proportion. A law that goes to and fro for many periods near a mode does much
+   more or less where the mode lies a little lower or higher than computed, which its own error allows. Of each load whose
+   law goes to and fro, and of each mode, A(w) is the largest answer of an oscillator with the mode's damping
+   (fw_quantity_law_swing); with w_k how much the load does to mode k at rest,
+
+     up = max over loads of sum w_k max A/sum w_k A(w_k),   down likewise with the least A,
+
+   over frequencies within the mode's error and what bodies give, half a radian apart at the end of the scene, at most
+   100 of them. Inputs: modes at rest of the scene. Outputs: factors on what moves, up >= 1 >= down. Error: small
+   motions, as modes are; a mode's shape stays. Cost: modes, and 24 steps a period for each frequency.
+   Test: test_effects.py Resonance */
+
+static bool to_and_fro(const fw_quantity_law *law, double end_s) {
+    const double swings = 6; /* three times there and back */
+    const fw_quantity_law_size size = fw_quantity_law_measure(law, end_s);
+    return !(size.variation <= swings * size.most);
+}
+
+typedef struct shaken_by {
+    const fw_quantity_law *law;
+    enum {
+        BY_BODY,
+        BY_MASS,
+        BY_ANY
+    } how; /* on one body; on all by their mass; not looked up, every mode alike */
+    int body;
+    double x_m, y_m, fx, fy, torque;
+} shaken_by;
+
+/* what it does to a mode at rest, for a shape whose largest entry is 1 */
+static double does_to(const fw_mechanism *m, const fw_statics_mode *mode, const shaken_by *by) {
+    double work = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *u = mode->shape + 3 * b;
+        if (by->how == BY_MASS)
+            work += m->body[b].mass_kg * (by->fx * u[0] + by->fy * u[1]);
+        else if (by->how == BY_BODY && by->body == b)
+            work += by->fx * (u[0] - by->y_m * u[2]) + by->fy * (u[1] + by->x_m * u[2]) +
+                    by->torque * u[2];
+    }
+    if (by->how == BY_ANY) work = 1;
+    return fabs(work) / (mode->modal_mass_kg_m2 * mode->stiffness_per_s2);
+}
+
+/* largest and least answer of a mode within its error; of one that takes too long, as if it were known */
+static void answers_of(const fw_statics_mode *mode, const fw_quantity_law *law, double end_s,
+                       double bodies, double to[3]) {
+    enum { MOST = 100 };
+    const double w = mode->omega_rad_per_s, z = fmin(fmax(mode->damping_ratio, 0), 0.99);
+    const double off = fmin(fw_statics_mode_error(mode), 0.5), low = w * (1 - off - 0.5 * bodies),
+                 high = w * (1 + off);
+    const double n = fmin(1 + ceil((high - low) * end_s / 0.5), MOST);
+    to[0] = to[1] = to[2] = fw_quantity_law_swing(law, end_s, w, z);
+    for (double k = 0; k < n && to[0] >= 0; k++) {
+        const double at = n > 1 ? low + (high - low) * k / (n - 1) : w;
+        const double now = fw_quantity_law_swing(law, end_s, at, z);
+        if (!(now >= 0)) continue;
+        to[1] = fmax(to[1], now), to[2] = fmin(to[2], now);
+    }
+    if (to[0] < 0) to[0] = to[1] = to[2] = 1;
+}
+
+static void take_shaken(const fw_mechanism *m, const fw_statics_modes *modes, double end_s,
+                        double bodies, const shaken_by *by, double factor[2]) {
+    enum { FEW = 6 };
+    double sum[3] = {0};
+    if (!to_and_fro(by->law, end_s)) return;
+    for (int k = 0; k < modes->count && k < FEW; k++) {
+        const fw_statics_mode *mode = &modes->mode[k];
+        double is[3];
+        if (!(mode->stiffness_per_s2 > 0) || !mode->shape) continue;
+        const double weight = does_to(m, mode, by);
+        answers_of(mode, by->law, end_s, bodies, is);
+        for (int i = 0; i < 3; i++)
+            sum[i] += weight * is[i];
+    }
+    if (!(sum[0] > 0)) return;
+    factor[0] = fmax(factor[0], sum[1] / sum[0]), factor[1] = fmin(factor[1], sum[2] / sum[0]);
+}
+
+static bool any_to_and_fro(const fw_device_scene *s) {
+    const double end = s->duration_s;
+    bool any = false;
+    for (int i = 0; i < s->nforce; i++)
+        any = any || to_and_fro(s->force[i].law, end);
+    for (int i = 0; i < s->ntorque; i++)
+        any = any || to_and_fro(s->torque[i].law, end);
+    for (int i = 0; i < s->ntendon; i++)
+        any = any || to_and_fro(s->tendon[i].law, end);
+    for (int i = 0; i < s->nbase; i++)
+        any = any || ((s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0) &&
+                      to_and_fro(s->base[i].law, end));
+    return any;
+}
+
+static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, double bodies,
+                         double factor[2]) {
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double end = s->duration_s;
+    factor[0] = factor[1] = 1;
+    if (!any_to_and_fro(s)) return FW_OK;
+    const fw_statics_mode_options o = {.accuracy = 0.03};
+    fw_diags own = fw_diags_new(arena);
+    const fw_statics_modes *modes = NULL;
+    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
+    fw_status status = fw_statics_small_motions(arena, m, &still, &o, &own, &modes);
+    if (status == FW_NOMEM || status == FW_CANCELLED || own.failed)
+        return status == FW_CANCELLED ? status : FW_NOMEM;
+    if (!modes) return FW_OK;
+    for (int i = 0; i < s->nforce; i++)
+        take_shaken(m, modes, end, bodies,
+                    &(shaken_by){.law = s->force[i].law,
+                                 .body = s->force[i].body,
+                                 .x_m = s->force[i].x_m,
+                                 .y_m = s->force[i].y_m,
+                                 .fx = s->force[i].fx_N,
+                                 .fy = s->force[i].fy_N},
+                    factor);
+    for (int i = 0; i < s->ntorque; i++)
+        take_shaken(m, modes, end, bodies,
+                    &(shaken_by){.law = s->torque[i].law, .body = s->torque[i].body, .torque = 1},
+                    factor);
+    for (int i = 0; i < s->ntendon; i++)
+        take_shaken(m, modes, end, bodies, &(shaken_by){.law = s->tendon[i].law, .how = BY_ANY},
+                    factor);
+    for (int i = 0; i < s->nbase; i++)
+        take_shaken(m, modes, end, bodies,
+                    &(shaken_by){.law = s->base[i].law,
+                                 .how = BY_MASS,
+                                 .fx = s->base[i].ax_m_per_s2,
+                                 .fy = s->base[i].ay_m_per_s2},
+                    factor);
+    return FW_OK;
+}
+
+/* what meets may not, where a mode that lies elsewhere moves less */
+static void may_not_meet(fw_verdict_variant_verdict *v, int scene, double less) {
+    const char *name = v->mechanism->device->scene[scene].name;
+    for (int k = 0; k < v->nreason; k++) {
+        fw_verdict_reason *r = &v->reason[k];
+        if (r->number == 294 && r->decision == FW_REJECT && r->scene && r->keep > less &&
+            strcmp(r->scene, name) == 0)
+            r->decision = FW_INCONCLUSIVE;
+    }
+    for (int k = 0; k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index == scene && c->decision == FW_REJECT && c->keep > less)
+            c->decision = FW_INCONCLUSIVE;
+    }
+}
+
+/* v->detuned; a warning, and a reason where what does not meet may then meet */
+fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
+                            bool brief, fw_diags *diags, fw_verdict_variant_verdict *v) {
+    const double told = 1.1;
+    const fw_device *d = m->device;
+    FW_NEED(v->detuned = fw_arena_array(arena, double, 2 * (size_t)d->nscene));
+    for (int i = 0; i < d->nscene; i++) {
+        double *f = v->detuned + 2 * i;
+        char up[32], down[32];
+        f[0] = f[1] = 1;
+        if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], f));
+        if (f[1] < 1) may_not_meet(v, i, f[1]);
+        if (!(f[0] > told)) continue;
+        fw_number_text(up, sizeof up, f[0], 2), fw_number_text(down, sizeof down, f[1], 2);
+        if (!brief)
+            fw_diag_warning(diags, 642, d->scene[i].place,
+                            "%s%s shakes near a mode whose frequency is known to some per cent: "
+                            "within them it moves %s to %s times as far, which the bands hold; "
+                            "keep the frequencies apart, or say by <material-damping> what damps",
+                            FW_NAMED("scene", d->scene[i].name), down, up);
+        for (int k = 0; k < v->nclearance; k++) {
+            const fw_verdict_clearance *c = &v->clearance[k];
+            if (c->scene_index != i || c->decision != FW_ACCEPT || !(c->way.share * f[0] > 1))
+                continue;
+            const char *text = fw_arena_printf(
+                arena,
+                "%s and %s may meet in %s%s: they come %s of the way as computed, and a mode that "
+                "lies within its error may move %s times as far",
+                c->way.a ? c->way.a : "parts", c->way.b ? c->way.b : "others",
+                FW_NAMED("scene", d->scene[i].name),
+                fw_number_text(down, sizeof down, c->way.share, 2), up);
+            FW_NEED(text);
+            v->reason[v->nreason++] = (fw_verdict_reason){.scene = d->scene[i].name,
+                                                          .flow = m->variant->flow,
+                                                          .number = 642,
+                                                          .decision = FW_INCONCLUSIVE,
+                                                          .keep = 0.95 / (c->way.share * f[0]),
+                                                          .text = text};
+            break;
+        }
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -365,6 +365,17 @@ static fw_verdict_hinge_verdict blank_verdict(const judged *by) {
                                       .cycles = (double)NAN};
 }
 
+/* by what a mode that lies elsewhere may do more or less */
+static void widen(const double factor[2], fw_verdict_hinge_verdict *h) {
+    const double up = factor[0] - 1, down = 1 - factor[1];
+    if (!(up > 0) && !(down > 0)) return;
+    h->utilisation_high += h->utilisation * up, h->lasting += up;
+    h->utilisation_low *= factor[1], h->lasting_low += down;
+    h->parts.model[0] += down, h->parts.model[1] += up;
+    if (h->decision != FW_INCONCLUSIVE)
+        h->decision = decide(h->utilisation_low, h->utilisation_high);
+}
+
 static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const judged *by, int k,
                              const fw_verdict_strain_monitor *monitor, fw_diags *diags,
                              fw_verdict_variant_verdict *v) {
@@ -379,6 +390,7 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         const fw_verdict_strain_monitor *observed =
             v->motion[i]->observed ? v->motion[i]->observed : &monitor[i];
         FW_TRY(judge_scene(arena, by, v->motion[i], observed, k, device->scene[i].name, &now));
+        widen(v->detuned + 2 * i, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
@@ -501,6 +513,11 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_bending_begin(arena, layout, m, only_hinges_ask(device, m, options, v), v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     const bool brief = is_brief(options, v) || v->corner || options->hinges_only;
+    double *bodies;
+    FW_NEED(bodies = fw_arena_array(arena, double, (size_t)device->nscene));
+    for (int i = 0; i < device->nscene; i++)
+        bodies[i] = fw_verdict_bending_share(v->motion[i]);
+    FW_TRY(fw_verdict_detune(arena, m, bodies, brief, diags, v));
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
     if (!options->hinges_only)
         FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));

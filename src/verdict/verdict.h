@@ -270,8 +270,10 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
        why */
     const fw_dynamics_motion **motion;
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    bool beyond_pull_in;                /* a scene may ask for more than its pull-in voltage */
-    fw_verdict_reason *reason;          /* (nreason) */
+    double *
+        detuned; /* (2 device->nscene) factors on what moves where a mode lies within its error (FW-D642) */
+    bool beyond_pull_in;       /* a scene may ask for more than its pull-in voltage */
+    fw_verdict_reason *reason; /* (nreason) */
     int nreason;
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */
     const struct fw_verdict_arm *arm;

@@ -31,7 +31,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 13 }; /* of one scene at most, contacts apart */
+enum { FW_REASONS = 14 }; /* of one scene at most, contacts apart */
 /* of one flow at most */
 size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 
@@ -80,6 +80,14 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
 /* after the scenes were run: v->stiction, and reasons of v. brief: only where a meniscus passes over it */
 fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                     fw_verdict_variant_verdict *v);
+
+/* ---- decision.c: where a mode may lie elsewhere ---- */
+
+/* v->detuned: factors on what moves in each scene that its modes' own errors allow, [0] >= 1 upwards, [1] <= 1 downwards,
+   both 1 where no law goes to and fro; bodies (nscene): share that they give
+   (fw_verdict_bending_share). A warning (FW-D642), and what may meet then, or may not, is undecided */
+fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,
+                            bool brief, fw_diags *diags, fw_verdict_variant_verdict *v);
 
 /* ---- verdict_scene.c: what the motion has and the masks lack ---- */
 

@@ -447,6 +447,14 @@ static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_req
     return r->measure && !v->motion[r->scene_index];
 }
 
+/* by what a mode that lies elsewhere may do more or less (decision.c) */
+static void widen(const double factor[2], fw_verdict_requirement *r) {
+    const double more = fabs(r->value) * (factor[0] - 1), less = fabs(r->value) * (1 - factor[1]);
+    if (!(more > 0) && !(less > 0)) return;
+    r->high += r->value > 0 ? more : less, r->low -= r->value > 0 ? less : more;
+    decide(r);
+}
+
 fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
                                       const fw_dynamics_motion_options *options,
                                       fw_verdict_variant_verdict *v) {
@@ -457,6 +465,9 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
                     v->requirement[i].scene_index != v->requirement[k].scene_index;
         if (first) FW_TRY(judge_small(arena, m, options, v, v->requirement[k].scene_index));
     }
+    for (int k = 0; k < v->nrequirement; k++)
+        if (v->requirement[k].measure && !v->requirement[k].why)
+            widen(v->detuned + 2 * v->requirement[k].scene_index, &v->requirement[k]);
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].decision != FW_ACCEPT && !has_reason(v, &v->requirement[k]))
             FW_TRY(add_reason(arena, m, &v->requirement[k], v));

@@ -345,5 +345,42 @@ class Effects(unittest.TestCase):
         self.assertIn("  tendon             yes", text)
 
 
+class Resonance(unittest.TestCase):
+    """a mode whose frequency is known to some per cent, and a shaker near it"""
+
+    def shaken(self, frequency, duration="60 ms"):
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text()
+        text = re.sub(r'<scene name="draw".*?</scene>|<probe id="tension"[^>]*/>|<require probe="stroke"[^>]*/>', "", text, flags=re.S)
+        scene = (f'<require probe="stroke" measure="maximum" max="0.4 mm" scene="shaker"/><scene name="shaker" duration="{duration}">'
+                 f'<base-motion ax="60 m/s^2" law="sine" frequency="{frequency} Hz"/></scene></device>')
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(text.replace("</device>", scene))
+            done = run("check", device, "--corners", "none", "--advice", "none", "--json")
+        return json.loads(done.stdout), done.stderr
+
+    def test_bands_hold_what_the_error_of_a_frequency_allows(self):
+        far, said = self.shaken(500)
+        mode = next(r for r in far["requirements"] if r["kind"] == "frequency")
+        low, high = (f / mode["value"] for f in mode["band"])
+        self.assertTrue(low < 0.99 and high > 1.002)
+        self.assertNotIn("FW-D642", said)
+        near, said = self.shaken(0.977 * mode["value"])
+        self.assertIn("FW-D642", said)
+        self.assertEqual(near["verdict"], "inconclusive")
+        self.assertTrue(any("may meet" in r["text"] for r in near["reasons"]), near["reasons"])
+        # a device that is a little softer is one that is shaken a little faster
+        softer, _ = self.shaken(0.977 * mode["value"] / (0.25 + 0.75 * low))
+        for h, other in zip(near["hinges"], softer["hinges"]):
+            self.assertGreater(other["utilisation"], 1.3 * h["utilisation"])
+            self.assertLess(other["utilisation"], h["utilisation_band"][1])
+        stroke, other = (next(r for r in d["requirements"] if r["kind"] == "displacement") for d in (near, softer))
+        self.assertLess(other["value"], stroke["band"][1])
+        # so near that it surely does not clear, and so far that nothing changes
+        self.assertEqual(self.shaken(mode["value"])[0]["verdict"], "reject")
+        self.assertEqual(far["verdict"], "accept")
+        self.assertLess(far["hinges"][0]["utilisation_band"][1], 1.1 * far["hinges"][0]["utilisation"])
+
+
 if __name__ == "__main__":
     unittest.main()
