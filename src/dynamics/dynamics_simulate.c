@@ -39,7 +39,7 @@ typedef struct pass {
 
 /* A loose run may come to where a formula ends and a tight one pass: tolerances are tightened until that is settled. It
    is where two passes by another integrator, or at another tolerance, end within this part of their time of each other:
-   a hundredth for whom only the decision counts, else as many digits as are printed. Test: test_steer.c, a_formula_ends */
+   a hundredth for whom only the decision counts, else as many digits as are printed. Test: test_actuators.c, a_formula_ends */
 static const double fw_ends_alike = 1e-4, fw_ends_alike_sparing = 1e-2;
 
 static void note_end(fw_dynamics_run *r, size_t said, double rtol, double t) {
