@@ -521,6 +521,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
     FW_TRY(in_series(arena, v));
+    FW_TRY(fw_verdict_out_of_plane_strain(arena, v));
     FW_TRY(fw_verdict_clearance_strips(arena, layout, v));
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {
