@@ -91,6 +91,10 @@ void fw_arena_tell_of(fw_arena *part, fw_progress_whole *whole) {
     part->progress = &whole->own;
 }
 
+void fw_arena_tell_alone(fw_arena *part, const fw_progress_whole *whole) {
+    if (part->progress == &whole->own) part->progress = whole->outer;
+}
+
 bool fw_arena_tells(const fw_arena *arena) {
     return arena->progress && arena->progress->told;
 }

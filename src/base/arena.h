@@ -58,6 +58,7 @@ bool fw_arena_cancelled(const fw_arena *arena);
 /* likewise of those who are told: parts of the arena that are made from then on tell them, too */
 void fw_arena_tell_with(fw_arena *arena, const fw_progress *progress); /* NULL: nobody */
 void fw_arena_tell_of(fw_arena *part, fw_progress_whole *whole);
+void fw_arena_tell_alone(fw_arena *part, const fw_progress_whole *whole); /* and no longer */
 bool fw_arena_tells(const fw_arena *arena); /* is there anybody to compose a text for? */
 void fw_arena_tell(const fw_arena *arena, const char *what, double done, double of,
                    const char *unit);

@@ -439,7 +439,7 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
     o->build = fw_arena_printf(arena, "%s.tmp-%ld", o->path, (long)getpid());
     FW_NEED(o->build);
     fw_output_remove_tree(AT_FDCWD, o->build);
-    if (mkdir(o->build, 0777) != 0) return failed(diags, o->build, "make the directory");
+    if (mkdir(o->build, 0777) != 0) return failed(diags, o->path, "make the directory");
     *output = o;
     return FW_OK;
 }

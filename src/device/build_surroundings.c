@@ -124,8 +124,10 @@ static void check_points(fw_device_reader *r, const fw_xml_record *record,
     static const char *const why[] = {
         "what carries the first of the two that touch; or on=\"...\", a hinge",
         "what carries the second of the two that touch",
-        "inside (a disc in a hole) or outside (side by side)",
-        "of the two centres when the two touch", "force per length by which they come too near"};
+        ("inside (a disc in a hole) or outside (side by side), with the distance of the two "
+         "centres when they touch, like side=\"outside\" distance=\"40 um\" stiffness=\"100 N/m\""),
+        "of the two centres when the two touch, like distance=\"40 um\"",
+        "force per length by which they come too near, like stiffness=\"100 N/m\""};
     static const char *const gap[] = {"gap"};
     char label[FW_LABEL];
     for (int i = 0; i < 5; i++)

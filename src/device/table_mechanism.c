@@ -289,8 +289,12 @@ static const fw_xml_attribute_row bar_rows[] = {
     {"id", ID, .sentence = "Id for --set and the page."},
     {"x", POSITION, .fallback = "0 mm", .sentence = "Where it begins, in the body's frame."},
     {"y", POSITION, .fallback = "0 mm", .sentence = "Where it begins, in the body's frame."},
-    {"to-x", POSITION, REQUIRED, .sentence = "Where it ends, in the body's frame."},
-    {"to-y", POSITION, REQUIRED, .sentence = "Where it ends, in the body's frame."},
+    {"to-x", POSITION, REQUIRED,
+     .sentence = "Where it ends, in the body's frame; both are written, like to-x=\"0 mm\" "
+                 "to-y=\"0.5 mm\" width=\"100 um\"."},
+    {"to-y", POSITION, REQUIRED,
+     .sentence = "Where it ends, in the body's frame; both are written, like to-x=\"0 mm\" "
+                 "to-y=\"0.5 mm\" width=\"100 um\"."},
     {"width", SIZE, REQUIRED, .sentence = "Across it."},
     {"ends", .kind = FW_KIND_WORD, .words = ends, .fallback = "square",
      .sentence = "round: half a disc about each of the two points."},

@@ -35,6 +35,29 @@ typedef struct pass {
     double uncertainty[FW_MARKS + 1]; /* fw_dynamics_near_zero_uncertainty */
 } pass;
 
+/* ---- where a formula ends ---- */
+
+/* A loose run may come to where a formula ends and a tight one pass: tolerances are tightened until that is settled. It
+   is where two passes by another integrator, or at another tolerance, end within this part of their time of each other:
+   a hundredth for whom only the decision counts, else as many digits as are printed. Test: test_actuators.c, a_formula_ends */
+static const double fw_ends_alike = 1e-4, fw_ends_alike_sparing = 1e-2;
+
+static void note_end(fw_dynamics_run *r, size_t said, double rtol, double t) {
+    fw_dynamics_controller *c = &r->control;
+    bool ended = false;
+    for (size_t i = said; i < r->diags->count; i++)
+        ended = ended || r->diags->item[i].ended != FW_ENDED_NOT;
+    const fw_dynamics_formula_end now = {ended ? t : (double)NAN, rtol, c->integrator};
+    if (now.rtol != c->end.rtol || now.integrator != c->end.integrator) c->before = c->end;
+    c->end = now;
+}
+
+static bool ends_alike(const fw_dynamics_run *r) {
+    const fw_dynamics_formula_end *a = &r->control.end, *b = &r->control.before;
+    const double near = r->problem.options->sparing ? fw_ends_alike_sparing : fw_ends_alike;
+    return fabs(a->t - b->t) <= near * a->t; /* NaN: one of them passed */
+}
+
 /* other: the run that this one is compared with, NULL: it is the first. full: the answer. A fixed
  * step has no tolerance: h = rtol^(1/4) scaled makes its error go with rtol, too */
 static fw_status run_once(fw_dynamics_run *r, double rtol, const pass *other, bool full, pass *p) {
@@ -68,7 +91,9 @@ static fw_status run_once(fw_dynamics_run *r, double rtol, const pass *other, bo
     r->record.full = full;
     r->control.law_stride = full ? 1 : 1.5;
     r->control.fixed_part = full ? 0.125 : 0.395;
+    const size_t said = r->diags->count;
     fw_status status = fw_dynamics_tape_pass(r, p->stepper, &p->peaks);
+    note_end(r, said, rtol, p->stepper->t);
     fw_dynamics_near_zero_uncertainty(&r->control, p->uncertainty);
     fw_maths_stepper_free(p->stepper); /* what a library holds for it; its results stay */
     return status;
@@ -319,7 +344,7 @@ static fw_status first_run(fw_dynamics_run *r, pair *two, double looser) {
     return again ? FW_OK : try_other(r, two, looser, two->coarse.stepper->steps, &won);
 }
 
-/* one pair of runs; FW_SOLVER without a word where tighter ones may still go through */
+/* one pair of runs; quiet: FW_SOLVER without a word where tighter ones may still go through */
 static fw_status try_tolerances(fw_dynamics_run *r, pair *two, fw_dynamics_tolerances *tolerances,
                                 int rows, bool quiet) {
     fw_diags *said = r->diags, own = fw_diags_new(r->problem.arena);
@@ -337,7 +362,8 @@ static fw_status try_tolerances(fw_dynamics_run *r, pair *two, fw_dynamics_toler
     if (status == FW_OK) status = run_fine(r, two, tolerances->rtol, &two->coarse, rows);
     r->diags = said;
     if (own.failed) return FW_NOMEM;
-    for (size_t i = 0; i < own.count && status != FW_OK && status != FW_SOLVER; i++)
+    const bool last_word = status != FW_OK && (status != FW_SOLVER || ends_alike(r));
+    for (size_t i = 0; i < own.count && last_word; i++)
         fw_diags_add(said, &own.item[i], FW_ERROR);
     return said->failed ? FW_NOMEM : status;
 }
@@ -357,7 +383,7 @@ static fw_status steer(fw_dynamics_run *r) {
     for (int tries = 1;; tries++) {
         bool last = tolerances.rtol <= fmax(1e-9, fw_dynamics_tolerance_tightest(&r->problem));
         fw_status status = try_tolerances(r, &two, &tolerances, rows, !last);
-        if (status == FW_SOLVER && !last && isnan(r->control.given_up_s)) {
+        if (status == FW_SOLVER && !last && !ends_alike(r) && isnan(r->control.given_up_s)) {
             two.again = false;
             tolerances = fw_dynamics_tolerance_next(&r->control, tolerances, 1e3, 1, &two.again);
             continue;
@@ -391,6 +417,7 @@ static fw_status find_motion(fw_dynamics_run *r) {
     r->record.motion->observed = r->problem.options->context;
     r->record.motion->compared = r->problem.options->other;
     r->control.trust = 1, r->control.part = 0;
+    r->control.end = r->control.before = (fw_dynamics_formula_end){.t = (double)NAN};
     bool known = fw_dynamics_tolerance_known(&r->problem, r->control.integrator) &&
                  !(r->problem.options->looser > 0);
     return known ? steer(r) : tighten(r);

@@ -90,6 +90,12 @@ typedef struct fw_dynamics_problem {
     bool sudden; /* a load or driver may begin at any time: an expression limits steps */
 } fw_dynamics_problem;
 
+/* where a pass ended because a formula of an element did; t NaN: it did not */
+typedef struct fw_dynamics_formula_end {
+    double t, rtol; /* scaled */
+    const fw_maths_stepper_row *integrator;
+} fw_dynamics_formula_end;
+
 /* What decides about steps: how long the next one may be, which are made again, when a run ends,
    and what two runs say of the error. */
 typedef struct fw_dynamics_controller {
@@ -105,6 +111,7 @@ typedef struct fw_dynamics_controller {
     double chosen_cost; /* likewise where an implicit one was chosen; 0: it was not, or is left */
     double patience;    /* steps of one pass after which explicit ones are doubted; 0: never */
     double given_up_s;  /* and where that was; NaN: it was not */
+    fw_dynamics_formula_end end, before; /* of the last two passes that were computed differently */
     /* the budget */
     long steps;               /* over all passes */
     long taken;               /* in this pass */

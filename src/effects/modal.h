@@ -147,6 +147,8 @@ typedef struct fw_effects_modal_load {
     bool shift;                              /* the springs' answer to a free strain */
     double *force;                           /* (n) of one unit of the law */
     double *mode;                            /* (modes) shape . force */
+    double *seen,
+        *seen_mode; /* (3 laws), (modes) of an element: values of its laws, its modal force */
     double *sup, *first, *sway, *full; /* (modes) of its modal force over the scene: largest size,
                                           size at 0+, total variation, integral of the size */
 } fw_effects_modal_load;

@@ -17,14 +17,31 @@ static void to_modes(const fw_effects_modal *o, const double *force, double *mod
             mode[j] += o->shape[(size_t)j * (size_t)o->n + (size_t)i] * force[i];
 }
 
+/* Where the bodies are drawn the force of an element depends on time by its laws alone: as long as these have the values
+   that they had, so has it. It takes most of the time of what follows a motion in modes. */
+static void of_element(const fw_effects_modal *o, const fw_effects_modal_loads *p,
+                       const fw_effects_modal_load *l, double t_s, double piece_s) {
+    const fw_effects_force_element *e = l->element;
+    double value[3 * FW_ELEMENT_LAWS] = {0};
+    const size_t size = 3 * (size_t)e->laws * sizeof *value;
+    for (int i = 0; i < e->laws; i++)
+        fw_quantity_law_value(e->law[i], t_s, piece_s, value + 3 * i);
+    if (memcmp(value, l->seen, size) == 0) return;
+    memcpy(l->seen, value, size);
+    memset(p->work, 0, (size_t)o->n * sizeof *p->work);
+    fw_effects_loads_element_force(o->mechanism, e, t_s, piece_s, p->work);
+    memset(l->seen_mode, 0, (size_t)o->modes * sizeof *l->seen_mode);
+    to_modes(o, p->work, l->seen_mode);
+}
+
 void fw_effects_modal_load_at(const fw_effects_modal *o, const fw_effects_modal_loads *p,
                               const fw_effects_modal_load *modal_load, double t_s, double piece_s,
                               double *force) {
     double value[3] = {1, 0, 0};
     if (modal_load->element) {
-        memset(p->work, 0, (size_t)o->n * sizeof *p->work);
-        fw_effects_loads_element_force(o->mechanism, modal_load->element, t_s, piece_s, p->work);
-        to_modes(o, p->work, force);
+        of_element(o, p, modal_load, t_s, piece_s);
+        for (int j = 0; j < o->modes; j++)
+            force[j] += modal_load->seen_mode[j];
         return;
     }
     if (modal_load->law) fw_quantity_law_value(modal_load->law, t_s, piece_s, value);
@@ -156,6 +173,11 @@ static fw_status add(fw_arena *arena, const fw_effects_modal *o, fw_effects_moda
     double **of[4] = {&modal_load->sup, &modal_load->first, &modal_load->sway, &modal_load->full};
     for (int i = 0; i < 4; i++)
         FW_NEED(*of[i] = fw_arena_array(arena, double, m));
+    if (!element) return FW_OK;
+    FW_NEED(modal_load->seen_mode = fw_arena_array(arena, double, m));
+    FW_NEED(modal_load->seen = fw_arena_array(arena, double, 3 * FW_ELEMENT_LAWS));
+    for (int i = 0; i < 3 * FW_ELEMENT_LAWS; i++)
+        modal_load->seen[i] = (double)NAN;
     return FW_OK;
 }
 

@@ -222,10 +222,11 @@ static double cubic_most(double a, double b, double s, double t) {
     return most;
 }
 
-static void cell(walk *w, double t, double h, double piece) {
+/* the next cell begins at the same instant, where a load that was looked at last need not be looked at again */
+static void cell(walk *w, double t, double end, double h, double piece) {
     forces(w, t, piece, w->left);
     forces(w, t + 0.5 * h, piece, w->middle);
-    forces(w, t + h, piece, w->right);
+    forces(w, end, piece, w->right);
     for (size_t j = 0; j < w->m; j++) {
         w->sup[j] = fmax(w->sup[j], fmax(fabs(w->left[j]), fabs(w->right[j])));
         double bend = fabs(w->middle[j] - 0.5 * (w->left[j] + w->right[j]));
@@ -272,7 +273,7 @@ static void walk_on(walk *w, const double *t_s, int count, double longest) {
         double h = (t_s[i] - from) / cells;
         if (!(fabs(h - w->h) <= 1e-9 * h)) leap_of(w, h);
         for (int k = 0; k < cells; k++)
-            cell(w, from + h * k, h, 0.5 * (from + t_s[i]));
+            cell(w, from + h * k, from + h * (k + 1), h, 0.5 * (from + t_s[i]));
         from = t_s[i];
     }
 }

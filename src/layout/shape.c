@@ -10,6 +10,7 @@
 static const double FARTHEST_M = 600e-6; /* of a neck, from its hinge's free circle */
 static const double STEP_M = 10e-6;      /* of the search along it */
 static const double SAME_STEP_M = 20e-6; /* necks that differ by less are equally long */
+static const double ON_EDGE_M = 1e-9;    /* a hinge that is nearer to it */
 static const double BESIDE_M = 2e-6;     /* of the neck's edges that lie inside, too */
 enum { DIRECTIONS = 64 };
 
@@ -307,15 +308,17 @@ static fw_geometry_vec2 nearest_point(const fw_layout_shapes *s, fw_geometry_vec
 }
 
 /* Of 64 directions, from the one straight to the nearest edge (W outside) or to the centroid (W
-   inside) on, that of the shortest neck; of equally long ones the first, of two as far off as each
-   other the one nearer to the centroid, so that mirrored bodies get mirrored necks. */
+   inside, or on the edge, of which rounding would say either) on, that of the shortest neck; of
+   equally long ones the first, of two as far off as each other the one nearer to the centroid, so
+   that mirrored bodies get mirrored necks. Test: test_shapes.py, test_hinges_on_the_edge */
 bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry_vec2 w,
                                double clear_m, double half_m, fw_geometry_vec2 *direction,
                                double *begins_m) {
     const fw_layout_shapes *s = &d->shapes[body];
     fw_geometry_vec2 middle = fw_geometry_region_moments(&s->solid).centroid;
-    bool inside = is_solid(s, w);
-    fw_geometry_vec2 base = fw_towards(w, inside ? middle : nearest_point(s, w));
+    fw_geometry_vec2 near = nearest_point(s, w);
+    bool inside = is_solid(s, w) || fw_norm(fw_sub(near, w)) < ON_EDGE_M;
+    fw_geometry_vec2 base = fw_towards(w, inside ? middle : near);
     fw_geometry_vec2 to = fw_towards(w, middle);
     double side = vec_cross(base, to) < 0 ? -1.0 : 1.0, best = clear_m + FARTHEST_M;
     bool found = false;

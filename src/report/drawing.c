@@ -96,6 +96,9 @@ static void add_outlines(const fw_device *device, const fw_layout *layout, doubl
         double x = layout->hinge[j].keep_out_m + label_m;
         fw_report_box_add(box, p.x - x, p.y);
         fw_report_box_add(box, p.x + x, p.y);
+        if (layout->nfault == 0) continue; /* then whole circles may be marked */
+        fw_report_box_add(box, p.x, p.y - 1.03 * layout->hinge[j].keep_out_m);
+        fw_report_box_add(box, p.x, p.y + 1.03 * layout->hinge[j].keep_out_m);
     }
 }
 

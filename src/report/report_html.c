@@ -94,7 +94,7 @@ static const char style_sheet[] =
     "0 8px}"
     "main,header .in,footer{max-width:none;padding:0}"
     "section{padding:12px 0 0}h2,h3,summary,caption{break-after:avoid}"
-    "tr,figure,svg,.advice{break-inside:avoid}thead{display:table-header-group}"
+    "tr,dl,figure,svg,.advice{break-inside:avoid}thead{display:table-header-group}"
     ".wide{overflow:visible}"
     "table,.tight table{font-size:8pt}th,td,.tight th,.tight td{padding:3px 6px 3px 0}"
     "thead th{font-size:7.5pt}"

@@ -150,7 +150,17 @@ static const char *known_or(const char *name, const char *otherwise, const char 
     return otherwise;
 }
 
-fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t) {
+/* of all parts, where `left` of the budget is left of this one: no run begins beyond it, and what is left over is not used */
+static double share_done(const fw_study_problem *p, int part, double left) {
+    double before = own_share, all = own_share;
+    for (int k = 0; k < 3; k++) {
+        all += part_share[k];
+        if (k <= part) before += part_share[k];
+    }
+    return (before - left / p->budget) / all;
+}
+
+static fw_status every_pair(fw_study_problem *p, fw_study_tradeoff *t, fw_progress_whole *told) {
     const char **method, **integrator;
     FW_NEED(method = names(p->arena, fw_multibody_method_at));
     FW_NEED(integrator = names(p->arena, fw_dynamics_integrator_at));
@@ -176,6 +186,8 @@ fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t) {
                 if (find_curve(t, method[i], integrator[k]) >= 0) continue;
                 if ((part == 0 && !mine) || (part == 1 && !its)) continue;
                 double mine_left = left / fmax(1, pairs--), before = mine_left;
+                told->done = 100 * share_done(p, part, left);
+                fw_arena_tell(p->arena, "", 0, 0, "");
                 FW_TRY(pair(p, t, method[i], integrator[k], &mine_left, each));
                 left -= before - mine_left;
                 fw_study_tradeoff_curve *c = &t->curve[t->ncurve - 1];
@@ -184,6 +196,15 @@ fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t) {
             }
     }
     return FW_OK;
+}
+
+fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t) {
+    fw_progress_whole told = {
+        .what = "trying methods and tolerances", .done = 0, .of = -100, .unit = "%"};
+    fw_arena_tell_of(p->arena, &told);
+    const fw_status status = every_pair(p, t, &told);
+    fw_arena_tell_alone(p->arena, &told);
+    return status;
 }
 
 /* ---- the reference ----
@@ -225,7 +246,7 @@ static fw_status attempt(fw_study_problem *p, const char *method, const char *in
                          double rtol, double share, fw_study_tradeoff_point *point) {
     fw_study_tradeoff_setting s = {.method = method, .integrator = integrator, .rtol = rtol};
     double most = share * p->budget;
-    fw_arena_tell(p->arena, "trying methods and tolerances", 0, 0, "runs");
+    fw_arena_tell(p->arena, "looking for a reference", 0, 0, "runs");
     s.most_steps = (long)fmax(200, most / fw_study_cost_step(p, method, integrator));
     return fw_study_problem_run(p, &s, point);
 }

@@ -552,8 +552,11 @@ static fw_status hold_all(fw_verdict_search *s) {
     /* corner 0 is the nominal device: where it is not accepted no share of the ranges is */
     if (s->fabricated->corner[0].decision != FW_ACCEPT) {
         s->fabricated->control =
-            "no single input of the flow, even held at its best value, makes the design "
-            "acceptable: give the flexures more margin";
+            s->fabricated->governing == FW_NONE
+                ? "no single input of the flow, even held at its best value, makes the design "
+                  "acceptable: the drawing needs more margin there"
+                : "no single input of the flow, even held at its best value, makes the design "
+                  "acceptable: give the flexures more margin";
         return FW_OK;
     }
     FW_TRY(narrow(s, (narrowing){.input = FW_NONE}, 1.0, &good));

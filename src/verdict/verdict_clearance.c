@@ -7,6 +7,7 @@
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
+#include <string.h>
 
 /* ---- what may meet ----
    What clearance/ proves holds for the outlines as drawn and the
@@ -17,8 +18,7 @@
 
 /* of the least clearance, beside 1 nm; distances that are computed for it, and while nothing is decided */
 static const double fw_clearance_relative = 2e-3;
-/* What a long motion, which is looked at in parts before its error is known, is taken to be off by.
-   One that is off by more is not decided. */
+/* what a long motion, which is looked at in parts, is taken to be off by; one that is off by more is not decided */
 static const double fw_off_at_most = 0.1;
 const double fw_verdict_clearance_counts = 0.3;
 enum { MOST = 1000, MOST_IN_BOX = 400, MOST_EVER = 100000 };
@@ -273,38 +273,38 @@ static const char *place_text(char text[32], double x_m) {
     return fw_number_text(text, 32, 1e-3 * nearbyint(1e9 * x_m) + 0.0, 5);
 }
 
+static const char *mend_of(const fw_verdict_clearance *c) {
+    if (c->least.given_up && c->low_m > c->required_m)
+        return "that is enough, but so long a scene is followed in parts, each as if the motion "
+               "were off by 10 % at most: shorten the scene, or make bodies that give stiffer";
+    if (c->least.at.tether)
+        return "a tether stands first on the frame's nearest side: turn that side from the motion, "
+               "widen <die clearance>, or hold the body in another way (<die tethers=\"no\"/>)";
+    if (strncmp(name_of(c->least.at.b), "frame", 5) == 0)
+        return "give the frame more room (<die clearance>) or let it move less; where they are to "
+               "meet, give the scene a <contact>";
+    return c->box != FW_NONE || c->least.at.lane
+               ? "draw them further apart or let them move less"
+               : "draw them further apart or let them move less; where they are to meet, give the "
+                 "scene a <contact>";
+}
+
 static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
                           const char **text) {
     const fw_clearance_least *l = &c->least;
     char x[32], y[32], share[32];
     const char *what = what_happens(arena, c);
-    FW_NEED(what);
     fw_number_text(share, sizeof share, 100 * c->keep, 3);
     const char *then = c->box == FW_NONE && (l->m <= 0 || c->keep < 1)
                            ? fw_arena_printf(arena, "; with %s %% of that motion %s", share,
                                              c->required_m > 0 ? "they keep what is asked for"
                                                                : "they would just not meet")
                            : "";
-    FW_NEED(then);
-    const char *mend = "draw them further apart or let them move less";
-    if (l->at.tether)
-        mend = "the layout chooses where a tether stands: it wants an edge of the body that is "
-               "longer, or further from other bodies on their way, so draw one with the body's "
-               "width, plate-width and plate-height or a <plate> or <bar> inside it; or write "
-               "<die tethers=\"no\"/> and hold the body in another way while it is released; or "
-               "let them move less";
-    else if (c->box == FW_NONE && !l->at.lane)
-        mend = "draw them further apart or let them move less; where they are to meet, give the "
-               "scene a <contact>";
-    if (l->given_up && c->low_m > c->required_m)
-        mend =
-            "that is enough, but so long a scene is followed in parts, each as if the motion were "
-            "off by 10 % at "
-            "most, and it may be off by more: shorten the scene, or make bodies that give stiffer";
+    FW_NEED(what && then ? then : NULL);
     FW_NEED(*text =
                 fw_arena_printf(arena, "%s and %s %s in %s, at (%s, %s) um%s: %s", name_of(l->at.a),
                                 name_of(l->at.b), what, where, place_text(x, l->at.at_a.x),
-                                place_text(y, l->at.at_a.y), then, mend));
+                                place_text(y, l->at.at_a.y), then, mend_of(c)));
     return FW_OK;
 }
 

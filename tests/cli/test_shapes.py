@@ -186,6 +186,16 @@ class Shapes(unittest.TestCase):
                     found = used('<outline file="hole.gds" x="0.7 mm" hole="yes"/>', place)
                     self.assertAlmostEqual((found - whole) / (none - whole), less, delta=0.003, msg=(radius, chords))
 
+    def test_hinges_on_the_edge(self):
+        """where a hinge stands on the edge of what is drawn rounding does not say which way its neck goes"""
+        masks = set()
+        for edge in ("-100 um", "-0.1 mm", "-100.00000000001 um", "-99.99999999999 um"):
+            mask, _ = self.mask('<outline start-x="-60 um" start-y="%s"><line to-x="90 um" to-y="%s"/><line to-x="90 um" to-y="900 um"/>'
+                                '<line to-x="300 um" to-y="900 um"/><line to-x="300 um" to-y="1100 um"/><line to-x="-60 um" to-y="1100 um"/>'
+                                '<line to-x="-60 um" to-y="%s"/></outline>' % (edge, edge, edge))
+            masks.add(mask)
+        self.assertEqual(len(masks), 1)
+
     def test_the_gripper_is_a_device_for_both_flows(self):
         result = run("check", ROOT / "docs/gallery/free-form-gripper/device.xml", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -218,6 +218,33 @@ static void test_sudden_voltage(void **state) {
     }
 }
 
+static void count_again(void *context, const fw_dynamics_instant *instant) {
+    int *again = context;
+    *again += instant == NULL;
+}
+
+/* Where electrodes meet is settled by two runs that end at the same instant: who only wants a decision has no third
+   run at the tightest tolerance, and the same reason */
+static void test_a_formula_ends(void **state) {
+    (void)state;
+    int again[2] = {0, 0};
+    for (int k = 0; k < 2; k++) {
+        fixture f = begin();
+        fw_device_comb c;
+        const rig r = plate(&f, &c, 100);
+        const fw_dynamics_motion *o;
+        const fw_dynamics_motion_options options = {
+            .sparing = k == 1, .observe = count_again, .context = &again[k]};
+        assert_int_equal(fw_dynamics_simulate(f.arena, &r.m, &r.scene, &options, &f.diags, &o),
+                         FW_SOLVER);
+        assert_true(said(&f, 242));
+        fw_arena_free(f.arena);
+    }
+    print_message("  run again %d times, sparing %d\n", again[0], again[1]);
+    assert_int_equal(again[0], 2);
+    assert_int_equal(again[1], 1);
+}
+
 /* a voltage that changes: the source's share in the balance of energies */
 static void test_energy_of_a_law(void **state) {
     (void)state;
@@ -241,7 +268,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_slack_fall),       cmocka_unit_test(test_slack_pendulum),
         cmocka_unit_test(test_pulled_by_a_sine), cmocka_unit_test(test_sudden_voltage),
-        cmocka_unit_test(test_energy_of_a_law),
+        cmocka_unit_test(test_energy_of_a_law),  cmocka_unit_test(test_a_formula_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
