@@ -72,7 +72,7 @@ fw_status fw_layout_text_check(const char *string, const char *what, fw_place pl
     return fw_diag_error(
         diags, 390, place,
         "%s \"%s\" holds '%.*s' (U+%04X), which the lettering of the masks does not "
-        "have; write it with ASCII, the letters of Latin-1 or a Greek mu",
+        "have; write it with ASCII, the letters of Latin-1, a Greek mu or Omega",
         what, string, (int)(end - lacking), lacking, code);
 }
 
@@ -530,7 +530,7 @@ static fw_status choose_title(fw_arena *arena, const fw_device *device, fw_diags
         fw_diag_warning(diags, 390, (fw_place){device->file, 0, 0},
                         "the die has no title, because the name \"%s\" holds '%.*s', which the "
                         "lettering of the masks does not have; add <die title=\"...\"> in ASCII, "
-                        "letters of Latin-1 or a Greek mu",
+                        "letters of Latin-1, a Greek mu or Omega",
                         name, (int)(behind - lacking), lacking);
     return FW_OK;
 }
