@@ -101,15 +101,19 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
     for (int i = 0; i < s->nbase; i++) {
         const fw_device_base_motion *b = &s->base[i];
         if (b->az_m_per_s2 == 0) continue;
-        fw_quantity_law_size size = fw_quantity_law_measure(b->law, s->duration_s);
-        double first = sqrt(p->per_s2[0]);
-        double by = size.most + fw_quantity_law_jolt(b->law, false, s->duration_s, first);
         fw_mechanism_plates_weight(p, b->az_m_per_s2, is->f);
         double *amplitude = is->f + n;
         fw_mechanism_plates_modal(p, is->f, amplitude);
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = 0; k < n; k++) {
+            const double high = sqrt(is->rigid.per_s2[k]), off = 0.5 * is->rigid.error;
+            const double low = is->soft.why ? high : fmin(high, sqrt(is->soft.per_s2[k]));
+            const double by =
+                fw_quantity_law_answer(b->law, s->duration_s, low * (1 - off), high * (1 + off));
             is->ring[k] += by * fabs(amplitude[k]);
-        if (size.most > 0) *dynamic = fmax(*dynamic, by / size.most);
+            if (k > 0) continue;
+            const double most = fw_quantity_law_measure(b->law, s->duration_s).most;
+            if (most > 0) *dynamic = fmax(*dynamic, by / most);
+        }
     }
 }
 
@@ -367,7 +371,7 @@ fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_ver
     for (int i = 0; i < o->nscene; i++) {
         const fw_device_scene *s = &v->mechanism->device->scene[o->scene[i].scene_index];
         if (s->gz_m_per_s2 == 0 && !fw_mechanism_plates_shaken(s)) continue;
-        if (!any) FW_TRY(prepare(arena, v->mechanism, NULL, &is));
+        if (!any) FW_TRY(prepare(arena, v->mechanism, v->arm, &is));
         any = true;
         if (is.rigid.why) return FW_OK;
         FW_TRY(judge_strain(arena, &is, v, &o->scene[i]));

@@ -145,6 +145,22 @@ class OutOfPlane(unittest.TestCase):
         self.assertTrue(any("bends across the plane" in r["text"] for r in much[0]["reasons"]))
         self.assertEqual(little[0]["verdict"], "accept")
 
+    def test_a_shaker_at_a_resonance(self):
+        """N periods of a sine at the lowest frequency across the plane do pi N times what its amplitude does at rest, the stiffness
+        known or not; far from it a few times"""
+        still = self.across(scene='<gravity gz="-10 m/s^2"/>')
+        f = still[1]["modes"][0]["f_Hz"]
+        down = {}
+        for times, name in ((1, "there"), (1.02, "near"), (0.3, "below")):
+            shake = f'<base-motion az="10 m/s^2" law="sine" frequency="{times * f} Hz"/>'
+            down[name] = -self.across(scene=shake)[2]["lowest_m"]
+        rest = -still[2]["lowest_m"]
+        periods = 0.02 * f
+        self.assertGreater(down["there"], 0.95 * 3.1416 * periods * rest)
+        self.assertLess(down["there"], 1.3 * 3.1416 * periods * rest)
+        self.assertGreater(down["near"], 0.9 * down["there"])
+        self.assertLess(down["below"], 2.2 * rest)
+
     def test_strain_of_a_plate_on_a_leaf(self):
         """at least that of a cantilever, m g (L/2 + dx) over its section; at most twice it and what its twist warps, and half its shear"""
         done = run("check", ROOT / "tests/data/theory/plate.xml", "--json", *QUICK)
