@@ -72,7 +72,7 @@ fw_status fw_layout_text_check(const char *string, const char *what, fw_place pl
     return fw_diag_error(
         diags, 390, place,
         "%s \"%s\" holds '%.*s' (U+%04X), which the lettering of the masks does not "
-        "have; write it with ASCII, the letters of Latin-1 or a Greek mu",
+        "have; write it with ASCII, the letters of Latin-1, a Greek mu or Omega",
         what, string, (int)(end - lacking), lacking, code);
 }
 
@@ -239,6 +239,7 @@ static const double UM = 1e-6;
 static const double MARGIN_M = 10e-6;      /* to the window and to the lane */
 static const double LEAST_STROKE_M = 5e-6; /* 4 um rule of contact lithography, and a reserve */
 static const double LARGEST_STROKE_M = 12e-6;
+static const double LEAST_SIDE_M = 60e-6;     /* of a corner's square with its bracket and cross */
 enum { MOST_LINES = 2, HIGH = 9, APART = 4 }; /* strokes: a line of text, and between two */
 
 typedef struct sheet { /* where marks and text go */
@@ -303,11 +304,25 @@ static double narrowest_bar(const fw_geometry_box *window, const fw_geometry_box
                 fmin(window->y0 - die->y0, die->y1 - window->y1));
 }
 
+/* where they are left out, a mask is turned and set by nothing but its devices */
+static void say_no_marks(const fw_device_die *die, double bar_m, fw_diags *diags) {
+    char bar[32], least[32];
+    fw_diag_warning(diags, 619, die->frame_place,
+                    "the corners of the frame have no room for their alignment crosses, by which "
+                    "a mask is turned and set: its narrowest bar is %s um wide; with <die "
+                    "frame=\"%s um\"> they are there",
+                    fw_number_text(bar, sizeof bar, bar_m * 1e6, 5),
+                    fw_number_text(least, sizeof least, (LEAST_SIDE_M + 2 * MARGIN_M) * 1e6, 5));
+}
+
 /* in the square of each corner: bracket outside, cross inside; all in units of 1/13 of the square
  */
-static fw_status add_marks(const sheet *s) {
-    double side = narrowest_bar(&s->window, &s->die) - s->lane - 2 * MARGIN_M;
-    if (side < 60 * UM) return FW_OK;
+static fw_status add_marks(const sheet *s, const fw_device_die *die, fw_diags *diags) {
+    double bar = narrowest_bar(&s->window, &s->die) - s->lane, side = bar - 2 * MARGIN_M;
+    if (side < LEAST_SIDE_M - 1e-12) {
+        if (diags) say_no_marks(die, bar, diags);
+        return FW_OK;
+    }
     double q = fmin(fw_layout_to_grid(side / 13), 20 * UM);
     double inset = s->lane + MARGIN_M;
     double fine = fmax(0.3 * q, 0.5 * LEAST_STROKE_M);
@@ -515,7 +530,7 @@ static fw_status choose_title(fw_arena *arena, const fw_device *device, fw_diags
         fw_diag_warning(diags, 390, (fw_place){device->file, 0, 0},
                         "the die has no title, because the name \"%s\" holds '%.*s', which the "
                         "lettering of the masks does not have; add <die title=\"...\"> in ASCII, "
-                        "letters of Latin-1 or a Greek mu",
+                        "letters of Latin-1, a Greek mu or Omega",
                         name, (int)(behind - lacking), lacking);
     return FW_OK;
 }
@@ -529,7 +544,7 @@ fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_geomet
     bool inside = window.x0 < window.x1 && window.y0 < window.y1 && bar >= 0 && bar < 1;
     if (!inside || !(s.lane >= 0 && s.lane <= bar)) return FW_GEOMETRY;
     FW_TRY(add_lane(&s));
-    FW_TRY(add_marks(&s));
+    FW_TRY(add_marks(&s, &device->die, diags));
     const char *title;
     FW_TRY(choose_title(arena, device, diags, &title));
     FW_TRY(add_title(&s, &device->die, title, diags));

@@ -80,7 +80,7 @@ static fw_status unite_lettering(fw_layout_drawing *d, int body, const fw_device
         const char *why = fw_arena_printf(
             d->arena,
             "the lettering holds '%.*s' (U+%04X), which the font does not have; write it "
-            "with ASCII, the letters of Latin-1 or a Greek mu",
+            "with ASCII, the letters of Latin-1, a Greek mu or Omega",
             (int)(behind - lacking), lacking, code);
         FW_NEED(why);
         return fw_layout_shape_refuse(d, 390, shape->place, body, why, fw_v(b->x_m, b->y_m));

@@ -62,12 +62,12 @@ static fw_status add(reader *r, fw_mask_layer_entry entry) {
 }
 
 static void refuse(reader *r, fw_place place, const char *what, const char *text) {
-    bool plain = fw_mask_is_plain(text);
+    const char *shown = fw_text_shown(r->arena, text, strlen(text));
     fw_diag_error(r->diags, 380, place,
                   "%s \"%s\"; a line is LAYER NUMBER/DATATYPE name NAME, for example "
                   "\"structure 7/0 name POLY2\", with numbers 0 to 65535 and a name of 1 to 32 of "
                   "A-Z a-z 0-9 _ -; or \"flow NAME\"",
-                  what, plain ? text : "?");
+                  what, shown ? shown : "");
 }
 
 /* LAYER [NUMBER/DATATYPE] [name NAME] */

@@ -264,6 +264,11 @@ typedef struct fw_mask_coupon_options {
 fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
                                 const fw_mask_coupon_options *options, fw_diags *diags,
                                 const fw_mask_coupons **coupons);
+/* The die of the same middle on which every pattern has room, in steps of 250 um, the shorter side first.
+   *found false: none up to 8 mm wider has. Cost: one drawing and packing of the patterns a step. */
+fw_status fw_mask_coupons_die(fw_arena *arena, const fw_mask_table *table,
+                              const fw_mask_coupon_options *options, fw_geometry_box *die,
+                              bool *found);
 /* the device's drawing with the marks that the table has for its frame; the device itself where it
    has none. *no_room: what of them plates are put on each other by and finds none */
 fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const fw_layout *device,

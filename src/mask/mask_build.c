@@ -369,6 +369,53 @@ fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const
     return fw_mask_contents_add(arena, table, *layout, layout);
 }
 
+static fw_layout_content_options content_options(const fw_mask_table *table,
+                                                 const fw_mask_layer *layer, const char *title,
+                                                 const fw_mask_coupon_options *options) {
+    return (fw_layout_content_options){.die = options->die,
+                                       .frame_m = options->frame_m,
+                                       .lane_m = options->lane_m,
+                                       .bias_m = options->mask.bias_m,
+                                       .width_rule_m = layer->min_width_m,
+                                       .space_rule_m = layer->min_space_m,
+                                       .title = title,
+                                       .flow = table->flow,
+                                       .die_id = options->die_id,
+                                       .file = layer->place.file};
+}
+
+static void widen(double *low, double *high, double by) {
+    *low -= 0.5 * by;
+    *high += 0.5 * by;
+}
+
+fw_status fw_mask_coupons_die(fw_arena *arena, const fw_mask_table *table,
+                              const fw_mask_coupon_options *options, fw_geometry_box *die,
+                              bool *found) {
+    static const double STEP_M = 250e-6, MOST_M = 8e-3, LEVEL_M = 1e-9;
+    const fw_mask_layer *layer = structure_layer(table);
+    fw_mask_coupon_options tried = *options;
+    fw_geometry_box *d = &tried.die;
+    const double least_m = fmin(d->x1 - d->x0, d->y1 - d->y0);
+    *found = false;
+    while (layer && !*found && fmin(d->x1 - d->x0, d->y1 - d->y0) < least_m + MOST_M) {
+        const double ahead_m = (d->x1 - d->x0) - (d->y1 - d->y0);
+        if (ahead_m < LEVEL_M) widen(&d->x0, &d->x1, STEP_M);
+        if (ahead_m > -LEVEL_M) widen(&d->y0, &d->y1, STEP_M);
+        fw_mark mark = fw_arena_mark(arena);
+        fw_diags quiet = fw_diags_new(arena);
+        const fw_layout_content *content = NULL;
+        fw_layout_content_options as = content_options(table, layer, table->flow, &tried);
+        fw_status status =
+            fw_layout_content_build(arena, table->pattern, table->npattern, &as, &quiet, &content);
+        *found = status == FW_OK && content->nplaced == content->ncoupon;
+        fw_arena_rewind(arena, mark);
+        if (status != FW_OK && status != FW_GEOMETRY) return status;
+    }
+    *die = tried.die;
+    return FW_OK;
+}
+
 fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
                                 const fw_mask_coupon_options *options, fw_diags *diags,
                                 const fw_mask_coupons **coupons) {
@@ -379,16 +426,7 @@ fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
     FW_NEED(c);
     const char *title = fw_arena_printf(arena, "TEST %s", table->flow);
     FW_NEED(title);
-    fw_layout_content_options content = {.die = options->die,
-                                         .frame_m = options->frame_m,
-                                         .lane_m = options->lane_m,
-                                         .bias_m = options->mask.bias_m,
-                                         .width_rule_m = layer->min_width_m,
-                                         .space_rule_m = layer->min_space_m,
-                                         .title = title,
-                                         .flow = table->flow,
-                                         .die_id = options->die_id,
-                                         .file = layer->place.file};
+    fw_layout_content_options content = content_options(table, layer, title, options);
     FW_TRY(fw_layout_content_build(arena, table->pattern, table->npattern, &content, diags,
                                    &c->content));
     fw_mask_options mask = options->mask;

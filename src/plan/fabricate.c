@@ -210,8 +210,27 @@ static fw_status cut_wafer(fw_plan *plan, fw_plan_flow *pf) {
     return FW_OK;
 }
 
-/* ---- the test die of a flow, as large as the device's ----
+/* ---- the test die of a flow ----
+   As large as the device's where it takes the place of one on a wafer; else as large as its patterns need.
    What keeps it from being drawn never keeps the device's own mask. */
+
+static fw_status say_unread(fw_plan *plan, const fw_plan_flow *pf, const fw_geometry_box *room,
+                            bool found) {
+    char w[32], h[32];
+    const char *mend = "no die that was tried has room";
+    if (found)
+        FW_NEED(mend = fw_arena_printf(
+                    plan->arena,
+                    "with <die width=\"%s um\" height=\"%s um\"> it has; or leave test-dies out, "
+                    "and place masks/%s-coupons.gds, which is then as large as it needs",
+                    fw_number_text(w, sizeof w, 1e6 * (room->x1 - room->x0), 7),
+                    fw_number_text(h, sizeof h, 1e6 * (room->y1 - room->y0), 7), pf->use->ref));
+    fw_diag_warning(&plan->diags, 621, plan->device->wafer.place,
+                    "flow %s: the test die takes the place of a die, and has no room for what "
+                    "steps read off it: %s; %s",
+                    pf->use->ref, pf->coupons_lack, mend);
+    return plan->diags.failed ? FW_NOMEM : FW_OK;
+}
 
 static fw_status lay_out_coupons(fw_plan *plan, fw_plan_flow *pf) {
     const fw_device *device = plan->device;
@@ -230,8 +249,23 @@ static fw_status lay_out_coupons(fw_plan *plan, fw_plan_flow *pf) {
                                                .nnote = pf->mask->nnote,
                                                .layer_bias_m = pf->mask->layer_bias_m}};
     fw_diags said = fw_diags_new(plan->arena);
+    const bool on_wafer = device->wafer.asked && device->wafer.tests > 0;
+    bool found = false;
     fw_status status = fw_mask_coupons_build(plan->arena, pf->table, &options, &said, &pf->coupons);
     if (status == FW_NOMEM || said.failed) return FW_NOMEM;
+    if (said.count > 0) {
+        fw_geometry_box room;
+        FW_TRY(fw_mask_coupons_die(plan->arena, pf->table, &options, &room, &found));
+        if (pf->coupons) FW_TRY(fw_plan_coupons_unread(plan, pf));
+        if (on_wafer && pf->coupons_lack) FW_TRY(say_unread(plan, pf, &room, found));
+        if (found && !on_wafer) {
+            options.die = room;
+            pf->coupons_lack = NULL;
+            said = fw_diags_new(plan->arena);
+            status = fw_mask_coupons_build(plan->arena, pf->table, &options, &said, &pf->coupons);
+            if (status == FW_NOMEM || said.failed) return FW_NOMEM;
+        }
+    }
     size_t left_out = said.count;
     if (status != FW_OK) {
         fw_diag_note(&plan->diags, 188, (fw_place){.file = device->file},
@@ -550,5 +584,6 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
         .wiring = pf->wiring,
         .plates_written = pf->wafer || pf->single,
         .test_die = pf->coupons != NULL,
+        .test_die_lacks = pf->coupons_lack,
         .wafer = pf->wafer};
 }

@@ -39,10 +39,10 @@ typedef struct fw_plan_options {
     const char *mask_flatten;   /* fw_mask_flattening_named; NULL: "inside" */
     const fw_device_set *set;   /* (nset) */
     int nset;
-    bool force; /* masks and recipes of a rejected design too */
+    bool force;         /* masks and recipes of a rejected design too */
     bool drawn_alone;   /* masks of the device alone: no test die, no wafer, no schedule */
     bool without_masks; /* the verdict does not ask whether masks can be drawn: for studies */
-    int dies;   /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
+    int dies; /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
     bool at_equilibrium; /* modes: not about rest */
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
@@ -65,7 +65,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     fw_mechanism_variant variant;
     fw_process_flow *flow; /* NULL: none */
     fw_mask_table *table;  /* with rows for cells on layers of their own */
-    bool mask_examined; /* mask, violated and mask_error say what the rules say */
+    bool mask_examined;    /* mask, violated and mask_error say what the rules say */
     const fw_mask *mask;
     const fw_mask *violated; /* the mask where it breaks rules or nearly does, to look at; NULL: it
                                 has no findings */
@@ -75,7 +75,8 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_mask_coupons *coupons; /* test die; NULL: the table has none, or it has no room */
     fw_text coupons_gds;
     const char *coupons_sha256;
-    const fw_wafer *wafer;  /* NULL: none asked for, or no mask */
+    const char *coupons_lack; /* "slots (D11), cd (D08)": read by steps, and without room; NULL */
+    const fw_wafer *wafer;    /* NULL: none asked for, or no mask */
     const fw_wafer *single; /* without <wafer>, but with <order>: the plate of one die; else NULL */
     fw_text wafer_gds;      /* composed once, as above */
     const char *wafer_sha256;

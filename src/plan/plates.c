@@ -51,6 +51,22 @@ static void check_coupons(fw_diags *diags, const fw_process_flow *flow,
     }
 }
 
+fw_status fw_plan_coupons_unread(fw_plan *plan, fw_plan_flow *pf) {
+    const fw_process_flow *flow = pf->flow;
+    for (int i = 0; flow && i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].naccept; k++)
+            for (int c = 0; c < pf->coupons->content->ncoupon; c++) {
+                const fw_layout_coupon *of = &pf->coupons->content->coupon[c];
+                if (of->placed || strcmp(of->pattern->id, flow->step[i].accept[k].coupon) != 0)
+                    continue;
+                const char *had = pf->coupons_lack;
+                FW_NEED(pf->coupons_lack =
+                            fw_arena_printf(plan->arena, "%s%s%s (%s)", had ? had : "",
+                                            had ? ", " : "", of->pattern->id, flow->step[i].id));
+            }
+    return FW_OK;
+}
+
 /* steps print the plates of the table, each once and in its order */
 static void check_order(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table) {
     int printed = 0;

@@ -58,6 +58,8 @@ fw_status fw_plan_drying_of(fw_plan *plan, const fw_plan_flow *pf, const fw_proc
                             fw_mechanism_drying *drying);
 /* FW-D507, where a laboratory states another thickness of the device than the description (plan_facts.c) */
 void fw_plan_check_thickness(fw_plan *plan, const fw_plan_flow *pf);
+/* what steps read off patterns that found no room on the test die: pf->coupons_lack */
+fw_status fw_plan_coupons_unread(fw_plan *plan, fw_plan_flow *pf);
 /* a warning where a frame has no room for marks that the flow's plates are put on each other by (FW-D619) */
 fw_status fw_plan_say_no_room(fw_plan *plan, const fw_plan_flow *pf,
                               const fw_layout_no_room *no_room);

@@ -129,7 +129,7 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
     }
     fw_wafer_width_effect effect;
     FW_TRY(width_effect(plan, flow, &effect));
-    const fw_mask *test = w->asked && pf->coupons ? pf->coupons->mask : NULL;
+    const fw_mask *test = w->asked && w->tests > 0 && pf->coupons ? pf->coupons->mask : NULL;
     const fw_wafer_input input = {.single = !w->asked,
                                   .effect = effect,
                                   .overlay_m = overlay_of(pf->flow),

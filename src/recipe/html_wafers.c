@@ -456,7 +456,13 @@ static void test_die(const fw_process_flow *flow, const fw_recipe_header *h, fw_
     }
     fw_text_add(out, "; what each coupon is for: ");
     fw_text_escaped(out, flow->id);
-    fw_text_add(out, "-coupons.json</td></tr>\n");
+    fw_text_add(out, "-coupons.json");
+    if (h->test_die_lacks) {
+        fw_text_add(out, "; <b>it has no room for</b> ");
+        fw_text_escaped(out, h->test_die_lacks);
+        fw_text_add(out, ": lines of these stay open, or a larger die is written");
+    }
+    fw_text_add(out, "</td></tr>\n");
 }
 
 void fw_recipe_wafer_rows(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {

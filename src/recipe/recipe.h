@@ -33,7 +33,8 @@ typedef struct fw_recipe_header {
     const fw_wiring *wiring;                   /* nets and their contacts; NULL: nothing is drawn */
     bool plates_written;                       /* there are plates as the shop writes them, */
     bool test_die;                             /* a test die, */
-    const fw_wafer *wafer; /* that those plates are of; NULL: one die, or none */
+    const char *test_die_lacks; /* what steps read and it has no room for; NULL: nothing */
+    const fw_wafer *wafer;      /* that those plates are of; NULL: one die, or none */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,

@@ -187,6 +187,27 @@ static void narrow_bars(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* a frame without room for crosses says so, and the one that is named has it */
+static void missing_crosses_are_said(void **state) {
+    (void)state;
+    static const double frame_um[] = {60, 79, 80, 250};
+    for (size_t i = 0; i < sizeof frame_um / sizeof *frame_um; i++) {
+        sheet s = {.arena = fw_arena_new(0)};
+        fw_device d = device(NULL, 0);
+        fw_diags diags = fw_diags_new(s.arena);
+        double in = 100e-6 + frame_um[i] * 1e-6; /* 100 um of lane */
+        fw_geometry_box inner = {die.x0 + in, die.y0 + in, die.x1 - in, die.y1 - in};
+        d.die.title = NULL;
+        assert_int_equal(fw_layout_annotate(s.arena, &d, inner, die, &diags, &s.piece, &s.n, &s.capacity), FW_OK);
+        int said = 0;
+        for (size_t k = 0; k < diags.count; k++)
+            said += diags.item[k].number == 619 && strstr(diags.item[k].message, "with <die frame=\"80 um\">");
+        assert_int_equal(said, frame_um[i] < 80);
+        assert_int_equal(count_of(&s, "alignment cross"), said ? 0 : 4);
+        fw_arena_free(s.arena);
+    }
+}
+
 static void short_memory(void **state) {
     (void)state;
     fw_device d = device(two, 2);
@@ -210,6 +231,7 @@ int main(void) {
         cmocka_unit_test(long_text_is_cut),
         cmocka_unit_test(flows_leave_no_mark),
         cmocka_unit_test(narrow_bars),
+        cmocka_unit_test(missing_crosses_are_said),
         cmocka_unit_test(short_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

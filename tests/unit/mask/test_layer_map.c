@@ -68,8 +68,26 @@ static void mistakes(void **state) {
     }
 }
 
+/* a message has what was written, in UTF-8, and no byte that is none */
+static void what_was_written_is_shown(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *shown;
+    } row[] = {{"structure 7/0 name POLY_\xc3\x84\n", "\"POLY_\xc3\x84\""},
+               {"structure 7/0 name P\xff\n", "\"P\xef\xbf\xbd\""}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        fw_mask_table t;
+        assert_int_equal(apply(arena, &diags, row[i].text, &t), FW_INPUT);
+        if (!strstr(diags.item[0].message, row[i].shown)) fail_msg("%s", diags.item[0].message);
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_and_names),
-                                       cmocka_unit_test(mistakes)};
+                                       cmocka_unit_test(mistakes),
+                                       cmocka_unit_test(what_was_written_is_shown)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,6 +46,22 @@ static void amounts(void **state) {
     }
 }
 
+/* A small source h above the wafer sends pi h2 d of what it coats to a thickness of d: 40 cm, twice 0.3 um of gold for the
+   glass and once 0.3 um for pads, 19.3 g/cm3; a run takes up to four wafers, and one takes no less */
+static void metals(void **state) {
+    (void)state;
+    fw_process_flow *f = computed_pack("silicon-on-glass", NULL, NULL);
+    double throw_m2 = 3.14159265358979 * 0.4 * 0.4;
+    for (int n = 1; n <= 8; n++) {
+        fw_process_bill b = bill_of(f, n);
+        int runs = n > 4 ? 2 : 1;
+        assert_near(row(&b, "gold-metal")->amount, runs * throw_m2 * 0.9e-6 * 19300, 1e-9);
+        assert_near(row(&b, "chromium-metal")->amount, runs * throw_m2 * 0.12e-6 * 7150, 1e-9);
+        assert_near(row(&b, "aluminium-metal")->amount, runs * 0.1 * 1e-6 * 2700, 1e-9);
+        assert_string_equal(row(&b, "gold-metal")->steps, "G03, G26");
+    }
+}
+
 /* six wafers a load in S20, two in the dryer: ceil */
 static void loads_and_fillings(void **state) {
     (void)state;
@@ -187,6 +203,7 @@ static void bad_packs(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(amounts, setup, teardown),
+        cmocka_unit_test_setup_teardown(metals, setup, teardown),
         cmocka_unit_test_setup_teardown(loads_and_fillings, setup, teardown),
         cmocka_unit_test_setup_teardown(weighed, setup, teardown),
         cmocka_unit_test_setup_teardown(prices, setup, teardown),

@@ -63,13 +63,16 @@ static inline void put_box(plate *p, pieces *list, fw_layout_role role, double x
     put_piece(p, list, role, polygon(p->arena, q, 4));
 }
 
-/* die of 2000 um x 1600 um about (300, -200) um with a lane of 50 um, a frame of `bar` um in halves
+static double die_um[2] = {2000, 1600};
+
+/* die of 2000 um x 1600 um, or die_um, about (300, -200) um with a lane of 50 um, a frame of `bar` um in halves
    that share two joints, a disc of `radius` um in the window */
 static inline const fw_mask *die_mask(plate *p, double bar, double radius, const char *title,
                                       bool rejected, fw_geometry_box *die,
                                       fw_geometry_box *window) {
     pieces list = {0};
-    double x0 = -700, x1 = 1300, y0 = -1000, y1 = 600, l = 50, in = l + bar, m = -200;
+    const double wide = 0.5 * die_um[0], high = 0.5 * die_um[1], l = 50, in = l + bar, m = -200;
+    const double x0 = 300 - wide, x1 = 300 + wide, y0 = m - high, y1 = m + high;
     *die = (fw_geometry_box){x0 * UM, y0 * UM, x1 * UM, y1 * UM};
     *window = (fw_geometry_box){(x0 + in) * UM, (y0 + in) * UM, (x1 - in) * UM, (y1 - in) * UM};
     const double lower[8][3] = {{x0 + l, y0 + l, 0}, {x1 - l, y0 + l, 0},   {x1 - l, m, 0},

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells, arrays, ids and the GDSII of the whole plate, read back record by record. */
 #include "wafer/plate.h"
+#include "base/output.h"
+#include "mask/mask_table.h"
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- arrays against places ---- */
 
@@ -471,6 +475,43 @@ static void test_flat_line(void **state) {
     }
 }
 
+/* dies too small for the marks of the pairs of plates on their alignment sites say so, and those of the size that is named
+   have all of them: the cross of the site, and in four places the bars of a mark */
+static void test_small_sites(void **state) {
+    (void)state;
+    double least_um = 0.0;
+    for (int k = 0; k < 4; k++) {
+        const double side_um[] = {700, least_um - 1, least_um, 2000};
+        plate *p = plate_new(240);
+        die_um[0] = die_um[1] = side_um[k];
+        char *xml;
+        size_t n;
+        const char *path = FW_TEST_SOURCE_DIR "/masks/silicon-on-glass.xml";
+        assert_int_equal(fw_input_read(p->arena, path, 1 << 20, &p->diags, &xml, &n), FW_OK);
+        assert_int_equal(fw_mask_table_read(p->arena, path, xml, n, &p->diags, &p->table), FW_OK);
+        fw_wafer_variant *v = &p->input.stand_in;
+        v->mask = die_mask(p, 100, 100, "TINY", false, &v->die, &v->window);
+        p->variant[0] = *v;
+        p->device.wafer.alignment = true;
+        const fw_wafer *w = plate_build(p);
+        const char *named = NULL;
+        for (size_t i = 0; i < p->diags.count; i++)
+            if (p->diags.item[i].number == 620) named = strstr(p->diags.item[i].message, "a die of ");
+        assert_int_equal(named != NULL, side_um[k] < least_um || k == 0);
+        if (k == 0) assert_int_equal(sscanf(named, "a die of %lf um by", &least_um), 1);
+        int windows = 0, crosses = 0;
+        for (int c = 0; c < w->ncell; c++)
+            for (int i = 0; strcmp(w->cell[c].name, "ALIGNMENT_SITE") == 0 && i < w->cell[c].mask->nshape; i++) {
+                windows += strcmp(w->cell[c].mask->shape[i].piece->label, "window of the back mark") == 0;
+                crosses += strcmp(w->cell[c].mask->shape[i].piece->label, "alignment site") == 0;
+            }
+        assert_int_equal(crosses, 2); /* the block and the cross in it */
+        assert_true(named ? windows == 0 : windows >= 4);
+        fw_arena_free(p->arena);
+        die_um[0] = 2000, die_um[1] = 1600;
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_barcode),    cmocka_unit_test(test_flat_line),
@@ -478,6 +519,7 @@ int main(void) {
         cmocka_unit_test(test_ids),        cmocka_unit_test(test_id_sizes),
         cmocka_unit_test(test_spaces),     cmocka_unit_test(test_more_steps_than_columns),
         cmocka_unit_test(test_rejected),   cmocka_unit_test(test_gds),
+        cmocka_unit_test(test_small_sites),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
