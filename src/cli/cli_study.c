@@ -13,12 +13,14 @@
 
 static void progress(void *context, long done, long all, double seconds) {
     double *last = context;
-    if (done > 0 && done < all && seconds - *last < 0.5) return;
+    const long most = labs(all);
+    const char *at = all < 0 ? "at most " : "";
+    if (done > 0 && done < most && seconds - *last < 0.5) return;
     *last = seconds;
     double rate = seconds > 0 ? (double)done / seconds : 0;
-    if (all > 0 && rate > 0)
-        fprintf(stderr, "\r%ld of %ld devices, %.3g a second, %.0f s left \033[K", done, all, rate,
-                (double)(all - done) / rate);
+    if (most > 0 && rate > 0)
+        fprintf(stderr, "\r%ld of %s%ld devices, %.3g a second, %s%.0f s left \033[K", done, at,
+                most, rate, at, (double)(most - done) / rate);
     else
         fprintf(stderr, "\r%ld devices \033[K", done);
     fflush(stderr);
@@ -27,9 +29,13 @@ static void progress(void *context, long done, long all, double seconds) {
 /* the same for a program that reads: a line of -v twice a second, as of every stage */
 static void progress_lines(void *context, long done, long all, double seconds) {
     double *last = context;
-    if (done < all && seconds - *last < 0.5) return;
+    if (done < labs(all) && seconds - *last < 0.5) return;
     *last = seconds;
-    fprintf(stderr, "flexwright: %ld of %ld devices\n", done, all);
+    if (all == 0)
+        fprintf(stderr, "flexwright: %ld devices\n", done);
+    else
+        fprintf(stderr, "flexwright: %ld of %s%ld devices\n", done, all < 0 ? "at most " : "",
+                labs(all));
     fflush(stderr);
 }
 

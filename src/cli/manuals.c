@@ -95,7 +95,7 @@ static void beginning(fw_text *out) {
                      ".TP\n.I share/flexwright/processes, share/flexwright/masks\n"
                      "process packs and layer tables, which are data: a laboratory edits a copy\n"
                      ".TP\n.I share/flexwright/device.rng, share/flexwright/catalog.xml\n"
-                     "schema of device files for editors\n"
+                     "schemas of device files and process packs for editors\n"
                      ".TP\n.I share/flexwright/klayout\nthe package for KLayout\n");
 }
 
@@ -242,7 +242,8 @@ static const fw_cli_option_row *option_at(const fw_cli_command *command, size_t 
     return *i < count ? &row[(*i)++] : NULL;
 }
 
-/* the first words of a sentence, without what a shell would take for its own */
+/* The first words of a sentence, without what a shell would take for its own: a colon between words is a comma there,
+   an apostrophe a typographic one. */
 static void sentence(fw_text *out, const char *text) {
     enum { MOST = 70 };
     size_t n = strcspn(text, ";\n{");
@@ -252,7 +253,12 @@ static void sentence(fw_text *out, const char *text) {
     while (n > 0 && strchr(" ,:", text[n - 1]))
         n--;
     for (size_t i = 0; i < n; i++)
-        if (!strchr("'\"`$\\[]:()", text[i])) fw_text_bytes(out, &text[i], 1);
+        if (text[i] == '\'' && i > 0 && i + 1 < n && text[i - 1] != ' ')
+            fw_text_add(out, "\xe2\x80\x99");
+        else if (text[i] == ':' && text[i + 1] == ' ')
+            fw_text_add(out, ",");
+        else if (!strchr("'\"`$\\[]:()", text[i]))
+            fw_text_bytes(out, &text[i], 1);
 }
 
 static bool takes_device(const fw_cli_command *command) {

@@ -117,7 +117,7 @@ static fw_status wait_for(const fw_arena *work, pid_t child, double timeout_s,
         if (got == child) break;
         if (got < 0 && errno != EINTR) return FW_IO;
         if (killed) continue;
-        fw_arena_tell(work, "waiting for another program", 0, 0, "s");
+        fw_arena_tell(work, "waiting for another program", now_s() - start, -timeout_s, "s");
         if (fw_arena_cancelled(work))
             run->end = FW_EXTERNAL_CANCELLED;
         else if (now_s() - start > timeout_s)

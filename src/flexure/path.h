@@ -81,6 +81,11 @@ typedef struct fw_flexure_out_of_plane {
 fw_status fw_flexure_out_of_plane_of(fw_arena *arena, const fw_flexure_input *in,
                                      const fw_flexure_result *closed_form,
                                      fw_flexure_out_of_plane *out);
+/* strain that (n) wrenches about that pin, in the flexure's frame, put on it across the plane, the first at rest and the
+   others ringing either way: [0] of the first at least, [1] of all at most */
+fw_status fw_flexure_across_strain(fw_arena *arena, const fw_flexure_input *in,
+                                   const fw_flexure_result *closed_form, const double (*wrench)[3],
+                                   int n, double strain[2]);
 double fw_flexure_torsion_m4(double a_m, double b_m);
 double fw_flexure_tall_arc(double curvature_per_m, double width_m, double depth_m, double poisson);
 

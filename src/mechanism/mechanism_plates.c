@@ -257,6 +257,26 @@ void fw_mechanism_plates_answer(const fw_mechanism_plates *p, const double *f, d
     }
 }
 
+void fw_mechanism_plates_wrench(const fw_mechanism_plates *p, int hinge, const double *x,
+                                double wrench[3]) {
+    const fw_mechanism_hinge *h = &p->mechanism->hinge[hinge];
+    const fw_mechanism_pin *pin = &p->mechanism->pin[h->pin];
+    const fw_mechanism_plate_hinge *is = &p->hinge[hinge];
+    const int body[2] = {pin->body_a, pin->body_b};
+    double apart[3] = {0}, world[3] = {0}, b[3][3];
+    for (int s = 0; s < 2; s++) {
+        if (body[s] == FW_GROUND) continue;
+        lever(p->mechanism, body[s], is->pin, b);
+        for (int i = 0; i < 9; i++)
+            apart[i / 3] += (s ? 1 : -1) * b[i / 3][i % 3] * x[3 * body[s] + i % 3];
+    }
+    for (int i = 0; i < 9; i++)
+        world[i / 3] += is->k[i / 3][i % 3] * apart[i % 3] / h->scale;
+    const double e = cos(h->axis_rad), s = sin(h->axis_rad);
+    wrench[0] = world[0];
+    wrench[1] = e * world[1] + s * world[2], wrench[2] = -s * world[1] + e * world[2];
+}
+
 double fw_mechanism_plates_z(const fw_mechanism_plates *p, const double *x, int body,
                              fw_geometry_vec2 at) {
     const fw_mechanism_mass *b = &p->mechanism->drawn[body];

@@ -220,11 +220,18 @@ static fw_status apply_packs(fw_plan *plan, fw_process_flow *flow) {
 
 /* after all flows were read: warns of packs that no flow of the device took */
 static fw_status warn_of_unused_packs(fw_plan *plan) {
-    for (int i = 0; i < plan->nlab; i++)
-        if (!plan->lab[i].used)
-            fw_diag_warning(&plan->diags, 211, (fw_place){.file = plan->lab[i].file},
-                            "this laboratory pack has no effect: it is for a flow that is not "
-                            "planned here");
+    for (int i = 0; i < plan->nlab; i++) {
+        const fw_plan_lab_pack *pack = &plan->lab[i];
+        const char *flow, *words;
+        fw_place at;
+        if (pack->used) continue;
+        FW_TRY(fw_process_lab_flow(plan->arena, pack->file, pack->xml, pack->n, &flow, &at));
+        FW_TRY(flow_meant(plan, flow, &words));
+        fw_diag_warning(&plan->diags, 211, at,
+                        "this laboratory pack has no effect: it is for the flow '%s', of which "
+                        "nothing that it replaces is planned here%s",
+                        flow, words);
+    }
     return plan->diags.failed ? FW_NOMEM : FW_OK;
 }
 

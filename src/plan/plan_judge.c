@@ -202,7 +202,7 @@ static fw_status watch_probes(fw_plan *plan, const fw_mechanism *m, const fw_dev
     if (fw_probe_count(m) == 0) return FW_OK;
     FW_NEED(both = fw_arena_array(plan->arena, fw_probe_monitor, 2));
     for (int i = 0; i < 2; i++)
-        FW_TRY(fw_probe_monitor_new(plan->arena, m, scene, NULL, &both[i]));
+        FW_TRY(fw_probe_monitor_new(plan->arena, m, scene, NULL, NULL, &both[i]));
     options->observe = fw_probe_monitor_record;
     options->trace = fw_probe_monitor_trace;
     options->trace_both = true;

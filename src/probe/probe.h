@@ -120,6 +120,7 @@ typedef struct fw_probe_monitor { /* of one run */
     const fw_device_scene *scene;
     const bool *history;           /* (nprobe) whose whole course is kept; NULL: none */
     const bool *judged;            /* (nprobe) by which a run is near enough; NULL: none */
+    const bool *only;              /* (nprobe) that are looked at; NULL: all */
     const fw_effects_loads *loads; /* that `probe` is bound to */
     fw_probe *probe;               /* (nprobe) */
     fw_probe_course *course;       /* (nprobe) */
@@ -130,7 +131,7 @@ typedef struct fw_probe_monitor { /* of one run */
 
 /* scene: one of mechanism->device */
 fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
-                               const fw_device_scene *scene, const bool *history,
+                               const fw_device_scene *scene, const bool *history, const bool *only,
                                fw_probe_monitor *monitor);
 /* an fw_dynamics_observer of whole instants; context is the monitor */
 void fw_probe_monitor_record(void *context, const fw_dynamics_instant *instant);

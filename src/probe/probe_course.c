@@ -5,14 +5,19 @@
 #include <math.h>
 #include <string.h>
 
+static bool looks_at(const fw_probe_monitor *w, int probe) {
+    return !w->only || w->only[probe];
+}
+
 fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                               const bool *history, fw_probe_monitor *monitor) {
-    *monitor =
-        (fw_probe_monitor){.arena = arena, .mechanism = m, .scene = scene, .history = history};
+                               const bool *history, const bool *only, fw_probe_monitor *monitor) {
+    *monitor = (fw_probe_monitor){
+        .arena = arena, .mechanism = m, .scene = scene, .history = history, .only = only};
     FW_NEED(monitor->course = fw_arena_array(arena, fw_probe_course, (size_t)fw_probe_count(m)));
     for (int i = 0; i < fw_probe_count(m); i++) {
         const fw_device_probe_kind *kind = &fw_device_probe_kinds[m->device->probe[i].row];
-        monitor->within = monitor->within || kind->takes == FW_PROBE_OUTLINES;
+        monitor->within =
+            monitor->within || (looks_at(monitor, i) && kind->takes == FW_PROBE_OUTLINES);
     }
     return monitor->within ? fw_clearance_path_of(arena, m->nbody, 1, &monitor->piece) : FW_OK;
 }
@@ -99,6 +104,7 @@ static fw_status take(fw_probe_monitor *w, const fw_dynamics_instant *now) {
     for (int i = 0; i < n; i++) {
         const fw_probe *p = &w->probe[i];
         fw_probe_course *c = &w->course[i];
+        if (!looks_at(w, i)) continue;
         double value = fw_probe_value(p, &state);
         if (isnan(value)) continue;
         if (now->begins) c->samples = 0; /* no parabola across a jump */
@@ -125,7 +131,7 @@ void fw_probe_monitor_trace(void *context, const fw_dynamics_piece *piece) {
     w->piece.npiece = 0;
     fw_clearance_path_add(&w->piece, piece);
     for (int i = 0; i < fw_probe_count(w->mechanism); i++)
-        if (w->probe[i].in_scene && w->probe[i].row->within)
+        if (looks_at(w, i) && w->probe[i].in_scene && w->probe[i].row->within)
             w->probe[i].row->within(&w->probe[i], &w->piece, &w->course[i]);
 }
 

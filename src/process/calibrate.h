@@ -103,6 +103,9 @@ fw_status fw_process_calibration_text(const fw_process_flow *flow,
 /* Replaces quantities of the flow by id, adds each to flow->override and says it (FW-D198). A pack
    for another flow changes nothing. FW_INPUT with FW-D211: no such id, another dimension, or an id
    that the mask or a step computes. */
+/* the flow that a pack names, "" for none, and where */
+fw_status fw_process_lab_flow(fw_arena *arena, const char *file, const char *xml, size_t n,
+                              const char **flow, fw_place *place);
 /* adds what a laboratory pack for this flow chooses (<choose alternative>) to the list; says nothing of mistakes, which
    fw_process_lab_apply does */
 fw_status fw_process_lab_choices(fw_arena *arena, const char *file, const char *xml, size_t n,

@@ -354,6 +354,17 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
 
 /* ---- what a laboratory pack chooses ---- */
 
+fw_status fw_process_lab_flow(fw_arena *arena, const char *file, const char *xml, size_t n,
+                              const char **flow, fw_place *place) {
+    fw_diags quiet = fw_diags_new(arena);
+    fw_xml_element *root = NULL;
+    fw_status status = fw_xml_read(arena, file, xml, n, &quiet, &root);
+    const fw_xml_attribute *of = root ? fw_xml_attribute_of(root, "flow") : NULL;
+    *flow = of ? of->value : "";
+    *place = of ? of->place : (fw_place){.file = file};
+    return status == FW_NOMEM ? status : FW_OK;
+}
+
 fw_status fw_process_lab_choices(fw_arena *arena, const char *file, const char *xml, size_t n,
                                  const char *flow, fw_process_choice **choice, int *nchoice) {
     fw_diags quiet = fw_diags_new(arena); /* what is wrong is said when its values are applied */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Questions about a law, put to its row, and what holds where the row does not say. */
 #include "quantity/law_kind.h"
+#include "base/constants.h"
 #include "base/sort.h"
 #include <math.h>
 #include <string.h>
@@ -83,13 +84,16 @@ static double slope_varies(const fw_quantity_law *law, double a, double b, doubl
     return sum * (b - a) / count;
 }
 
-double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double end_s,
-                            double omega_per_s) {
-    enum { MOST = 64 };
-    double at[MOST + 1], now[3], before[3] = {0}, from = 0, jolt = 0, most = 0;
-    if (fw_quantity_law_is_constant(law)) return 1;
-    int count = fw_quantity_law_breaks_of(law, end_s, at, MOST);
-    if (count > MOST) return 1; /* so many corners: nothing slow */
+enum { JOLTS = 64 }; /* breaks of a law that is looked at piece by piece */
+
+/* Jumps, and over omega those of the slope and its variation between them; *most: the largest value met, from `start`.
+   Infinite: more than JOLTS breaks */
+static double jolts(const fw_quantity_law *law, bool coordinate, double end_s, double omega_per_s,
+                    double *most) {
+    double at[JOLTS + 1], now[3], before[3] = {0}, from = 0, jolt = 0;
+    int count = fw_quantity_law_breaks_of(law, end_s, at, JOLTS);
+    *most = 0;
+    if (count > JOLTS) return (double)INFINITY; /* so many corners: nothing slow */
     fw_sort_doubles(at, (size_t)count);
     at[count] = end_s;
     fw_quantity_law_value(law, 0, 0.5 * at[0], now);
@@ -102,12 +106,85 @@ double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double 
         jolt += fabs(now[0] - before[0]) + fabs(now[1] - before[1]) / omega_per_s;
         jolt += slope_varies(law, from, at[i], end_s) / omega_per_s;
         fw_quantity_law_value(law, piece, piece, before);
-        most = fmax(most, fmax(fabs(now[0] - start), fabs(before[0] - start)));
+        *most = fmax(*most, fmax(fabs(now[0] - start), fabs(before[0] - start)));
         fw_quantity_law_value(law, at[i], piece, before);
-        most = fmax(most, fabs(before[0] - start));
+        *most = fmax(*most, fabs(before[0] - start));
         from = at[i];
     }
+    return jolt;
+}
+
+double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double end_s,
+                            double omega_per_s) {
+    double most;
+    if (fw_quantity_law_is_constant(law)) return 1;
+    const double jolt = jolts(law, coordinate, end_s, omega_per_s, &most);
     return isfinite(jolt) && jolt < most ? jolt / most : jolt > 0 ? 1 : 0;
+}
+
+/* ---- what it does to an oscillator ---- */
+
+typedef struct oscillator {
+    const fw_quantity_law *law;
+    double at[JOLTS + 1]; /* (count + 1) where pieces end */
+    int count;
+    double step_s;
+} oscillator;
+
+/* Largest |q| at samples, of one frequency. With f linear over a step h, (q - f, q'/w - f'/w) turns by w h. */
+static double swing(const oscillator *o, double omega_per_s) {
+    double q = 0, p = 0, most = 0, from = 0, value[3];
+    for (int i = 0; i <= o->count; i++) {
+        const double piece = 0.5 * (from + o->at[i]), length = o->at[i] - from;
+        if (!(length > 0)) continue;
+        const double n = ceil(length / o->step_s), h = length / n;
+        const double c = cos(omega_per_s * h), s = sin(omega_per_s * h);
+        fw_quantity_law_value(o->law, from, piece, value);
+        double f = value[0];
+        for (double k = 1; k <= n; k++) {
+            fw_quantity_law_value(o->law, from + k * h, piece, value);
+            const double slope = (value[0] - f) / (h * omega_per_s), x = q - f, y = p - slope;
+            q = value[0] + x * c + y * s;
+            p = slope - x * s + y * c;
+            f = value[0];
+            most = fmax(most, fabs(q));
+        }
+        from = o->at[i];
+    }
+    return most;
+}
+
+/* of all frequencies of [low, high]; -1: it would take too long, or samples could miss something of the law */
+static double swings(const fw_quantity_law *law, double end_s, double low, double high) {
+    const double per_period = 24, apart = 0.5, most_steps = 4e6;
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    oscillator o = {.law = law};
+    if (!(wave.fastest_Hz > 0) && !fw_quantity_law_is_straight(law)) return -1;
+    o.count = fw_quantity_law_breaks_of(law, end_s, o.at, JOLTS);
+    if (o.count > JOLTS) return -1;
+    fw_sort_doubles(o.at, (size_t)o.count);
+    o.at[o.count] = end_s;
+    o.step_s = 1 / (per_period * fmax(high / (2 * FW_PI), wave.fastest_Hz));
+    const double n = 1 + ceil((high - low) * end_s / apart);
+    if (!(n * (end_s / o.step_s + o.count) < most_steps)) return -1;
+    double most = 0;
+    for (double k = 0; k < n; k++)
+        most = fmax(most, swing(&o, n > 1 ? low + (high - low) * k / (n - 1) : high));
+    return most;
+}
+
+double fw_quantity_law_answer(const fw_quantity_law *law, double end_s, double low_per_s,
+                              double high_per_s) {
+    const double margin = 1.03;
+    const fw_quantity_law_size size = fw_quantity_law_measure(law, end_s);
+    double most;
+    if (fw_quantity_law_is_constant(law)) return 2;
+    if (!isfinite(size.most)) return (double)INFINITY;
+    const double rings = jolts(law, false, end_s, low_per_s, &most);
+    const double parts = size.most + (rings < size.variation ? rings : size.variation);
+    if (parts <= 2 * size.most) return parts;
+    const double sampled = swings(law, end_s, low_per_s, high_per_s);
+    return sampled < 0 ? parts : fmin(parts, margin * sampled);
 }
 
 /* ---- what it is like ---- */

@@ -71,6 +71,18 @@ fw_quantity_law_size fw_quantity_law_measure(const fw_quantity_law *law, double 
 double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double end_s,
                             double omega_per_s);
 
+/* Largest |q| over (0, end_s) of q'' + w^2 q = w^2 f(t), f the law, without damping and at rest before, for every w of
+   [low, high], rad/s: what a load with this law does to a mode at most, over what it does at rest. By parts twice
+
+     |q| <= max|f| + min(variation of f, jumps of f + (jumps and variation of f')/w)
+
+   and where that is more than twice max|f|, as at resonance, by exact steps of f that is linear between samples, 24 to a
+   period of what is fastest, at frequencies that lie half a radian apart at the end; 1.03 times that, which covers what is
+   between (1.9 % and 0.3 %). Not of laws whose samples could miss something, of more than 64 pieces, or beyond 4e6 steps,
+   which keep the first. Infinite: nothing bounds the law. Source: Duhamel's integral. Test: test_time_law.c answers */
+double fw_quantity_law_answer(const fw_quantity_law *law, double end_s, double low_per_s,
+                              double high_per_s);
+
 /* ---- steps that see all of it (stride.c) ---- */
 
 typedef struct

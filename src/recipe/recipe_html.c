@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The run sheet: one file, no scripts, made for A4 and a pen. */
+/* The run sheet: one file, no scripts, made for A4 or Letter, as the printer has it, and a pen. */
 #include "recipe/recipe_profile.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
@@ -114,7 +114,7 @@ static void overrides_table(const fw_process_flow *flow, fw_text *out) {
 }
 
 static const char style[] =
-    "@page{size:A4;margin:10mm 12mm 12mm}\n"
+    "@page{margin:10mm 12mm 12mm}\n"
     "*{box-sizing:border-box}\n"
     "body{font:8.5pt/1.17 Helvetica,Arial,'Liberation Sans','DejaVu Sans "
     "Condensed',sans-serif;color:#000;background:#fff;"

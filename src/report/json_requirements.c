@@ -152,6 +152,9 @@ static void across(fw_json *json, const fw_verdict_across *s) {
         fw_json_real(json, "tilt_rad", s->tilt_rad);
         fw_json_real(json, "dynamic", s->dynamic);
         fw_json_text(json, "body", s->body);
+        fw_json_real(json, "strained", s->strained);
+        fw_json_real(json, "strained_sure", s->strained_sure);
+        fw_json_text(json, "strained_hinge", s->strained_hinge);
     }
     fw_json_real(json, "tips_at", isfinite(s->tips) ? s->tips : (double)NAN);
     fw_json_real(json, "tips_error", isfinite(s->tips) ? s->tips_error : (double)NAN);

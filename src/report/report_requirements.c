@@ -423,6 +423,10 @@ static void across_rows(fw_text *out, const fw_verdict_variant_verdict *v) {
                       "m", s->tilt_rad);
         else
             fw_markup(out, "<td>nothing across</td><td></td><td></td>");
+        if (s->strained_hinge && isfinite(s->strained))
+            fw_markup(out, "<td>{p}, {s}</td>", s->strained, s->strained_hinge);
+        else
+            fw_markup(out, "<td></td>");
         if (isfinite(s->tips))
             fw_markup(out, "<td>{n}, {p}</td><td>{n}</td>", s->tips, s->tips_error,
                       s->tips / (1 + s->tips_error));
@@ -443,14 +447,16 @@ fw_status fw_report_section_out_of_plane(fw_report_page *page) {
               "<th>Down by its weight</th><th>Below it</th></tr></thead><tbody>\n");
     for (int i = 0; i < v->nvariant; i++)
         if (v->variant[i].out_of_plane) plates_row(page->out, &v->variant[i]);
-    fw_markup(page->out, "</tbody></table>\n<table><caption>By scene: how far anything comes down "
-                         "and up, at most; the largest tilt, "
-                         "in rad; how many times the scene's forces tip it out of the plane at "
-                         "the earliest, with what they may be off by; and how many times them it "
-                         "is sure not to.</caption>\n"
-                         "<thead><tr><th>Scene</th><th>Flow</th><th>Down</th><th>Up</th><th>Tilt</"
-                         "th><th>Tips at, off by</th><th>Sure up to</th>"
-                         "<th>Verdict</th></tr></thead><tbody>\n");
+    fw_markup(page->out,
+              "</tbody></table>\n<table><caption>By scene: how far anything comes down "
+              "and up, at most; the largest tilt, "
+              "in rad; what a hinge uses of its limit there and in the plane, at most; how "
+              "many times the scene's forces tip it out of the plane at "
+              "the earliest, with what they may be off by; and how many times them it "
+              "is sure not to.</caption>\n"
+              "<thead><tr><th>Scene</th><th>Flow</th><th>Down</th><th>Up</th><th>Tilt</"
+              "th><th>Hinges use</th><th>Tips at, off by</th><th>Sure up to</th>"
+              "<th>Verdict</th></tr></thead><tbody>\n");
     for (int i = 0; i < v->nvariant; i++)
         if (v->variant[i].out_of_plane) across_rows(page->out, &v->variant[i]);
     fw_markup(page->out, "</tbody></table>\n");

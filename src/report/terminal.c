@@ -222,9 +222,16 @@ static void across(fw_text *out, const fw_verdict_across *s, const fw_mechanism_
     if (!s->asked && !tips) return;
     fw_text_printf(out, "  %s: ", s->scene);
     if (s->asked) {
-        number(out, "down by up to ", -1e6 * s->lowest_m, " um");
-        number(out, ", tilted by up to ", degrees(s->tilt_rad), " deg; below it: ");
-        fw_text_printf(out, "%s%s", below->known ? below->words : "not known", tips ? "; " : "");
+        if (isfinite(s->lowest_m)) {
+            number(out, "down by up to ", -1e6 * s->lowest_m, " um");
+            number(out, ", tilted by up to ", degrees(s->tilt_rad), " deg; below it: ");
+        } else
+            fw_text_add(out, "how far down is not known; below it: ");
+        fw_text_add(out, below->known ? below->words : "not known");
+        if (isfinite(s->strained) && s->strained_hinge)
+            number(out, "; in the plane and across it a hinge uses at most ", 100 * s->strained,
+                   " % of its limit");
+        fw_text_add(out, tips ? "; " : "");
     }
     if (tips) {
         number(out, "does not tip below ", s->tips, " times its forces, which may be off by ");

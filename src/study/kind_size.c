@@ -542,7 +542,7 @@ static fw_status prepare(sizing *s, int *most) {
                                &s->sobol);
 }
 
-fw_status fw_study_kind_size(fw_study *study, fw_study_result *result) {
+static fw_status size(fw_study *study, fw_study_result *result) {
     sizing s = {.study = study, .result = result};
     int most;
     long first = PART;
@@ -567,4 +567,15 @@ fw_status fw_study_kind_size(fw_study *study, fw_study_result *result) {
                 ? ", the last ones with the dies that are worst for the best device"
                 : ""));
     return study->asked->yield > 0 ? at_yield(&s, most, &first) : finish(&s);
+}
+
+/* At a wanted yield nobody knows how many dies will be asked for; else no more is judged than the budget */
+fw_status fw_study_kind_size(fw_study *study, fw_study_result *result) {
+    fw_study_told told = {.most = study->asked->yield > 0 ? 0 : fw_study_count_size(study),
+                          .begun_s = fw_study_now_s(),
+                          .thread = pthread_self()};
+    study->told = &told;
+    fw_status status = size(study, result);
+    study->told = NULL;
+    return status;
 }

@@ -36,6 +36,7 @@ typedef struct fw_study_options {
     bool resume;        /* go on with the store that is there */
     const fw_cancel *cancel;
     /* called now and then from the thread that runs the study; NULL: nobody asks */
+    /* all below 0: so many at most, since searches end earlier; 0: nobody knows how many */
     void (*progress)(void *context, long done, long all, double seconds);
     void *progress_context;
     /* called once where another process writes into `output`, which is waited for (resume) */
@@ -89,6 +90,7 @@ typedef struct fw_study {
     const char *device_path, *device_name;
     const char *source; /* (source_length) of options.file, for carets */
     size_t source_length;
+    struct fw_study_told *told; /* NULL: each round tells of itself */
     bool stored_only; /* of a merge: what the store has not is not run */
     const char *hash; /* of everything that decides what a sample is */
     /* (ninput) those of <vary>, then what <uncertain> sets (of flexure[*] each), then quantities of flows */

@@ -8,6 +8,8 @@
 #include "chance/estimate.h"
 #include "chance/indices.h"
 #include <jansson.h>
+#include <pthread.h>
+#include <stdatomic.h>
 
 enum { /* stages of a design, by what responses ask for */
        FW_STUDY_STAGE_JUDGE = 1,
@@ -123,6 +125,15 @@ fw_status fw_study_pool_run(fw_study *study, const fw_study_work *work);
    FW_OK: that is the answer */
 fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *context, long i),
                         void *context);
+/* What a study of several rounds tells is of all of them: how many devices there were, of how many at most */
+typedef struct fw_study_told {
+    atomic_long done;
+    long most; /* 0: nobody knows */
+    double begun_s;
+    pthread_t thread; /* that runs the study, and in which its options are told */
+} fw_study_told;
+/* tells of study->told, if there is one and this is its thread; else nothing */
+void fw_study_tell(const fw_study *study);
 /* threads of the study: options.jobs, or the processors that there are */
 int fw_study_jobs(const fw_study *study);
 

@@ -19,11 +19,30 @@ int fw_study_jobs(const fw_study *study) {
     return jobs > FW_STUDY_JOBS_MOST ? FW_STUDY_JOBS_MOST : jobs;
 }
 
+void fw_study_tell(const fw_study *study) {
+    const fw_study_options *o = &study->options;
+    fw_study_told *t = study->told;
+    if (!o->progress || !t || !pthread_equal(t->thread, pthread_self())) return;
+    o->progress(o->progress_context, atomic_load(&t->done), -t->most,
+                fw_study_now_s() - t->begun_s);
+}
+
+/* a fifth of a second, or until it is signalled */
+static void wait_a_little(pthread_cond_t *signal, pthread_mutex_t *lock) {
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += 200000000L;
+    if (until.tv_nsec >= 1000000000L) until.tv_sec++, until.tv_nsec -= 1000000000L;
+    pthread_cond_timedwait(signal, lock, &until);
+}
+
 typedef struct queue {
     const fw_study *study;
     fw_status (*one)(void *context, long i);
     void *context;
     pthread_mutex_t lock; /* of what follows */
+    pthread_cond_t ended; /* a thread is at its end */
+    int running;
     long n, next;
     fw_status status; /* the first that is not FW_OK */
 } queue;
@@ -39,6 +58,8 @@ static void *in_thread(void *argument) {
         pthread_mutex_lock(&q->lock);
         if (q->status == FW_OK) q->status = status;
     }
+    q->running--;
+    pthread_cond_signal(&q->ended);
     pthread_mutex_unlock(&q->lock);
     uselocale(before);
     return NULL;
@@ -50,11 +71,21 @@ fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *co
     pthread_t thread[FW_STUDY_JOBS_MOST];
     int jobs = fw_study_jobs(study), running = 0;
     pthread_mutex_init(&q.lock, NULL);
-    for (; jobs > 1 && running < jobs && running < n; running++)
+    pthread_cond_init(&q.ended, NULL);
+    pthread_mutex_lock(&q.lock);
+    for (; jobs > 1 && running < jobs && running < n; running++, q.running++)
         if (pthread_create(&thread[running], NULL, in_thread, &q) != 0) break;
+    while (q.running > 0) { /* others work, and this thread says how far they are */
+        wait_a_little(&q.ended, &q.lock);
+        pthread_mutex_unlock(&q.lock);
+        fw_study_tell(study);
+        pthread_mutex_lock(&q.lock);
+    }
+    pthread_mutex_unlock(&q.lock);
     if (running == 0) in_thread(&q);
     for (int i = 0; i < running; i++)
         pthread_join(thread[i], NULL);
+    pthread_cond_destroy(&q.ended);
     pthread_mutex_destroy(&q.lock);
     return q.status;
 }
@@ -120,8 +151,14 @@ static void *worker(void *argument) {
 
 static void tell(pool *p) {
     const fw_study_options *o = &p->study->options;
-    if (o->progress)
+    fw_study_tell(p->study);
+    if (o->progress && !p->study->told)
         o->progress(o->progress_context, p->done, p->work->n, fw_study_now_s() - p->begun_s);
+}
+
+static void count(pool *p) {
+    p->done++;
+    if (p->study->told) atomic_fetch_add(&p->study->told->done, 1);
 }
 
 static void end_with(pool *p, fw_status status) {
@@ -139,7 +176,7 @@ static void take_ended(pool *p) {
             if (status == FW_OK && p->work->take)
                 status = p->work->take(p->work->context, &s->sample);
             end_with(p, status);
-            p->done++;
+            count(p);
         }
         tell(p);
         pthread_mutex_lock(&p->lock);
@@ -148,11 +185,7 @@ static void take_ended(pool *p) {
 }
 
 static void wait_ended(pool *p) {
-    struct timespec until;
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += 200000000L;
-    if (until.tv_nsec >= 1000000000L) until.tv_sec++, until.tv_nsec -= 1000000000L;
-    pthread_cond_timedwait(&p->ended, &p->lock, &until);
+    wait_a_little(&p->ended, &p->lock);
     pthread_mutex_unlock(&p->lock);
     tell(p);
     pthread_mutex_lock(&p->lock);
@@ -164,7 +197,7 @@ static fw_status from_store(pool *p, fw_study_sample *sample, bool *there) {
     if (!p->study->store) return FW_OK;
     FW_TRY(fw_study_store_get(p->study->store, sample->i, sample, there));
     if (!*there) return FW_OK;
-    p->done++;
+    count(p);
     return p->work->take ? p->work->take(p->work->context, sample) : FW_OK;
 }
 
@@ -175,7 +208,7 @@ static fw_status give(pool *p, slot *s, long k, bool *given) {
     if (fw_cancel_requested(p->study->options.cancel)) return FW_CANCELLED;
     FW_TRY(p->work->fill(p->work->context, k, &s->sample, &wanted));
     if (!wanted) {
-        p->done++;
+        count(p);
         return FW_OK;
     }
     FW_TRY(from_store(p, &s->sample, &there));
@@ -230,7 +263,7 @@ static void run_alone(pool *p) {
             if (status == FW_OK) status = fw_study_keep(p->study, &s->sample);
             if (status == FW_OK && p->work->take)
                 status = p->work->take(p->work->context, &s->sample);
-            p->done++;
+            count(p);
             tell(p);
         }
         end_with(p, status);

@@ -80,6 +80,7 @@ static fw_status evaluate(one *o) {
     pthread_mutex_lock(&b->lock);
     status = fw_study_keep(b->study, &o->now);
     pthread_mutex_unlock(&b->lock);
+    fw_study_tell(b->study);
     return status;
 }
 
@@ -90,6 +91,7 @@ static void look(one *o, unsigned n, const double *x) {
     memcpy(o->last, x, n * sizeof *x);
     o->known = true;
     o->now.i = s->first + s->used++;
+    if (o->board->study->told) atomic_fetch_add(&o->board->study->told->done, 1);
     fw_status status = fill(o->board->study, s, x, &o->now);
     if (status == FW_OK) status = evaluate(o);
     if (status == FW_OK) status = fill(o->board->study, s, x, &o->now); /* texts, after the store */

@@ -60,6 +60,7 @@ typedef struct fw_verdict_trial {
     bool ended; /* a change of one kind was, before it was done */
     bool drawn;
     int fabricated; /* flows whose making of it the last run looked at, too */
+    bool all_made;  /* all that have ranges */
     /* (ncheck) of the last run, in an order that no change of a value alters: trial.c */
     double *check;
     double *made; /* (ncheck) the largest at the corners that were run; NaN: none was */
@@ -88,6 +89,15 @@ fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set 
 bool fw_verdict_trial_accepted(const fw_verdict_trial *trial, const fw_device_set *set, int nset);
 /* the largest `likely` (or reach) of the last run; NaN: it was not run */
 double fw_verdict_trial_excess(const fw_verdict_trial *trial);
+
+/* A secant between two values that have different signs came to `at`, of the sign of `side`, the end that it takes the
+   place of. Where it comes no nearer to 0 the function jumps between them, as when electrodes begin to touch, and
+   halves are the way there: two secants in vain for each of them would double the looks. In: logarithms of what is
+   used of a limit. NaN: one has no number. Test: test_advice.c */
+static inline bool fw_verdict_jumps(double side, double at) {
+    const double nearer = 0.5;
+    return fabs(at) > nearer * fabs(side);
+}
 
 /* states `changed` as settings and judges them; *accepted: they are proposed */
 typedef fw_status fw_verdict_propose(void *context, bool *accepted);

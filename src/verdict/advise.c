@@ -54,8 +54,12 @@ static bool change_each(fw_verdict_trial *trial, change_one *change, double extr
 }
 
 /* repeats `change`, and judges, until all are accepted; gives up when a change is not possible or the
-   worst hinge gets no better by it. Glances lead there; the end is judged wholly. */
-static fw_status repeat(fw_verdict_trial *trial, change_one *change) {
+   worst hinge gets no better by it. Glances lead there; the end is judged wholly, or, if *glanced may stay so, left to
+   a glance that accepts it as made, too: what is proposed lies nearer, and is judged wholly in any case. It may where
+   something was accepted wholly before, from which the corners that govern there are known. */
+static fw_status repeat(fw_verdict_trial *trial, change_one *change, bool *glanced) {
+    const bool may_be_glanced = *glanced;
+    *glanced = false;
     double worst_before = HUGE_VAL;
     const double most_work = fmin(trial->work + most_work_together, trial->most_work);
     for (int round = 0; round < ROUNDS && !accepted(trial); round++) {
@@ -70,7 +74,8 @@ static fw_status repeat(fw_verdict_trial *trial, change_one *change) {
         worst_before = worst > 0 ? worst : HUGE_VAL;
         int fabricated = trial->fabricated;
         FW_TRY(fw_verdict_trial_run(trial, FW_LOOK_VALUES));
-        if (may_be_accepted(trial)) FW_TRY(fw_verdict_trial_run(trial, FW_LOOK_WHOLE));
+        *glanced = may_be_glanced && accepted(trial) && trial->all_made;
+        if (may_be_accepted(trial) && !*glanced) FW_TRY(fw_verdict_trial_run(trial, FW_LOOK_WHOLE));
         if (trial->fabricated != fabricated)
             worst_before = HUGE_VAL; /* corners are tighter than the drawing */
         if (!trial->drawn) return FW_OK;
@@ -205,11 +210,15 @@ static fw_status change_by(advice *a, const char *kind, change_one *change,
                            fw_verdict_propose *propose, bool *added) {
     *added = false;
     if (!may_begin(a, kind)) return FW_OK;
-    FW_TRY(start_again(a));
-    FW_TRY(repeat(a->trial, change));
-    if (accepted(a->trial))
-        FW_TRY(fw_verdict_least_change(a->trial, most_work_together, propose, a, added));
-    a->ended = a->ended || a->trial->ended;
+    for (int turn = 0; turn < 2 && !*added; turn++) {
+        bool glanced = turn == 0 && a->trial->accepted;
+        FW_TRY(start_again(a));
+        FW_TRY(repeat(a->trial, change, &glanced));
+        if (accepted(a->trial))
+            FW_TRY(fw_verdict_least_change(a->trial, most_work_together, propose, a, added));
+        a->ended = a->ended || a->trial->ended;
+        if (!glanced || a->trial->ended) return FW_OK;
+    }
     return FW_OK;
 }
 

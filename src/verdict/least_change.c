@@ -129,14 +129,18 @@ static double between(const place *low, const place *high, double beside, bool h
 /* the least s above `low` that a glance may accept */
 static fw_status approach(const way *w, place low, place *high) {
     double beside = 0.4, before = HUGE_VAL;
+    bool jumps = false;
     for (int i = 0; i < MOST_GLANCES && !spent(w) && high->s - low.s > known_to * high->s; i++) {
         const double gap = high->s - low.s;
+        const bool halve = jumps || gap > 0.5 * before;
         place middle;
         bool may;
-        FW_TRY(glance(w, between(&low, high, beside, gap > 0.5 * before), &middle, &may));
+        FW_TRY(glance(w, between(&low, high, beside, halve), &middle, &may));
         before = gap;
         beside = may ? -0.4 : 0.4; /* the other side is to come closer */
-        *(may ? high : &low) = middle;
+        place *side = may ? high : &low;
+        jumps = jumps || (!halve && fw_verdict_jumps(side->over, middle.over));
+        *side = middle;
     }
     return FW_OK;
 }

@@ -171,16 +171,20 @@ static double root(const parameter_search *h, const sample *near, const sample *
 /* brings both together by glances */
 static fw_status approach(parameter_search *h, sample *near, sample *far) {
     double beside = 0.4, before = HUGE_VAL;
+    bool jumps = false;
     while (!spent(h) && !close_by(h, near, far)) {
-        double gap = fabs(far->at - near->at);
-        double at = root(h, near, far, gap > 0.5 * before, beside);
+        const double gap = fabs(far->at - near->at);
+        const bool halve = jumps || gap > 0.5 * before;
+        double at = root(h, near, far, halve, beside);
         sample middle;
         before = gap;
         if (!between(h, near, far, &at)) return FW_OK;
         FW_TRY(glance(h, at, &middle));
         bool in = !middle.rejected && estimate(h, &middle) <= 1;
         beside = in ? -0.4 : 0.4; /* the other side is to come closer */
-        *(in ? far : near) = middle;
+        sample *side = in ? far : near;
+        jumps = jumps || (!halve && fw_verdict_jumps(log(side->coarse), log(middle.coarse)));
+        *side = middle;
     }
     return FW_OK;
 }

@@ -243,8 +243,12 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
     trial->decision = verdict->decision;
     trial->fabricated = 0;
     checks_of(trial, verdict, layout);
-    for (int i = 0; i < verdict->nvariant; i++)
+    trial->all_made = true;
+    for (int i = 0; i < verdict->nvariant; i++) {
         trial->fabricated += verdict->variant[i].fabricated != NULL;
+        trial->all_made =
+            trial->all_made && (verdict->variant[i].fabricated || verdict->variant[i].ninput == 0);
+    }
     for (int k = 0; k < verdict->nhinge; k++) {
         const fw_verdict_hinge_verdict *h = &verdict->hinge[k];
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;

@@ -304,7 +304,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         other[i].clearance = &watch[1];
         FW_TRY(fw_verdict_clearance_scene(m, scene, watch));
         fw_probe_monitor *seen[2];
-        FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, seen));
+        const bool required = options->coarse_first || v->corner;
+        FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, required, seen));
         monitor[i].probe = seen[0], other[i].probe = seen[1];
         monitor[i].trial = other[i].trial = options->decision_only && !options->values;
         motion.whole = motion.trace_both = seen[0] != NULL;
@@ -520,6 +521,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
     FW_TRY(in_series(arena, v));
+    FW_TRY(fw_verdict_out_of_plane_strain(arena, v));
     FW_TRY(fw_verdict_clearance_strips(arena, layout, v));
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {

@@ -88,6 +88,10 @@ typedef struct fw_verdict_across {
     const char *hinge; /* that tips most easily by itself; NULL */
     double
         lift_m; /* what electrodes may lift at most (levitation); 0: there are none, or nothing that conducts is below them */
+    /* share of its limit that the hinge which bears most may use in the plane and across it, by weight and shocks, at
+       most and surely; NaN: not looked at */
+    double strained, strained_sure;
+    const char *strained_hinge;
     fw_verdict_decision decision;
 } fw_verdict_across;
 
@@ -426,6 +430,8 @@ extern const double fw_verdict_first_accuracy;
    share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
    verdict, or NULL */
 double fw_verdict_bending_share(const fw_dynamics_motion *motion);
+/* and what hinges store at most, J; 0: they do not move, but for round-off */
+double fw_verdict_bending_stored_J(const fw_dynamics_motion *motion);
 /* the same, but 0 where the device is pressed along its flexures and no end of one goes or turns by what matters */
 double fw_verdict_bending_moving(const fw_dynamics_motion *motion);
 enum {

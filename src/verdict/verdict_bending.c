@@ -471,9 +471,28 @@ bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v) {
 
 /* ---- what it says ---- */
 
+/* What hinges store a ten-millionth of their way to their limits: below it nothing moves, and bodies over hinges is round-off
+   over round-off. A shock across the plane is such a scene. */
+static double at_rest_J(const fw_mechanism *m) {
+    const double share = 1e-7;
+    double sum = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        const double angle = share * m->hinge[k].closed_form.limit_angle_rad;
+        if (isfinite(angle))
+            sum += 0.5 * m->hinge[k].closed_form.stiffness_Nm_per_rad * angle * angle;
+    }
+    return sum;
+}
+
 static const fw_verdict_bending *seen(const fw_dynamics_motion *motion) {
     const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    return saw && saw->bending.arm && saw->bending.hinges_J > 0 ? &saw->bending : NULL;
+    if (!saw || !saw->bending.arm) return NULL;
+    return saw->bending.hinges_J > at_rest_J(saw->mechanism) ? &saw->bending : NULL;
+}
+
+double fw_verdict_bending_stored_J(const fw_dynamics_motion *motion) {
+    const fw_verdict_bending *b = seen(motion);
+    return b ? b->hinges_J : 0;
 }
 
 double fw_verdict_bending_share(const fw_dynamics_motion *motion) {

@@ -101,15 +101,19 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
     for (int i = 0; i < s->nbase; i++) {
         const fw_device_base_motion *b = &s->base[i];
         if (b->az_m_per_s2 == 0) continue;
-        fw_quantity_law_size size = fw_quantity_law_measure(b->law, s->duration_s);
-        double first = sqrt(p->per_s2[0]);
-        double by = size.most + fw_quantity_law_jolt(b->law, false, s->duration_s, first);
         fw_mechanism_plates_weight(p, b->az_m_per_s2, is->f);
         double *amplitude = is->f + n;
         fw_mechanism_plates_modal(p, is->f, amplitude);
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = 0; k < n; k++) {
+            const double high = sqrt(is->rigid.per_s2[k]), off = 0.5 * is->rigid.error;
+            const double low = is->soft.why ? high : fmin(high, sqrt(is->soft.per_s2[k]));
+            const double by =
+                fw_quantity_law_answer(b->law, s->duration_s, low * (1 - off), high * (1 + off));
             is->ring[k] += by * fabs(amplitude[k]);
-        if (size.most > 0) *dynamic = fmax(*dynamic, by / size.most);
+            if (k > 0) continue;
+            const double most = fw_quantity_law_measure(b->law, s->duration_s).most;
+            if (most > 0) *dynamic = fmax(*dynamic, by / most);
+        }
     }
 }
 
@@ -134,6 +138,15 @@ static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_sc
     if (!below->known || below->open || !(-to->lowest_m > below->low_m)) return FW_OK;
     bool sure = -to->sure_m / (1 + is->rigid.error) > below->high_m;
     to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
+    if (!sure && !isfinite(to->lowest_m))
+        return add(v, s, 580, to->decision, 0.5,
+                   fw_arena_printf(arena,
+                                   "how far the device comes down in %s%s is not known, and below "
+                                   "it are %s um (%s): nothing bounds the law of its shock; state "
+                                   "it as a table, or by a law that has a largest value",
+                                   FW_NAMED("scene", s->name),
+                                   fw_number_text(has, sizeof has, 1e6 * below->m, 3),
+                                   below->words));
     return add(v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
                fw_arena_printf(
                    arena,
@@ -269,6 +282,103 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
     return FW_OK;
 }
 
+/* ---- what hinges bear across the plane ---- */
+
+/* Every mode rings either way on top of what weight does at rest: (1 + n) wrenches of a hinge. A shock that grows so
+   slowly that nothing rings is in the amplitudes, too, which are at least those at rest. */
+static void put_wrenches(const both *is, int hinge, double (*wrench)[3]) {
+    const fw_mechanism_plates *p = &is->rigid;
+    fw_mechanism_plates_wrench(p, hinge, is->x, wrench[0]);
+    for (int k = 0; k < p->n; k++) {
+        double *w = wrench[1 + k];
+        fw_mechanism_plates_wrench(p, hinge, p->shape + (size_t)k * (size_t)p->n, w);
+        for (int i = 0; i < 3; i++)
+            w[i] *= is->ring[k];
+    }
+}
+
+/* what hinge k uses in scene i in the plane, at most: by the band of what governs it. A scene without a motion: by all
+   that it ever uses */
+static double in_the_plane(const fw_verdict_variant_verdict *v, int k, int i) {
+    const fw_verdict_hinge_verdict *h = &v->hinge[k];
+    const int nscene = v->mechanism->device->nscene;
+    const double used = v->used[(size_t)k * ((size_t)nscene + 1) + (size_t)i];
+    if (!h->scene) return 0;
+    if (!isfinite(used)) return h->utilisation_high;
+    return h->utilisation > 0 ? used * h->utilisation_high / h->utilisation : used;
+}
+
+static fw_status tell_strained(fw_arena *arena, const fw_device_scene *s, double in,
+                               fw_verdict_variant_verdict *v, fw_verdict_across *to) {
+    char used[32], plane[32];
+    const bool sure = to->strained_sure > 1;
+    if (!(to->strained > 1)) return FW_OK;
+    const fw_verdict_decision decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
+    to->decision = fw_verdict_worse(to->decision, decision);
+    fw_percent_text(used, sizeof used, sure ? to->strained_sure : to->strained);
+    fw_percent_text(plane, sizeof plane, in);
+    if (!isfinite(to->strained) && !sure)
+        return add(v, s, 641, decision, 0.5,
+                   fw_arena_printf(arena,
+                                   "what hinges bear across the plane in %s%s is not known: "
+                                   "nothing bounds the law of its shock; state it as a table, "
+                                   "or by a law that has a largest value",
+                                   FW_NAMED("scene", s->name)));
+    return add(v, s, 641, decision, 0.95 / (sure ? to->strained_sure : to->strained),
+               fw_arena_printf(arena,
+                               "%s%s bends across the plane in %s%s, and uses %s%s %% of its "
+                               "limit there (in the plane at most %s %%); a thicker layer, "
+                               "shorter or wider flexures, lighter bodies or a weaker shock "
+                               "relieve it",
+                               FW_NAMED("hinge", to->strained_hinge), FW_NAMED("scene", s->name),
+                               sure ? "" : "up to ", used, plane));
+}
+
+static fw_status judge_strain(fw_arena *arena, both *is, fw_verdict_variant_verdict *v,
+                              fw_verdict_across *to) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_device_scene *s = &m->device->scene[to->scene_index];
+    const int n = 1 + is->rigid.n;
+    fw_geometry_vec2 middle;
+    double(*wrench)[3] = fw_arena_alloc(arena, (size_t)n, sizeof *wrench), worst_in = 0, dynamic;
+    FW_NEED(wrench);
+    load_scene(is, &is->rigid, s, 0, &middle, &dynamic);
+    to->strained = to->strained_sure = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_hinge *h = &m->hinge[k];
+        const double limit = v->hinge[k].strain_limit, in = in_the_plane(v, k, to->scene_index);
+        double strain[2];
+        put_wrenches(is, k, wrench);
+        FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form,
+                                        (const double(*)[3])wrench, n, strain));
+        if (!(limit > 0)) continue;
+        const double most = in + strain[1] * (1 + is->rigid.error) / limit;
+        const double sure = strain[0] / (1 + is->rigid.error) / limit;
+        to->strained_sure = fmax(to->strained_sure, sure);
+        if (most <= to->strained) continue;
+        /* a law that nothing bounds: inf, or inf times what does not move */
+        to->strained = isnan(most) ? (double)INFINITY : most, worst_in = in;
+        to->strained_hinge = m->pin[h->pin].id;
+    }
+    return tell_strained(arena, s, worst_in, v, to);
+}
+
+fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    both is = {0};
+    bool any = false;
+    if (!o || o->why) return FW_OK;
+    for (int i = 0; i < o->nscene; i++) {
+        const fw_device_scene *s = &v->mechanism->device->scene[o->scene[i].scene_index];
+        if (s->gz_m_per_s2 == 0 && !fw_mechanism_plates_shaken(s)) continue;
+        if (!any) FW_TRY(prepare(arena, v->mechanism, v->arm, &is));
+        any = true;
+        if (is.rigid.why) return FW_OK;
+        FW_TRY(judge_strain(arena, &is, v, &o->scene[i]));
+    }
+    return FW_OK;
+}
+
 static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_of_plane *out) {
     fw_mechanism_plates_stiff stiff;
     FW_TRY(fw_mechanism_plates_stiffness(arena, &is->rigid, &stiff));
@@ -303,7 +413,11 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
         const fw_device_scene *s = &d->scene[i];
         if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
         fw_verdict_across *to = &out->scene[out->nscene++];
-        *to = (fw_verdict_across){.scene = s->name, .scene_index = i, .tips = (double)NAN};
+        *to = (fw_verdict_across){.scene = s->name,
+                                  .scene_index = i,
+                                  .tips = (double)NAN,
+                                  .strained = (double)NAN,
+                                  .strained_sure = (double)NAN};
         if (out->why && (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)))
             FW_TRY(
                 add(v, s, 581, FW_INCONCLUSIVE, 0.5,

@@ -31,7 +31,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 12 }; /* of one scene at most, contacts apart */
+enum { FW_REASONS = 13 }; /* of one scene at most, contacts apart */
 /* of one flow at most */
 size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 
@@ -67,6 +67,8 @@ bool fw_verdict_out_of_plane_asked(const fw_mechanism *mechanism);
 /* after the scenes were run: v->out_of_plane, and reasons of v. brief: only where something asks for it */
 fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                         fw_diags *diags, fw_verdict_variant_verdict *v);
+/* once hinges were judged in the plane: what they bear across it by weight and shocks */
+fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v);
 /* the mode that a probe counts, if it is one across the plane; NULL: it is that of number *in_plane (from 1) in it, or
    there is none. modes NULL: those in the plane are not known */
 const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
@@ -95,9 +97,10 @@ bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 /* which requirements there are in this flow, before anything is run: v->requirement */
 fw_status fw_verdict_requirements_list(fw_arena *arena, const fw_mechanism *mechanism,
                                        fw_verdict_variant_verdict *v);
-/* probe monitors of both runs of scene i; *monitor NULL where no probe has a course in it */
+/* probe monitors of both runs of scene i; *monitor NULL where no probe has a course in it. required: those alone that a
+   requirement reads there, since nobody sees the others */
 fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *mechanism, int scene,
-                                        const fw_verdict_variant_verdict *v,
+                                        const fw_verdict_variant_verdict *v, bool required,
                                         fw_probe_monitor *monitor[2]);
 /* "stroke (final) is 47.9 um (46.7 um to 49 um), and at least 40 um is required" */
 const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r);

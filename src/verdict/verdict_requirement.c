@@ -91,23 +91,24 @@ static bool moves_in(const fw_device *d, int scene) {
 }
 
 fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, int scene,
-                                        const fw_verdict_variant_verdict *v,
+                                        const fw_verdict_variant_verdict *v, bool required,
                                         fw_probe_monitor *monitor[2]) {
     const fw_device *d = m->device;
-    bool *history, *judged;
+    bool *history, *judged, any = !required;
     monitor[0] = monitor[1] = NULL;
     if (!v->probed || !moves_in(d, scene)) return FW_OK;
     FW_NEED(history = fw_arena_array(arena, bool, (size_t)d->nprobe));
     FW_NEED(judged = fw_arena_array(arena, bool, (size_t)d->nprobe));
     for (int k = 0; k < v->nrequirement; k++) {
         const fw_device_requirement *q = &d->requirement[v->requirement[k].asked];
-        if (v->requirement[k].scene_index != scene) continue;
-        judged[q->probe] = true;
+        if (v->requirement[k].scene_index != scene || !v->requirement[k].measure) continue;
+        judged[q->probe] = any = true;
         history[q->probe] = history[q->probe] || q->measure == FW_MEASURE_SETTLING;
     }
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; any && i < 2; i++) {
         FW_NEED(monitor[i] = fw_arena_one(arena, fw_probe_monitor));
-        FW_TRY(fw_probe_monitor_new(arena, m, &d->scene[scene], history, monitor[i]));
+        FW_TRY(fw_probe_monitor_new(arena, m, &d->scene[scene], history, required ? judged : NULL,
+                                    monitor[i]));
         monitor[i]->judged = judged;
     }
     return FW_OK;
@@ -299,11 +300,16 @@ static const char *last_error(const fw_diags *diags) {
     return "there are no small motions";
 }
 
-/* of small motions no forces are known: the most of any scene */
+/* Of small motions no forces are known: the most of any scene. One that hardly moves beside another, as a shock across the
+   plane does in it, is round-off. */
 static double bodies_give(const fw_mechanism *m, const fw_verdict_variant_verdict *v) {
-    double most = 0;
+    const double hardly = 1e-10; /* of the energy */
+    double most = 0, largest_J = 0;
     for (int i = 0; i < m->device->nscene; i++)
-        most = fmax(most, fw_verdict_bending_share(v->motion[i]));
+        largest_J = fmax(largest_J, fw_verdict_bending_stored_J(v->motion[i]));
+    for (int i = 0; i < m->device->nscene; i++)
+        if (fw_verdict_bending_stored_J(v->motion[i]) >= hardly * largest_J)
+            most = fmax(most, fw_verdict_bending_share(v->motion[i]));
     return most;
 }
 

@@ -27,11 +27,11 @@ def run(*arguments, **named):
     return subprocess.run([PROGRAM, *arguments], capture_output=True, check=False, cwd=ROOT, **{"text": True, **named})
 
 
-def on_terminal(*arguments, term="xterm", expected=(0,)):
+def on_terminal(*arguments, term="xterm", path=os.environ["PATH"], expected=(0,)):
     """What the program writes to a terminal that is its standard error."""
     ours, theirs = pty.openpty()
     with subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.DEVNULL, stderr=theirs, cwd=ROOT,
-                          env={**os.environ, "TERM": term}) as child:
+                          env={**os.environ, "TERM": term, "PATH": path}) as child:
         os.close(theirs)
         seen = b""
         while True:
@@ -70,6 +70,41 @@ class Manners(unittest.TestCase):
         self.assertGreater(len(said), 1, seen[-400:])
         self.assertTrue(all(float(a[0]) <= float(b[0]) for a, b in zip(said, said[1:])))
         self.assertLessEqual(float(said[-1][0]), 100)
+
+    def test_sizes_say_how_much_is_left_at_most(self):
+        """over all rounds of two goals, one count; and the same devices whoever is told"""
+        with tempfile.TemporaryDirectory() as scratch:
+            study = pathlib.Path(scratch, "size.xml")
+            study.write_text('<study xmlns="urn:flexwright:study:1" name="s" kind="size" as="drawn" samples="400" device="%s">'
+                             '<vary what="flexure[C]/@width" from="6 um" to="12 um"/><vary what="arc" from="190 deg" to="250 deg"/>'
+                             '<respond name="used" value="governing.utilisation" goal="minimise"/>'
+                             '<respond name="soft" value="hinges[C].limit_angle_rad" goal="maximise"/></study>' % SIX_BAR)
+            for jobs in ("1", "2"):
+                out = pathlib.Path(scratch, jobs)
+                seen = on_terminal("study", str(study), "-o", str(out), "--jobs", jobs, expected=(0, 1))
+                said = re.findall(r"\r(\d+) of at most 400 devices, [\d.e+]+ a second, at most (\d+) s left", seen)
+                self.assertGreater(len(said), 2, seen[-400:])
+                self.assertTrue(all(int(a[0]) <= int(b[0]) for a, b in zip(said, said[1:])))
+                self.assertGreater(int(said[-1][0]), 40)  # beyond the first look
+                self.assertLessEqual(int(said[-1][0]), 400)
+            self.assertEqual(pathlib.Path(scratch, "1/study.json").read_text(), pathlib.Path(scratch, "2/study.json").read_text())
+
+    def test_another_program_has_a_limit(self):
+        """what waits for it says how long at most"""
+        with tempfile.TemporaryDirectory() as scratch:
+            ccx = pathlib.Path(scratch, "ccx")
+            ccx.write_text("#!/bin/sh\nsleep 3\nexit 1\n")
+            ccx.chmod(0o755)
+            seen = on_terminal("hinge", SIX_BAR, "--level", "continuum", path=f"{scratch}:{os.environ['PATH']}", expected=(0, 5, 7))
+            self.assertRegex(seen, r"waiting for another program: [\d.]+ of at most 600 s, at most 59\d s left")
+
+    def test_a_laboratory_pack_of_no_flow(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            pack = pathlib.Path(scratch, "ours.xml")
+            text = (ROOT / "tests/fuzz/seeds/laboratory.xml").read_text()
+            pack.write_text(text.replace('flow="al-masked-rie"', 'flow="al-maskd-rie"'))
+            said = run("recipe", SIX_BAR, "--lab", str(pack), "-o", f"{scratch}/out").stderr
+            self.assertRegex(said, r"ours\.xml:2:\d+: warning: this laboratory pack has no effect: .*'al-maskd-rie'.*did you mean 'al-masked-rie'\?")
 
     def test_no_pdf_on_a_terminal(self):
         ours, theirs = pty.openpty()

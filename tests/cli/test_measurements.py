@@ -58,7 +58,7 @@ class Measurements(unittest.TestCase):
         for flow, of in self.base.items():
             said = of["measurements"]
             self.assertIsNotNone(said["band"][1])
-            for item in said["ranked"][::1 if ALL else 2]:
+            for item in said["ranked"][::1 if ALL else 3]:
                 if item["id"] is None or item["value"] is None:
                     continue  # of the material, or nobody knows what it will be
                 if item["band"] == said["band"] and not item["windows"]:
@@ -73,7 +73,7 @@ class Measurements(unittest.TestCase):
                 if got["of"] == said["of"]:
                     self.assertEqual(got["band"], item["band"], item["id"])
                 self.assertEqual(then["as_fabricated"]["verdict"], item["verdict"], item["id"])
-        self.assertGreater(tried, 8 if ALL else 4)
+        self.assertGreater(tried, 8 if ALL else 2)
         self.assertGreater(exact, 2 if ALL else 0)  # as if its uncertainty were set to zero
 
     def test_windows_are_the_recipe_s(self):

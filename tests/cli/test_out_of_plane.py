@@ -121,6 +121,61 @@ class OutOfPlane(unittest.TestCase):
         self.assertLess(at_once["lowest_m"] / still["lowest_m"], 3)
         self.assertEqual(at_once["lowest_at_rest_m"], 0)
 
+    def test_a_shock_bends_its_hinges(self):
+        """one that the device's frequencies do not see is no fault of theirs; one that bends hinges past their limit is never
+        accepted, weight that does so at rest is rejected, and both grow with what acts"""
+        shock = '</scene><scene name="drop" duration="5 ms"><base-motion az="%s km/s^2" law="half-sine" rise="0.5 ms"/>'
+        lasts = '<require frequency="1" min="1 Hz" plane="in"/>'
+        used = []
+        for a in ("0.1", "0.4", "20"):
+            whole = self.stage("check", scene=shock % a, asked=lasts)
+            drop = whole["out_of_plane"][0]["scenes"][1]
+            self.assertEqual(drop["scene"], "drop")
+            self.assertEqual(drop["strained_sure"], 0)
+            used.append(drop["strained"])
+            reasons = [r for r in whole["reasons"] if "across the plane" in r["text"]]
+            self.assertEqual(bool(reasons), drop["strained"] > 1)
+            self.assertEqual(whole["verdict"], "inconclusive" if reasons else "accept", whole["reasons"])
+        self.assertAlmostEqual(used[1] / used[0], 4, places=2)
+        self.assertGreater(used[2], 1)
+        weight = '<gravity gz="%s km/s^2"/>'
+        little, much = (self.across(scene=weight % g) for g in ("-0.2", "-50"))
+        self.assertAlmostEqual(much[2]["strained_sure"] / little[2]["strained_sure"], 250, places=6)
+        self.assertEqual(much[0]["verdict"], "reject")
+        self.assertTrue(any("bends across the plane" in r["text"] for r in much[0]["reasons"]))
+        self.assertEqual(little[0]["verdict"], "accept")
+
+    def test_a_shaker_at_a_resonance(self):
+        """N periods of a sine at the lowest frequency across the plane do pi N times what its amplitude does at rest, the stiffness
+        known or not; far from it a few times"""
+        still = self.across(scene='<gravity gz="-10 m/s^2"/>')
+        f = still[1]["modes"][0]["f_Hz"]
+        down = {}
+        for times, name in ((1, "there"), (1.02, "near"), (0.3, "below")):
+            shake = f'<base-motion az="10 m/s^2" law="sine" frequency="{times * f} Hz"/>'
+            down[name] = -self.across(scene=shake)[2]["lowest_m"]
+        rest = -still[2]["lowest_m"]
+        periods = 0.02 * f
+        self.assertGreater(down["there"], 0.95 * 3.1416 * periods * rest)
+        self.assertLess(down["there"], 1.3 * 3.1416 * periods * rest)
+        self.assertGreater(down["near"], 0.9 * down["there"])
+        self.assertLess(down["below"], 2.2 * rest)
+
+    def test_strain_of_a_plate_on_a_leaf(self):
+        """at least that of a cantilever, m g (L/2 + dx) over its section; at most twice it and what its twist warps, and half its shear"""
+        done = run("check", ROOT / "tests/data/theory/plate.xml", "--json", *QUICK)
+        whole = json.loads(done.stdout)
+        scene = whole["out_of_plane"][0]["scenes"][0]
+        limit = whole["hinges"][0]["strain_limit"]
+        moment = 0.05e-6 * 9.80665 * (150e-6 + 600e-6)
+        bends = 6 * moment / (10e-6 * (40e-6) ** 2 * 150e9)
+        error = whole["out_of_plane"][0]["stiffness_error"]
+        self.assertAlmostEqual(scene["strained_sure"] * (1 + error) * limit / bends, 1, places=6)
+        twist = 0.05e-6 * 9.80665 * 100e-6 / (150e9 / 2.5 * 11233e-24)  # J and l of the page
+        most = 2 * (bends + twist * 10e-6 * 40e-6 / (4 * 8.7757e-6)) + 0.5 * twist * 10e-6
+        across = (scene["strained"] - whole["hinges"][0]["utilisation_band"][1]) * limit / (1 + error)
+        self.assertAlmostEqual(across / most, 1, places=3)
+
     def test_ledger(self):
         """nothing in the plane moves otherwise, whatever acts across it"""
         def simulated(scene):
@@ -162,6 +217,10 @@ class OutOfPlane(unittest.TestCase):
         shaken = self.across(f'<base-motion az="100 m/s^2" {law}/>', flow=GLASS)
         self.assertEqual(shaken[0]["verdict"], "inconclusive")
         self.assertIn("580", json.dumps(shaken[0]["reasons"]))
+        etched_through = self.across(f'<base-motion az="100 m/s^2" {law}/>')  # nothing is below it
+        self.assertEqual(etched_through[0]["verdict"], "inconclusive")
+        self.assertIn("nothing bounds the law", json.dumps(etched_through[0]["reasons"]))
+        self.assertIsNone(etched_through[2]["strained"])
 
     def test_a_law_that_is_bounded_by_intervals(self):
         """a formula whose largest value is proved is judged as a ramp of that size is, and a shock of it is decided"""

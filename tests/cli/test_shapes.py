@@ -4,6 +4,7 @@
 manifest has the drawing's hash; what is wrong with a drawing is said at its place, and nothing beside the device file is opened."""
 import hashlib
 import json
+import math
 import pathlib
 import random
 import re
@@ -159,6 +160,31 @@ class Shapes(unittest.TestCase):
         result = run("check", "-", input=text, cwd=self.at)
         self.assertEqual(result.returncode, 3)
         self.assertIn("[FW-D311]", result.stderr)
+
+    def test_a_circle_of_chords_is_a_hole(self):
+        """GDSII has no arcs: its circles are chords, often shorter than a cut is wide, and open like the circle itself"""
+        plate = '<plate x="0.5 mm" width="800 um" height="200 um"/>'
+        def used(hole, place):
+            (place / "device.xml").write_text(DEVICE % (plate + hole))
+            done = run("check", place / "device.xml", "--json", "--advice", "none")
+            self.assertEqual(done.returncode, 0, done.stderr + done.stdout[-500:])
+            done = run("mask", place / "device.xml", "-o", place / f"out{len(list(place.iterdir()))}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads(run("modes", place / "device.xml", "--json").stdout)["modes"][0]["f_Hz"]
+        with tempfile.TemporaryDirectory() as scratch:
+            place = pathlib.Path(scratch)
+            none = used("", place)
+            for radius in (12, 40):
+                circle = ('<outline x="0.7 mm" start-x="-%g um" hole="yes"><arc to-x="%g um" to-y="0 um" radius="%g um" turn="left"/>'
+                          '<arc to-x="-%g um" to-y="0 um" radius="%g um" turn="left"/></outline>' % (5 * (radius,)))
+                whole = used(circle, place)
+                self.assertNotEqual(whole, none)
+                for chords in (20, 64, 200):
+                    points = [(radius * math.cos(2 * math.pi * (k + 0.3) / chords), radius * math.sin(2 * math.pi * (k + 0.3) / chords)) for k in range(chords)]
+                    (place / "hole.gds").write_bytes(gds(points))
+                    less = 1 - chords / (2 * math.pi) * math.sin(2 * math.pi / chords)  # of its area
+                    found = used('<outline file="hole.gds" x="0.7 mm" hole="yes"/>', place)
+                    self.assertAlmostEqual((found - whole) / (none - whole), less, delta=0.003, msg=(radius, chords))
 
     def test_the_gripper_is_a_device_for_both_flows(self):
         result = run("check", ROOT / "docs/gallery/free-form-gripper/device.xml", "--json")

@@ -32,7 +32,7 @@ ROOT = HERE.parents[1]
 TREE = ROOT / "build-edges"
 LEFT_OUT, NOT_REACHED = HERE / "left-out.txt", HERE / "not-reached.txt"
 START = 0.5  # s, of a program, and of a test to be compiled
-FEW, SHORT = 15, 2.0  # edges that nothing else passes for each second under the sanitizers; s, what is not worth leaving out
+FEW, SHORT = 15, 1.0  # edges that nothing else passes for each second under the sanitizers; s, what is not worth leaving out
 
 
 def functions(program):
@@ -103,7 +103,7 @@ def run(command, environment, directory, known):
     """the edges that it passes, and how long it takes"""
     with tempfile.TemporaryDirectory() as to:
         before = time.monotonic()
-        done = subprocess.run(command, env={**os.environ, **environment, "FW_EDGES_TO": to}, cwd=directory, capture_output=True,
+        done = subprocess.run(command, env={**os.environ, **environment, "FW_TEST_FEWEST": "1", "FW_EDGES_TO": to}, cwd=directory, capture_output=True,
                               check=False)
         if done.returncode:
             sys.exit("%s: status %d\n%s" % (command, done.returncode, (done.stdout + done.stderr)[-2000:].decode()))

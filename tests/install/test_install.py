@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.parse
 
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -85,6 +86,11 @@ class Tree(unittest.TestCase):
         if shutil.which("xmlcatalog"):
             found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:device:1").strip()
             self.assertTrue(found.endswith("/device.rng"), found)
+            found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:process:1").strip().removeprefix("file://")
+            found = urllib.parse.unquote(found)
+            self.assertTrue(pathlib.Path(found).samefile(data / "processes/packs.rng"), found)
+            for pack in (data / "processes").glob("*.xml"):
+                run("xmllint", "--nonet", "--noout", "--relaxng", found, pack)
 
     def test_pages(self):
         """every page is there with all that it links to, and the devices that its examples name"""
@@ -162,6 +168,9 @@ class Tree(unittest.TestCase):
             for option in options(command):
                 self.assertIn("--" + option, part)
                 self.assertIn(f"'__fish_seen_subcommand_from {command}' -l {option} ", fish)
+        for shell in (zsh, fish):  # a colon and an apostrophe are the shell's own: the words keep a comma, and theirs
+            self.assertIn("only the verdict, does a hinge leave its elastic range?", shell)
+            self.assertIn("equilibrium under a scene\u2019s loads", shell)
         for line in zsh.splitlines() + fish.splitlines():  # quotes are closed
             self.assertEqual(line.count("'") % 2, 0, line)
         for shell, name in (("zsh", "share/zsh/vendor-completions/_flexwright"),

@@ -3,7 +3,9 @@
    them. */
 #include "base/diag.h"
 #include "cli/options.h"
+#include "device/device_table.h"
 #include "effects/effects.h"
+#include "process/pack.h"
 #include "test.h"
 #include <stdlib.h>
 
@@ -50,6 +52,32 @@ static void diagnostics_page(void **state) {
     fw_arena_free(arena);
 }
 
+/* Which schema a name space has, for editors. Packs of flows and of laboratories have one, and packs.rng takes both. */
+static void catalogue(void **state) {
+    (void)state;
+    static const struct {
+        const fw_xml_table *table;
+        const char *schema; /* beside the catalogue in the source; installed, processes/ lies beside it */
+    } row[] = {{&fw_device_table, "device.rng"},
+               {&fw_process_pack_table, "../../processes/packs.rng"}};
+    fw_arena *arena = fw_arena_new(0);
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text,
+                "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                "<!-- generated from the tables of elements; do not edit. For editors: schemas of "
+                "device files and process packs, by their name spaces. -->\n"
+                "<catalog xmlns=\"urn:oasis:names:tc:entity:xmlns:xml:catalog\">\n");
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        fw_text_printf(&text,
+                       "  <uri name=\"%s\" uri=\"%s\"/>\n  <system systemId=\"%s\" uri=\"%s\"/>\n",
+                       row[i].table->urn, row[i].schema, row[i].table->urn, row[i].schema);
+    fw_text_add(&text, "</catalog>\n");
+    assert_int_equal(fw_text_end(&text), FW_OK);
+    assert_string_equal(fw_process_pack_table.urn, fw_process_laboratory_table.urn);
+    same_as_committed(&text, FW_TEST_SOURCE_DIR "/docs/reference/catalog.xml");
+    fw_arena_free(arena);
+}
+
 static void every_command_is_complete(void **state) {
     (void)state;
     size_t n;
@@ -92,6 +120,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(command_line_page),
         cmocka_unit_test(diagnostics_page),
+        cmocka_unit_test(catalogue),
         cmocka_unit_test(every_command_is_complete),
         cmocka_unit_test(public_header_names_the_hinge_models),
     };

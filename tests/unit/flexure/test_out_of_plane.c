@@ -73,6 +73,39 @@ static void straight_leaf(void **state) {
     fw_arena_free(arena);
 }
 
+/* A force across the end of a cantilever, and a torque about it: 6 F L/(w h^2) at the root, at least that and at most twice
+   it; of the torque the shear that Roark has for a rectangle (table 10.1, 4) and what a root that cannot warp puts on top */
+static void strain_of_a_cantilever(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double L = 200e-6, w = 8e-6, h = 50e-6, E = 100e9, G = E / 2.6, F = 1e-3, T = 1e-8;
+    const fw_flexure_input in = strip(L, 0, w, h);
+    fw_flexure_result closed;
+    double strain[2];
+    fw_flexure_closed_form(&in, &closed);
+    const double force[2][3] = {{F, 0.5 * L * F, 0}, {0, 0, T}};
+    const double bends = 6 * F * L / (w * h * h * E);
+    assert_int_equal(fw_flexure_across_strain(arena, &in, &closed, force, 1, strain), FW_OK);
+    assert_relative(strain[0], bends, 1e-12);
+    assert_in_range((long)(1e3 * strain[1] / bends), 1999, 2001);
+    const double backwards[1][3] = {{-F, -0.5 * L * F, 0}};
+    double same[2];
+    assert_int_equal(fw_flexure_across_strain(arena, &in, &closed, backwards, 1, same), FW_OK);
+    assert_relative(same[1], strain[1], 1e-15);
+    const double shear = T * 3 / (8 * 0.5 * h * 0.25 * w * w) *
+                         (1 + 0.6095 * w / h + 0.8865 * w * w / (h * h)) / G;
+    double twisted[2];
+    assert_int_equal(fw_flexure_across_strain(arena, &in, &closed, force + 1, 1, twisted), FW_OK);
+    assert_true(twisted[0] < 1e-12 * bends);
+    assert_true(twisted[1] > 0.5 * shear);
+    assert_true(twisted[1] < 8 * shear); /* 2 w h/(4 l) beside w/2, l = 0.29 h */
+    double all[2]; /* the second rings */
+    assert_int_equal(fw_flexure_across_strain(arena, &in, &closed, force, 2, all), FW_OK);
+    assert_relative(all[0], bends, 1e-12);
+    assert_relative(all[1], strain[1] + twisted[1], 1e-12);
+    fw_arena_free(arena);
+}
+
 /* A circular cantilever loaded square to its plane at its end: Roark, Formulas for Stress and Strain, table 9.4, 1e:
    P R^3 ((f/2 - sin 2f/4)/EI + (3f/2 - 2 sin f + sin 2f/4)/GJ), and shear. A square section does not warp, and one
    this slender does not give way across */
@@ -188,6 +221,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(torsion_of_rectangles),
         cmocka_unit_test(straight_leaf),
+        cmocka_unit_test(strain_of_a_cantilever),
         cmocka_unit_test(circular_cantilever),
         cmocka_unit_test(a_tall_arc_gives_way),
         cmocka_unit_test(pieces_of_an_arc),

@@ -208,6 +208,38 @@ static void as_fabricated(void **state) {
 }
 
 /* whole numbers stay whole */
+/* a plate that a comb draws to its stator from some voltage on: what is used there jumps, and no secant knows where */
+static const char pulled_in[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"paddle\">"
+    "<parameter name=\"volts\" value=\"120 V\" min=\"5 V\" max=\"200 V\"/>"
+    "<material ref=\"silicon-100\" thickness=\"50 um\"/>"
+    "<flow ref=\"silicon-on-glass\" carrier=\"insulating\"/>"
+    "<die tethers=\"no\"/>"
+    "<limits safety-factor=\"1.5\"/>"
+    "<flexure id=\"f\" kind=\"leaf\" length=\"320 um\" width=\"5 um\" gap=\"10 um\"/>"
+    "<mechanism>"
+    "<body id=\"p\" x=\"0.7 mm\" y=\"0 mm\" plate-width=\"0.8 mm\" plate-height=\"0.4 mm\"/>"
+    "<revolute id=\"A\" a=\"ground\" b=\"p\" b-x=\"-0.7 mm\" hinge=\"f\"/>"
+    "</mechanism>"
+    "<scene name=\"run\" duration=\"10 ms\">"
+    "<comb-drive id=\"d\" kind=\"comb\" on=\"p\" x=\"0.05 mm\" y=\"0.28 mm\" direction=\"90 deg\" fingers=\"5\" gap=\"10 um\" overlap=\"30 um\" length=\"100 um\" voltage=\"volts\"/>"
+    "<material-damping loss-factor=\"0.1\"/>"
+    "</scene>"
+    "</device>";
+
+/* 31 looks where every second one was a secant in vain */
+static void halves_a_jump(void **state) {
+    (void)state;
+    fw_plan *plan = judged(pulled_in, NULL, true);
+    const fw_verdict_parameter_advice *volts = of(plan, "volts");
+    assert_int_equal(volts->found, FW_PARAMETER_ACCEPTS);
+    assert_true(fabs(volts->to - 48.7) < 0.8);
+    assert_int_equal(decision(pulled_in, "volts", "48.2 V"), FW_ACCEPT);
+    assert_int_not_equal(decision(pulled_in, "volts", "50 V"), FW_ACCEPT);
+    assert_in_range(volts->trials, 1, 27);
+    fw_plan_free(plan);
+}
+
 static void counts(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -244,6 +276,7 @@ int main(void) {
         cmocka_unit_test(of_random_arms), cmocka_unit_test(not_monotonous),
         cmocka_unit_test(none_is_found),  cmocka_unit_test(begins_at_what_is_set),
         cmocka_unit_test(as_fabricated),  cmocka_unit_test(counts),
+        cmocka_unit_test(halves_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

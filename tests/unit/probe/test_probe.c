@@ -25,7 +25,8 @@ static void begin(fixture *f) {
     f->loads = (fw_effects_loads){.nbody = 1};
     f->mechanism = (fw_mechanism){.device = &f->device, .body = &f->mass, .nbody = 1};
     assert_int_equal(
-        fw_probe_monitor_new(f->arena, &f->mechanism, &f->scene, &f->history, &f->monitor), FW_OK);
+        fw_probe_monitor_new(f->arena, &f->mechanism, &f->scene, &f->history, NULL, &f->monitor),
+        FW_OK);
     fw_probe_monitor_record(&f->monitor, NULL);
 }
 
@@ -87,6 +88,23 @@ static void settles_at_the_last_crossing(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* a probe that nobody asks for has no course, whatever it would say */
+static void looks_at_what_is_asked_for(void **state) {
+    (void)state;
+    static const bool none[] = {false}, all[] = {true};
+    for (int k = 0; k < 2; k++) {
+        fixture f;
+        begin(&f);
+        assert_int_equal(fw_probe_monitor_new(f.arena, &f.mechanism, &f.scene, NULL, k ? all : none,
+                                              &f.monitor),
+                         FW_OK);
+        for (int i = 0; i < 3; i++)
+            show(&f, i, 1 + i, i == 0);
+        assert_int_equal(f.monitor.course->count, k ? 3 : 0);
+        fw_arena_free(f.arena);
+    }
+}
+
 static void values_have_a_prefix(void **state) {
     (void)state;
     char text[FW_PROBE_TEXT];
@@ -101,6 +119,7 @@ int main(void) {
         cmocka_unit_test(finds_extremes_between_instants),
         cmocka_unit_test(a_jump_is_no_peak),
         cmocka_unit_test(settles_at_the_last_crossing),
+        cmocka_unit_test(looks_at_what_is_asked_for),
         cmocka_unit_test(values_have_a_prefix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

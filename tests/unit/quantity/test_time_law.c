@@ -186,6 +186,45 @@ static void expressions(void **state) {
     assert_true(pulse.most >= 1 && pulse.most < 1.001 && pulse.variation < 1.1);
 }
 
+/* What a law does to an oscillator: a step 2; a half sine at rise/period = 0.8101 the top of its shock spectrum, 1.7684
+   (closed form: cos at the turning point, sin(2 pi n/(2r + 1)) 2r/(2r - 1)); a sine at resonance N periods long pi N;
+   far from it (1 + r)/|1 - r^2| at most, which a long scene comes near; a slow ramp hardly more than itself */
+static void answers(void **state) {
+    (void)state;
+    const double w = 2 * pi * 1000, period = 1e-3;
+    const fw_quantity_law_kind *half = fw_quantity_law_find("half-sine"),
+                               *sine = fw_quantity_law_find("sine"),
+                               *ramp = fw_quantity_law_find("ramp");
+    assert_near(fw_quantity_law_answer(NULL, 1, w, w), 2, 0);
+    double top = 0;
+    for (double r = 0.6; r < 1.1; r += 0.05) { /* rise/period: first turn inside the pulse */
+        const double x = 2 * r, closed = x / (x - 1) * sin(2 * pi / (x + 1));
+        const fw_quantity_law pulse = {.kind = half, .rise_s = r * period};
+        const double is = fw_quantity_law_answer(&pulse, 5 * period, w, w);
+        assert_in_range((long)(1e4 * is / closed), 9990, 10310);
+        top = fmax(top, is);
+    }
+    assert_in_range((long)(1e3 * top), 1760, 1830);
+    for (int n = 4; n <= 64; n *= 4) {
+        const fw_quantity_law same = {
+            .kind = sine, .frequency_Hz = 1000, .end_s = (double)INFINITY};
+        const double is = fw_quantity_law_answer(&same, n * period, w, w);
+        assert_in_range((long)(1e4 * is / (pi * n)), 9900, 10310);
+        /* a frequency that is known to 4 % has resonance within it */
+        assert_true(fw_quantity_law_answer(&same, n * period, 0.98 * w, 1.02 * w) > 0.99 * is);
+    }
+    for (double r = 0.3; r < 3; r *= 1.7) {
+        const fw_quantity_law other = {
+            .kind = sine, .frequency_Hz = 1000 * r, .end_s = (double)INFINITY};
+        const double bound = (1 + r) / fabs(1 - r * r);
+        const double is = fw_quantity_law_answer(&other, 200 * period, w, w);
+        assert_true(is <= 1.031 * bound);
+        assert_true(is >= 0.9 * bound);
+    }
+    const fw_quantity_law slow = {.kind = ramp, .rise_s = 1};
+    assert_in_range((long)(1e4 * fw_quantity_law_answer(&slow, 2, w, w)), 10000, 10010);
+}
+
 /* at rate w: all of a step, 2/(w rise) of a ramp, of a half sine pi/(w rise) (2 + 2) in sum, and of (1 - cos)/2
    by samples what its second derivative adds up to, pi/(w T); a coordinate begins where it is */
 static void jolts(void **state) {
@@ -272,6 +311,7 @@ int main(void) {
         cmocka_unit_test(table),
         cmocka_unit_test(expressions),
         cmocka_unit_test(jolts),
+        cmocka_unit_test(answers),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
