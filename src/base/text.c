@@ -543,3 +543,16 @@ void fw_sha256(const void *data, size_t n, char text[65]) {
     }
     text[64] = '\0';
 }
+
+void fw_text_cut(char *to, size_t n, const char *from) {
+    size_t end = strlen(from);
+    if (end < n) {
+        memcpy(to, from, end + 1);
+        return;
+    }
+    end = n - 4;
+    while (end > 0 && ((unsigned char)from[end] & 0xC0) == 0x80)
+        end--;
+    memcpy(to, from, end);
+    memcpy(to + end, "...", 4);
+}

@@ -84,6 +84,8 @@ bool fw_word_is(fw_word word, const char *name);
 bool fw_words_hold(const char *words, const char *separators, const char *name);
 /* alike; NULL is like NULL alone */
 bool fw_text_same(const char *a, const char *b);
+/* what of `from` has room in `to` (n > 4), with "..." where that is not all; never cut inside a character */
+void fw_text_cut(char *to, size_t n, const char *from);
 /* Sentences name things by their kind and their id, "hinge A"; an id that begins with its kind, as "hinge-2" does, says it
    itself. For "%s%s": FW_NAMED("hinge", id). Test: tests/unit/base/test_markup.c */
 #define FW_NAMED(kind, id) fw_text_kind(kind " ", id), (id)

@@ -430,7 +430,7 @@ static const char *refused(const fw_plan *plan, size_t before) {
 }
 
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
-static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
+fw_status fw_plan_mask_examine(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     pf->mask_examined = true;
     if (!plan->layout || plan->layout->nfault > 0) { /* dimensions that do not fit in any flow */
         pf->mask_error = "the device cannot be drawn with these dimensions; see the diagnostics";
@@ -477,7 +477,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
 
 fw_status fw_plan_masks_examine(fw_plan *plan) {
     for (int i = 0; i < plan->nflow && plan->verdict.decision != FW_REJECT; i++)
-        if (plan->flow[i].flow) FW_TRY(build_mask(plan, &plan->flow[i], false));
+        if (plan->flow[i].flow) FW_TRY(fw_plan_mask_examine(plan, &plan->flow[i], false));
     return FW_OK;
 }
 
@@ -491,7 +491,7 @@ fw_status fw_plan_masks(fw_plan *plan) {
             continue;
         }
         fw_arena_tell(plan->arena, "drawing masks", i, plan->nflow, "flows");
-        if (!pf->mask_examined) FW_TRY(build_mask(plan, pf, rejected));
+        if (!pf->mask_examined) FW_TRY(fw_plan_mask_examine(plan, pf, rejected));
         if (!pf->mask) continue;
         pf->gds = fw_text_new(plan->arena);
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));

@@ -339,8 +339,9 @@ static fw_status facts_of(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask
     return pf->wafer ? add_wafer_facts(plan->arena, pf->wafer, facts) : FW_OK;
 }
 
-/* a flow computed with its facts */
-static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
+/* a flow computed with its facts, and what would be made instead of what is refused */
+static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, const fw_process_redraw *redraw,
+                              fw_diags *diags) {
     bool drawn = plan->layout && plan->layout->drawn;
     fw_process_mask_facts facts;
     fw_mask_verdict contents; /* hollows, pads: what the other plates draw */
@@ -349,6 +350,7 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     FW_TRY(fw_mask_contents_judge(plan->arena, pf->table, plan->layout, &contents));
     facts.widest_hollow_m = contents.widest_hollow_m;
     facts.pads = contents.pads;
+    facts.redraw = redraw;
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
     if (pf->flow->no_window && !pf->release_change) {
         fw_diags said = fw_diags_new(plan->arena);
@@ -364,8 +366,117 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     FW_TRY(fw_plan_find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));
     FW_TRY(fw_process_flow_judge_drives(plan->arena, pf->flow,
                                         pf->use && pf->use->insulating_carrier, drive, n, diags));
-    FW_TRY(fw_plan_judge_alternatives(plan, pf));
+    if (!redraw->judging) FW_TRY(fw_plan_judge_alternatives(plan, pf));
     return fw_plan_wiring(plan, pf);
+}
+
+/* ---- a change that a flow would take, drawn ----
+   Conjugate gaps, gaps of electrodes and release holes at least so wide, as whoever follows the proposal states them: the
+   device is drawn anew, the flow computed with its facts, the mask drawn with the bias of that and its rules looked at. In:
+   a plan that is judged, and a flow whose quantities are those to try. Out: what refuses. Cost: a drawing and a mask. Test:
+   test_nearest_drawn.c. */
+
+typedef struct redrawn_flow { /* what a flow is drawn anew of */
+    fw_plan *plan;
+    fw_plan_flow *pf;
+} redrawn_flow;
+
+static fw_status widened_device(fw_arena *arena, const fw_device *from, double gap_m,
+                                fw_device *to) {
+    const size_t nflexure = (size_t)from->nflexure, nscene = (size_t)from->nscene;
+    *to = *from;
+    if (from->release_pitch_m > 0.0)
+        to->release_hole_m = fmax(gap_m, from->release_hole_m > 0.0 ? from->release_hole_m
+                                                                    : 0.3 * from->release_pitch_m);
+    FW_NEED(to->flexure =
+                fw_arena_grow(arena, from->flexure, nflexure, nflexure, sizeof *to->flexure));
+    FW_NEED(to->scene = fw_arena_grow(arena, from->scene, nscene, nscene, sizeof *to->scene));
+    for (int i = 0; i < to->nflexure; i++)
+        if (to->flexure[i].gap_m > 0.0) to->flexure[i].gap_m = fmax(to->flexure[i].gap_m, gap_m);
+    for (int i = 0; i < to->nscene; i++) {
+        fw_device_scene *s = &to->scene[i];
+        const size_t n = (size_t)s->ncomb;
+        FW_NEED(s->comb = fw_arena_grow(arena, s->comb, n, n, sizeof *s->comb));
+        for (int k = 0; k < s->ncomb; k++)
+            s->comb[k].gap_m = fmax(s->comb[k].gap_m, gap_m);
+    }
+    return FW_OK;
+}
+
+/* *why: NULL where nothing refuses */
+static fw_status judge_drawing(fw_plan *plan, fw_plan_flow *pf, const char **why) {
+    const fw_process_redraw no_further = {.judging = true};
+    FW_TRY(compute_flow(plan, pf, &no_further, &plan->diags));
+    if (pf->flow->manufacturable != 0) FW_TRY(fw_plan_mask_examine(plan, pf, false));
+    *why = pf->flow->manufacturable != 0 ? NULL
+           : pf->mask_error              ? pf->mask_error
+           : pf->flow->nreason > 0       ? pf->flow->reason[0]
+                                         : "its steps";
+    return FW_OK;
+}
+
+/* what a drawing lacks that the one before has; NULL: nothing */
+static const char *lacks(fw_arena *arena, const fw_layout *before, const fw_layout *l,
+                         const fw_diags *said) {
+    const fw_layout_missing *m = l && l->nmissing ? &l->missing[l->nmissing - 1] : NULL;
+    if (l && l->drawn && l->nmissing <= before->nmissing) return NULL;
+    const char *why =
+        m && l->drawn ? fw_arena_printf(arena, "its drawing: no room for %s, %s", m->name, m->why)
+        : said->count > 0 ? said->item[0].message
+                          : NULL;
+    return why ? why : "its drawing";
+}
+
+static fw_status draw_change(const redrawn_flow *of, double gap_m, double thickness_m,
+                             fw_process_redrawn *outcome, const char **why) {
+    fw_plan other = *of->plan;
+    fw_device device = *other.device;
+    const size_t n = (size_t)other.nflow;
+    bool outlines = false; /* what is narrowest stays as it is */
+    fw_plan_flow *pf;
+    other.diags = fw_diags_new(other.arena); /* nobody asked for this one */
+    *outcome = FW_REDRAWN_REFUSED;
+    FW_NEED(other.flow = fw_arena_grow(other.arena, other.flow, n, n, sizeof *other.flow));
+    pf = &other.flow[of->pf - of->plan->flow];
+    pf->wiring = NULL, pf->mask_error = NULL;
+    pf->release_change = ""; /* not looked for */
+    if (thickness_m > 0.0) pf->variant.thickness_m = thickness_m;
+    if (gap_m > 0.0) {
+        FW_TRY(widened_device(other.arena, other.device, gap_m, &device));
+        other.device = &device;
+        other.layout = NULL;
+        pf->release = NULL, pf->hold = NULL;
+        fw_status status = fw_layout_build(other.arena, &device, &other.diags, &other.layout);
+        if (status != FW_GEOMETRY && status != FW_INPUT) FW_TRY(status);
+        *why = lacks(other.arena, of->plan->layout, other.layout, &other.diags);
+        if (*why) return FW_OK;
+        outlines = !(other.layout->narrowest_gap_m > of->plan->layout->narrowest_gap_m);
+    }
+    *why = "its steps";
+    fw_status status = judge_drawing(&other, pf, why);
+    if (status == FW_INPUT || status == FW_GEOMETRY) return FW_OK;
+    *outcome = !*why ? FW_REDRAWN_MADE : outlines ? FW_REDRAWN_UNDECIDED : FW_REDRAWN_REFUSED;
+    return status;
+}
+
+/* nothing of it is kept, but what the flow points to until it is computed again */
+static fw_status redraw(void *context, double gap_m, double thickness_m,
+                        fw_process_redrawn *outcome, char *why, size_t n) {
+    const redrawn_flow *of = context;
+    const char *says;
+    fw_mark mark = fw_arena_mark(of->plan->arena);
+    fw_status status = draw_change(of, gap_m, thickness_m, outcome, &says);
+    if (status == FW_OK && says) fw_text_cut(why, n, says);
+    fw_arena_rewind(of->plan->arena, mark);
+    return status;
+}
+
+/* what refuses is looked for with drawings, where masks are asked for at all */
+static fw_status compute_and_propose(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
+    redrawn_flow of = {plan, pf};
+    const fw_process_redraw by = {.judge = plan->options.without_masks ? NULL : redraw,
+                                  .context = &of};
+    return compute_flow(plan, pf, &by, diags);
 }
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
@@ -373,7 +484,7 @@ fw_status fw_plan_compute_flows(fw_plan *plan) {
     for (int i = 0; i < plan->nflow; i++)
         if (plan->flow[i].flow) {
             fw_arena_tell(plan->arena, "computing the steps", i, plan->nflow, "flows");
-            FW_TRY(compute_flow(plan, &plan->flow[i], &plan->diags));
+            FW_TRY(compute_and_propose(plan, &plan->flow[i], &plan->diags));
         }
     return FW_OK;
 }
@@ -383,7 +494,7 @@ fw_status fw_plan_compute_wafers(fw_plan *plan) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow || !pf->wafer) continue;
         fw_diags said = fw_diags_new(plan->arena);
-        FW_TRY(compute_flow(plan, pf, &said));
+        FW_TRY(compute_and_propose(plan, pf, &said));
         if (pf->mask_error)
             FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error));
     }

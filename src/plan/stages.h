@@ -76,6 +76,8 @@ fw_status fw_plan_compute_wafers(fw_plan *plan);
 fw_status fw_plan_masks(fw_plan *plan);
 /* their first half, which belongs to the verdict: draws and examines the mask of every flow of a design that is not rejected */
 fw_status fw_plan_masks_examine(fw_plan *plan);
+/* of one flow; rejected: the mask says that the design is */
+fw_status fw_plan_mask_examine(fw_plan *plan, fw_plan_flow *pf, bool rejected);
 fw_status fw_plan_schedules(fw_plan *plan);
 
 /* ---- steps of a wafer's sweeps ---- */

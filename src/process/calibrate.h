@@ -45,7 +45,11 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
                                const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration);
 /* how each coupon that `words` name is written into a log: "cd-lines, line|space, drawn=__ um, value=__ ... um, u=__ um" */
-fw_status fw_process_coupon_forms(const char *words, fw_text *out);
+typedef struct fw_process_coupon_read {
+    const char *words,
+        *id; /* that name coupons, and what they find: the feature of a coupon that serves any; NULL: not known */
+} fw_process_coupon_read;
+fw_status fw_process_coupon_forms(const fw_process_coupon_read *read, int n, fw_text *out);
 /* the name of the kind that is called so: its name, or a word of that alone, as test die and run sheet have it ("slots" of
    "arde-slots"); what is none comes back as it is */
 const char *fw_process_coupon_called(const char *name);

@@ -55,6 +55,7 @@ typedef struct fw_process_coupon {
     /* what a row must say, checked where it is written down too, since a line of a log cannot be taken back: one of these
        features (any: none is listed), and under `at` one of these (any: the first is a plain number) */
     const char *features[3];
+    const char *features_said; /* how they go together; NULL: any one of them will do */
     fw_quantity_dimension under[2];
     bool plain; /* read on any wafer: stands on no test die */
     bool rate;  /* its feature is the id of a rate of the flow */

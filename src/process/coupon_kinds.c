@@ -177,15 +177,17 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
     return fw_process_coupon_give(w, etch.anisotropy->id, fmin(A, 1.0), u_A, &f, note);
 }
 
-const fw_process_coupon fw_process_coupon_ladder = {"undercut-ladder",
-                                                    FW_DIM_LENGTH,
-                                                    false,
-                                                    true,
-                                                    true,
-                                                    true,
-                                                    fit_ladder,
-                                                    .features = {"width", "gone", "stands"},
-                                                    .under = {FW_DIM_TIME, FW_DIM_LENGTH}};
+const fw_process_coupon fw_process_coupon_ladder = {
+    "undercut-ladder",
+    FW_DIM_LENGTH,
+    false,
+    true,
+    true,
+    true,
+    fit_ladder,
+    .features = {"width", "gone", "stands"},
+    .features_said = "width, or gone and stands in one line each",
+    .under = {FW_DIM_TIME, FW_DIM_LENGTH}};
 
 /* ---- slots: the lag of narrow openings ---- */
 

@@ -28,6 +28,22 @@ typedef struct fw_process_mask_gap { /* an opening of the drawing, between edges
     double gap_m;     /* as drawn, > 0 */
 } fw_process_mask_gap;
 
+/* What a flow knows of its mask is what it was told. Whether a changed device has a mask, too, is seen when it is drawn:
+   by whoever has a drawing, with the flow's quantities as they are. */
+typedef enum fw_process_redrawn {
+    FW_REDRAWN_MADE,
+    FW_REDRAWN_REFUSED,  /* why (n) says by what, cut where it is longer */
+    FW_REDRAWN_UNDECIDED /* its openings are outlines that no number of the description widens */
+} fw_process_redrawn;
+
+typedef struct fw_process_redraw {
+    bool judging; /* the flow is being judged for one: none of its own are looked for */
+    /* NULL: nothing is drawn. Every opening at least gap_m wide, a layer of thickness_m; 0: as it is */
+    fw_status (*judge)(void *context, double gap_m, double thickness_m, fw_process_redrawn *answer,
+                       char *why, size_t n);
+    void *context;
+} fw_process_redraw;
+
 typedef enum fw_process_face { FW_FACE_MIDDLE, FW_FACE_TOP, FW_FACE_BOTTOM } fw_process_face;
 
 typedef struct fw_process_edge { /* m outside the drawn edge; middle is the mean of the faces */

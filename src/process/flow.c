@@ -439,8 +439,9 @@ fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
                                   const fw_process_mask_facts *facts, fw_diags *diags) {
     flow->nearest_known = false;
     FW_TRY(fw_process_flow_compute_once(arena, flow, facts, diags));
-    bool drawn = facts && facts->structure_area_m2 > 0.0;
-    return drawn && (flow->manufacturable == 0 || flow->behind >= 0)
+    bool drawn = facts && facts->structure_area_m2 > 0.0,
+         asked = drawn && !(facts->redraw && facts->redraw->judging);
+    return asked && (flow->manufacturable == 0 || flow->behind >= 0)
                ? fw_process_judge_changes(arena, flow, facts, fw_process_flow_compute_once)
                : FW_OK;
 }

@@ -249,15 +249,14 @@ static double depth_in_wide_time(const fw_process_cut *c, double w_m) {
 static fw_status come_through(fw_process_judge *j, const char **text) {
     const fw_process_flow *f = j->flow;
     fw_process_numbers t = {0};
-    const bool over = f->nearest_known && !isnan(f->nearest_overetch),
-               gap = f->nearest_known && !isnan(f->nearest_gap_m);
+    const bool over = f->nearest_known && !isnan(f->nearest_overetch);
+    const char *openings;
+    FW_TRY(fw_process_judge_openings(j, &openings));
     FW_NEED(*text = fw_arena_printf(
-                j->arena, "%s%s%s%s%s", over ? "an over-etch of " : "no over-etch alone is enough",
+                j->arena, "%s%s%s%s", over ? "an over-etch of " : "no over-etch alone is enough",
                 over ? fw_process_judge_number(&t, f->nearest_overetch, 3) : "",
                 over ? ", or " : "; ",
-                gap ? "openings at least " : "openings as wide as those that come through",
-                gap ? fw_process_judge_um(&t, f->nearest_gap_m) : ""));
-    if (gap) FW_NEED(*text = fw_arena_printf(j->arena, "%s um wide", *text));
+                openings ? openings : "openings as wide as those that come through"));
     return FW_OK;
 }
 

@@ -294,6 +294,8 @@ double fw_process_print_limit(double wavelength_m, double gap_m, double resist_m
 
 /* what change the whole flow was judged with and does not refuse, in words */
 fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text);
+/* ... of openings alone, or that none is enough; NULL: it was not looked for, of a flow that is not refused */
+fw_status fw_process_judge_openings(const fw_process_judge *j, const char **text);
 
 /* one pass of a flow for the facts of a mask: fw_process_flow_compute_once, given by who calls */
 typedef fw_status fw_process_compute(fw_arena *arena, fw_process_flow *flow,

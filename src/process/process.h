@@ -388,6 +388,8 @@ typedef struct fw_process_flow {
        fw_process_flow_compute. */
     double nearest_gap_m, nearest_anisotropy, nearest_overetch, nearest_layer_m, nearest_reach_m;
     bool nearest_known;
+    bool nearest_undrawn, nearest_refused; /* nobody drew that opening anew; it was looked for */
+    const char *nearest_fails; /* what refuses what the steps alone would take; NULL: nothing */
     /* the step in whose planned time an opening is not etched through, and the over-etch that this alone would take, in
        hundredths; -1: none */
     int behind;
@@ -437,8 +439,7 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     const char *release_change;  /* what opens a window for it; NULL: not looked for */
     /* what the rules of the biased layers ask for on the mask; 0: nothing */
     double least_space_m, least_width_m;
-    double
-        least_hollow_m; /* radius of a hollow corner, which no mask can grow over; 0: not known */
+    const fw_process_redraw *redraw; /* NULL: changes are judged by these facts alone */
 } fw_process_mask_facts;
 
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that

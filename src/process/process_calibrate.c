@@ -38,13 +38,15 @@ static const char *unit_of(fw_quantity_dimension d) {
     return unit && strcmp(unit, "1") != 0 ? unit : "";
 }
 
-static void put_form(const fw_process_coupon *kind, fw_text *out) {
+static void put_form(const fw_process_coupon *kind, const char *feature, fw_text *out) {
     enum { FEATURES = sizeof kind->features / sizeof kind->features[0] };
     const char *unit = unit_of(kind->measured);
     fw_text_add(out, kind->name);
-    for (int i = 0; i < FEATURES && kind->features[i]; i++)
+    for (int i = 0; i < FEATURES && kind->features[i] && !kind->features_said; i++)
         fw_text_printf(out, "%s%s", i ? "|" : ", ", kind->features[i]);
-    if (!kind->features[0]) fw_text_add(out, ", FEATURE");
+    if (kind->features_said) fw_text_printf(out, ", %s", kind->features_said);
+    if (!kind->features[0])
+        fw_text_printf(out, ", %s", kind->rate && feature ? feature : "FEATURE");
     if (kind->drawn) fw_text_add(out, ", drawn=__ um");
     fw_text_printf(out, ", value=__ __ __ __ __%s, u=__%s", kind->any_measured ? " UNIT" : unit,
                    kind->any_measured ? " UNIT" : unit);
@@ -74,11 +76,16 @@ const char *fw_process_coupon_called(const char *name) {
     return called ? called : name;
 }
 
-fw_status fw_process_coupon_forms(const char *words, fw_text *out) {
+fw_status fw_process_coupon_forms(const fw_process_coupon_read *read, int n, fw_text *out) {
     for (int i = 0; i < KINDS; i++) {
-        if (!strstr(words, table[i]->name)) continue;
-        fw_text_add(out, out->length ? "; " : "");
-        put_form(table[i], out);
+        bool told = false;
+        for (int k = 0; k < n; k++) {
+            if (!read[k].words || !strstr(read[k].words, table[i]->name)) continue;
+            if (told && !table[i]->rate) continue; /* one line serves whatever is read of it */
+            fw_text_add(out, out->length ? "; " : "");
+            put_form(table[i], read[k].id, out);
+            told = true;
+        }
     }
     return fw_text_end(out);
 }

@@ -377,22 +377,39 @@ fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight,
     return FW_OK;
 }
 
-/* what was judged with the whole flow (flow.c): in the last pass of fw_process_flow_compute, which the reasons are of */
-fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text) {
+/* what is known of openings that are wide enough: in the last pass of fw_process_flow_compute, which the reasons are of */
+fw_status fw_process_judge_openings(const fw_process_judge *j, const char **text) {
     const fw_process_flow *f = j->flow;
     fw_process_numbers t = {0};
-    fw_text list = fw_text_new(j->arena);
-    fw_text_add(&list, "");
+    const char *fails = f->nearest_known ? f->nearest_fails : NULL;
+    *text = NULL;
     if (f->nearest_known && !isnan(f->nearest_gap_m))
-        fw_text_printf(&list, "openings at least %s um wide",
-                       fw_process_judge_um(&t, f->nearest_gap_m));
-    if (f->nearest_known && !isnan(f->nearest_anisotropy))
-        fw_text_printf(&list, "%san etch with an anisotropy of at least %s",
-                       list.length ? ", or " : "",
+        FW_NEED(*text = fw_arena_printf(
+                    j->arena, "openings at least %s um wide%s",
+                    fw_process_judge_um(&t, f->nearest_gap_m),
+                    f->nearest_undrawn ? " (they are between outlines, and were not drawn anew)"
+                                       : ""));
+    else if (f->nearest_known && f->nearest_refused)
+        FW_NEED(*text = fw_arena_printf(j->arena, "no width of the openings alone is enough%s%s%s",
+                                        fails ? " (" : "", fails ? fails : "", fails ? ")" : ""));
+    return FW_OK;
+}
+
+/* what was judged with the whole flow (flow.c), in words */
+fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text) {
+    const fw_process_flow *f = j->flow;
+    const bool gap = f->nearest_known && !isnan(f->nearest_gap_m),
+               steep = f->nearest_known && !isnan(f->nearest_anisotropy);
+    fw_process_numbers t = {0};
+    fw_text list = fw_text_new(j->arena);
+    const char *openings;
+    FW_TRY(fw_process_judge_openings(j, &openings));
+    if (!openings) openings = "no width of the openings alone is enough";
+    if (gap || !steep) fw_text_add(&list, openings);
+    if (steep)
+        fw_text_printf(&list, "%san etch with an anisotropy of at least %s", gap ? ", or " : "",
                        fw_process_judge_number(&t, f->nearest_anisotropy, 5));
-    if (!list.length)
-        fw_text_add(&list,
-                    "no width of the openings alone is enough; a thinner layer or another etch");
+    if (!gap && !steep) fw_text_add(&list, "; a thinner layer or another etch");
     FW_TRY(fw_text_end(&list));
     *text = list.data;
     return FW_OK;

@@ -255,7 +255,11 @@ fw_status fw_process_flow_judge_drives(fw_arena *arena, fw_process_flow *flow,
 
 /* ---- the nearest change of what a flow cannot make ----
    A width of the narrowest openings, an anisotropy, an over-etch, a layer or a reach, with which the whole flow is judged
-   again and refuses nothing. What a closed form says of one reason alone may fail by the next one. */
+   again and refuses nothing. What a closed form says of one reason alone may fail by the next one; and what the steps take
+   may have no mask: heads and corners are drawn anew beside a wider opening. So whoever has a drawing draws what the steps
+   take, and where its mask breaks a rule the next change is looked for that breaks none. */
+
+enum { WHY = 160 };
 
 typedef struct trial {
     fw_process_compute *compute;
@@ -265,6 +269,10 @@ typedef struct trial {
     fw_process_mask_gap *gap; /* (facts->ngap) */
     /* where bias, time and gap begin to have a solution (fixed_point.c): below it nothing is made; NaN: they have one */
     double fold_gap_m, fold_anisotropy;
+    fw_quantity *anisotropy; /* of the cut of the device, while it is looked for */
+    bool undrawn;            /* what was judged last is between outlines, which nobody drew anew */
+    char fails[WHY];         /* what refused the first opening that was drawn; empty: nothing */
+    double fails_m;          /* ... which was so wide */
 } trial;
 
 /* once more as the flow and `facts` are now: does it refuse nothing, and can its mask be drawn, lines and slots as wide there
@@ -277,6 +285,50 @@ static fw_status judge_again(trial *t, const fw_process_mask_facts *facts, bool 
             facts->narrowest_slot_m - 2.0 * bias >= facts->least_space_m + grid &&
             facts->narrowest_line_m + 2.0 * bias >= facts->least_width_m + grid;
     return status == FW_INPUT ? FW_OK : status;
+}
+
+/* of what the steps take, with the flow as it is now: drawn anew, does its mask keep its rules, and does nothing else refuse? */
+static fw_status drawn(trial *t, double gap_m, double thickness_m, bool *made) {
+    const fw_process_redraw *redraw = t->facts->redraw;
+    fw_process_redrawn answer;
+    char why[WHY] = "";
+    t->undrawn = false;
+    if (!*made || !redraw || !redraw->judge) return FW_OK;
+    FW_TRY(redraw->judge(redraw->context, gap_m, thickness_m, &answer, why, sizeof why));
+    *made = answer != FW_REDRAWN_REFUSED;
+    t->undrawn = answer == FW_REDRAWN_UNDECIDED;
+    if (!*made && gap_m > 0.0 && !t->fails[0]) {
+        memcpy(t->fails, why, sizeof why);
+        t->fails_m = gap_m;
+    }
+    return FW_OK;
+}
+
+/* The first change from `from` on, in whole steps and up to `most`, that is made as drawn: by steps that double, then
+   between the last that is not and the first that is. NaN: none of those. Cost: a drawing and a mask for each of at most
+   some twenty. Test: test_nearest_drawn.c. */
+typedef fw_status attempt(trial *t, double value, bool *made);
+
+static fw_status first_drawn(trial *t, attempt *try, double from, double step, double most,
+                             double *found) {
+    double low = from, high = from;
+    bool made, undrawn;
+    *found = (double)NAN;
+    FW_TRY(try(t, from, &made));
+    for (double n = 1.0; !made && from + n * step <= most; n *= 2.0) {
+        low = high, high = from + n * step;
+        FW_TRY(try(t, high, &made));
+    }
+    if (!made) return FW_OK;
+    undrawn = t->undrawn;
+    while (high - low > 1.5 * step) {
+        const double middle = low + step * round(0.5 * (high - low) / step);
+        FW_TRY(try(t, middle, &made));
+        *(made ? &high : &low) = middle;
+    }
+    t->undrawn = undrawn;
+    *found = high;
+    return FW_OK;
 }
 
 /* every opening at least so wide: made, and printed with the gap of the flow, not in perfect contact only */
@@ -295,13 +347,18 @@ static fw_status with_gap(trial *t, double gap_m, bool *made) {
     return status;
 }
 
+static fw_status gap_drawn(trial *t, double gap_m, bool *made) {
+    FW_TRY(with_gap(t, gap_m, made));
+    return drawn(t, gap_m, 0.0, made);
+}
+
 static double rounded_up(double x_m) { /* what a person draws */
     return 1e-7 * ceil(x_m / 1e-7 - 1e-9);
 }
 
 /* Bisection in the logarithm between what is drawn and twenty times that, then up to the next 0.1 um, and judged once
-   more. NaN: no width that far is enough, another reason refuses. Error: 0.1 um above the least. Cost: some 12 times
-   fw_process_flow_compute, only for what is refused. Test: test_fixed_point.c, a_proposal_is_accepted_and_least. */
+   more, drawn anew; where its mask is refused, on to the first that has one. NaN: no width that far is enough, another
+   reason refuses. Error: 0.1 um above the least. Cost: some 12 times fw_process_flow_compute, only for what is refused. Test: test_fixed_point.c, a_proposal_is_accepted_and_least. */
 static fw_status least_gap(trial *t, double *gap_m) {
     double low = t->facts->narrowest_slot_m, high = 20.0 * low;
     bool made;
@@ -314,19 +371,22 @@ static fw_status least_gap(trial *t, double *gap_m) {
         FW_TRY(with_gap(t, middle, &made));
         *(made ? &high : &low) = middle;
     }
-    high = rounded_up(high);
-    FW_TRY(with_gap(t, high, &made));
-    if (made) *gap_m = high;
-    return FW_OK;
+    return first_drawn(t, gap_drawn, rounded_up(high), 1e-7, 20.0 * t->facts->narrowest_slot_m,
+                       gap_m);
 }
 
-static fw_status with_anisotropy(trial *t, fw_quantity *q, double value, bool *made) {
+static fw_status with_anisotropy(trial *t, double value, bool *made) {
     *made = false;
     if (value < t->fold_anisotropy) return FW_OK;
-    q->value = value;
+    t->anisotropy->value = value;
     fw_status status = judge_again(t, t->facts, made);
     *made = *made && !t->flow->tight;
     return status;
+}
+
+static fw_status anisotropy_drawn(trial *t, double value, bool *made) {
+    FW_TRY(with_anisotropy(t, value, made));
+    return drawn(t, 0.0, 0.0, made);
 }
 
 /* of the cut of the device, where it is known; to 1e-4 */
@@ -340,18 +400,17 @@ static fw_status least_anisotropy(trial *t, double *least) {
     double low = was.value, high = 1.0;
     bool made;
     q->interval = false;
-    fw_status status = with_anisotropy(t, q, high, &made);
+    t->anisotropy = q;
+    fw_status status = with_anisotropy(t, high, &made);
     while (status == FW_OK && made && high - low > 1e-4) {
         bool enough;
         double middle = 0.5 * (low + high);
-        status = with_anisotropy(t, q, middle, &enough);
+        status = with_anisotropy(t, middle, &enough);
         *(enough ? &high : &low) = middle;
     }
-    if (status == FW_OK && made) {
-        double value = 1e-4 * ceil(high / 1e-4 - 1e-9);
-        status = with_anisotropy(t, q, value, &made);
-        if (made) *least = value;
-    }
+    if (status == FW_OK && made)
+        status =
+            first_drawn(t, anisotropy_drawn, 1e-4 * ceil(high / 1e-4 - 1e-9), 1e-4, 1.0, least);
     *q = was;
     return status;
 }
@@ -373,6 +432,7 @@ static fw_status least_overetch(trial *t, double *least) {
         *share = from + 0.01 * i;
         status = judge_again(t, t->facts, &made);
         made = made && f->behind < 0 && (tight || !f->tight);
+        if (status == FW_OK) status = drawn(t, 0.0, 0.0, &made);
         if (made) *least = from + 0.01 * i;
     }
     *share = was;
@@ -391,6 +451,7 @@ static fw_status thinner_layer(trial *t, double *layer_m) {
     bool made;
     facts.device_thickness_m = thin;
     fw_status status = judge_again(t, &facts, &made);
+    if (status == FW_OK) status = drawn(t, 0.0, thin, &made);
     if (made) *layer_m = thin;
     *q = was;
     return status;
@@ -412,6 +473,7 @@ static fw_status farther_reach(trial *t, double *reach_m) {
     if (!(needs > is)) return FW_OK;
     q->value = needs;
     fw_status status = judge_again(t, t->facts, &made);
+    if (status == FW_OK) status = drawn(t, 0.0, 0.0, &made);
     if (made) *reach_m = needs;
     q->value = was;
     return status;
@@ -431,14 +493,25 @@ fw_status fw_process_judge_changes(fw_arena *arena, fw_process_flow *flow,
     const bool refused = flow->manufacturable == 0;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(t.gap = fw_arena_array(arena, fw_process_mask_gap, (size_t)facts->ngap + 1));
+    bool undrawn = false;
     if (flow->behind >= 0) FW_TRY(least_overetch(&t, &over));
     if (refused) {
         FW_TRY(least_gap(&t, &gap));
+        undrawn = !isnan(gap) && t.undrawn;
         FW_TRY(least_anisotropy(&t, &A));
         FW_TRY(thinner_layer(&t, &layer));
         FW_TRY(farther_reach(&t, &reach));
     }
     fw_arena_rewind(arena, mark);
+    flow->nearest_fails = NULL;
+    if (t.fails[0] && isnan(gap)) {
+        fw_process_numbers n = {0};
+        FW_NEED(flow->nearest_fails =
+                    fw_arena_printf(arena, "drawn with openings of %s um, it is refused by %s",
+                                    fw_process_judge_um(&n, t.fails_m), t.fails));
+    }
+    flow->nearest_undrawn = undrawn;
+    flow->nearest_refused = refused;
     flow->nearest_gap_m = gap;
     flow->nearest_anisotropy = A;
     flow->nearest_overetch = over;

@@ -42,11 +42,12 @@ static void measured_row(fw_text *out, const fw_measuring *m, int i) {
 
 /* what to type of the coupons of those rows, and of the file that keeps it */
 static void put_forms(const fw_measuring *m, fw_text *out) {
-    fw_text by = fw_text_new(out->arena), forms = fw_text_new(out->arena);
+    fw_text forms = fw_text_new(out->arena);
+    fw_process_coupon_read read[SHOWN];
+    int n = 0;
     for (int i = 0; i < m->nitem && i < SHOWN; i++)
-        if (m->item[i].by) fw_text_printf(&by, "%s ", m->item[i].by);
-    if (by.length == 0) return;
-    if (fw_text_end(&by) != FW_OK || fw_process_coupon_forms(by.data, &forms) != FW_OK) {
+        read[n++] = (fw_process_coupon_read){m->item[i].by, m->item[i].id};
+    if (fw_process_coupon_forms(read, n, &forms) != FW_OK) {
         out->failed = 1;
         return;
     }

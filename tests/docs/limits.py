@@ -72,7 +72,6 @@ CASES = {
     "Ranges that a pack does not know": (LEAF, None, "check", "0.99 to 1 is assumed, and the verdict holds there only"),
     "Motion and strain of bodies with release holes": (SIX, ('<die width="5.6 mm"', '<die release-pitch="30 um" width="5.6 mm"'),
                                                "mask --corners none --advice none", "no hole can be opened near.*FW-D189"),
-    "Corners of the mask in a proposed": (SIX, None, "mask --flow al-masked-rie --force --set flexure[A]/@gap=3um", "FW-D145"),
     "Times of handling steps": (SIX, None, "recipe --flow al-masked-rie", r'class="tag assumed"'),
     "What the release reaches": (SIX, None, "recipe --flow copper-on-porous-silicon", "NOT COMPUTABLE, missing: "),
 }
@@ -84,6 +83,7 @@ SILENT = ["Breaking tethers", "Faces and corners of contacts", "Stiffness of con
           "Contacts and weight in the picture", "Studies on the page", "Browsers other than Chromium", "Wide kernels and FMA"]
 # looked at by another test
 ELSEWHERE = {"OASIS as cells": "tests/klayout/cells.py",
+             "Openings between one's own outlines": "tests/unit/process/test_fixed_point.c",
              "Lettering and leaning walls": "tests/accept/step.py",
              "The full judgement while a slider": "tests/docs/json_keys.py",
              "How wafers of different lots": "tests/unit/process/test_wafers.c",

@@ -463,13 +463,20 @@ static void wrong_packs(void **state) {
 static void forms(void **state) {
     (void)state;
     fw_text out = fw_text_new(arena);
-    assert_int_equal(fw_process_coupon_forms("coupon undercut-ladder, with cd-lines", &out), FW_OK);
+    const fw_process_coupon_read ladder = {"coupon undercut-ladder, with cd-lines", "rie.A"},
+                                 gauge = {"thickness gauge, mean of five sites", "si.d"},
+                                 rates[] = {{"coupon etch-rate", "pan.R"}, {NULL, "made.edge"}, {"coupon etch-rate", "koh.R"}};
+    assert_int_equal(fw_process_coupon_forms(&ladder, 1, &out), FW_OK);
     assert_string_equal(out.data,
                         "cd-lines, line|space, drawn=__ um, value=__ __ __ __ __ um, u=__ um; "
-                        "undercut-ladder, width|gone|stands, drawn=__ um, value=__ __ __ __ __ um, u=__ um, at=__ min");
+                        "undercut-ladder, width, or gone and stands in one line each, drawn=__ um, value=__ __ __ __ __ um, u=__ um, at=__ min");
     out = fw_text_new(arena);
-    assert_int_equal(fw_process_coupon_forms("thickness gauge, mean of five sites", &out), FW_OK);
+    assert_int_equal(fw_process_coupon_forms(&gauge, 1, &out), FW_OK);
     assert_int_equal(out.length, 0);
+    /* of a coupon that serves any rate the feature is the rate that it is read for */
+    assert_int_equal(fw_process_coupon_forms(rates, 3, &out), FW_OK);
+    assert_string_equal(out.data, "etch-rate, pan.R, value=__ __ __ __ __ um, u=__ um, at=__ min; "
+                                  "etch-rate, koh.R, value=__ __ __ __ __ um, u=__ um, at=__ min");
 }
 
 /* one number, one place: of two the last one held without a word */

@@ -486,6 +486,62 @@ static void lithography_cannot_open_what_is_left(void **state) {
     assert_true(reason(f, "no width of the openings alone is enough"));
 }
 
+/* ---- what is proposed is drawn, by whoever can ---- */
+
+typedef struct drawing {
+    double least_m; /* an opening that has a mask */
+    double steep;   /* likewise an anisotropy */
+    const fw_process_flow *flow;
+    bool outlines;
+    int times;
+} drawing;
+
+static fw_status draws(void *context, double gap_m, double thickness_m, fw_process_redrawn *answer, char *why, size_t n) {
+    drawing *d = context;
+    const bool has = gap_m > 0.0 ? gap_m >= d->least_m : fw_process_flow_quantity(d->flow, "rie.A")->value >= d->steep;
+    (void)thickness_m;
+    d->times++;
+    *answer = has ? FW_REDRAWN_MADE : d->outlines ? FW_REDRAWN_UNDECIDED : FW_REDRAWN_REFUSED;
+    snprintf(why, n, "its corner %d", d->times);
+    return FW_OK;
+}
+
+/* The next width and the next anisotropy that have a mask are found to their last digit; where none has one, that is said with
+   what refuses the first; and where nobody can draw it, that. */
+static void the_next_change_that_can_be_drawn(void **state) {
+    (void)state;
+    fw_process_flow *f = flow_of(SILICON);
+    fw_process_mask_facts facts = plain_facts;
+    drawing d = {.flow = f};
+    const fw_process_redraw by = {.judge = draws, .context = &d}, none = {.judging = true};
+    facts.narrowest_slot_m = 5.2e-6;
+    set(f, "rie.A", 0.97);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    const double alone = f->nearest_gap_m, steep = f->nearest_anisotropy;
+    assert_true(alone > 0.0 && steep > 0.97);
+    facts.redraw = &by;
+    for (int more = 0; more < 40; more += more < 8 ? 1 : 9) {
+        d.least_m = alone + 1e-7 * more - 1e-9, d.steep = fmin(steep + 1e-4 * more, 1.0) - 1e-7, d.times = 0;
+        assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+        assert_near(f->nearest_gap_m, alone + 1e-7 * more, 1e-12);
+        assert_near(f->nearest_anisotropy, fmin(steep + 1e-4 * more, 1.0), 1e-9);
+        assert_true(d.times <= 2 + 2 * 12);
+        assert_false(f->nearest_undrawn);
+    }
+    d.least_m = d.steep = 1.0, d.times = 0, d.steep = 2.0;
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_true(isnan(f->nearest_gap_m) && isnan(f->nearest_anisotropy));
+    assert_true(reason(f, "no width of the openings alone is enough (drawn with openings of "));
+    assert_true(reason(f, "it is refused by its corner 1)"));
+    d.outlines = true;
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_near(f->nearest_gap_m, alone, 1e-12);
+    assert_true(f->nearest_undrawn && reason(f, "between outlines, and were not drawn anew"));
+    facts.redraw = &none; /* of one that is being drawn nothing is proposed */
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_false(f->nearest_known);
+}
+
 /* The over-etch that is proposed where a slot stays closed is one with which the whole flow refuses nothing, and a hundredth
    less is not enough; where a longer etch is through the aluminium before, there is none, and that is said. */
 static void an_over_etch_is_proposed_that_is_enough(void **state) {
@@ -687,6 +743,7 @@ int main(void) {
                                        TEST(widths_that_are_said),
                                        TEST(no_solution_names_the_gap_and_a_change),
                                        TEST(lithography_cannot_open_what_is_left),
+                                       TEST(the_next_change_that_can_be_drawn),
                                        TEST(an_over_etch_is_proposed_that_is_enough),
                                        TEST(a_layer_is_proposed_that_fits),
                                        TEST(a_time_for_wide_openings_leaves_slots_closed),
