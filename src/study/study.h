@@ -91,8 +91,8 @@ typedef struct fw_study {
     const char *source; /* (source_length) of options.file, for carets */
     size_t source_length;
     struct fw_study_told *told; /* NULL: each round tells of itself */
-    bool stored_only; /* of a merge: what the store has not is not run */
-    const char *hash; /* of everything that decides what a sample is */
+    bool stored_only;           /* of a merge: what the store has not is not run */
+    const char *hash;           /* of everything that decides what a sample is */
     /* (ninput) those of <vary>, then what <uncertain> sets (of flexure[*] each), then quantities of flows */
     fw_study_input *input;
     int ninput, nvary, nsetting;
