@@ -142,7 +142,7 @@ export class Studies {
         const present = mine?.of === this.#key(name);
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
         const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
-        const part = mine?.control && /(\d+) of (\d+) devices/.exec(mine.stage);
+        const part = mine?.control && /(\d+) of (?:at most )?(\d+) devices/.exec(mine.stage);
         const key = JSON.stringify([kind, inputs, said, Boolean(mine?.control), mine?.job?.id, isPresent(), present, this.there]);
         if (card.dataset.key === key) return;
         card.dataset.key = key;
