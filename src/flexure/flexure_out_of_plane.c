@@ -104,12 +104,24 @@ static section section_at(const stuff *m, double psi_rad, double curvature_per_m
 
 typedef double out_of_plane_matrix[3][3];
 
-/* c += B' S B of a length of strip: moments about t and n and the force across, of (Fz, Mx, My) at `at` */
+/* moments about t and n of (Fz, Mx, My) at `at` on a section */
+static void moment_rows(const fw_geometry_pose *pose, const double at[2], double T[3],
+                        double M[3]) {
+    const double x = at[0] - pose->x_m, y = at[1] - pose->y_m;
+    const double tc = cos(pose->angle_rad), ts = sin(pose->angle_rad);
+    T[0] = tc * y - ts * x, T[1] = tc, T[2] = ts;
+    M[0] = -ts * y - tc * x, M[1] = -ts, M[2] = tc;
+}
+
+static double dot3(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* c += B' S B of a length of strip: those moments and the force across */
 static void add_length(const section *is, const fw_geometry_pose *pose, const double at[2],
                        double length_m, double twist_share, out_of_plane_matrix c) {
-    double x = at[0] - pose->x_m, y = at[1] - pose->y_m;
-    double tc = cos(pose->angle_rad), ts = sin(pose->angle_rad);
-    const double T[3] = {tc * y - ts * x, tc, ts}, M[3] = {-ts * y - tc * x, -ts, tc};
+    double T[3], M[3];
+    moment_rows(pose, at, T, M);
     double a = is->twist * twist_share * length_m, b = is->bend * length_m, d = is->both * length_m;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -259,14 +271,12 @@ fw_status fw_flexure_across_strain(fw_arena *arena, const fw_flexure_input *in,
             const fw_geometry_pose pose =
                 fw_geometry_strip_along(p->start[i], q->curvature_per_m, s);
             const section is = section_at(&m, pose.angle_rad, q->curvature_per_m, w, h);
-            const double x = at[0] - pose.x_m, y = at[1] - pose.y_m;
-            const double tc = cos(pose.angle_rad), ts = sin(pose.angle_rad);
+            double row[2][3];
+            moment_rows(&pose, at, row[0], row[1]);
             const double face = 6 / (w * h * h * closed_form->youngs_Pa); /* strain of M there */
             double bends = 0, twists = 0;
             for (int k = 0; k < n; k++) {
-                const double *f = wrench[k];
-                const double T = tc * f[1] + ts * f[2] + f[0] * (tc * y - ts * x);
-                const double M = -ts * f[1] + tc * f[2] - f[0] * (ts * y + tc * x);
+                const double T = dot3(row[0], wrench[k]), M = dot3(row[1], wrench[k]);
                 bends += fabs(M) * face;
                 twists += fabs(T) * is.twist + fabs(M * is.both);
                 if (k > 0) continue;

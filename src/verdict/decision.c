@@ -157,6 +157,21 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
     return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }
 
+/* ---- what speaks against a scene ---- */
+
+fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device_scene *scene,
+                                  int number, fw_verdict_decision decision, double keep,
+                                  const char *text) {
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene->name,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = decision,
+                                                  .keep = fmin(fmax(keep, 1e-3), 0.99),
+                                                  .text = text};
+    return FW_OK;
+}
+
 /* ---- what a law does near a resonance ----
    Bands hold what a stiffness is off by in proportion. A law that goes to and fro for many periods near a mode does much
    more or less where the mode lies a little lower or higher than computed, which its own error allows. Of each load whose
@@ -224,7 +239,6 @@ static void take_shaken(const fw_mechanism *m, const fw_statics_modes *modes, do
                         double bodies, const shaken_by *by, double factor[2]) {
     enum { FEW = 6 };
     double sum[3] = {0};
-    if (!to_and_fro(by->law, end_s)) return;
     for (int k = 0; k < modes->count && k < FEW; k++) {
         const fw_statics_mode *mode = &modes->mode[k];
         double is[3];
@@ -238,58 +252,49 @@ static void take_shaken(const fw_mechanism *m, const fw_statics_modes *modes, do
     factor[0] = fmax(factor[0], sum[1] / sum[0]), factor[1] = fmin(factor[1], sum[2] / sum[0]);
 }
 
-static bool any_to_and_fro(const fw_device_scene *s) {
-    const double end = s->duration_s;
-    bool any = false;
-    for (int i = 0; i < s->nforce; i++)
-        any = any || to_and_fro(s->force[i].law, end);
-    for (int i = 0; i < s->ntorque; i++)
-        any = any || to_and_fro(s->torque[i].law, end);
-    for (int i = 0; i < s->ntendon; i++)
-        any = any || to_and_fro(s->tendon[i].law, end);
-    for (int i = 0; i < s->nbase; i++)
-        any = any || ((s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0) &&
-                      to_and_fro(s->base[i].law, end));
-    return any;
+/* load i of a scene, or false: there are no more */
+static bool load_of(const fw_device_scene *s, int i, shaken_by *by) {
+    *by = (shaken_by){0};
+    if (i < s->nforce) {
+        const fw_device_force *f = &s->force[i];
+        *by = (shaken_by){f->law, BY_BODY, f->body, f->x_m, f->y_m, f->fx_N, f->fy_N, 0};
+    } else if ((i -= s->nforce) < s->ntorque)
+        *by = (shaken_by){.law = s->torque[i].law, .body = s->torque[i].body, .torque = 1};
+    else if ((i -= s->ntorque) < s->ntendon)
+        *by = (shaken_by){.law = s->tendon[i].law, .how = BY_ANY};
+    else if ((i -= s->ntendon) < s->nbase)
+        *by = (shaken_by){.law = s->base[i].law,
+                          .how = BY_MASS,
+                          .fx = s->base[i].ax_m_per_s2,
+                          .fy = s->base[i].ay_m_per_s2};
+    else
+        return false;
+    return true;
+}
+
+/* NULL: there are none */
+static fw_status modes_at_rest(fw_arena *arena, const fw_mechanism *m,
+                               const fw_statics_modes **modes) {
+    const fw_statics_mode_options o = {.accuracy = 0.03};
+    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
+    fw_diags own = fw_diags_new(arena);
+    fw_status status = fw_statics_small_motions(arena, m, &still, &o, &own, modes);
+    if (status == FW_CANCELLED) return status;
+    return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
 }
 
 static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, double bodies,
                          double factor[2]) {
     const fw_device_scene *s = &m->device->scene[scene];
-    const double end = s->duration_s;
-    factor[0] = factor[1] = 1;
-    if (!any_to_and_fro(s)) return FW_OK;
-    const fw_statics_mode_options o = {.accuracy = 0.03};
-    fw_diags own = fw_diags_new(arena);
     const fw_statics_modes *modes = NULL;
-    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
-    fw_status status = fw_statics_small_motions(arena, m, &still, &o, &own, &modes);
-    if (status == FW_NOMEM || status == FW_CANCELLED || own.failed)
-        return status == FW_CANCELLED ? status : FW_NOMEM;
-    if (!modes) return FW_OK;
-    for (int i = 0; i < s->nforce; i++)
-        take_shaken(m, modes, end, bodies,
-                    &(shaken_by){.law = s->force[i].law,
-                                 .body = s->force[i].body,
-                                 .x_m = s->force[i].x_m,
-                                 .y_m = s->force[i].y_m,
-                                 .fx = s->force[i].fx_N,
-                                 .fy = s->force[i].fy_N},
-                    factor);
-    for (int i = 0; i < s->ntorque; i++)
-        take_shaken(m, modes, end, bodies,
-                    &(shaken_by){.law = s->torque[i].law, .body = s->torque[i].body, .torque = 1},
-                    factor);
-    for (int i = 0; i < s->ntendon; i++)
-        take_shaken(m, modes, end, bodies, &(shaken_by){.law = s->tendon[i].law, .how = BY_ANY},
-                    factor);
-    for (int i = 0; i < s->nbase; i++)
-        take_shaken(m, modes, end, bodies,
-                    &(shaken_by){.law = s->base[i].law,
-                                 .how = BY_MASS,
-                                 .fx = s->base[i].ax_m_per_s2,
-                                 .fy = s->base[i].ay_m_per_s2},
-                    factor);
+    shaken_by by;
+    for (int i = 0; load_of(s, i, &by); i++) {
+        const bool still = by.how == BY_MASS && by.fx == 0 && by.fy == 0; /* across the plane */
+        if (still || !to_and_fro(by.law, s->duration_s)) continue;
+        if (!modes) FW_TRY(modes_at_rest(arena, m, &modes));
+        if (!modes) return FW_OK;
+        take_shaken(m, modes, s->duration_s, bodies, &by, factor);
+    }
     return FW_OK;
 }
 
@@ -340,13 +345,8 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                 c->way.a ? c->way.a : "parts", c->way.b ? c->way.b : "others",
                 FW_NAMED("scene", d->scene[i].name),
                 fw_number_text(down, sizeof down, c->way.share, 2), up);
-            FW_NEED(text);
-            v->reason[v->nreason++] = (fw_verdict_reason){.scene = d->scene[i].name,
-                                                          .flow = m->variant->flow,
-                                                          .number = 642,
-                                                          .decision = FW_INCONCLUSIVE,
-                                                          .keep = 0.95 / (c->way.share * f[0]),
-                                                          .text = text};
+            FW_TRY(fw_verdict_scene_reason(v, &d->scene[i], 642, FW_INCONCLUSIVE,
+                                           0.95 / (c->way.share * f[0]), text));
             break;
         }
     }

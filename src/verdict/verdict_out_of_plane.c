@@ -14,7 +14,7 @@
 static const double fw_much =
     0.01; /* of the layer: electrodes that are lifted so far pull less by about as much */
 
-typedef struct both { /* rigid bodies; bodies that give as much as they may */
+typedef struct fw_verdict_plates { /* rigid bodies; bodies that give as much as they may */
     fw_mechanism_plates rigid, soft;
     double *x, *f, *ring;
 } both;
@@ -117,18 +117,6 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
     }
 }
 
-static fw_status add(fw_verdict_variant_verdict *v, const fw_device_scene *s, int number,
-                     fw_verdict_decision decision, double keep, const char *text) {
-    FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = s->name,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = decision,
-                                                  .keep = fmin(fmax(keep, 1e-3), 0.99),
-                                                  .text = text};
-    return FW_OK;
-}
-
 /* Sure is what is there at rest, less what flexures may be stiffer than computed; what a shock sets ringing may be
    less than its bound */
 static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_scene *s,
@@ -139,23 +127,24 @@ static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_sc
     bool sure = -to->sure_m / (1 + is->rigid.error) > below->high_m;
     to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
     if (!sure && !isfinite(to->lowest_m))
-        return add(v, s, 580, to->decision, 0.5,
-                   fw_arena_printf(arena,
-                                   "how far the device comes down in %s%s is not known, and below "
-                                   "it are %s um (%s): nothing bounds the law of its shock; state "
-                                   "it as a table, or by a law that has a largest value",
-                                   FW_NAMED("scene", s->name),
-                                   fw_number_text(has, sizeof has, 1e6 * below->m, 3),
-                                   below->words));
-    return add(v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
-               fw_arena_printf(
-                   arena,
-                   "%s%s comes down by %s%s um in %s%s, and below it are %s um (%s): it %s its "
-                   "carrier; a thicker layer, shorter or wider flexures, or less weight hold it up",
-                   FW_NAMED("body", to->body ? to->body : "(none)"), sure ? "" : "up to ",
-                   fw_number_text(down, sizeof down, -1e6 * (sure ? to->sure_m : to->lowest_m), 3),
-                   FW_NAMED("scene", s->name), fw_number_text(has, sizeof has, 1e6 * below->m, 3),
-                   below->words, sure ? "touches" : "may touch"));
+        return fw_verdict_scene_reason(
+            v, s, 580, to->decision, 0.5,
+            fw_arena_printf(arena,
+                            "how far the device comes down in %s%s is not known, and below "
+                            "it are %s um (%s): nothing bounds the law of its shock; state "
+                            "it as a table, or by a law that has a largest value",
+                            FW_NAMED("scene", s->name),
+                            fw_number_text(has, sizeof has, 1e6 * below->m, 3), below->words));
+    return fw_verdict_scene_reason(
+        v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
+        fw_arena_printf(
+            arena,
+            "%s%s comes down by %s%s um in %s%s, and below it are %s um (%s): it %s its "
+            "carrier; a thicker layer, shorter or wider flexures, or less weight hold it up",
+            FW_NAMED("body", to->body ? to->body : "(none)"), sure ? "" : "up to ",
+            fw_number_text(down, sizeof down, -1e6 * (sure ? to->sure_m : to->lowest_m), 3),
+            FW_NAMED("scene", s->name), fw_number_text(has, sizeof has, 1e6 * below->m, 3),
+            below->words, sure ? "touches" : "may touch"));
 }
 
 static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scene *s,
@@ -256,7 +245,7 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
     if (!(sure < 1) || v->corner) return FW_OK;
     char by[32];
     to->decision = FW_INCONCLUSIVE;
-    return add(
+    return fw_verdict_scene_reason(
         v, s, 582, FW_INCONCLUSIVE, 0.95 * sure,
         fw_arena_printf(
             arena,
@@ -318,23 +307,25 @@ static fw_status tell_strained(fw_arena *arena, const fw_device_scene *s, double
     fw_percent_text(used, sizeof used, sure ? to->strained_sure : to->strained);
     fw_percent_text(plane, sizeof plane, in);
     if (!isfinite(to->strained) && !sure)
-        return add(v, s, 641, decision, 0.5,
-                   fw_arena_printf(arena,
-                                   "what hinges bear across the plane in %s%s is not known: "
-                                   "nothing bounds the law of its shock; state it as a table, "
-                                   "or by a law that has a largest value",
-                                   FW_NAMED("scene", s->name)));
-    return add(v, s, 641, decision, 0.95 / (sure ? to->strained_sure : to->strained),
-               fw_arena_printf(arena,
-                               "%s%s bends across the plane in %s%s, and uses %s%s %% of its "
-                               "limit there (in the plane at most %s %%); a thicker layer, "
-                               "shorter or wider flexures, lighter bodies or a weaker shock "
-                               "relieve it",
-                               FW_NAMED("hinge", to->strained_hinge), FW_NAMED("scene", s->name),
-                               sure ? "" : "up to ", used, plane));
+        return fw_verdict_scene_reason(
+            v, s, 641, decision, 0.5,
+            fw_arena_printf(arena,
+                            "what hinges bear across the plane in %s%s is not known: "
+                            "nothing bounds the law of its shock; state it as a table, "
+                            "or by a law that has a largest value",
+                            FW_NAMED("scene", s->name)));
+    return fw_verdict_scene_reason(
+        v, s, 641, decision, 0.95 / (sure ? to->strained_sure : to->strained),
+        fw_arena_printf(arena,
+                        "%s%s bends across the plane in %s%s, and uses %s%s %% of its "
+                        "limit there (in the plane at most %s %%); a thicker layer, "
+                        "shorter or wider flexures, lighter bodies or a weaker shock "
+                        "relieve it",
+                        FW_NAMED("hinge", to->strained_hinge), FW_NAMED("scene", s->name),
+                        sure ? "" : "up to ", used, plane));
 }
 
-static fw_status judge_strain(fw_arena *arena, both *is, fw_verdict_variant_verdict *v,
+static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v,
                               fw_verdict_across *to) {
     const fw_mechanism *m = v->mechanism;
     const fw_device_scene *s = &m->device->scene[to->scene_index];
@@ -365,16 +356,10 @@ static fw_status judge_strain(fw_arena *arena, both *is, fw_verdict_variant_verd
 
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
-    both is = {0};
-    bool any = false;
-    if (!o || o->why) return FW_OK;
-    for (int i = 0; i < o->nscene; i++) {
+    for (int i = 0; o && !o->why && i < o->nscene; i++) {
         const fw_device_scene *s = &v->mechanism->device->scene[o->scene[i].scene_index];
         if (s->gz_m_per_s2 == 0 && !fw_mechanism_plates_shaken(s)) continue;
-        if (!any) FW_TRY(prepare(arena, v->mechanism, v->arm, &is));
-        any = true;
-        if (is.rigid.why) return FW_OK;
-        FW_TRY(judge_strain(arena, &is, v, &o->scene[i]));
+        FW_TRY(judge_strain(arena, o->plates, v, &o->scene[i]));
     }
     return FW_OK;
 }
@@ -395,19 +380,20 @@ static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_o
 fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, bool brief,
                                         fw_diags *diags, fw_verdict_variant_verdict *v) {
     const fw_device *d = m->device;
-    both is = {0};
+    both *is;
     fw_verdict_out_of_plane *out;
     v->out_of_plane = NULL;
     if (!d || !m->layout || (brief && !fw_verdict_out_of_plane_asked(m))) return FW_OK;
     FW_NEED(out = fw_arena_one(arena, fw_verdict_out_of_plane));
     v->out_of_plane = out;
-    FW_TRY(prepare(arena, m, v->arm, &is));
-    out->why = is.rigid.why;
+    FW_NEED(out->plates = is = fw_arena_one(arena, both));
+    FW_TRY(prepare(arena, m, v->arm, is));
+    out->why = is->rigid.why;
     FW_NEED(out->scene = fw_arena_array(arena, fw_verdict_across, (size_t)d->nscene));
     if (!out->why) {
-        out->error = is.rigid.error;
-        FW_TRY(put_modes(arena, &is, out));
-        if (!brief) FW_TRY(put_stiffness(arena, &is, out));
+        out->error = is->rigid.error;
+        FW_TRY(put_modes(arena, is, out));
+        if (!brief) FW_TRY(put_stiffness(arena, is, out));
     }
     for (int i = 0; i < d->nscene; i++) {
         const fw_device_scene *s = &d->scene[i];
@@ -419,17 +405,17 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                   .strained = (double)NAN,
                                   .strained_sure = (double)NAN};
         if (out->why && (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)))
-            FW_TRY(
-                add(v, s, 581, FW_INCONCLUSIVE, 0.5,
-                    fw_arena_printf(arena,
-                                    "%s%s acts across the plane, and what the device does out of "
-                                    "its plane is not known: %s",
-                                    FW_NAMED("scene", s->name), out->why)));
+            FW_TRY(fw_verdict_scene_reason(
+                v, s, 581, FW_INCONCLUSIVE, 0.5,
+                fw_arena_printf(arena,
+                                "%s%s acts across the plane, and what the device does out of "
+                                "its plane is not known: %s",
+                                FW_NAMED("scene", s->name), out->why)));
         if (out->why) continue;
-        if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, &is, s, v, to));
-        if (!brief) FW_TRY(judge_tipping(arena, &is, s, v->motion[i], v, to));
+        if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, is, s, v, to));
+        if (!brief) FW_TRY(judge_tipping(arena, is, s, v->motion[i], v, to));
         if (!brief && s->ncomb > 0 && fw_effects_levitation_may_be(m))
-            FW_TRY(warn_of_lift(&is, s, diags, v, to));
+            FW_TRY(warn_of_lift(is, s, diags, v, to));
     }
     return FW_OK;
 }

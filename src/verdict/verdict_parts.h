@@ -81,7 +81,12 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
 fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                     fw_verdict_variant_verdict *v);
 
-/* ---- decision.c: where a mode may lie elsewhere ---- */
+/* ---- decision.c: what speaks against a scene, and where a mode may lie elsewhere ---- */
+
+/* text NULL: FW_NOMEM. keep: share of the scene's loads that would do, held between 0.001 and 0.99 */
+fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device_scene *scene,
+                                  int number, fw_verdict_decision decision, double keep,
+                                  const char *text);
 
 /* v->detuned: factors on what moves in each scene that its modes' own errors allow, [0] >= 1 upwards, [1] <= 1 downwards,
    both 1 where no law goes to and fro; bodies (nscene): share that they give

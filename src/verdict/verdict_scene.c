@@ -26,18 +26,6 @@ static const double fw_thrown = 2;
 /* an equilibrium that a disturbance of a thousandth reaches within the scene */
 static const double fw_workspace_reached = 6.9;
 
-static fw_status add(fw_verdict_variant_verdict *v, const fw_device_scene *scene, int number,
-                     fw_verdict_decision decision, double keep, const char *text) {
-    FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene->name,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = decision,
-                                                  .keep = fmin(fmax(keep, 1e-3), 0.99),
-                                                  .text = text};
-    return FW_OK;
-}
-
 /* ---- runs that end where a formula does ---- */
 
 static const fw_diag *formula_ended(const fw_diags *diags) {
@@ -96,7 +84,8 @@ static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw
     char *text = fw_arena_printf(arena, "%s%s%s%s%s%s", ended->message, p ? "; " : "", why,
                                  still ? "" : " (not at voltages lower by the ", still ? "" : less,
                                  still ? "" : " % that the model may be wrong by)");
-    return add(v, scene, 242, still ? FW_REJECT : FW_INCONCLUSIVE, share_for(p), text);
+    return fw_verdict_scene_reason(v, scene, 242, still ? FW_REJECT : FW_INCONCLUSIVE, share_for(p),
+                                   text);
 }
 
 /* ---- runs that end well, and may not ---- */
@@ -122,7 +111,7 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
                               "its pull",
                               FW_NAMED("scene", scene->name), asked,
                               FW_NAMED("comb drive", p->comb), at, part);
-    return add(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
+    return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
 }
 
 /* thrown to the stator, were the fringe fields all there */
@@ -147,13 +136,13 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
     v->beyond_pull_in = true;
-    return add(v, scene, 248, FW_INCONCLUSIVE, 0.98 / (1 + p->fringe), text);
+    return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE, 0.98 / (1 + p->fringe), text);
 }
 
 static fw_status fingers_snap(fw_arena *arena, const fw_device_scene *scene,
                               const fw_statics_pull_in *p, fw_verdict_variant_verdict *v) {
     char holds[32], times[32];
-    return add(
+    return fw_verdict_scene_reason(
         v, scene, 595, FW_INCONCLUSIVE, 0.98 / ((1 + p->fringe) * p->fingers),
         fw_arena_printf(arena,
                         "%s%s: the fingers of a comb bend and may snap by themselves; "
@@ -190,8 +179,8 @@ static fw_status judge_stability(fw_arena *arena, const fw_device_scene *scene,
         used = fmax(used, fabs(stability->angle_rad[m->hinge[k].pin]) / limit);
     }
     bool beyond_limit = used * (1 - model) > 1 && stability->growth > fw_workspace_reached;
-    return add(v, scene, 259, beyond_limit ? FW_REJECT : FW_INCONCLUSIVE, 0.95 * stability->share,
-               stability->text);
+    return fw_verdict_scene_reason(v, scene, 259, beyond_limit ? FW_REJECT : FW_INCONCLUSIVE,
+                                   0.95 * stability->share, stability->text);
 }
 
 /* the step to the next level of hinges is what their model is off by; 2.9 % in its place are of other
@@ -200,22 +189,24 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
     const fw_statics_level_step *step = motion->level;
     if (!step || !step->unknown) return FW_OK;
-    return add(v, scene, 293, FW_INCONCLUSIVE, 0.5,
-               fw_arena_printf(arena,
-                               "what the model of the hinges (%s) is off by in %s%s is not "
-                               "known: %s; lower the load, or ask for exact beams with "
-                               "--hinge-model elastica",
-                               fw_effects_hinge_model_text(step->used),
-                               FW_NAMED("scene", scene->name), step->why_not));
+    return fw_verdict_scene_reason(
+        v, scene, 293, FW_INCONCLUSIVE, 0.5,
+        fw_arena_printf(arena,
+                        "what the model of the hinges (%s) is off by in %s%s is not "
+                        "known: %s; lower the load, or ask for exact beams with "
+                        "--hinge-model elastica",
+                        fw_effects_hinge_model_text(step->used), FW_NAMED("scene", scene->name),
+                        step->why_not));
 }
 
 /* what no motion has and nothing bounds */
 static fw_status judge_beside(fw_arena *arena, const fw_device_scene *scene,
                               const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
     if (!motion->ledger.undecided) return FW_OK;
-    return add(v, scene, 607, FW_INCONCLUSIVE, 0.7,
-               fw_arena_printf(arena, "in %s%s %s", FW_NAMED("scene", scene->name),
-                               motion->ledger.undecided));
+    return fw_verdict_scene_reason(v, scene, 607, FW_INCONCLUSIVE, 0.7,
+                                   fw_arena_printf(arena, "in %s%s %s",
+                                                   FW_NAMED("scene", scene->name),
+                                                   motion->ledger.undecided));
 }
 
 /* an instant without a strain: a peak that nobody saw may be there */
@@ -228,17 +219,18 @@ static fw_status judge_strains(fw_arena *arena, const fw_device_scene *scene,
     while (saw && k < m->nhinge && !saw->hinge[k].lost)
         k++;
     if (!saw || k == m->nhinge) return FW_OK;
-    return add(v, scene, 597, FW_INCONCLUSIVE, 0.5,
-               fw_arena_printf(
-                   arena,
-                   "the strain of %s%s in %s%s at %s ms is not known: %s; lower the load "
-                   "or the displacement that bends it",
-                   FW_NAMED("hinge", m->pin[m->hinge[k].pin].id), FW_NAMED("scene", scene->name),
-                   fw_number_text(at, sizeof at, 1e3 * saw->hinge[k].lost_s, 4),
-                   motion->ledger.hinge.used == FW_HINGE_ELASTICA
-                       ? "no exact beam was found that bears its force in its place"
-                       : "it is pressed beyond its buckling load, of which its closed form knows "
-                         "nothing (--hinge-model elastica may)"));
+    return fw_verdict_scene_reason(
+        v, scene, 597, FW_INCONCLUSIVE, 0.5,
+        fw_arena_printf(
+            arena,
+            "the strain of %s%s in %s%s at %s ms is not known: %s; lower the load "
+            "or the displacement that bends it",
+            FW_NAMED("hinge", m->pin[m->hinge[k].pin].id), FW_NAMED("scene", scene->name),
+            fw_number_text(at, sizeof at, 1e3 * saw->hinge[k].lost_s, 4),
+            motion->ledger.hinge.used == FW_HINGE_ELASTICA
+                ? "no exact beam was found that bears its force in its place"
+                : "it is pressed beyond its buckling load, of which its closed form knows "
+                  "nothing (--hinge-model elastica may)"));
 }
 
 /* what the run itself says is not to be relied on: another start than the stated one, an energy that
@@ -247,8 +239,8 @@ static fw_status judge_reliability(const fw_device_scene *scene, const fw_diags 
                                    fw_verdict_variant_verdict *v) {
     for (size_t i = 0; i < said->count; i++)
         if (said->item[i].unreliable)
-            FW_TRY(
-                add(v, scene, said->item[i].number, FW_INCONCLUSIVE, 0.5, said->item[i].message));
+            FW_TRY(fw_verdict_scene_reason(v, scene, said->item[i].number, FW_INCONCLUSIVE, 0.5,
+                                           said->item[i].message));
     return FW_OK;
 }
 
