@@ -39,7 +39,7 @@ typedef struct fw_measuring_item { /* one input, measured alone */
     /* by how much of the limit the band gets narrower; where another governs then, no device that the
        flow makes uses less than the larger of the two lower ends */
     double narrowing;
-    int judged;                         /* devices that were run for it */
+    int judged; /* devices that were run for it */
 
     const fw_measuring_window *window; /* (nwindow) those that it changes */
     int nwindow;
