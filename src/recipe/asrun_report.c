@@ -15,7 +15,8 @@ static const char style[] =
     "th{background:#f0f0f0}td.n{text-align:right;white-space:nowrap}.bad{color:#b00;font-weight:"
     "bold}"
     "figure{margin:1em 0;break-inside:avoid}figcaption{font-size:13px}svg{width:100%;height:auto}"
-    "@media print{body{margin:0;max-width:none;font-size:11px}}@page{margin:14mm}";
+    "@media print{body{margin:0;max-width:none;font-size:11px}figure{margin:0 0 2mm}svg{width:82%}}"
+    "@page{margin:14mm}"; /* three charts to a page */
 
 static void heading(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
     fw_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
