@@ -757,8 +757,8 @@ static void the_packs_own_wafer(void **state) {
     diags = fw_diags_new(arena);
     fw_process_flow *out = read_pack(arena, COPPER, NULL, NULL, &diags);
     assert_int_equal(fw_process_flow_compute(arena, out, &laid, &diags), FW_OK);
-    assert_int_equal(reasons(out, "a tool that wide, or edge-exclusion=\"29 mm\" of the <wafer>"), 1);
-    laid.die_area_m2 = 9e-4;
+    assert_int_equal(reasons(out, "a tool that wide, or edge-exclusion=\"4.4 mm\" of the <wafer>"), 1);
+    laid.die_area_m2 = 4.9e-3;
     diags = fw_diags_new(arena);
     out = read_pack(arena, COPPER, NULL, NULL, &diags);
     assert_int_equal(fw_process_flow_compute(arena, out, &laid, &diags), FW_OK);
