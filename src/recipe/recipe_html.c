@@ -114,7 +114,7 @@ static void overrides_table(const fw_process_flow *flow, fw_text *out) {
 }
 
 static const char style[] =
-    "@page{margin:9mm 12mm 11mm}\n"
+    "@page{margin:8mm 12mm 10mm}\n"
     "*{box-sizing:border-box}\n"
     "body{font:8.5pt/1.17 Helvetica,Arial,'Liberation Sans','DejaVu Sans "
     "Condensed',sans-serif;color:#000;background:#fff;"
@@ -131,7 +131,7 @@ static const char style[] =
     "print-color-adjust:exact}\n"
     "td.n,th.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}\n"
     "tr{break-inside:avoid}\ntr.group{break-after:avoid}\nthead{display:table-header-group}\n"
-    ".blank td{height:5.8mm}\n.blank td.k{width:21%;background:#f7f7f7}\n"
+    ".blank td{height:5.4mm}\n.blank td.k{width:21%;background:#f7f7f7}\n"
     ".hash{font-family:'DejaVu Sans Mono',monospace;font-size:7pt;word-break:break-all}\n"
     ".box{display:inline-block;width:3.3mm;height:3.3mm;border:1pt solid #000;"
     "vertical-align:-0.6mm;margin-right:2mm}\n"
@@ -162,7 +162,7 @@ static const char style[] =
     "td{height:6.4mm;width:12.5%;font-size:7pt;color:#444}\n.sources "
     "li{break-inside:avoid}\n.sources{columns:3;column-gap:9mm;"
     "padding-left:5mm}\n"
-    ".wafers td{height:5mm}\n.wafers .box{vertical-align:middle}\n"
+    ".wafers td{height:4.8mm}\n.wafers .box{vertical-align:middle}\n"
     ".wafers th{font-size:6.8pt;line-height:1.05}\n.wafers td.w{white-space:nowrap}\n.wafers "
     "td.off{background:#ddd;"
     "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"
