@@ -225,6 +225,7 @@ static const struct {
     {"is no resist baked once more before it is developed?", fw_process_lint_baked, false},
     {"is what is prepared used, and what is wet said to be?", fw_process_lint_prepared, false},
     {"is the device finished when the flow has ended?", fw_process_lint_end, false},
+    {"does nothing stay on it that nobody wants there?", fw_process_lint_left, false},
     {"is it as thick as the flow says?", fw_process_lint_made, true},
     {"is every mask but the first aligned to one before it?", fw_process_lint_plates, false},
     {"is a mask aligned as well as anybody can, and no worse?", fw_process_lint_overlay, true},

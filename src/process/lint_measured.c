@@ -428,3 +428,40 @@ void fw_process_lint_unit(fw_process_pack *pack, const fw_process_step *s,
     lint_limit_in(pack, s, a, &a->low);
     lint_limit_in(pack, s, a, &a->high);
 }
+
+/* ---- what is left in the end ---- */
+
+static bool meant_to_stay(const fw_process_flow *f, const char *material, int column) {
+    for (int i = 0; i < f->nfinished; i++)
+        if (f->finished[i].present && strcmp(f->finished[i].material, material) == 0 &&
+            fw_process_where_holds(f, f->finished[i].where, column))
+            return true;
+    return f->material && strcmp(f->material, material) == 0;
+}
+
+/* A mask, a cap on pads or a carrier that nobody takes off is told once: what lies on the device in the end, or was put
+   on the back, belongs there only where <finished> says so. */
+fw_status fw_process_lint_left(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_stack stack;
+    if (f->nstep == 0) return FW_OK;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, f->nstep - 1, &stack, NULL));
+    for (int column = 0; f->material && column < stack.columns; column++) {
+        bool above = false;
+        for (int i = 0; i < stack.n[column]; i++) {
+            const fw_process_cell *cell = &stack.cell[column][i];
+            char part[FW_LABEL];
+            above = above || strcmp(cell->material, f->material) == 0;
+            if ((!above && !cell->back) || meant_to_stay(f, cell->material, column)) continue;
+            fw_process_column_name(f, column, part);
+            fw_diag_error(pack->diags, 644, f->place,
+                          "the flow ends with '%s' left %s in the %s, and nothing says that it "
+                          "belongs there; take it off, or say <finished material=\"%s\" "
+                          "is=\"present\" where=\"...\"/>",
+                          cell->material, cell->back ? "on the back" : "on the device", part,
+                          cell->material);
+            return FW_OK;
+        }
+    }
+    return FW_OK;
+}

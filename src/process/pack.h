@@ -168,6 +168,7 @@ fw_status fw_process_lint_reach(fw_process_pack *pack);
 fw_status fw_process_lint_required(fw_process_pack *pack);
 fw_status fw_process_lint_bakes(fw_process_pack *pack);
 fw_status fw_process_lint_end(fw_process_pack *pack);
+fw_status fw_process_lint_left(fw_process_pack *pack);
 /* twice, or for another layer than lies there: lint_again.c (FW-D520 to FW-D527) */
 fw_status fw_process_lint_again(fw_process_pack *pack);
 fw_status fw_process_lint_coats(fw_process_pack *pack);

@@ -245,16 +245,66 @@ static void lint_taken(fw_process_pack *pack, const fw_process_step *s) {
         fw_diag_warning(pack->diags, 629, first->place, "%s", why ? why : "");
 }
 
+static bool changes_on(const fw_process_step *s, const char *material, bool back) {
+    for (int k = 0; k < s->nchange; k++)
+        if (s->change[k].back == back && strcmp(s->change[k].material, material) == 0) return true;
+    return false;
+}
+
+/* is it the outermost of what was put on that face, somewhere? */
+static bool lies_on(const fw_process_stack *stack, const char *material, bool back) {
+    for (int column = 0; column < stack->columns; column++) {
+        const fw_process_cell *cell = fw_process_stack_top(stack, column, back);
+        if (cell && cell->back == back && strcmp(cell->material, material) == 0) return true;
+    }
+    return false;
+}
+
+/* a strip says of which face, and asher and solvent take the same from the other: a mask that shall stay there is gone */
+static void lint_stripped(fw_process_pack *pack, const fw_process_step *s,
+                          const fw_process_change *c, const fw_process_stack *stack) {
+    const char *other = c->back ? "front" : "back";
+    if (changes_on(s, c->material, !c->back) || !lies_on(stack, c->material, c->back) ||
+        !lies_on(stack, c->material, !c->back))
+        return;
+    fw_diag_error(pack->diags, 645, c->place,
+                  "step %s strips '%s' off the %s, and it lies open on the %s: there it goes, too; "
+                  "cover it with something else before, or add a <change> of the %s to the step",
+                  s->id, c->material, c->back ? "back" : "front", other, other);
+}
+
+/* what was put on the back and a bath attacks, with nothing said of it */
+static void lint_back_wet(fw_process_pack *pack, const fw_process_step *s,
+                          const fw_process_stack *stack) {
+    for (int h = 0; h < s->nhazard; h++)
+        for (int m = 0; s->hazard[h]->wets && m < s->hazard[h]->nattacks; m++) {
+            const char *on = s->hazard[h]->attacks[m];
+            bool said = changes_on(s, on, true) || changes_on(s, on, false);
+            for (int i = 0; i < s->nexposed; i++)
+                said = said || strcmp(s->exposed[i].material, on) == 0;
+            if (said || !lies_on(stack, on, true)) continue;
+            fw_diag_warning(pack->diags, 632, s->place,
+                            "step %s is done in '%s', which attacks '%s', and that lies open on "
+                            "the back: a bath meets both faces; cover the back before, or add a "
+                            "<change> of it with side=\"back\"",
+                            s->id, s->hazard[h]->id, on);
+        }
+}
+
 /* a bath etches both faces: what is etched to a depth on the front, and lies open on the back, gets thinner from there, too */
 static fw_status lint_both(fw_process_pack *pack, int at) {
     const fw_process_flow *f = pack->flow;
     const fw_process_step *s = &f->step[at];
+    const bool etches = fw_process_step_is_op(s, "wet-etch");
     fw_process_stack stack;
-    if (!fw_process_step_is_op(s, "wet-etch")) return FW_OK;
+    if (!etches && !fw_words_hold("strip clean release", " ", s->op)) return FW_OK;
     FW_TRY(fw_process_flow_stack(pack->arena, f, at - 1, &stack, NULL));
+    if (fw_process_step_in_liquid(s)) lint_back_wet(pack, s, &stack);
     for (int k = 0; k < s->nchange; k++) {
         const fw_process_change *c = &s->change[k];
-        if (strcmp(c->kind, "remove") != 0 || c->back || !c->thickness || c->reach ||
+        if (strcmp(c->kind, "remove") != 0) continue;
+        if (fw_process_step_is_op(s, "strip")) lint_stripped(pack, s, c, &stack);
+        if (!etches || c->back || !c->thickness || c->reach ||
             !fw_process_stack_open(f, &stack, c->material, true))
             continue;
         fw_diag_warning(pack->diags, 632, c->place,

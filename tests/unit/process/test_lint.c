@@ -7,6 +7,7 @@
 #include <math.h>
 
 #define DOUBLE "soi-double-sided"
+#define SOI "soi-deep-rie"
 #define GLASS  "silicon-on-glass"
 
 static void expect(int number, const char *says) {
@@ -27,6 +28,14 @@ typedef struct change {
 static void mistakes_of_a_flow(void **state) {
     (void)state;
     static const change bad[] = {
+        /* left on the device, on its back or on its pads, by a pack that says nothing of its end */
+        {SILICON, "    <change kind=\"remove\" material=\"thermal-paste\"/>\n", "", 644, "'thermal-paste' left on the back in the structure"},
+        {GLASS, "<finished material=\"pad-gold\" is=\"present\" where=\"pad\"/>", "", 644, "'pad-gold' left on the device"},
+        /* the cover of the front ashed while resist masks the back */
+        {DOUBLE, "    <change kind=\"remove\" material=\"resist\" side=\"back\"/>\n", "", 645,
+         "step B22 strips 'resist' off the front, and it lies open on the back"},
+        {SOI, "    <change kind=\"remove\" material=\"resist\"/>\n", "", 269,
+         "'h.hf-vapour' attacks 'resist'"},
         /* the acid for the mask, with copper beside it */
         {SILICON, "<exposed material=\"aluminium\" rate=\"develop.al\"/>", "", 269,
          "'h.developer' attacks 'aluminium'"},
@@ -850,9 +859,12 @@ static void what_is_told(void **state) {
         {SILICON, "id=\"hmds.T\" value=\"150\"", "id=\"hmds.T\" value=\"50\"", 593, "water stays on the wafer below 95 Cel"},
         {SILICON, "    <lag from=\"S06\" max=\"4\" unit=\"h\"/>\n", "", 614, "step S07 (coat) may come at any time after step S06, which bakes dry"},
         {COPPER, "op=\"mount\" title=\"Plating jig", "op=\"hold\" title=\"Plating jig", 631, "step C22 (plate) lets a current through"},
-        {GLASS, "    <change kind=\"add\" material=\"back-metal\" thickness=\"mask-chromium.d\" side=\"back\"/>\n"
-                "    <change kind=\"add\" material=\"back-metal\" thickness=\"mask-gold.d\" side=\"back\"/>\n", "", 632,
-         "step G12 etches 'glass-carrier' on the front, and it lies open on the back"},
+        {GLASS, "<change kind=\"remove\" material=\"gold\" thickness=\"mask-gold.d\" where=\"cavity\"/>",
+         "<change kind=\"remove\" material=\"gold\" thickness=\"mask-gold.d\" where=\"cavity\"/>\n"
+         "<change kind=\"remove\" material=\"resist\" side=\"back\"/><change kind=\"remove\" material=\"back-metal\" side=\"back\"/>",
+         632, "step G12 etches 'glass-carrier' on the front, and it lies open on the back"},
+        {GLASS, "    <change kind=\"add\" material=\"resist\" thickness=\"litho.resist\" side=\"back\"/>\n", "", 632,
+         "step G10 is done in 'h.gold', which attacks 'back-metal', and that lies open on the back"},
         {COPPER, "id=\"bath.volume\" value=\"100\" u=\"2\"", "id=\"bath.volume\" value=\"1\" u=\"0.1\"", 608,
          "step C05 uses a filling of 1 mL of bath 'anodising'"},
     };
