@@ -308,6 +308,25 @@ static void ask_other_side(const fw_recipe_asrun_reader *r, const fw_recipe_asru
     }
 }
 
+/* A wafer is at one step at a time; what was measured of a step later may have its times, and what is of no wafer (a bath
+   that is mixed, a chamber that is prepared) is done beside it. Of a lot in several loads one is through while
+   another is not. */
+static void ask_place(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
+                      const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < run->nentry && !fw_process_step_is_of_lot(e->step) && e->loads <= 1; i++) {
+        const fw_recipe_asrun_entry *of = &run->entry[i];
+        if (of->fate != FW_FATE_RUN || of->step == e->step || fw_process_step_is_of_lot(of->step) ||
+            of->loads > 1 || !same_wafer(of, e) ||
+            !(e->start_s < of->end_s && of->start_s < e->end_s))
+            continue;
+        fw_diag_warning(r->diags, 283, r->place,
+                        "step %s was done from %s to %s, and from %s to %s the same wafer was in "
+                        "step %s: one of these times is wrong",
+                        e->step->id, e->start, e->end, of->start, of->end, of->step->id);
+        return;
+    }
+}
+
 static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
@@ -323,6 +342,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
         fw_diag_warning(r->diags, 283, r->place,
                         "step %s starts before step %s, which was entered before it", e->step->id,
                         last->at->id);
+    ask_place(r, run, e);
     ask_units(r, e);
     ask_missing(r, run, e);
     ask_other_side(r, run, e);

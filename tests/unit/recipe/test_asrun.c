@@ -69,6 +69,28 @@ static const char *three(void) {
                 0);
 }
 
+/* a wafer is in one place: what was entered of it before goes on, and another wafer's does not count, nor a bath that is mixed */
+static void a_wafer_is_in_one_place(void **state) {
+    (void)state;
+    static const struct {
+        const char *words;
+        bool told;
+    } next[] = {{"C10; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=1", true},
+                {"C10; start=2026-11-20T10:05; end=2026-11-20T10:07; by=AB; wafer=1", false},
+                {"C10; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=2", false},
+                {"C09; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=1", false},
+                {"C03; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; second=CD; wafer=1", false}};
+    lot_wafers = "1,2";
+    const char *log = with(begun(), "C09; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; wafer=1", 0);
+    for (size_t i = 0; i < sizeof next / sizeof next[0]; i++) {
+        bool told = false;
+        with(log, next[i].words, 0);
+        for (size_t k = 0; k < diags.count; k++)
+            told = told || strstr(diags.item[k].message, "the same wafer was in step C09: one of these times");
+        assert_int_equal(told, next[i].told);
+    }
+}
+
 static void what_is_written_is_read(void **state) {
     (void)state;
     fw_recipe_asrun run;
@@ -820,6 +842,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(heads, setup, teardown),
         cmocka_unit_test_setup_teardown(what_is_written_is_read, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_wafer_is_in_one_place, setup, teardown),
         cmocka_unit_test_setup_teardown(dates, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
         cmocka_unit_test_setup_teardown(changes_are_seen, setup, teardown),
