@@ -117,8 +117,10 @@ fw_status fw_recipe_asrun_check_head(const fw_recipe_asrun *run, const char *fil
 typedef struct fw_recipe_deviation {
     const fw_recipe_asrun_entry *entry;
     const char *what, *planned, *actual; /* "thickness", "8.1 to 9.9 um", "7.9 um" */
+    bool repeated;                       /* the step was run once more for this wafer */
 } fw_recipe_deviation;
-/* asrun_compare.c: what is out of its limits in the last entry of every step and wafer, in the order of the flow */
+/* asrun_compare.c: what is out of its limits, in the order of the flow and of the log. What was put right by another run has been so, all the
+   same: it stands in the list, `repeated` */
 fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flow,
                                      const fw_recipe_asrun *run, fw_recipe_deviation **list,
                                      int *n);

@@ -99,6 +99,7 @@ typedef struct builder {
     fw_arena *arena;
     fw_recipe_deviation *item;
     int n;
+    bool repeated; /* of the entry that is looked at */
 } builder;
 
 static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *what, fw_text *planned,
@@ -110,7 +111,7 @@ static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *wha
         fw_arena_grow(b->arena, b->item, (size_t)b->n, (size_t)b->n + 1, sizeof *grown);
     FW_NEED(grown);
     b->item = grown;
-    b->item[b->n++] = (fw_recipe_deviation){e, what, planned->data, actual->data};
+    b->item[b->n++] = (fw_recipe_deviation){e, what, planned->data, actual->data, b->repeated};
     return FW_OK;
 }
 
@@ -205,6 +206,17 @@ static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recip
     return FW_OK;
 }
 
+/* is a later entry of the same run, with what was read afterwards? Then that one has its times */
+static bool goes_on(const fw_recipe_asrun *run, int i) {
+    const fw_recipe_asrun_entry *e = &run->entry[i];
+    for (int k = i + 1; k < run->nentry; k++) {
+        const fw_recipe_asrun_entry *later = &run->entry[k];
+        if (later->step == e->step && same_wafer(e, later) && later->start_s == e->start_s)
+            return true;
+    }
+    return false;
+}
+
 fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flow,
                                      const fw_recipe_asrun *run, fw_recipe_deviation **list,
                                      int *n) {
@@ -212,11 +224,13 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
     for (int s = 0; s < flow->nstep; s++)
         for (int i = 0; i < run->nentry; i++) {
             const fw_recipe_asrun_entry *e = &run->entry[i];
-            if (e->step != &flow->step[s] || !fw_recipe_asrun_is_last(run, e)) continue;
-            FW_TRY(durations_of(&b, run, e));
+            if (e->step != &flow->step[s]) continue;
+            const bool last = fw_recipe_asrun_is_last(run, e), added = !last && goes_on(run, i);
+            b.repeated = !last && !added;
+            if (!added) FW_TRY(durations_of(&b, run, e));
             FW_TRY(values_of(&b, e));
             FW_TRY(settings_of(&b, e));
-            FW_TRY(waits_of(&b, run, e));
+            if (!added) FW_TRY(waits_of(&b, run, e));
         }
     *list = b.item;
     *n = b.n;
@@ -313,7 +327,11 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
         }
         t->logged += any;
     }
-    return fw_recipe_asrun_deviations(arena, flow, run, &list, &t->out);
+    int n;
+    FW_TRY(fw_recipe_asrun_deviations(arena, flow, run, &list, &n));
+    for (int i = 0; i < n; i++)
+        t->out += !list[i].repeated;
+    return FW_OK;
 }
 
 static int times_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last) {
@@ -417,6 +435,23 @@ void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
     fw_json_end(out);
 }
 
+/* what was out in a run that another one put right; of the others the table above has it */
+static fw_status put_repeated(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                              fw_text *out) {
+    fw_recipe_deviation *list;
+    int n, told = 0;
+    FW_TRY(fw_recipe_asrun_deviations(out->arena, flow, run, &list, &n));
+    for (int i = 0; i < n; i++) {
+        const fw_recipe_asrun_entry *e = list[i].entry;
+        if (!list[i].repeated) continue;
+        fw_text_printf(out, "%s%s, %s%s, %s, by %s: %s was %s; allowed %s\n",
+                       told++ ? "" : "\nout of limits in runs that were repeated:\n", e->step->id,
+                       e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->start, e->by,
+                       list[i].what, list[i].actual, list[i].planned);
+    }
+    return FW_OK;
+}
+
 static void put_read_again(const fw_recipe_asrun *run, fw_text *out) {
     int i = 0, k = 0, n = 0;
     for (fw_recipe_read_again a; fw_recipe_asrun_read_again(run, &i, &k, &a); n++)
@@ -456,6 +491,7 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
     fw_schedule_put_duration(out, t.actual_s);
     fw_text_add(out, "\n");
     put_fates(flow, run, out);
+    FW_TRY(put_repeated(flow, run, out));
     put_declared(run, out);
     put_read_again(run, out);
     return fw_text_end(out);

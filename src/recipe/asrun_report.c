@@ -104,6 +104,7 @@ static fw_status deviations(const fw_process_flow *flow, const fw_recipe_asrun *
         cell(out, list[i].planned);
         fw_text_add(out, "<td class=\"bad\">");
         fw_text_escaped(out, list[i].actual);
+        if (list[i].repeated) fw_text_add(out, " (repeated later)");
         fw_text_add(out, "</td><td>");
         fw_text_escaped(out, e->by);
         if (e->note) {
@@ -439,6 +440,7 @@ static fw_status deviations_json(const fw_process_flow *flow, const fw_recipe_as
         fw_json_text(out, "what", list[i].what);
         fw_json_text(out, "planned", list[i].planned);
         fw_json_text(out, "actual", list[i].actual);
+        fw_json_truth(out, "repeated", list[i].repeated);
         fw_json_end(out);
     }
     fw_json_end(out);

@@ -4,6 +4,7 @@
 #include "../process/packs.h"
 #include "base/output.h"
 #include "recipe/asrun.h"
+#include "recipe/asrun_parts.h"
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -67,6 +68,35 @@ static const char *three(void) {
                 "C22; start=2026-11-20T10:30:00; end=2026-11-20T10:52:30; by=AB; second=CD; "
                 "thickness=7.9; tool=plater 2; bath=17; note=it was so",
                 0);
+}
+
+/* 7.9 um are too little, and another run put it right: it has been so all the same; what is read later of the same run is
+   no other run, and its times count once */
+static void what_was_put_right_stands(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    fw_recipe_deviation *list;
+    fw_recipe_asrun_total total;
+    int n, of[2] = {0, 0};
+    lot_wafers = "1,2";
+    const char *log = with(begun(), "C23; start=2026-11-20T12:00; end=2026-11-20T12:40; by=AB; wafer=1; thickness=7.9 um", 0);
+    log = with(log, "C23; start=2026-11-20T13:00; end=2026-11-20T13:09; by=AB; wafer=1; thickness=9.1 um", 0);
+    log = with(log, "C23; start=2026-11-20T14:00; end=2026-11-20T14:40; by=AB; wafer=2; thickness=7.8 um", 0);
+    log = with(log, "C23; start=2026-11-20T14:00; end=2026-11-20T14:40; by=AB; wafer=2; spread of thickness=3 %", 0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+    for (int i = 0; i < n; i++)
+        of[list[i].repeated]++;
+    assert_int_equal(of[1], 2); /* 40 min, and 7.9 um */
+    assert_int_equal(of[0], 2); /* 7.8 um, and 40 min once */
+    assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+    assert_int_equal(total.out, 2);
+    fw_text text = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_non_null(strstr(text.data, "out of limits in runs that were repeated:\n"
+                                      "C23, wafer 1, 2026-11-20T12:00, by AB: duration was 40 min"));
+    assert_non_null(strstr(text.data, "thickness was 7.9 um; allowed 8.1 to 9.9 um"));
+    assert_null(strstr(text.data, "thickness was 7.8 um"));
 }
 
 /* a wafer is in one place: what was entered of it before goes on, and another wafer's does not count, nor a bath that is mixed */
@@ -563,7 +593,7 @@ static void wafers_are_no_repetitions(void **state) {
     assert_true(holds(&json, "\"wafer\":\"1\""));
     assert_true(holds(&json, "\"deviations\":[{\"step\":\"C22\",\"wafer\":\"2\",\"what\":"
                              "\"thickness\",\"planned\":\"8.1 to 9.9 um\",\"actual\":"
-                             "\"7.1 um\"}]"));
+                             "\"7.1 um\",\"repeated\":false}]"));
     assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
     assert_true(holds(&page, "<svg"));
     assert_true(holds(&page, "too few for control limits, which need 8"));
@@ -843,6 +873,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(heads, setup, teardown),
         cmocka_unit_test_setup_teardown(what_is_written_is_read, setup, teardown),
         cmocka_unit_test_setup_teardown(a_wafer_is_in_one_place, setup, teardown),
+        cmocka_unit_test_setup_teardown(what_was_put_right_stands, setup, teardown),
         cmocka_unit_test_setup_teardown(dates, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
         cmocka_unit_test_setup_teardown(changes_are_seen, setup, teardown),
