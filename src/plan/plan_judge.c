@@ -64,6 +64,26 @@ static fw_status say_outside(fw_plan *plan) {
     return FW_OK;
 }
 
+/* A proposal accepts by motion and drawing. Where a flow cannot make the device as it is, for a reason that has a nearest
+   change of its own (a margin, a layer), each proposal says that this is another matter, so that nobody takes one change
+   for both. */
+static fw_status say_apart(fw_plan *plan) {
+    fw_verdict *v = &plan->verdict;
+    const char *flow = NULL;
+    for (int i = 0; i < plan->nflow && !flow; i++)
+        if (plan->flow[i].flow && plan->flow[i].flow->manufacturable == 0)
+            flow = plan->flow[i].flow->id;
+    for (int i = 0; flow && i < v->nproposal + v->nparameter; i++) {
+        const int k = i - v->nproposal;
+        const char **text = k < 0 ? &v->proposal[i].text : &v->parameter[k].text;
+        if (k >= 0 && v->parameter[k].found != FW_PARAMETER_ACCEPTS) continue;
+        FW_NEED(*text = fw_arena_printf(plan->arena,
+                                        "%s; that it cannot be made in %s is another matter", *text,
+                                        flow));
+    }
+    return FW_OK;
+}
+
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
     FW_TRY(fw_plan_need_material(plan));
@@ -84,6 +104,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
         FW_TRY(fw_verdict_rejections(plan->arena, verdict, &plan->because, &plan->nbecause));
     FW_TRY(fw_plan_compute_flows(plan));
     if (!plan->options.without_masks) FW_TRY(fw_plan_masks_examine(plan));
+    FW_TRY(say_apart(plan));
     for (int i = 0; i < plan->nflow; i++)
         FW_TRY(find_tethers(plan, &verdict->variant[i], &plan->flow[i].tethers));
     return fw_plan_measurements_find(plan, false);

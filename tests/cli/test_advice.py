@@ -63,6 +63,23 @@ class Parameters(unittest.TestCase):
         self.assertEqual([p["found"] for p in said], sorted(p["found"] for p in said))
         return {p["set"]: p for p in said}
 
+    def test_what_cannot_be_made_is_another_matter(self):
+        """of a device that its flow cannot make, for a layer that no parameter changes: each proposal says so, and is accepted by its
+        motion when it is followed"""
+        text = LEAF.read_text().replace('<flow ref="al-masked-rie"/>',
+                                        '<flow ref="copper-on-porous-silicon" material="copper-plated" thickness="25 um"/>')
+        with tempfile.TemporaryDirectory() as place:
+            path = pathlib.Path(place) / "d.xml"
+            path.write_text(text)
+            found = json.loads(self.expect(run("check", path, "--json", "--measurements", "none"), 1).stdout)
+            said = found["advice"] + [p for p in found["advice_parameters"] if p["found"] == "accepts"]
+            self.assertGreater(len(said), 1)
+            for p in said:
+                self.assertIn("that it cannot be made in copper-on-porous-silicon is another matter", p["text"])
+            changed = run("check", path, "--measurements", "none", *(x for c in found["advice"][0]["set"]
+                                                                      for x in ("--set", f'{c["path"]}={c["value"]}')))
+            self.assertIn("ACCEPT, but cannot be made", self.expect(changed, 1).stdout)
+
     def test_how_far_each_parameter_comes(self):
         """of a stroke that no change reaches: what was tried, and the value that comes nearest, which another run finds too"""
         text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text()
