@@ -309,3 +309,15 @@ test("a slider below what can be made says why at its place, and from which valu
     await close(page);
     await server.stop();
 });
+
+test("a device that cannot be drawn reaches nothing: no value of a former one is left under what it is for", async () => {
+    const server = await serve("free-form-gripper");
+    const page = await open(server, SMALL);
+    await page.waitForSelector(".purpose dd.accept");
+    await answered(page, () => setText(page, ['value="0.6 mm" min="0.55 mm"', 'value="0.3 mm" min="0.2 mm"']));
+    await page.waitForSelector('#banner[data-verdict="failed"]');
+    assert.equal(await page.locator(".purpose").count(), 0);
+    assert.ok(await page.locator("#panel-motion .overlap").count() > 0);
+    await close(page);
+    await server.stop();
+});
