@@ -205,6 +205,10 @@ export async function compare(page, server) {
     assert.equal(seen.busy, false, "the sign of work stays");
     compareForm(seen, attributes(seen.text));
     assert.equal(seen.name, /<device[^>]*?\sname="([^"]*)"/.exec(seen.text)?.[1] ?? "", "the name of the device");
+    if (seen.problems.length === 1 && /^the computation was ended after \d+ s/.test(seen.problems[0])) { // of a machine that others use, too: the page says so, and that it has no answer
+        assert.ok(seen.old > 3 && seen.former.length > 3, "what was ended has no answer, and nothing looks old");
+        return "ended";
+    }
     assert.deepEqual(seen.problems, now.diagnostics.filter((d) => d.severity === "error").slice(0, 100).map((d) => d.message), "the mistakes");
     const good = now.status === "ok" || (now.status === "failed" && now.marks?.length > 0 && now.bodies?.length > 0);
     if (!good) {
