@@ -206,7 +206,9 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
                  lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
     const bool size = !isnan(p->moved); /* a gap is not below 0 */
     r->size = size;
-    r->swing = size ? p->moved : fmax(p->maximum - p->minimum, fabs(p->across));
+    r->swing = size ? p->moved : fmax(fabs(p->maximum - p->origin), fabs(p->minimum - p->origin));
+    if (q->measure == FW_MEASURE_PARASITIC) r->swing = fabs(p->across);
+    if (q->measure == FW_MEASURE_PEAK_TO_PEAK) r->swing *= 2; /* either end may */
     switch (q->measure) {
     case FW_MEASURE_PEAK:
         put(r, fabs(p->peak), p->numeric, model, lasting, departure(p, p->peak), true);
