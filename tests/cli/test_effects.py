@@ -407,6 +407,28 @@ class Resonance(unittest.TestCase):
             done = run("check", device, "--advice", "none", "--json", *(options or ("--corners", "none")))
         return json.loads(done.stdout), done.stderr
 
+    LAB = """<process xmlns="urn:flexwright:process:1" flow="al-masked-rie" id="ours" version="1" title="edges of the aluminium alone">
+<source id="bench" kind="measured" date="2026-11-01">our bench</source><q id="litho.edge" value="0" u="0" unit="um" status="measured" src="bench"/>
+<q id="made.A" value="0.995" lo="0.995" hi="0.995" unit="1" status="measured" src="bench"/></process>"""
+
+    def test_between_corners(self):
+        """a law between the frequencies of all corners: each is accepted by itself, and what lies between them is beyond its limit"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text().replace('safety-factor="2"', 'safety-factor="5"')
+        text = re.sub(r'<scene name="draw".*?</scene>|<probe id="tension"[^>]*/>|<require probe="stroke"[^>]*/>', "", text, flags=re.S)
+        text = text.replace("</device>", '<scene name="s" duration="60 ms"><base-motion ax="21 m/s^2" law="sine" frequency="729 Hz"/></scene></device>')
+        with tempfile.TemporaryDirectory() as place:
+            lab = pathlib.Path(place, "lab.xml")
+            lab.write_text(self.LAB)
+            made, _ = self.judged(text, "--lab", lab)
+        corners = made["flows"][0]["as_fabricated"]["corners"]
+        self.assertTrue(all(c["verdict"] == "accept" for c in corners))
+        self.assertLess(max(c["utilisation"] for c in corners), 0.6)
+        self.assertEqual(made["verdict"], "inconclusive")
+        self.assertIn("FW-D636", [r["code"] for r in made["reasons"]])
+        # leaves thinner by less than the edges of the flow: 0.22 um each
+        between, _ = self.judged(text.replace('name="width" value="12 um"', 'name="width" value="11.5 um"'))
+        self.assertGreater(between["hinges"][0]["utilisation"], 1)
+
     def test_whatever_drives_it(self):
         """a driver that shakes what hangs on it, and a voltage: with the law moved by the error of the frequency, which is what another
         stiffness does, what hinges use and probes read stays within the bands. (Bodies that give only make it softer.)"""
