@@ -160,6 +160,7 @@ bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s) {
     if (fw_quantity_law_is_constant(law)) return false;
     double variation = fw_quantity_law_measure(law, end_s).variation, value[3];
     fw_quantity_law_value(law, 0, 0.5 * end_s / LOOKS, value);
+    if (law->kind->variation) variation = fmin(variation, law->kind->variation(law, end_s));
     const double first = value[0];
     double least = first, most = first;
     for (int i = 1; i <= LOOKS; i++) {
