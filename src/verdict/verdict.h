@@ -35,8 +35,6 @@ typedef struct fw_verdict_hinge_verdict {
     double peak_angle_rad, angle_error_rad, limit_angle_rad;
     double peak_strain, strain_limit;
     double utilisation, utilisation_low, utilisation_high;
-    double swing; /* how far it goes from where it was drawn; of a gap, how far its outlines are moved */
-    bool size;    /* it is a gap, which is not below 0 */
     double numeric; /* part of the band on either side that a tighter run would take away */
     /* relative parts of it, upwards and downwards, that neither a tighter run nor a better model of
        the hinges would take away */
