@@ -55,6 +55,8 @@ set(FW_ROOMS_CAST base device flexure maths plan serve)
 # What tests/edges/edges.py counts: what a program passes. edge: of the control flow; func: starts of functions
 set(FW_EDGES "" CACHE STRING "counters of coverage (clang): edge or func")
 set(FW_ROOMS_FUZZED base quantity xml device)
+# Rooms that read what strangers wrote: under the sanitizers every pointer is looked at (flags.cmake)
+set(FW_ROOMS_READ ${FW_ROOMS_FUZZED} drawing serve)
 
 set(below)
 foreach(room ${FW_ROOMS})
@@ -71,6 +73,9 @@ foreach(room ${FW_ROOMS})
         endif()
         if(FW_SANITIZE AND room IN_LIST FW_ROOMS_CAST)
             target_compile_options(fw_${room} PRIVATE -fsanitize=alignment)
+        endif()
+        if(FW_SANITIZE AND room IN_LIST FW_ROOMS_READ)
+            target_compile_options(fw_${room} PRIVATE -fsanitize=null,pointer-overflow)
         endif()
         # in the rooms of tests/fuzz the fuzzer counts edges
         if(FW_EDGES AND NOT (FW_FUZZ AND room IN_LIST FW_ROOMS_FUZZED))

@@ -140,6 +140,7 @@ static fw_status run(work *w) {
         FW_TRY(of_log(w, flow, file, text, hash, &found));
     else
         FW_TRY(of_table(w, flow, file, text, &found));
+    fw_process_calibration_ask(flow, &found, file, &w->diags);
     fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
     FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
     FW_TRY(fw_process_calibration_text(flow, &found, &table));
@@ -386,6 +387,21 @@ static fw_status first_line(fw_plan *plan, const fw_plan_flow *pf, const char *h
     return fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, first);
 }
 
+/* an entry of several wafers whose words are wrong is wrong for each of them, and is told once */
+static void tell_once(fw_diags *diags, size_t before, size_t first, fw_place place) {
+    const fw_diag *said = diags->item + before;
+    for (size_t i = first; diags->count == before + 1 && i < before; i++) {
+        const fw_diag *old = diags->item + i;
+        if (old->severity != said->severity || old->place.line != place.line ||
+            old->place.file != said->place.file || strcmp(old->message, said->message) != 0)
+            continue;
+        diags->errors -= said->severity == FW_ERROR;
+        diags->unreliable -= said->unreliable;
+        diags->count--;
+        return;
+    }
+}
+
 /* All lines behind what the log holds; each is read back behind those before it, as the next command would. The log after
    them is in *run. */
 static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flow *pf,
@@ -408,9 +424,12 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,
                                        (size_t)(run->nentry + list.n), sizeof *run->entry));
     fw_status wrong = FW_OK; /* every mistake of a list is told, and nothing of it is added */
+    const size_t first = plan->diags.count;
     for (int i = 0; i < list.n; i++) {
+        const size_t before = plan->diags.count;
         fw_status status = fw_recipe_asrun_add(plan->arena, pf->flow, run, list.words[i],
                                                list.place[i], options->now_s, &plan->diags, &line);
+        tell_once(&plan->diags, before, first, list.place[i]);
         if (status != FW_OK && status != FW_INPUT) return status;
         if (status != FW_OK) wrong = status;
         if (status != FW_OK) continue;

@@ -174,19 +174,27 @@ static fw_status name_requirements(work *w) {
     return FW_OK;
 }
 
-/* of all bands the one that reaches furthest: of the hinges, then of the requirements */
-static fw_status find_most(work *w, const fw_verdict_ranges *r, fw_measuring_item *item) {
+/* of all bands the one that reaches furthest: of the hinges, then of the requirements; the hinge that reaches
+   furthest of the hinges */
+static fw_status find_most(work *w, const fw_verdict_ranges *r, fw_measuring_item *item,
+                           int *hinge) {
     const fw_verdict_variant_verdict *v = w->in->verdict;
     item->most = (double)NAN;
+    item->governing = (fw_verdict_band){(double)NAN, (double)NAN};
+    *hinge = FW_NONE;
     for (int k = 0; k < v->nhinge; k++) {
         if (isnan(r->hinge[k].high) || r->hinge[k].high <= item->most) continue;
-        item->most = r->hinge[k].high;
-        FW_NEED(item->governs =
-                    fw_arena_printf(w->arena, "%s%s", FW_NAMED("hinge", v->hinge[k].id)));
+        item->governing = r->hinge[k];
+        item->most = item->governing.high;
+        *hinge = k;
     }
+    if (*hinge != FW_NONE)
+        FW_NEED(item->governs =
+                    fw_arena_printf(w->arena, "%s%s", FW_NAMED("hinge", v->hinge[*hinge].id)));
     for (int i = 0; i < v->nrequirement; i++) {
         if (isnan(r->requirement[i].high) || r->requirement[i].high <= item->most) continue;
-        item->most = r->requirement[i].high;
+        item->governing = r->requirement[i];
+        item->most = item->governing.high;
         item->governs = w->out->requirement_name[i];
     }
     return FW_OK;
@@ -219,10 +227,36 @@ static fw_status govern(work *w, const fw_verdict_ranges *r, int hinge) {
     return FW_OK;
 }
 
+/* With the ranges of one measurement. Both ends of a band are run of one hinge alone: where another governs
+   then, of that one, too, as the verdict itself would with those ranges. */
+static fw_status judge_item(work *w, fw_measuring_item *item, int hinge) {
+    const fw_measuring_request *in = w->in;
+    fw_measuring *out = w->out;
+    int k = (int)(item - w->item), other;
+    fw_verdict_ranges then;
+    FW_TRY(fw_verdict_ranges_judge(w->arena, in->device, in->layout, in->options, in->verdict,
+                                   w->input[k], w->ninput[k], hinge, &then));
+    if (out->hinge != FW_NONE) item->band = then.hinge[out->hinge];
+    if (out->requirement != FW_NONE) item->band = then.requirement[out->requirement];
+    item->decision = then.decision;
+    item->requirement = then.requirement;
+    item->judged = then.judged;
+    FW_TRY(find_most(w, &then, item, &other));
+    if (other != hinge && other != FW_NONE) {
+        FW_TRY(fw_verdict_ranges_judge(w->arena, in->device, in->layout, in->options, in->verdict,
+                                       w->input[k], w->ninput[k], other, &then));
+        FW_TRY(find_most(w, &then, item, &other));
+        item->judged += then.judged;
+    }
+    out->judged += item->judged;
+    return FW_OK;
+}
+
 static fw_status judge_items(work *w, int hinge) {
     const fw_measuring_request *in = w->in;
     fw_measuring *out = w->out;
-    fw_verdict_ranges now, then;
+    fw_verdict_ranges now;
+    int most;
     FW_TRY(fw_verdict_ranges_judge(w->arena, in->device, in->layout, in->options, in->verdict,
                                    in->verdict->input, in->verdict->ninput, hinge, &now));
     FW_TRY(name_requirements(w));
@@ -232,17 +266,8 @@ static fw_status judge_items(work *w, int hinge) {
         item->band = out->band;
         item->decision = out->decision;
         item->requirement = out->requirements;
-        FW_TRY(find_most(w, &now, item));
-        if (!item->made) continue;
-        FW_TRY(fw_verdict_ranges_judge(w->arena, in->device, in->layout, in->options, in->verdict,
-                                       w->input[i], w->ninput[i], hinge, &then));
-        if (out->hinge != FW_NONE) item->band = then.hinge[out->hinge];
-        if (out->requirement != FW_NONE) item->band = then.requirement[out->requirement];
-        item->decision = then.decision;
-        item->requirement = then.requirement;
-        FW_TRY(find_most(w, &then, item));
-        item->judged = then.judged;
-        out->judged += then.judged;
+        FW_TRY(find_most(w, &now, item, &most));
+        if (item->made) FW_TRY(judge_item(w, item, hinge));
     }
     return FW_OK;
 }

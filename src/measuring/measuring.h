@@ -34,9 +34,12 @@ typedef struct fw_measuring_item { /* one input, measured alone */
     fw_verdict_decision decision;       /* of the corners */
     const char *governs;                /* what then reaches furthest, which may be another */
     double most;                        /* ... and how far */
+    fw_verdict_band governing;          /* ... and its band, from end to end */
     bool decides;                       /* that was inconclusive, and is not any more */
-    double narrowing;                   /* by how much of the limit the band gets narrower */
-    int judged;                         /* devices that were run for it */
+    /* by how much of the limit the band gets narrower; where another governs then, no device that the
+       flow makes uses less than the larger of the two lower ends */
+    double narrowing;
+    int judged; /* devices that were run for it */
 
     const fw_measuring_window *window; /* (nwindow) those that it changes */
     int nwindow;

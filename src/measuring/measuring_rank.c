@@ -27,13 +27,24 @@ static bool band_moves(const fw_verdict_band *now, const fw_verdict_band *then) 
            (isfinite(now->high) && fabs(now->high - then->high) > alike);
 }
 
+static bool another_governs(const fw_measuring *m, const fw_measuring_item *item) {
+    return m->what && item->governs && strcmp(item->governs, m->what) != 0;
+}
+
+/* of what the device uses: where another governs then, at least what the one that governed still does */
+static fw_verdict_band band_then(const fw_measuring *m, const fw_measuring_item *item) {
+    if (!another_governs(m, item) || !isfinite(item->most)) return item->band;
+    return (fw_verdict_band){fmax(item->band.low, item->governing.low), item->most};
+}
+
 static bool changes(const fw_measuring *m, const fw_measuring_item *item) {
     if (item->nwindow > 0 || item->needed > 0) return true;
     if (!item->made) return false;
     if (!m->banded) return item->share - item->share_after > alike;
     for (int i = 0; i < m->nrequirement; i++)
         if (band_moves(&m->requirements[i], &item->requirement[i])) return true;
-    return item->decision != m->decision || band_moves(&m->band, &item->band);
+    return item->decision != m->decision || band_moves(&m->band, &item->band) ||
+           another_governs(m, item);
 }
 
 /* ---- the order ---- */
@@ -127,6 +138,10 @@ void fw_measuring_put_worth(fw_text *out, const fw_measuring *m, const fw_measur
     if (!item->made) return;
     if (m->banded) {
         fw_measuring_put_band(out, &item->band);
+        if (another_governs(m, item) && isfinite(item->most)) {
+            fw_text_printf(out, "; %s then governs with ", item->governs);
+            fw_measuring_put_band(out, &item->governing);
+        }
         if (item->decides)
             fw_text_add(out, item->decision == FW_ACCEPT ? ": accepted" : ": rejected");
     } else {
@@ -190,10 +205,10 @@ static void say_band(fw_text *text, const fw_measuring *m, const fw_measuring_it
     fw_measuring_put_band(text, &m->band);
     fw_text_add(text, " to ");
     fw_measuring_put_band(text, &item->band);
-    if (item->governs && strcmp(item->governs, m->what) != 0 && isfinite(item->most)) {
-        fw_text_printf(text, " (%s then governs, with up to ", item->governs);
-        percent(text, item->most);
-        fw_text_add(text, " %)");
+    if (another_governs(m, item) && isfinite(item->most)) {
+        fw_text_printf(text, " (%s then governs, with ", item->governs);
+        fw_measuring_put_band(text, &item->governing);
+        fw_text_add(text, ")");
     }
     say_decision(text, item);
 }
@@ -248,7 +263,8 @@ fw_status fw_measuring_rank(fw_arena *arena, fw_measuring *m, fw_measuring_item 
     int kept = 0;
     for (int i = 0; i < n; i++) {
         fw_measuring_item *x = &item[i];
-        x->narrowing = x->made && m->banded ? narrowing(&m->band, &x->band) : 0.0;
+        const fw_verdict_band then = band_then(m, x);
+        x->narrowing = x->made && m->banded ? narrowing(&m->band, &then) : 0.0;
         x->decides = x->made && m->banded && m->decision == FW_INCONCLUSIVE &&
                      x->decision != FW_INCONCLUSIVE;
         if (changes(m, x)) {
@@ -335,6 +351,7 @@ static void item(fw_json *json, const fw_measuring *m, const fw_measuring_item *
         fw_json_real(json, "narrowing", x->narrowing);
         fw_json_text(json, "governs", x->governs);
         fw_json_real(json, "most", x->most);
+        band(json, "governing_band", &x->governing);
         fw_json_text(json, "verdict", fw_verdict_decision_text(x->decision));
         fw_json_truth(json, "decides", x->decides);
         bands(json, m, x->requirement);

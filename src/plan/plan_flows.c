@@ -379,6 +379,9 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, const fw_process_
 typedef struct redrawn_flow { /* what a flow is drawn anew of */
     fw_plan *plan;
     fw_plan_flow *pf;
+    /* its cells are so fine that no mask with them is looked through to the end (FW-D592). No change of a gap mends that,
+       and each drawing would take as long as theirs: they are left out */
+    bool dense;
 } redrawn_flow;
 
 static fw_status widened_device(fw_arena *arena, const fw_device *from, double gap_m,
@@ -427,7 +430,14 @@ static const char *lacks(fw_arena *arena, const fw_layout *before, const fw_layo
     return why ? why : "its drawing";
 }
 
-static fw_status draw_change(const redrawn_flow *of, double gap_m, double thickness_m,
+static bool is_dense(const fw_device *device, const fw_diags *said) {
+    bool cut = false;
+    for (size_t i = 0; i < said->count; i++)
+        cut = cut || said->item[i].number == 592;
+    return cut && device->ncell > 0;
+}
+
+static fw_status draw_change(redrawn_flow *of, double gap_m, double thickness_m,
                              fw_process_redrawn *outcome, const char **why) {
     fw_plan other = *of->plan;
     fw_device device = *other.device;
@@ -441,8 +451,9 @@ static fw_status draw_change(const redrawn_flow *of, double gap_m, double thickn
     pf->wiring = NULL, pf->mask_error = NULL;
     pf->release_change = ""; /* not looked for */
     if (thickness_m > 0.0) pf->variant.thickness_m = thickness_m;
-    if (gap_m > 0.0) {
+    if (gap_m > 0.0 || of->dense) {
         FW_TRY(widened_device(other.arena, other.device, gap_m, &device));
+        if (of->dense) device.ncell = 0;
         other.device = &device;
         other.layout = NULL;
         pf->release = NULL, pf->hold = NULL;
@@ -450,10 +461,15 @@ static fw_status draw_change(const redrawn_flow *of, double gap_m, double thickn
         if (status != FW_GEOMETRY && status != FW_INPUT) FW_TRY(status);
         *why = lacks(other.arena, of->plan->layout, other.layout, &other.diags);
         if (*why) return FW_OK;
-        outlines = !(other.layout->narrowest_gap_m > of->plan->layout->narrowest_gap_m);
+        outlines =
+            gap_m > 0.0 && !(other.layout->narrowest_gap_m > of->plan->layout->narrowest_gap_m);
     }
     *why = "its steps";
     fw_status status = judge_drawing(&other, pf, why);
+    if (*why && is_dense(other.device, &other.diags)) {
+        of->dense = true;
+        return draw_change(of, gap_m, thickness_m, outcome, why);
+    }
     if (status == FW_INPUT || status == FW_GEOMETRY) return FW_OK;
     *outcome = !*why ? FW_REDRAWN_MADE : outlines ? FW_REDRAWN_UNDECIDED : FW_REDRAWN_REFUSED;
     return status;
@@ -462,7 +478,7 @@ static fw_status draw_change(const redrawn_flow *of, double gap_m, double thickn
 /* nothing of it is kept, but what the flow points to until it is computed again */
 static fw_status redraw(void *context, double gap_m, double thickness_m,
                         fw_process_redrawn *outcome, char *why, size_t n) {
-    const redrawn_flow *of = context;
+    redrawn_flow *of = context;
     const char *says;
     fw_mark mark = fw_arena_mark(of->plan->arena);
     fw_status status = draw_change(of, gap_m, thickness_m, outcome, &says);
@@ -473,7 +489,7 @@ static fw_status redraw(void *context, double gap_m, double thickness_m,
 
 /* what refuses is looked for with drawings, where masks are asked for at all */
 static fw_status compute_and_propose(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
-    redrawn_flow of = {plan, pf};
+    redrawn_flow of = {plan, pf, false};
     const fw_process_redraw by = {.judge = plan->options.without_masks ? NULL : redraw,
                                   .context = &of};
     return compute_flow(plan, pf, &by, diags);

@@ -62,6 +62,15 @@ fw_status fw_process_measurement_of_flow(const fw_process_flow *flow,
 bool fw_process_coupon_on_test_die(const char *coupon);
 /* are all rows of the coupon of one run, so that what stands under `at` is the same in all? */
 bool fw_process_coupon_of_one_run(const char *coupon);
+/* of a row that bounds from one side ("gone"), the feature that bounds from the other ("stands"); NULL: it does not */
+const char *fw_process_coupon_other_side(const fw_process_measurement *row);
+/* is such a row looked at, without a value? */
+bool fw_process_coupon_is_looked_at(const fw_process_measurement *row);
+
+/* asks after results that lie far from what the flow has (FW-D643) */
+void fw_process_calibration_ask(const fw_process_flow *flow,
+                                const fw_process_calibration *calibration, const char *file,
+                                fw_diags *diags);
 
 /* ---- coupons of several wafers, at several sites of each ---- */
 

@@ -125,7 +125,7 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
                                   .feature = cell[FEATURE],
                                   .place = t->place};
     /* a line of the ladder that is gone or stands was looked at, not measured */
-    bool counted = strcmp(cell[FEATURE], "gone") == 0 || strcmp(cell[FEATURE], "stands") == 0;
+    bool counted = fw_process_coupon_is_looked_at(r);
     if (counted && !*cell[MEASURED])
         *r = (fw_process_measurement){.coupon = fw_process_coupon_called(cell[COUPON]),
                                       .feature = cell[FEATURE],

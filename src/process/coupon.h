@@ -56,9 +56,12 @@ typedef struct fw_process_coupon {
        features (any: none is listed), and under `at` one of these (any: the first is a plain number) */
     const char *features[3];
     const char *features_said; /* how they go together; NULL: any one of them will do */
+    const char *sides[2];      /* features that bound from either side, and say nothing alone */
+    bool sides_measured;       /* ... with a value; else they are looked at */
     fw_quantity_dimension under[2];
-    bool plain; /* read on any wafer: stands on no test die */
-    bool rate;  /* its feature is the id of a rate of the flow */
+    const char *mistaken; /* what is often taken for it; NULL */
+    bool plain;           /* read on any wafer: stands on no test die */
+    bool rate;            /* its feature is the id of a rate of the flow */
 } fw_process_coupon;
 
 /* process_calibrate.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the

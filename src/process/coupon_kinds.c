@@ -186,8 +186,63 @@ const fw_process_coupon fw_process_coupon_ladder = {
     true,
     fit_ladder,
     .features = {"width", "gone", "stands"},
+    .sides = {"gone", "stands"},
     .features_said = "width, or gone and stands in one line each",
     .under = {FW_DIM_TIME, FW_DIM_LENGTH}};
+
+/* ---- plates with holes: how far a release has gone sideways ---- */
+
+/* Plates with holes of width h in a square grid of pitch p, released for a time t: free from a reach r on, from the
+   nearest hole to the middle of four, (p - h)/sqrt 2 where holes are square and p/sqrt 2 - h/2 where they are round;
+   printed ones lie between. The widest that is free and the narrowest that is held have r_1 <= R t <= r_2 between
+   them, uniform: R = (r_1 + r_2)/(2 t), u_r = (r_2 - r_1)/sqrt 12. p, h m, t s, R m/s. Range: one front, in a film
+   that is thin against r. u_h counts with 1/sqrt 2. Source: docs/theory/calibrate.md. Test: test_calibrate.c. */
+static fw_status fit_release(fw_process_coupon_work *w) {
+    double t, u_t, least = -1.0, most = (double)INFINITY, u_hole = 0.0;
+    FW_TRY(
+        fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM_TIME, "the time", &t, &u_t));
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
+        if (!(r->value > 0.0) || !(r->value < r->drawn_m))
+            return fw_process_coupon_wrong(w, r,
+                                           "drawn is the pitch of the holes and measured their "
+                                           "width, which is above zero and less than that");
+        const double square = (r->drawn_m - r->value) / sqrt(2.0),
+                     round = r->drawn_m / sqrt(2.0) - 0.5 * r->value;
+        if (strcmp(r->feature, "free") == 0)
+            least = fmax(least, square);
+        else
+            most = fmin(most, round);
+        u_hole = fmax(u_hole, r->uncertainty / sqrt(2.0));
+    }
+    if (least < 0.0 || !isfinite(most))
+        return fw_process_coupon_wrong(w, w->measurement[0],
+                                       "release-holes needs the widest pitch of which a plate is "
+                                       "free, and the narrowest that is held, both");
+    if (!(least < most))
+        return fw_process_coupon_wrong(w, w->measurement[0],
+                                       "a plate is held that has a smaller pitch than one that is "
+                                       "free; check the rows free and held");
+    const double reach = 0.5 * (least + most), u = hypot((most - least) / sqrt(12.0), u_hole);
+    const fw_process_fit f = {.value = {reach / t}};
+    return fw_process_coupon_give(w, "release.R", reach / t, reach / t * hypot(u / reach, u_t / t),
+                                  &f,
+                                  "between the widest plate that is free and the narrowest held");
+}
+
+const fw_process_coupon fw_process_coupon_release = {
+    "release-holes",
+    FW_DIM_LENGTH,
+    false,
+    true,
+    true,
+    true,
+    fit_release,
+    .features = {"free", "held"},
+    .sides = {"free", "held"},
+    .features_said = "free and held in one line each, drawn their pitch, value the width of a hole",
+    .sides_measured = true,
+    .under = {FW_DIM_TIME}};
 
 /* ---- slots: the lag of narrow openings ---- */
 
@@ -282,7 +337,17 @@ static fw_status fit_lines(fw_process_coupon_work *w) {
 }
 
 const fw_process_coupon fw_process_coupon_cd_lines = {
-    "cd-lines", FW_DIM_LENGTH, false, true, false, false, fit_lines, .features = {"line", "space"}};
+    "cd-lines",
+    FW_DIM_LENGTH,
+    false,
+    true,
+    false,
+    false,
+    fit_lines,
+    .features = {"line", "space"},
+    .mistaken = "the mask does not widen the lines of the coupon, so that an etch below the resist "
+                "takes its planned loss "
+                "from them, too"};
 
 /* ---- resist over spin speed ---- */
 

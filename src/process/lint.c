@@ -267,6 +267,18 @@ static fw_status lint_own_wafer(fw_arena *arena, fw_process_flow *flow,
                         fw_number_text(b, sizeof b, q->value * 1e3, 4)));
 }
 
+/* ", or ...": what keeps every die within a circle, m: the wafer's rim left free as far as that; where not one die fits, only
+   a smaller one */
+static const char *within_across(fw_arena *arena, const fw_process_mask_facts *facts, double is) {
+    char e[32];
+    if (!(facts->wafer_diameter_m > is) || sqrt(2.0 * facts->die_area_m2) > is)
+        return ", or a smaller die";
+    /* up to the next tenth of a millimetre */
+    const double edge_mm = ceil(5e3 * (facts->wafer_diameter_m - is) - 1e-6) / 10.0;
+    return fw_arena_printf(arena, ", or edge-exclusion=\"%s mm\" of the <wafer>",
+                           fw_number_text(e, sizeof e, edge_mm, 6));
+}
+
 /* dies outside the circle that a step works in: their devices are not made */
 static fw_status lint_across(fw_arena *arena, fw_process_flow *flow,
                              const fw_process_mask_facts *facts, const fw_process_step *s,
@@ -275,15 +287,16 @@ static fw_status lint_across(fw_arena *arena, fw_process_flow *flow,
     double needs = across_m(facts), is = c->across->value;
     if (needs <= is) return FW_OK;
     char a[32], b[32];
+    const char *change = within_across(arena, facts, is);
+    FW_NEED(change);
     return fw_process_flow_add_reason(
         arena, flow, 0,
         fw_arena_printf(arena,
                         "step %s works inside a circle of %s mm (%s), but the outermost die "
-                        "reaches across %s mm. Nearest change: a tool that wide, or a wider edge "
-                        "exclusion of the <wafer>",
+                        "reaches across %s mm. Nearest change: a tool that wide%s",
                         s->id, fw_number_text(a, sizeof a, is * 1e3, 4),
                         c->across->id ? c->across->id : "across",
-                        fw_number_text(b, sizeof b, needs * 1e3, 4)));
+                        fw_number_text(b, sizeof b, needs * 1e3, 4), change));
 }
 
 fw_status fw_process_lint_wafer(fw_arena *arena, fw_process_flow *flow,

@@ -115,6 +115,20 @@ static void of_mask_step(meant *m) {
     if (isfinite(D)) add(m, row);
 }
 
+/* a release that stops between two plates of the ladder: one of 40 um is free, one of 50 um held */
+static void of_release(meant *m) {
+    const double hole = 10e-6, pitch[] = {40e-6, 50e-6}, R = known(m->flow, "release.R");
+    const double reach = 0.5 * ((pitch[0] - hole) / sqrt(2.0) + pitch[1] / sqrt(2.0) - 0.5 * hole);
+    for (int i = 0; i < 2; i++) {
+        fw_process_measurement row =
+            lengths("release-holes", i ? "held" : "free", pitch[i], hole, m->width_m);
+        row.at = reach / R;
+        row.at_uncertainty = m->time_s;
+        row.at_dimension = (fw_quantity_dimension)FW_DIM_TIME;
+        if (isfinite(R)) add(m, row);
+    }
+}
+
 /* the planned thickness at the planned charge per area; narrow pads as thick as flexures come out */
 static void of_pads(meant *m) {
     double d = known(m->flow, "cu.d"), made = known(m->flow, "made.cu"),
@@ -160,7 +174,8 @@ static const struct {
 } table[] = {
     {"cd-lines", NULL, NULL, of_lines},    {"etch-rate", NULL, NULL, of_rates},
     {"arde-slots", NULL, NULL, of_slots},  {"undercut-ladder", "cd-lines", of_lines, of_ladder},
-    {"al-step", NULL, NULL, of_mask_step}, {"plating-pads", NULL, NULL, of_pads},
+    {"al-step", NULL, NULL, of_mask_step}, {"release-holes", NULL, NULL, of_release},
+    {"plating-pads", NULL, NULL, of_pads},
 };
 enum { KINDS = sizeof table / sizeof table[0] };
 

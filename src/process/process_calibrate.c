@@ -25,6 +25,18 @@ static const fw_process_coupon *kind_named(const char *name) {
     return NULL;
 }
 
+const char *fw_process_coupon_other_side(const fw_process_measurement *row) {
+    const fw_process_coupon *kind = kind_named(row->coupon);
+    for (int i = 0; kind && i < 2 && kind->sides[0]; i++)
+        if (strcmp(kind->sides[i], row->feature) == 0) return kind->sides[1 - i];
+    return NULL;
+}
+
+bool fw_process_coupon_is_looked_at(const fw_process_measurement *row) {
+    const fw_process_coupon *kind = kind_named(row->coupon);
+    return kind && !kind->sides_measured && fw_process_coupon_other_side(row);
+}
+
 bool fw_process_coupon_of_one_run(const char *coupon) {
     const fw_process_coupon *kind = kind_named(coupon);
     return kind && kind->one_run;
@@ -282,6 +294,28 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     FW_TRY(status);
     *calibration = (fw_process_calibration){.item = out, .count = w->nout};
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
+   test_calibrate.c, far_from_the_plan. */
+void fw_process_calibration_ask(const fw_process_flow *flow,
+                                const fw_process_calibration *calibration, const char *file,
+                                fw_diags *diags) {
+    for (int i = 0; i < calibration->count; i++) {
+        const fw_process_calibrated *c = &calibration->item[i];
+        const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
+        char times[32];
+        if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
+        double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
+        const fw_process_coupon *kind = kind_named(c->coupon);
+        if (!(far > 5.0)) continue;
+        fw_diag_warning(diags, 643, (fw_place){.file = file},
+                        "%s lies %s times its uncertainty from what the flow has: before a plan "
+                        "goes by it, look at units, drawn sizes and rows of %s%s%s",
+                        c->id, fw_number_text(times, sizeof times, far, 2), c->coupon,
+                        kind && kind->mistaken ? "; " : "",
+                        kind && kind->mistaken ? kind->mistaken : "");
+    }
 }
 
 /* ---- how the results of coupons go together: the same measurement stands behind several of them ---- */

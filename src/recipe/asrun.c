@@ -286,6 +286,28 @@ static void ask_missing(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *
     }
 }
 
+/* what was looked at bounds from one side; the other side, or a value, may be of an earlier entry of the step */
+static void ask_other_side(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
+                           const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < e->ncoupon; i++) {
+        const fw_process_measurement *row = &e->coupon[i].row;
+        const char *other = fw_process_coupon_other_side(row);
+        bool there = !other;
+        for (int k = 0; k <= run->nentry && !there; k++) {
+            const fw_recipe_asrun_entry *of = k < run->nentry ? &run->entry[k] : e;
+            for (int c = 0; of->step == e->step && same_wafer(of, e) && c < of->ncoupon; c++)
+                there = there || (strcmp(of->coupon[c].row.coupon, row->coupon) == 0 &&
+                                  strcmp(of->coupon[c].row.feature, row->feature) != 0);
+        }
+        if (!there)
+            fw_diag_warning(
+                r->diags, 283, r->place,
+                "coupon %s, %s without %s bounds on one side, and calibrate needs both: "
+                "add it to this entry or a later one",
+                row->coupon, row->feature, other);
+    }
+}
+
 static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
@@ -303,6 +325,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                         last->at->id);
     ask_units(r, e);
     ask_missing(r, run, e);
+    ask_other_side(r, run, e);
 }
 
 /* A line cannot be taken back, and a wrong year is soon typed: what ends more than a day after the clock's time has not
@@ -342,7 +365,8 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
     const struct {
         const char *name, *value;
     } more[] = {{"wafer", e.wafer},           {"second", e.second}, {"tool", e.tool},
-                {"instrument", e.instrument}, {"bath", e.bath},     {"note", e.note}};
+                {"instrument", e.instrument}, {"bath", e.bath},     {"note", e.note},
+                {"deviation", e.deviation}};
     for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
         if (more[i].value) fw_text_printf(&out, "\t%s=%s", more[i].name, more[i].value);
     if (e.fate != FW_FATE_RUN) fw_text_printf(&out, "\t%s=%s", fw_recipe_fate_word(e.fate), e.why);

@@ -53,6 +53,7 @@ typedef struct fw_recipe_asrun_entry {
     double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */
     /* as written; NULL: not given; wafer NULL: the whole lot */
     const char *start, *end, *by, *second, *tool, *bath, *note, *wafer, *instrument;
+    const char *deviation; /* what was done otherwise than the sheet says, with its number there */
     fw_recipe_measured *measured;
     fw_recipe_set *set;
     fw_recipe_coupon *coupon;
@@ -94,7 +95,7 @@ const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char
    or of what became of a wafer
      C22; wafer=3; start=2026-11-20T10:21; by=AB; scrapped=cracked in the jig
    (held and resumed likewise, end as start),
-   with second, tool, bath, instrument, note and the step's measures as further words. *line ends with a newline; what
+   with second, tool, bath, instrument, note, deviation and the step's measures as further words. *line ends with a newline; what
    is wrong with the entry is FW-D282, a value that makes no sense FW-D278, what a cautious colleague would ask a warning
    FW-D283, an entry of a wafer that is scrapped or held FW-D603, a coupon that the flow does not have
    FW-D605, at `place`. now_s: local time, NaN: not known. */

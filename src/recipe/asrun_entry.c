@@ -54,9 +54,9 @@ static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const cha
     return NULL;
 }
 
-static const char *const own_words[] = {"start",      "end",      "by",   "second",
-                                        "tool",       "bath",     "note", "wafer",
-                                        "instrument", "scrapped", "held", "resumed"};
+static const char *const own_words[] = {"start", "end",     "by",       "second",     "tool",
+                                        "bath",  "note",    "wafer",    "instrument", "scrapped",
+                                        "held",  "resumed", "deviation"};
 enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 
 /* how many times yes or no stands there; 0: something else stands there, too */
@@ -287,7 +287,8 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
                  {"bath", &e->bath, NULL},
                  {"note", &e->note, NULL},
                  {"wafer", &e->wafer, NULL},
-                 {"instrument", &e->instrument, NULL}};
+                 {"instrument", &e->instrument, NULL},
+                 {"deviation", &e->deviation, NULL}};
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         if (strcmp(field[i].name, name) != 0) continue;
         if (*field[i].text)
@@ -325,8 +326,11 @@ static fw_status check_alone(const fw_recipe_asrun_reader *r, const fw_recipe_as
 static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
     const char *lacks = !e->start ? "start" : !e->end ? "end" : !e->by ? "by" : NULL;
     if (lacks)
-        return fw_diag_error(r->diags, 282, r->place, "the entry of step %s lacks %s=", e->step->id,
-                             lacks);
+        return fw_diag_error(r->diags, 282, r->place, "the entry of step %s lacks %s=%s",
+                             e->step->id, lacks,
+                             e->fate == FW_FATE_RUN ? ""
+                             : lacks[0] == 's'      ? ", when it was seen"
+                                                    : ", who says so");
     if (e->end_s < e->start_s)
         return fw_diag_error(r->diags, 282, r->place, "step %s ends before it starts", e->step->id);
     if (e->fate != FW_FATE_RUN) return check_alone(r, e);
@@ -336,6 +340,33 @@ static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_as
                              "other person",
                              e->step->id);
     return FW_OK;
+}
+
+/* is it what the step measures, what its sheet has a line for, or a word of ours? */
+static bool is_name(const fw_recipe_asrun_reader *r, const fw_process_step *step,
+                    const char *name) {
+    fw_recipe_row *row;
+    int n;
+    for (int i = 0; i < OWN_WORDS; i++)
+        if (strcmp(own_words[i], name) == 0) return true;
+    if (strncmp(name, "set ", 4) != 0) return measure_named(step, name);
+    if (fw_recipe_step_rows(r->arena, step, &row, &n) != FW_OK) return false;
+    for (int i = 0; i < n; i++)
+        if (row[i].name && strcmp(row[i].name, name + 4 + strspn(name + 4, " ")) == 0) return true;
+    return false;
+}
+
+/* the = behind the name, which may have one itself: "set time for the narrowest slot (S = 0.1)=100 min" */
+static char *equal_of(const fw_recipe_asrun_reader *r, const fw_process_step *step, char *word) {
+    char *first = strchr(word, '=');
+    if (!first || !step || !r->bound || !strchr(first + 1, '=')) return first;
+    for (char *at = first; at; at = strchr(at + 1, '=')) {
+        *at = '\0';
+        const bool known = is_name(r, step, word);
+        *at = '=';
+        if (known) return at;
+    }
+    return first;
 }
 
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
@@ -353,7 +384,7 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     for (char *at = copy; at;) {
         char *word = fw_recipe_asrun_word(&at, separator);
         if (!word[0]) continue;
-        char *equal = strchr(word, '=');
+        char *equal = equal_of(r, e->step, word);
         if (!e->step) {
             /* the step's id, alone or as step=ID */
             const char *id = equal && strncmp(word, "step=", 5) == 0 ? equal + 1 : word;

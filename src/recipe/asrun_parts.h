@@ -2,6 +2,7 @@
 /* What the files about the as-run log share. Private to recipe/. */
 #ifndef FW_RECIPE_ASRUN_PARTS_H
 #define FW_RECIPE_ASRUN_PARTS_H
+#include "base/json.h"
 #include "base/text.h"
 #include "recipe/asrun.h"
 #include <stdbool.h>
@@ -66,6 +67,10 @@ typedef struct fw_recipe_asrun_total {
 } fw_recipe_asrun_total;
 fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                  fw_arena *arena, fw_recipe_asrun_total *total);
+
+/* what somebody wrote down as a deviation, of every entry: asrun_compare.c */
+void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out);
+void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out);
 
 /* ---- what became of wafers: asrun_values.c ---- */
 

@@ -15,7 +15,8 @@ static const char style[] =
     "th{background:#f0f0f0}td.n{text-align:right;white-space:nowrap}.bad{color:#b00;font-weight:"
     "bold}"
     "figure{margin:1em 0;break-inside:avoid}figcaption{font-size:13px}svg{width:100%;height:auto}"
-    "@media print{body{margin:0;max-width:none;font-size:11px}}@page{margin:14mm}";
+    "@media print{body{margin:0;max-width:none;font-size:11px}figure{margin:0 0 2mm}svg{width:82%}}"
+    "@page{margin:14mm}"; /* three charts to a page */
 
 static void heading(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
     fw_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
@@ -292,6 +293,7 @@ fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recip
     heading(flow, run, out);
     fates(flow, run, out);
     FW_TRY(deviations(flow, run, out));
+    fw_recipe_asrun_declared_html(run, out);
     FW_TRY(charts(flow, run, out));
     entries(flow, run, out);
     fw_text_add(out,
@@ -394,6 +396,7 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_text(out, "instrument", e->instrument);
     put_text(out, "bath", e->bath);
     put_text(out, "note", e->note);
+    put_text(out, "deviation", e->deviation);
     measured_json(e, out);
     settings_json(e, out);
     waited_json(run, e, out);
@@ -564,6 +567,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     put_number(out, "actual_s", t.actual_s);
     FW_TRY(deviations_json(flow, run, out, text->arena));
     read_again_json(run, out);
+    fw_recipe_asrun_declared_json(run, out);
     fates_json(run, out);
     fw_json_end(out);
     return fw_json_finish(out, "\n");

@@ -257,7 +257,7 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
             FW_TRY(read_word(r, word, c, &g));
     }
     FW_TRY(read_amounts(r, &g, c));
-    bool counted = strcmp(c->row.feature, "gone") == 0 || strcmp(c->row.feature, "stands") == 0;
+    bool counted = fw_process_coupon_is_looked_at(&c->row);
     if (counted && !g.value) { /* looked at, not measured */
         c->row.value = 0.0;
         c->row.dimension = (fw_quantity_dimension){.m = 1};

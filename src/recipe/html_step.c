@@ -225,6 +225,7 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
     fw_text_add(out, "</p>\n");
     alignment(flow, s, out);
     ways(flow, s, out);
+    fw_text_add(out, "<div class=\"bench\">");
     if (s->equipment) {
         fw_text_add(out, "<p class=\"small tool\"><b>Equipment:</b> ");
         fw_text_escaped(out, s->equipment->class_);
@@ -537,6 +538,7 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     fw_text_add(out, "\">\n");
     step_head(flow, s, changes, out);
     fw_recipe_html_hazard_line(flow, s, out);
+    fw_text_add(out, "</div>\n");
     drives(s, header->wiring, out);
     holds(s, out);
     exposures(flow, s, out);

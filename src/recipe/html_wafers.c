@@ -355,6 +355,31 @@ static void closed(const fw_process_flow *flow, const fw_recipe_header *header, 
                        wafers > 1 ? "whole wafers" : "a whole wafer", wafers > 1 ? "them" : "it");
 }
 
+/* a line of what goes into the log: of a step with its first measure, and of what else may become of a wafer */
+static void log_lines(const fw_process_flow *flow, const fw_recipe_header *header, fw_text *out) {
+    const fw_process_step *s = &flow->step[0];
+    const fw_process_accept *a = s->naccept ? &s->accept[0] : NULL;
+    const bool asked = a && strcmp(a->unit, "yes/no") == 0;
+    fw_text_printf(out,
+                   "<p class=\"small\">This sheet goes into the log of the lot line by line, "
+                   "flexwright log DEVICE.xml --flow %s --run LOT.log --wafers %d --entries "
+                   "FILE:<br>%s; wafer=1; start=2026-11-20T08:00; end=2026-11-20T08:20; by=AB",
+                   flow->id, fw_recipe_wafers(header), s->id);
+    if (a) {
+        fw_text_add(out, "; ");
+        fw_text_escaped(out, a->measure);
+        fw_text_printf(out, "=%s", asked ? "yes" : "__");
+    }
+    fw_text_printf(
+        out,
+        "; set NAME=ACTUAL; deviation=1, what was done otherwise and why<br>%s; wafer=2; "
+        "start=2026-11-20T08:20; by=AB; scrapped=WHY (or held=WHY, later resumed=WHY)"
+        "<br>Names as they are printed here, times of the laboratory; wafer=1-4 is an "
+        "entry of each of a load; second=CD where two sign. Nothing goes in where a line "
+        "is wrong, and each mistake is named with its line.</p>\n",
+        s->id);
+}
+
 void fw_recipe_html_deviations(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *out) {
     fw_text_add(out,
@@ -365,6 +390,7 @@ void fw_recipe_html_deviations(const fw_process_flow *flow, const fw_recipe_head
     for (int i = 1; i <= 6; i++)
         fw_text_printf(out, "<tr><td>%d</td><td></td><td></td><td></td><td></td></tr>\n", i);
     closed(flow, header, out);
+    log_lines(flow, header, out);
 }
 
 /* ---- of the first page: what is bought, and where on it things lie ---- */

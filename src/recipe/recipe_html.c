@@ -114,7 +114,7 @@ static void overrides_table(const fw_process_flow *flow, fw_text *out) {
 }
 
 static const char style[] =
-    "@page{margin:10mm 12mm 12mm}\n"
+    "@page{margin:8mm 12mm 10mm}\n"
     "*{box-sizing:border-box}\n"
     "body{font:8.5pt/1.17 Helvetica,Arial,'Liberation Sans','DejaVu Sans "
     "Condensed',sans-serif;color:#000;background:#fff;"
@@ -131,7 +131,7 @@ static const char style[] =
     "print-color-adjust:exact}\n"
     "td.n,th.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}\n"
     "tr{break-inside:avoid}\ntr.group{break-after:avoid}\nthead{display:table-header-group}\n"
-    ".blank td{height:6.4mm}\n.blank td.k{width:21%;background:#f7f7f7}\n"
+    ".blank td{height:5.4mm}\n.blank td.k{width:21%;background:#f7f7f7}\n"
     ".hash{font-family:'DejaVu Sans Mono',monospace;font-size:7pt;word-break:break-all}\n"
     ".box{display:inline-block;width:3.3mm;height:3.3mm;border:1pt solid #000;"
     "vertical-align:-0.6mm;margin-right:2mm}\n"
@@ -140,11 +140,13 @@ static const char style[] =
     ".tag.assumed,.tag.unknown{border-style:dashed}\n.tag.unknown{font-weight:bold}\n"
     ".note{border-left:2.2pt solid #000;padding:0.3mm 0 0.3mm 2.5mm;margin:1mm 0}\n"
     ".nc{border:1.4pt solid #000;padding:1.2mm 2mm;margin:1.5mm 0}\n"
-    ".step{border:0.9pt solid #000;padding:0.9mm 2mm;margin:0 0 1.2mm;box-decoration-break:clone;"
+    ".step{border:0.9pt solid #000;padding:0.6mm 2mm;margin:0 0 0.9mm;box-decoration-break:clone;"
     "-webkit-box-decoration-break:clone}\n"
     ".step>header{display:flex;justify-content:space-between;align-items:flex-start;gap:4mm;"
     "border-bottom:0.5pt solid #888;padding-bottom:0.8mm;margin-bottom:0.8mm;break-after:avoid}\n"
-    ".step>header+p,.step>.tool{break-after:avoid}\n"
+    /* a heading keeps its table, and a table what is to be done where it went wrong */
+    ".step>p:not(:last-child),.bench,.step>.window,.step>.pair{break-after:avoid}\n"
+    ".bench,.step>p{break-inside:avoid}.outcome{break-before:avoid}\n"
     ".pair,.window,.hazard,.note,.nc{break-inside:avoid}\n"
     ".meta{font-size:8pt;text-align:right;white-space:nowrap;padding-top:0.8mm}\n"
     ".pair{display:flex;gap:4mm;align-items:flex-start}\n.pair>div:first-child{flex:1}\n"
@@ -160,7 +162,7 @@ static const char style[] =
     "td{height:6.4mm;width:12.5%;font-size:7pt;color:#444}\n.sources "
     "li{break-inside:avoid}\n.sources{columns:3;column-gap:9mm;"
     "padding-left:5mm}\n"
-    ".wafers td{height:5.3mm}\n.wafers .box{vertical-align:middle}\n"
+    ".wafers td{height:4.8mm}\n.wafers .box{vertical-align:middle}\n"
     ".wafers th{font-size:6.8pt;line-height:1.05}\n.wafers td.w{white-space:nowrap}\n.wafers "
     "td.off{background:#ddd;"
     "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"

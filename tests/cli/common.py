@@ -24,6 +24,15 @@ def run(*arguments, **options):
                           timeout=1800, **options)
 
 
+def device_for(flow):
+    """the six-bar, whose silicon is made in that flow where it does not name it"""
+    text = GALLERY.read_text()
+    if flow in text:
+        return text
+    # holes, so that what etches from below is through within a working day
+    return text.replace("al-masked-rie", flow).replace("<die ", '<die release-pitch="60 um" ')
+
+
 def loose_gripper(pull="18 uN", copper_pull="1.8 uN"):
     """the gallery's gripper with nothing between its jaws, and nothing required of it"""
     text = re.sub(r'\s*<(probe|require|contact|parameter name="bead")\b[^>]*/>', "", GRIPPER.read_text())

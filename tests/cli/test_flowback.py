@@ -3,15 +3,17 @@
 """Measured values flow back: a mock lot of six wafers is logged, reported, calibrated and planned again, in one command
 each and with nothing copied between them; what cannot be is refused, with what there is."""
 import hashlib
+import html
 import json
 import math
 import pathlib
 import random
+import re
 import tempfile
 import unittest
 import xml.etree.ElementTree as tree
 
-from common import FLOWS, ROOT, run
+from common import FLOWS, ROOT, device_for, run
 
 SILICON, COPPER = FLOWS
 GALLERY_STAGE = ROOT / "docs/gallery/comb-stage/device.xml"
@@ -220,6 +222,44 @@ class Flowback(unittest.TestCase):
         said = self.expect(self.command("--entry", "S12; start=2026-11-02T12:00; end=2026-11-02T12:08; by=AB; "
                                         "resist width against the mask=-0.2 m", "--wafer", "1"), 3)
         self.assertIn("FW-D278", said.stderr)
+
+    def test_every_line_of_every_sheet_can_be_typed(self):
+        """what has a cell for what was really set or measured, of all five flows, by the name that is printed"""
+        for flow in ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "silicon-on-glass", "soi-double-sided"):
+            device = self.here / f"{flow}.xml"
+            device.write_text(GALLERY_STAGE.read_text() if flow == "silicon-on-glass" else device_for(flow))
+            few = ("--flow", flow, "--corners", "none", "--accuracy", "3e-2", "-q")
+            out = self.here / flow
+            run("recipe", device, *few, "--measurements", "none", "--advice", "none", "-o", out)
+            sheet = (out / "recipes" / f"{flow}.html").read_text()
+            day, lines, set_ = self.here / "day.txt", [], 0
+            for step, body in re.findall(r'<section class="step" id="(\w+)">(.*?)</section>', sheet, re.S):
+                rows = [[html.unescape(re.sub("<[^>]*>", "", c)).strip() for c in re.findall(r"<td[^>]*>(.*?)</td>", row, re.S)]
+                        for row in re.findall(r"<tr[^>]*>(.*?)</tr>", body, re.S)]
+                words = [f"{step}; start=2026-11-02T08:00; end=2026-11-02T08:08; by=AB; second=CD"]
+                for cells in rows:
+                    planned = re.match(r"([-\d.e]+)(?: ± [-\d.e]+)? ?(.*)$", cells[1]) if len(cells) == 5 and cells[4] == "" else None
+                    if planned:
+                        words.append(f"set {cells[0]}={planned[1]} {planned[2]}".strip())
+                set_ += len(words) - 1
+                lines.append("; ".join(words))
+            day.write_text("\n".join(lines))
+            self.assertGreater(set_, 30, flow)
+            self.expect(run("log", device, *few, "--run", self.here / f"{flow}.log", "--wafers", "1", "--entries", day))
+            said = json.loads(self.expect(run("log", device, *few, "--run", self.here / f"{flow}.log", "--json")).stdout)
+            self.assertEqual(sum(len(s["settings"]) for s in said["steps"]), set_)
+
+    def test_one_side_alone(self):
+        """lines that are gone say nothing to calibrate without those that stand; a mistake of a load is told once"""
+        etch = "S18; wafer=1; start=2026-11-02T08:00; end=2026-11-02T10:05; by=AB; second=CD; coupon=undercut-ladder, {}, drawn={} um, at=52 um"
+        said = self.expect(self.command("--entry", etch.format("gone", 4), "--wafers", "2"))
+        self.assertIn("gone without stands", said.stderr)
+        said = self.expect(self.command("--entry", etch.format("stands", 5)))
+        self.assertNotIn("without", said.stderr)
+        said = self.expect(self.command("--entry", "S02; wafer=1-2; start=2026-11-02T07:00; end=2026-11-02T07:30; by=AB; colour=blue"), 3)
+        self.assertEqual(said.stderr.count("measures no 'colour'"), 1)
+        said = self.expect(self.command("--entry", "S02; wafer=1; by=AB; scrapped=cracked"), 3)
+        self.assertIn("lacks start=, when it was seen", said.stderr)
 
     def test_a_day_at_once(self):
         day = self.here / "day.txt"

@@ -14,7 +14,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as tree
 
-from common import ROOT, run
+from common import ROOT, device_for, run
 
 SPACE = "{urn:flexwright:process:1}"
 DEVICE = ROOT / "docs/gallery/reference-six-bar/device.xml"
@@ -30,15 +30,6 @@ def seen(a, b):
     if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)):
         return len(a) != len(b) or any(map(seen, a, b))
     return a != b
-
-
-def device_for(flow):
-    """the six-bar, whose silicon is made in that flow where it does not name it"""
-    text = DEVICE.read_text()
-    if flow in text:
-        return text
-    # holes, so that what etches from below is through within a working day
-    return text.replace("al-masked-rie", flow).replace("<die ", '<die release-pitch="60 um" ')
 
 
 def inputs(flow):

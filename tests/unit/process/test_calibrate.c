@@ -242,6 +242,55 @@ static void survivors(void **state) {
     assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
 }
 
+static fw_diags quiet;
+
+/* a release of 120 min: plates of 40 um are free, those of 50 um held; holes of 10.2 um, between square and round */
+static void plates_that_are_free(void **state) {
+    (void)state;
+    fw_process_calibration c;
+    fw_diags none = fw_diags_new(arena);
+    fw_process_flow *soi = read_pack(arena, "soi-deep-rie", NULL, NULL, &none);
+    assert_non_null(soi);
+    quiet = fw_diags_new(arena);
+    nrow = 0;
+    put("release-holes", "free", 40, LENGTH, 10.2e-6, 0.1e-6, TIME, 7200.0, 60.0);
+    put("release-holes", "free", 30, LENGTH, 10.2e-6, 0.1e-6, TIME, 7200.0, 60.0);
+    put("release-holes", "held", 50, LENGTH, 10.2e-6, 0.1e-6, TIME, 7200.0, 60.0);
+    put("release-holes", "held", 60, LENGTH, 10.2e-6, 0.1e-6, TIME, 7200.0, 60.0);
+    assert_int_equal(fw_process_calibrate(arena, soi, rows, nrow, &quiet, &c), FW_OK);
+    const double low = 29.8e-6 / sqrt(2), high = 50e-6 / sqrt(2) - 5.1e-6, reach = (low + high) / 2;
+    const double u = hypot((high - low) / sqrt(12.0), 0.1e-6 / sqrt(2));
+    assert_relative(found(&c, "release.R")->value, reach / 7200.0, 1e-12);
+    assert_relative(found(&c, "release.R")->uncertainty,
+                    reach / 7200.0 * hypot(u / reach, 60.0 / 7200.0), 1e-12);
+    nrow = 2; /* all free: a bound on one side */
+    assert_int_equal(fw_process_calibrate(arena, soi, rows, nrow, &quiet, &c), FW_INPUT);
+    assert_non_null(strstr(quiet.item[quiet.count - 1].message, "needs the widest pitch"));
+    rows[1].feature = "held"; /* the smaller one */
+    assert_int_equal(fw_process_calibrate(arena, soi, rows, nrow, &quiet, &c), FW_INPUT);
+    rows[1].value = 31e-6; /* no hole is wider than its pitch */
+    assert_int_equal(fw_process_calibrate(arena, soi, rows, nrow, &quiet, &c), FW_INPUT);
+    assert_null(fw_process_coupon_other_side(&(fw_process_measurement){.coupon = "cd-lines", .feature = "line"}));
+    assert_string_equal(fw_process_coupon_other_side(&rows[0]), "held");
+}
+
+/* a line of 10 um that came out at 9.9 um, where the flow takes 1.1 um from each edge: somebody has read another line */
+static void far_from_the_plan(void **state) {
+    (void)state;
+    fw_process_calibration c;
+    for (int far = 0; far < 2; far++) {
+        quiet = fw_diags_new(arena);
+        nrow = 0;
+        put("cd-lines", "line", 10, LENGTH, far ? 9.9e-6 : 7.8e-6, 0.05e-6, LENGTH, (double)NAN, (double)NAN);
+        assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &quiet, &c), FW_OK);
+        fw_process_calibration_ask(silicon, &c, "coupons.csv", &quiet);
+        assert_int_equal(quiet.count, far);
+    }
+    assert_int_equal(quiet.item[0].number, 643);
+    assert_non_null(strstr(quiet.item[0].message, "made.al-edge lies 9.3 times"));
+    assert_non_null(strstr(quiet.item[0].message, "does not widen the lines"));
+}
+
 /* the same coupons in another flow: its own ids, and lines of resist, of which nothing is taken: printed 0.05 um wide on each side,
    2 % of 55 um undercut; S and R from two slots; selectivity 50 um over 0.8 um */
 static void of_another_flow(void **state) {
@@ -514,6 +563,7 @@ int main(void) {
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
+        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan),
         cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

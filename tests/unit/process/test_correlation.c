@@ -298,7 +298,7 @@ static void corners(void **state) {
     assert_near(a.flare_m, b.flare_m, 1e-20);
     assert_near(a.thickness_ratio, b.thickness_ratio, 1e-12);
     double var[2][2] = {{0}}, cross[2] = {0};
-    int n = test_cases(200000, 50000);
+    int n = test_fewest(test_cases(200000, 50000), 5000);
     for (int i = 0; i < n; i++) {
         double z[3] = {normal(), normal(), normal()};
         double old[3] = {0.1e-6 + 0.05e-6 * z[0], 0.95 + 0.01 * (-0.8 * z[0] + 0.6 * z[1]),

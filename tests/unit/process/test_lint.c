@@ -751,6 +751,18 @@ static void the_packs_own_wafer(void **state) {
                          at[i].says ? (strstr(at[i].says, "wafer is 50") ? 2 : 1) : 0);
         if (at[i].says) assert_true(reasons(f, at[i].says) == 1);
     }
+    /* what is proposed keeps the dies inside, or says that no die fits */
+    fw_process_mask_facts laid = plain_facts;
+    laid.die_area_m2 = 9e-6, laid.dies = 400, laid.wafer_diameter_m = 0.1, laid.wafer_reach_m = 0.0468;
+    diags = fw_diags_new(arena);
+    fw_process_flow *out = read_pack(arena, COPPER, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, out, &laid, &diags), FW_OK);
+    assert_int_equal(reasons(out, "a tool that wide, or edge-exclusion=\"4.4 mm\" of the <wafer>"), 1);
+    laid.die_area_m2 = 4.9e-3;
+    diags = fw_diags_new(arena);
+    out = read_pack(arena, COPPER, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, out, &laid, &diags), FW_OK);
+    assert_int_equal(reasons(out, "a tool that wide, or a smaller die"), 1);
     fw_process_flow *f =
         computed_pack(COPPER, "id=\"wafer.D\" value=\"50.8\"", "id=\"wafer.D\" value=\"150\"");
     assert_int_equal(reasons(f, "step C05: current, against what the galvanostat gives is 3.1"), 1);

@@ -612,6 +612,26 @@ static void wafers_that_are_out(void **state) {
     with(log, "C22; wafer=1; start=2026-11-20T12:00; held=why", 282);
 }
 
+/* what was done otherwise is in the log, with whoever says so; also of a run that was repeated, and of a wafer that is out */
+static void deviations_are_written_down(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    fw_text text = fw_text_new(arena), json = fw_text_new(arena), page = fw_text_new(arena);
+    lot_wafers = "1,2";
+    const char *log = with(begun(), entry("wafer=1; deviation=1, plated at 30 °C = too warm"), 0);
+    log = run_of(log, "C22", "1", "11:20", "11:42", 0);
+    log = with(log, "C22; wafer=2; start=2026-11-20T10:45; by=CD; scrapped=cracked; deviation=2, without its jig", 0);
+    with(log, entry("wafer=1; deviation=1; deviation=2"), 282);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_string_equal(run.entry[0].deviation, "1, plated at 30 °C = too warm");
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+    assert_true(holds(&text, "deviations written down:\nC22, wafer 1, by AB: 1, plated at 30 °C = too warm\nC22, wafer 2, by CD: 2, without its jig\n"));
+    assert_true(holds(&json, "\"written_down\":[{\"step\":\"C22\",\"wafer\":\"1\",\"at\":\"2026-11-20T10:30\",\"by\":\"AB\",\"deviation\":\"1, plated at 30 °C = too warm\",\"line\":2}"));
+    assert_true(holds(&page, "<td>2, without its jig</td><td>CD</td>"));
+}
+
 /* calibrate leaves out what was read on a wafer after it was scrapped, and keeps what was read before */
 static void readings_of_what_is_out(void **state) {
     (void)state;
@@ -818,6 +838,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),
         cmocka_unit_test_setup_teardown(the_clock, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_that_are_out, setup, teardown),
+        cmocka_unit_test_setup_teardown(deviations_are_written_down, setup, teardown),
         cmocka_unit_test_setup_teardown(readings_of_what_is_out, setup, teardown),
         cmocka_unit_test_setup_teardown(loads_share_their_time, setup, teardown),
         cmocka_unit_test_setup_teardown(coupons_of_other_flows, setup, teardown),

@@ -166,7 +166,7 @@ static void random_hours(small *s) {
 static void brute_force(void **state) {
     (void)state;
     int optimal = 0, all = 0, held = 0, hours = 0;
-    int rounds = test_fewest(test_cases(120, 40), 24);
+    int rounds = test_fewest(test_cases(120, 40), 12);
     for (int round = 0; round < rounds; round++) {
         small s = {.best = 3 * MOST};
         fw_schedule got;
@@ -223,7 +223,7 @@ static void random_larger(larger *l) {
 static void random_shops(void **state) {
     (void)state;
     int found = 0;
-    int rounds = test_cases(120, 40);
+    int rounds = test_fewest(test_cases(120, 40), 12);
     for (int round = 0; round < rounds; round++) {
         larger l;
         random_larger(&l);
@@ -281,7 +281,7 @@ static void repeatable(void **state) {
 /* more people, or the whole day, never make a plan later */
 static void never_worse_than_its_relaxations(void **state) {
     (void)state;
-    int most = test_cases(5, 3);
+    int most = test_fewest(test_cases(5, 3), 2);
     for (int silicon = 0; silicon < 2; silicon++)
         for (int wafers = 2; wafers <= most; wafers++) {
             double before = (double)INFINITY;
@@ -327,7 +327,7 @@ static fw_schedule solved(const fw_schedule_shop *shop, fw_schedule_calendar cal
 static void longer_hours_are_never_later(void **state) {
     (void)state;
     static const fw_schedule_calendar day = {.open_s = 8 * 3600.0, .close_s = 18 * 3600.0};
-    int compared = 0, rounds = test_cases(150, 30);
+    int compared = 0, rounds = test_fewest(test_cases(150, 30), 10);
     seed = 14184652527849212424u; /* the first shop is one whose plan round the clock was later than the one by day */
     for (int round = 0; round < rounds; round++) {
         larger l;
