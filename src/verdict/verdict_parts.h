@@ -229,7 +229,7 @@ unsigned fw_verdict_ends_next(const fw_verdict_search *s);
 fw_status fw_verdict_ends_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
-/* decision.c, corner_search.c and requirement_corners.c, shared */
+/* fabrication.c, corner_search.c and requirement_corners.c, shared */
 /* has any clearance (by_nearest: any by its nearest pair) used so much that a corner may take the rest? */
 double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);
 double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
