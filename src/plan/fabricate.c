@@ -461,7 +461,7 @@ fw_status fw_plan_mask_examine(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     const fw_layout *layout;
     fw_layout_no_room no_room;
     warn_of_loose_cells(plan, pf);
-    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &no_room));
+    FW_TRY(fw_plan_marked(plan, pf, &layout, &no_room));
     FW_TRY(fw_plan_say_no_room(plan, pf, &no_room));
     const fw_mask *mask = NULL;
     const size_t before = plan->diags.count;

@@ -39,9 +39,11 @@ typedef struct fw_plan_options {
     const char *mask_flatten;   /* fw_mask_flattening_named; NULL: "inside" */
     const fw_device_set *set;   /* (nset) */
     int nset;
-    bool force;         /* masks and recipes of a rejected design too */
-    bool drawn_alone;   /* masks of the device alone: no test die, no wafer, no schedule */
-    bool without_masks; /* the verdict does not ask whether masks can be drawn: for studies */
+    bool force;       /* masks and recipes of a rejected design too */
+    bool drawn_alone; /* masks of the device alone: no test die, no wafer, no schedule */
+    bool
+        without_masks; /* the verdict does not ask whether masks can be drawn: for studies of hinges alone */
+    bool without_changes; /* nobody reads what would be made in place of what a flow refuses */
     int dies; /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
     bool at_equilibrium; /* modes: not about rest */
     bool path;           /* statics: follow the load path */
@@ -93,7 +95,10 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     /* what breaks them; NULL: there are none, or nothing is judged */
     const fw_statics_tethers *tethers;
     const fw_wiring *wiring; /* after judging; NULL: nothing is drawn */
-    fw_text release_svg;     /* its picture as a fragment, composed once; empty: none */
+    /* the plan's drawing with the marks of this flow, and those without room (fw_plan_marked); of which drawing */
+    const fw_layout *marked, *marked_of;
+    const struct fw_layout_no_room *no_room;
+    fw_text release_svg; /* its picture as a fragment, composed once; empty: none */
 } fw_plan_flow;
 
 typedef struct fw_plan_input_file { /* for the manifest */

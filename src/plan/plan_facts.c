@@ -110,14 +110,29 @@ static fw_status name_gaps(fw_arena *arena, const fw_device *device, const fw_la
     return FW_OK;
 }
 
+/* What flows and their masks are computed of has marks of each flow, which several stages ask for. Drawings of trials
+   are others, and are not kept. */
+fw_status fw_plan_marked(fw_plan *plan, fw_plan_flow *pf, const fw_layout **marked,
+                         fw_layout_no_room *no_room) {
+    if (pf->marked_of != plan->layout) {
+        fw_layout_no_room *lacks;
+        FW_NEED(lacks = fw_arena_one(plan->arena, fw_layout_no_room));
+        FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &pf->marked, lacks));
+        pf->no_room = lacks, pf->marked_of = plan->layout;
+    }
+    *marked = pf->marked;
+    if (no_room) *no_room = *pf->no_room;
+    return FW_OK;
+}
+
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_mechanism_variant *variant, const fw_mask_table *table,
-                             bool insulated, fw_process_mask_facts *facts) {
+                             const fw_layout *marked, const fw_mechanism_variant *variant,
+                             const fw_mask_table *table, bool insulated,
+                             fw_process_mask_facts *facts) {
     *facts = (fw_process_mask_facts){.dies = 1, .device_thickness_m = variant->thickness_m};
     if (!layout || !layout->drawn) return FW_OK;
-    const fw_layout *marked; /* marks of the flow are taken out of the frame */
-    fw_layout_no_room no_room;
-    FW_TRY(fw_mask_frame_marks(arena, table, layout, &marked, &no_room));
+    fw_layout_no_room no_room; /* marks of the flow are taken out of the frame */
+    if (!marked) FW_TRY(fw_mask_frame_marks(arena, table, layout, &marked, &no_room));
     add_areas(marked, insulated, facts);
     narrowest(device, layout, facts);
     for (int i = 0; table && i < table->nlayer; i++)
@@ -371,7 +386,7 @@ static fw_status judge_marks(fw_plan *plan, fw_plan_flow *pf) {
     const fw_layout *layout;
     fw_layout_no_room no_room;
     if (!plan->device->wafer.asked || fw_mask_plates(pf->table) < 2) return FW_OK;
-    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &no_room));
+    FW_TRY(fw_plan_marked(plan, pf, &layout, &no_room));
     if (no_room.count == 0 || no_room.count < no_room.of || sites_have_room(plan, &no_room))
         return FW_OK;
     return fw_process_flow_add_reason(
@@ -395,7 +410,7 @@ fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
         fw_wiring_asked asked = {.flow = pf->variant.flow, .wall_m = walls_of(pf->flow)};
         if (v) asked.moved = v->stator, asked.nmoved = v->nstator;
         FW_TRY(carrier_of(plan, pf, &asked.carrier));
-        FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &no_room));
+        FW_TRY(fw_plan_marked(plan, pf, &layout, &no_room));
         FW_TRY(fw_wiring_find(plan->arena, plan->device, layout, &asked, &pf->wiring));
     }
     const fw_wiring *w = pf->wiring;

@@ -50,11 +50,14 @@ static const double FINEST_M = 27e-6, COARSEST_M = 400e-6, STEP_M = 1e-6, WIDEST
                     PAD_M = 150e-6, NARROWEST_BAR_M = 30e-6;
 
 /* distances of a drawing from its openings, with the flow's own marks */
-static fw_status solve_release(fw_plan *plan, const fw_plan_flow *pf, const fw_layout *layout,
+static fw_status solve_release(fw_plan *plan, fw_plan_flow *pf, const fw_layout *layout,
                                const fw_release **release) {
     const fw_layout *marked;
     fw_layout_no_room no_room;
-    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, layout, &marked, &no_room));
+    if (layout == plan->layout)
+        FW_TRY(fw_plan_marked(plan, pf, &marked, &no_room));
+    else
+        FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, layout, &marked, &no_room));
     return fw_release_solve(plan->arena, marked, fw_plan_insulated(pf),
                             fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
                             release);
@@ -99,7 +102,7 @@ static fw_status make_change(fw_plan *plan, fw_plan_flow *pf, const change *c, a
     FW_TRY(status);
     if (!layout || !layout->drawn || layout->nmissing > plan->layout->nmissing) return FW_OK;
     FW_TRY(solve_release(plan, pf, layout, &release));
-    FW_TRY(fw_plan_mask_facts(plan->arena, &device, layout, &pf->variant, pf->table,
+    FW_TRY(fw_plan_mask_facts(plan->arena, &device, layout, NULL, &pf->variant, pf->table,
                               fw_plan_insulated(pf), &facts));
     facts.dies = plan->dies;
     facts.release = release;
@@ -329,9 +332,11 @@ static fw_status release_of(fw_plan *plan, fw_plan_flow *pf) {
 }
 
 /* what the times and the judgement of a flow are computed with: of the wafer where it is laid out */
-static fw_status facts_of(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts) {
-    FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
-                              fw_plan_insulated(pf), facts));
+static fw_status facts_of(fw_plan *plan, fw_plan_flow *pf, fw_process_mask_facts *facts) {
+    const fw_layout *marked = NULL;
+    if (plan->layout && plan->layout->drawn) FW_TRY(fw_plan_marked(plan, pf, &marked, NULL));
+    FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, marked, &pf->variant,
+                              pf->table, fw_plan_insulated(pf), facts));
     facts->dies = plan->dies;
     facts->release = pf->release;
     facts->hold = pf->hold;
@@ -352,7 +357,7 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, const fw_process_
     facts.pads = contents.pads;
     facts.redraw = redraw;
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
-    if (pf->flow->no_window && !pf->release_change) {
+    if (pf->flow->no_window && !pf->release_change && !redraw->judging) {
         fw_diags said = fw_diags_new(plan->arena);
         FW_TRY(find_change(plan, pf, &pf->release_change));
         facts.release_change = pf->release_change;
@@ -491,7 +496,8 @@ static fw_status redraw(void *context, double gap_m, double thickness_m,
 static fw_status compute_and_propose(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
     redrawn_flow of = {plan, pf, false};
     const fw_process_redraw by = {.judge = plan->options.without_masks ? NULL : redraw,
-                                  .context = &of};
+                                  .context = &of,
+                                  .judging = plan->options.without_changes};
     return compute_flow(plan, pf, &by, diags);
 }
 
@@ -546,7 +552,7 @@ static fw_status find(fw_plan *plan, fw_plan_flow *pf, const fw_verdict_variant_
     fw_process_mask_facts of_verdict, of_times;
     fw_process_flow *flow;
     if (judged_drawn)
-        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, layout, &pf->variant, pf->table,
+        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, layout, NULL, &pf->variant, pf->table,
                                   fw_plan_insulated(pf), &of_verdict));
     FW_TRY(facts_of(plan, pf, &of_times));
     FW_TRY(fw_plan_flow_again(plan, pf, &flow));

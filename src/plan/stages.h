@@ -40,10 +40,15 @@ fw_status fw_plan_find_drying(fw_plan *plan, const fw_plan_flow *pf, fw_mechanis
 /* is what moves over its hollow wherever it goes, and is the hollow as deep as the scenes' air? Reasons of the flow,
    FW-D422; once the verdict is there (plates.c) */
 fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags *diags);
-/* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
+/* the plan's drawing, which is there, with the marks of a flow on its frame: found once. no_room may be NULL */
+fw_status fw_plan_marked(fw_plan *plan, fw_plan_flow *pf, const fw_layout **marked,
+                         fw_layout_no_room *no_room);
+/* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros. marked NULL: its
+   marks are found here, else it has them */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_mechanism_variant *variant, const fw_mask_table *table,
-                             bool insulated, fw_process_mask_facts *facts);
+                             const fw_layout *marked, const fw_mechanism_variant *variant,
+                             const fw_mask_table *table, bool insulated,
+                             fw_process_mask_facts *facts);
 /* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
 fw_status fw_plan_find_drives(fw_arena *arena, const fw_device *d, const char *flow,
                               fw_process_drive_facts **drive, int *n);

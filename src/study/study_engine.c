@@ -203,8 +203,10 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     options->verdict.bounded = may_be_bounded(e);
     options->verdict.grid_ways = e->soft > 0;
-    /* what sizing proposes has a mask */
-    options->without_masks = options->verdict.bounded && study->asked->kind != FW_STUDY_IS_size;
+    /* a decision is that of check, which draws the masks: only who asks for hinges alone does without */
+    options->without_masks = options->verdict.bounded && options->verdict.hinges_only &&
+                             study->asked->kind != FW_STUDY_IS_size;
+    options->without_changes = asks_for_no_clearance(study);
     fw_status status = (fw_status)fw_study_answers_take(study, e->design, sample);
     e->soft =
         fw_plan_design_plan(e->design)->verdict.soft_bodies ? soft_for : e->soft - (e->soft > 0);

@@ -6,8 +6,12 @@ import re
 import resource
 import subprocess
 import sys
+import unittest
 
 ALL = bool(os.environ.get("FW_TEST_ALL"))  # ./test --all: the whole of what repeats, not its first part
+# A test that takes seconds and passes hardly a branch of the program that others do not (branches counted test by test with
+# FW_EDGES_TO, tests/edges): what it says of figures another test says too, or says of fewer devices
+only_all = unittest.skipUnless(ALL, "with ./test --all")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GALLERY = ROOT / "docs/gallery/reference-six-bar/device.xml"
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()

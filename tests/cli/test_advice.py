@@ -12,7 +12,7 @@ import re
 import tempfile
 import unittest
 
-from common import ALL, ROOT, loose_gripper, run
+from common import ALL, ROOT, loose_gripper, only_all, run
 
 NODDER = ROOT / "docs/gallery/copper-nodder/device.xml"
 LEAF = ROOT / "docs/gallery/leaf-four-bar/device.xml"
@@ -104,6 +104,7 @@ class Parameters(unittest.TestCase):
                 self.assertAlmostEqual(3e-3 / at, float(nearest[2]), delta=0.1 * float(nearest[2]))
             self.assertGreater(told, 0)
 
+    @only_all
     def test_of_a_design_that_tires(self):
         said = self.follow(NODDER)
         self.assertEqual(said["leaf"]["found"], "none")
@@ -208,6 +209,7 @@ class Proposals(unittest.TestCase):
             self.assertNotEqual(self.judged(device, *less, more=more), 0, (p, less))
         return document
 
+    @only_all
     def test_lengths_are_the_least(self):
         """strain under a given rotation: a six-bar whose hinges are too short by random parts"""
         rng = random.Random(1)
@@ -236,6 +238,7 @@ class Proposals(unittest.TestCase):
         self.assertEqual(proposal["kind"], "several")
         self.assertGreaterEqual(len(proposal["set"]), 2)
 
+    @only_all
     def test_of_opposite_corners(self):
         """a frequency fails of thin walls and a stroke of thick ones: a search that looks at one corner of the flow at a time goes
         from the one to the other, and finds neither; 14 um and 200 uN is a device that holds both"""
@@ -247,6 +250,7 @@ class Proposals(unittest.TestCase):
         self.assertEqual((proposal["kind"], len(proposal["set"])), ("several", 2))
         self.assertLess(proposal["change"], 0.12)
 
+    @only_all
     def test_parameters_hold_what_hangs_on_them(self):
         """a width or a pull goes no farther than min and max of its parameter, by whichever name it is set; a length that hangs on
         none is free"""
@@ -263,6 +267,7 @@ class Proposals(unittest.TestCase):
                 self.assertLessEqual(value, 120e-6 + 1e-12, s)
         self.assertIn("flexure[leaf]/@length", [s["path"] for s in sets])
 
+    @only_all
     def test_units_are_those_of_the_file(self):
         """a required box in degrees and in parameters, loads in units of any size, and lengths in millimetres come back in them"""
         text = SIX.read_text()
@@ -284,6 +289,7 @@ class Proposals(unittest.TestCase):
         for p in document["advice"]:
             self.assertEqual(self.judged(device, *(f"{s['path']}={s['value']}" for s in p["set"]), more=("--corners", "none")), 0, p)
 
+    @only_all
     def test_of_what_meets(self):
         """jaws that close too far (trials look at clearances at more corners than a check does)"""
         device = pathlib.Path(self.directory.name) / "gripper.xml"

@@ -145,7 +145,7 @@ class Frames(unittest.TestCase):
         draw = random.Random(19)
         with_bodies = [p.parent.name for p in (ROOT / "docs/gallery").glob("*/device.xml") if "<body " in p.read_text(encoding="utf-8")]
         self.assertEqual(sorted(self.GALLERY), sorted(with_bodies))  # six-bars have no frames
-        for name in self.GALLERY:
+        for name in self.GALLERY if ALL else sorted(self.GALLERY)[::2]:
             text = (ROOT / "docs/gallery" / name / "device.xml").read_text(encoding="utf-8")
             with self.subTest(name):
                 self.unmoved(text, self.shifts(draw, text))

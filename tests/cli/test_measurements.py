@@ -9,7 +9,7 @@ import re
 import tempfile
 import unittest
 
-from common import ALL, GALLERY, ROOT, device_for, run
+from common import ALL, GALLERY, ROOT, device_for, only_all, run
 
 COMB = ROOT / "docs/gallery/comb-stage/device.xml"
 LAB = """<?xml version="1.0"?>
@@ -71,6 +71,7 @@ class Measurements(unittest.TestCase):
         self.assertAlmostEqual(item["narrowing"], before - after, delta=1e-12)
         self.assertEqual(then["as_fabricated"]["verdict"], item["verdict"], item["id"])
 
+    @only_all
     def test_a_laboratory_pack_gives_what_was_said(self):
         tried = exact = 0
         for flow, of in self.base.items():

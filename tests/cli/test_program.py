@@ -12,7 +12,7 @@ import tempfile
 import unittest
 import xml.dom.minidom
 
-from common import ALL, FLOWS, GALLERY, ROOT, loose_gripper, run
+from common import ALL, FLOWS, GALLERY, ROOT, loose_gripper, only_all, run
 
 GALLERY_TEXT = GALLERY.read_text()
 QUIET = ("--advice", "none")  # where what to do about a rejection is not the question
@@ -162,6 +162,7 @@ class Plan(InTemporary):
             checked = run("check", heavy, "--advice", "none", "--effects", effects)
             self.assertIn("FW-D254", self.expect(checked, 1).stderr)
 
+    @only_all
     def test_far_beyond(self):
         """loads under which flexures tumble are rejected in seconds, and told by how much to lower"""
         for force, ended in (("40 N", False), ("0.04 N", True))[:2 if ALL else 1]:
@@ -189,6 +190,7 @@ class Plan(InTemporary):
         self.assertIn("FW-D205", said.stderr)
         self.assertRegex(self.expect(said, 1).stdout, r"rejected because: tip \(maximum\) is .* and at most 3 um is required")
 
+    @only_all
     def test_less_load_of_a_scene_that_was_ended(self):
         """a requirement of at least, of which nothing is known there, does not keep loads from being lowered"""
         text = (ROOT / "tests/data/advice/tendon-six-bar.xml").read_text()
@@ -198,6 +200,7 @@ class Plan(InTemporary):
         self.assertTrue(sets[0].startswith("scene[lift]/tendon[t]/@pull="), sets)
         self.expect(run("check", device, "--corners", "none", *[a for s in ["pull=1 N"] + sets for a in ("--set", s)]), 0)
 
+    @only_all
     def test_advice_of_many_kinds_is_followed(self):
         def lengths(factor, names="ABCDEF"):
             return re.sub(r'(id="([A-F])"[^>]*length=)"([0-9.]+) um"', lambda m: m.group(0) if m.group(2)
@@ -437,6 +440,7 @@ class Plan(InTemporary):
     def test_what_cannot_be_drawn_is_not_accepted(self):
         self.assertNotEqual(run("plan", GALLERY, "--set", "die/@width=1 mm", "-o", self.here / "o", *QUIET).returncode, 0)
 
+    @only_all
     def test_many_scenes(self):
         scene = re.search(r'  <scene name="step-load".*?</scene>\n', GALLERY_TEXT, re.S).group(0)
         many = "".join(scene.replace("step-load", f"s{i}") for i in range(60))

@@ -386,7 +386,7 @@ class Study(unittest.TestCase):
             slack = 5e-3 * (1 - truth)  # the root's, and that the study judges at the usual accuracy
             self.assertTrue(least - slack <= truth <= most + slack, (sigmas, truth, found))
             self.assertTrue(found["yield_range"][0] <= least and most <= found["yield_range"][1])
-            if sigmas == 1.3:  # as likely in the other: nothing but the number of samples differs
+            if ALL and sigmas == 1.3:  # as likely in the other: nothing but the number of samples differs
                 self.assertEqual(self.run_study(file, f"z{sigmas}", "--jobs", 1), result)
 
     def test_loads_that_scatter_together_and_by_a_table(self):

@@ -33,7 +33,7 @@ for (const device of STEPS ? [...FIRST, ...MORE] : FIRST)
                     error.message = `step ${i + 1} of seed ${SEED}: ${error.message}`;
                     throw error;
                 }
-                mend = [null, "none", "failed"].includes(told[1]);
+                mend = [null, "none", "ended", "failed"].includes(told[1]);
                 for (const x of told) done[x] = (done[x] ?? 0) + 1;
             }
             t.diagnostic(`${JSON.stringify(done)}, ${await page.evaluate(() => globalThis.driven.frames)} frames looked at`);

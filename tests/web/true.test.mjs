@@ -3,9 +3,11 @@
 // elements that may be added; narrow screens and forced colours; the address a second time.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, computed, finish, open, program, serve, SMALL, setText, source, theBrowser, verdict, view } from "./helper.mjs";
+import { answered, close, computed, finish, open, program, serve, SMALL, setText, source, text, theBrowser, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -272,6 +274,50 @@ test("masks: the flow can be chosen before any mask is made; workspace: at rest 
     await page.fill("#pose-x_m", "50");
     await page.press("#pose-x_m", "Enter");
     await page.waitForSelector('.pose-status:has-text("governs with")');
+    await close(page);
+    await server.stop();
+});
+
+test("a slider below what can be made says why at its place, and from which value on it works", async () => {
+    const server = await serve("leaf-four-bar");
+    const page = await open(server, SMALL);
+    const box = page.locator('.slider[data-name="width"] .slider-wrong');
+    const slide = (value) => answered(page, () => page.fill('#panel-form input[type="range"][data-parameter="width"]', value));
+    await answered(page, () => setText(page, ['min="6 um"', 'min="1 um"']));
+    const directory = mkdtempSync(join(tmpdir(), "fw-slider-"));
+    const file = join(directory, "device.xml");
+    writeFileSync(file, await text(page));
+    const decision = (value) => spawnSync(program, ["check", file, "--corners", "none", "--advice", "none", "--hinge-model", "revolute", "-q", "--set", `width=${value} um`], { cwd: source }).status;
+    assert.ok(await box.isHidden());
+    await slide("2");
+    await box.getByText(/At 2 um: link rocker and frame, upper half meet/).waitFor();
+    await box.getByText(/accepted from/).first().waitFor();
+    const said = /accepted from ([\d.]+) um on/.exec(await box.getByText(/accepted from/).first().textContent());
+    const from = Number(said[1]);
+    assert.equal(decision(from), 0);
+    assert.notEqual(decision(from - 0.1), 0);
+    await slide("10");
+    await box.waitFor({ state: "hidden" });
+    // what cannot be drawn at all says so at the same place, and the button goes to the value
+    await answered(page, () => setText(page, ['min="1 um"', 'min="-4 um"']));
+    await slide("-2");
+    await box.getByText(/At -2 um: /).waitFor();
+    await box.getByRole("button", { name: `Use ${from} um` }).or(box.getByRole("button", { name: /^Use/ })).click();
+    await box.waitFor({ state: "hidden" });
+    assert.ok(Math.abs(Number.parseFloat(await page.inputValue('.slider[data-name="width"] input.value')) - from) < 0.1);
+    rmSync(directory, { recursive: true });
+    await close(page);
+    await server.stop();
+});
+
+test("a device that cannot be drawn reaches nothing: no value of a former one is left under what it is for", async () => {
+    const server = await serve("free-form-gripper");
+    const page = await open(server, SMALL);
+    await page.waitForSelector(".purpose dd.accept");
+    await answered(page, () => setText(page, ['value="0.6 mm" min="0.55 mm"', 'value="0.3 mm" min="0.2 mm"']));
+    await page.waitForSelector('#banner[data-verdict="failed"]');
+    assert.equal(await page.locator(".purpose").count(), 0);
+    assert.ok(await page.locator("#panel-motion .overlap").count() > 0);
     await close(page);
     await server.stop();
 });

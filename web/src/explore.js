@@ -6,7 +6,7 @@ import { post } from "./api.js";
 import { begin, inputKey, mayChange, Shown } from "./belong.js";
 import { edit, isPresent, lab } from "./design.js";
 import { announce, button, h, select, setOptions } from "./dom.js";
-import { CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, POINTS, rounds, stretches, textOf, unitSizes } from "./exploring.js";
+import { CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, unitSizes } from "./exploring.js";
 import { ExplorePlot, legendOf, WORDS } from "./exploreplot.js";
 import { number, percent } from "./format.js";
 import { csvOf, saveAs, svgOf } from "./plotfile.js";
@@ -153,9 +153,7 @@ export class Explore {
     }
 
     #options() {
-        const { accuracy, effects, hinge_model } = state.options;
-        const given = Object.fromEntries(Object.entries({ effects, hinge_model }).filter(([, v]) => v !== undefined));
-        return { ...given, ...(accuracy === undefined ? {} : { accuracy: Number(accuracy) }), detail: this.how.value === "quick" ? "quick" : "full", corners: this.how.value === "made" ? "auto" : "none" };
+        return optionsOf(this.how.value);
     }
 
     get key() {

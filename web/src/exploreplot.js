@@ -7,12 +7,13 @@ import { number } from "./format.js";
 import { stretches } from "./exploring.js";
 import { ticks } from "./plotfile.js";
 
-const [LEFT, RIGHT, TOP, STRIP, BELOW] = [58, 14, 12, 12, 40];
+const [LEFT, RIGHT, TOP, STRIP, BELOW] = [58, 14, 12, 12, 44];
 export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "refused" };
 const SIGNS = { // of about 6 pixels
     accept: "M-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0", reject: "M-3-3L3 3M3-3L-3 3", inconclusive: "M-2.6-2.6h5.2v5.2h-5.2z", run: "M-3 0h6", failed: "M-3-3L3 3M3-3L-3 3M0-4V4",
 };
 const MOST_SIGNS = 60;
+const MARK = 6; // pixels that a sign at the end of the range needs beside it
 const PAD = 0.06;
 const FLAT = 1e-6; // relative: less is no change
 
@@ -70,7 +71,7 @@ export class ExplorePlot {
         const pad = (flat ? Math.abs(high) || 1 : high - low) * PAD;
         if (unit === "%" && low >= 0) low = Math.min(0, low);
         const { out, px, py, right, bottom } = this.#axes(w, height, x, { from: unit === "%" && !flat ? low : low - pad, to: high + pad }, this.what.ylabel);
-        const area = s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT, y: TOP, width: right - LEFT, height: bottom - TOP }));
+        const area = s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT - MARK, y: TOP, width: right - LEFT + 2 * MARK, height: bottom - TOP }));
         const inside = s("g", { "clip-path": "url(#explore-area)" });
         const banded = good.filter((p) => Number.isFinite(p.low) && Number.isFinite(p.high));
         for (const run of runs(points, (p) => banded.includes(p))) inside.append(s("path", { class: "explore-band", d: `M${run.map((p) => `${px(p.x)} ${py(p.high)}`).join("L")}L${[...run].reverse().map((p) => `${px(p.x)} ${py(p.low)}`).join("L")}Z` }));
@@ -82,7 +83,7 @@ export class ExplorePlot {
             if (i % step && !edge) return;
             inside.append(s("path", { class: `explore-sign ${p.state}`, d: SIGNS[p.state], transform: `translate(${px(p.x)} ${!Number.isFinite(p.value) ? bottom - 8 : p.value > high ? TOP + 5 : py(p.value)})` }));
         });
-        if (Number.isFinite(x.now) && x.now >= x.from && x.now <= x.to) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}` }), s("text", { class: "explore-word", x: px(x.now) + (px(x.now) > right - 50 ? -5 : 5), y: bottom - 6, "text-anchor": px(x.now) > right - 50 ? "end" : "start" }, "now"));
+        if (Number.isFinite(x.now) && x.now >= x.from && x.now <= x.to) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}` }), s("text", { class: "explore-word", x: px(x.now) + (px(x.now) > right - 50 ? -5 : 5), y: TOP + 10, "text-anchor": px(x.now) > right - 50 ? "end" : "start" }, "now"));
         if (at !== null && at !== undefined) inside.append(s("path", { class: "explore-at", d: `M${px(at)} ${TOP}V${bottom}` }));
         out.push(area, inside);
         limits.forEach((v) => py(v) >= TOP && out.push(s("text", { class: "explore-word limit", x: right - 4, y: py(v) - 5, "text-anchor": "end" }, "limit")));

@@ -3,6 +3,7 @@
 // verdict that can be looked at, and the order in which points are asked for, coarse ones first.
 import { prefixOf, splitQuantity } from "./format.js";
 import { evaluate, kindOf } from "./quantities.js";
+import { state } from "./store.js";
 
 const USUAL = 0.3; // of its value either way, where a range is not stated
 const LEFT_OUT = new Set(["parameter", "study", "vary", "uncertain", "trend", "respond", "sweep", "order"]);
@@ -16,6 +17,13 @@ export const unitSizes = (table) => Object.fromEntries(table.units.map((u, i) =>
 
 /** A number in a unit as a text that the program reads back to the same nine digits. */
 export const textOf = (x, unit) => `${Number(x.toPrecision(9))}${unit ? ` ${unit}` : ""}`;
+
+/** Options of points, judged "quick", "full" or as "made". */
+export function optionsOf(how) {
+    const { accuracy, effects, hinge_model } = state.options;
+    const given = Object.fromEntries(Object.entries({ effects, hinge_model }).filter(([, v]) => v !== undefined));
+    return { ...given, ...(accuracy === undefined ? {} : { accuracy: Number(accuracy) }), detail: how === "quick" ? "quick" : "full", corners: how === "made" ? "auto" : "none" };
+}
 
 const rounded = (x) => Number(x.toPrecision(ROUND));
 

@@ -7,6 +7,7 @@ import { button, h, setOptions } from "./dom.js";
 import { number, splitQuantity } from "./format.js";
 import { parse, walk } from "./model.js";
 import { emit, on, state } from "./store.js";
+import { Works } from "./works.js";
 
 let nextId = 0;
 
@@ -19,6 +20,8 @@ export class Form {
         holder.append(
             h("section", { class: "card", "aria-label": "Parameters" }, h("h2", {}, "Parameters"), this.sliders),
             h("section", { class: "card", "aria-label": "Elements" }, h("h2", {}, "Description"), this.tree));
+        this.moved = null; // of the slider that was moved last: what Works asks for
+        new Works(() => this.moved?.() ?? null);
         on("text", () => this.update());
         on("belong", () => this.#bounds());
     }
@@ -81,6 +84,11 @@ export class Form {
         const ends = h("div", { class: "ends", "aria-hidden": "true" }, h("span"), h("span"));
         let unit = "";
         const shown = () => `${Number(Number(range.value).toPrecision(12))}${unit ? ` ${unit}` : ""}`;
+        const wrong = h("div", { class: "slider-wrong", role: "status", hidden: true });
+        const now = () => {
+            const q = splitQuantity(state.set[name()] ?? text("value") ?? "");
+            return q && !range.hidden && wrong.isConnected ? { name: name(), path, value: q.value, unit: q.unit, min: Number(range.min), max: Number(range.max), box: wrong } : null;
+        };
         // A browser tells of no change where the value comes back to what it was, and of nothing where the slider is gone
         // meanwhile: what is held ends with the pointer or the key, too.
         let held = null; // {name, value, ends}
@@ -99,11 +107,15 @@ export class Form {
                 for (const event of ["pointerup", "pointercancel", "keyup", "blur"]) addEventListener(event, release, { signal: held.ends.signal, capture: true });
             }
             held.value = shown();
+            this.moved = now;
             hold(held.name, held.value);
         });
         range.addEventListener("change", release);
-        enter(value, () => text("value") ?? "", (v) => edit([{ path: `${path}/@value`, value: v }], `${name()} is ${v}`));
-        const holder = h("div", { class: "slider", "data-name": name() }, h("div", { class: "slider-head" }, label, value), range, ends, doc);
+        enter(value, () => text("value") ?? "", (v) => {
+            this.moved = now;
+            edit([{ path: `${path}/@value`, value: v }], `${name()} is ${v}`);
+        });
+        const holder = h("div", { class: "slider", "data-name": name() }, h("div", { class: "slider-head" }, label, value), range, ends, wrong, doc);
         const refresh = () => {
             label.textContent = name();
             doc.textContent = text("doc") ?? "";

@@ -63,6 +63,8 @@ export class Verdict {
     #wait() {
         this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
+        this.required.hidden = true; // what was reached before says nothing of this device
+        this.required.replaceChildren(this.required.firstChild);
         if (state.preview?.status === "failed") return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
             : (state.preview.diagnostics ?? []).some((d) => d.severity === "error") ? "Nothing is judged: the mistakes below stand in the way."

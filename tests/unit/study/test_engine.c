@@ -236,11 +236,13 @@ static void hinges_alone(void **state) {
     room_free(&r);
 }
 
-/* with a flow, whose judgement is part of the decision; asked for more than hinges; as the flow makes it */
+/* with a flow, whose judgement, its masks' among it, is part of the decision; asked for more than hinges; as the flow
+   makes it */
 static void flows_and_clearances(void **state) {
     (void)state;
     room r = room_new("<flow ref=\"al-masked-rie\"/>");
     const char *rows = "<vary what=\"push\" from=\"0.1 mN\" to=\"0.6 mN\"/>"
+                       "<vary what=\"flexure[A]/@gap\" from=\"2 um\" to=\"9 um\"/>"
                        "<vary what=\"link\" from=\"60 um\" to=\"240 um\"/>";
     for (int i = 0; i < 3; i++) {
         fw_study *study =

@@ -68,6 +68,24 @@ static void a_point_is_what_check_says(void **state) {
     fw_plan_live_free(live);
 }
 
+/* its hinges hold, but no mask shows a line as narrow: check says no, whatever is asked for */
+static void what_has_no_mask_is_rejected(void **state) {
+    (void)state;
+    fw_plan_live *live = live_new();
+    json_t *a = explore(live, "\"inputs\":[\"flexure[C]/@width\"],\"values\":[\"governing.utilisation\","
+                              "\"hinges[C].utilisation_band[1]\",\"governing.nothing\"],"
+                              "\"options\":{\"detail\":\"quick\",\"corners\":\"none\"},"
+                              "\"points\":[[\"3.4 um\"],[\"8 um\"]]");
+    const json_t *points = json_object_get(a, "points");
+    same_as_by_itself(a, 0, "3.4 um");
+    same_as_by_itself(a, 1, "8 um");
+    assert_string_equal(text_at(json_array_get(points, 0), "state"), "reject");
+    assert_true(json_real_value(json_array_get(
+                    json_object_get(json_array_get(points, 0), "values"), 0)) < 1);
+    json_decref(a);
+    fw_plan_live_free(live);
+}
+
 /* the study that is kept is of one input: another text, another set or another input is another one */
 static void what_was_asked_before_does_not_matter(void **state) {
     (void)state;
@@ -188,6 +206,7 @@ static void a_request_that_was_stopped_leaves_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_point_is_what_check_says),
+        cmocka_unit_test(what_has_no_mask_is_rejected),
         cmocka_unit_test(what_was_asked_before_does_not_matter),
         cmocka_unit_test(a_device_that_cannot_be_is_told),
         cmocka_unit_test(a_pack_of_the_laboratory_counts),
