@@ -440,7 +440,7 @@ static bool meant_to_stay(const fw_process_flow *f, const char *material, int co
 }
 
 /* A mask, a cap on pads or a carrier that nobody takes off is told once: what lies on the device in the end, or was put
-   on the back, belongs there only where <finished> says so. */
+   on the back, belongs there only where <finished> says so. A pack that says nothing of its end at all is only told. */
 fw_status fw_process_lint_left(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
     fw_process_stack stack;
@@ -454,12 +454,17 @@ fw_status fw_process_lint_left(fw_process_pack *pack) {
             above = above || strcmp(cell->material, f->material) == 0;
             if ((!above && !cell->back) || meant_to_stay(f, cell->material, column)) continue;
             fw_process_column_name(f, column, part);
-            fw_diag_error(pack->diags, 644, f->place,
-                          "the flow ends with '%s' left %s in the %s, and nothing says that it "
-                          "belongs there; take it off, or say <finished material=\"%s\" "
-                          "is=\"present\" where=\"...\"/>",
-                          cell->material, cell->back ? "on the back" : "on the device", part,
-                          cell->material);
+            const char *why = fw_arena_printf(
+                pack->arena,
+                "the flow ends with '%s' left %s in the %s, and nothing says that it belongs "
+                "there; take it off, or say <finished material=\"%s\" is=\"present\" "
+                "where=\"...\"/>",
+                cell->material, cell->back ? "on the back" : "on the device", part, cell->material);
+            FW_NEED(why);
+            if (f->nfinished > 0)
+                fw_diag_error(pack->diags, 644, f->place, "%s", why);
+            else
+                fw_diag_warning(pack->diags, 644, f->place, "%s", why);
             return FW_OK;
         }
     }

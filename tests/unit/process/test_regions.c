@@ -138,8 +138,8 @@ static void hollowed_glass(void **state) {
     assert_near(ground->further[0].foot_m, -20e-6, 1e-12); /* as printed, */
     assert_near(ground->further[0].head_m, 0.0, 1e-12);    /* and as drawn where it is bonded */
     assert_int_equal(fw_process_flow_stack(arena, f, etch, &stack, NULL), FW_OK);
-    assert_near(stack.cell[hollow][2].thickness_m, 480e-6, 1e-12);
-    assert_near(stack.cell[0][2].thickness_m, 500e-6, 1e-12);
+    assert_near(stack.cell[hollow][3].thickness_m, 480e-6, 1e-12);
+    assert_near(stack.cell[0][3].thickness_m, 500e-6, 1e-12);
     assert_int_equal(fw_process_flow_stack(arena, f, f->nstep - 1, &stack, NULL), FW_OK);
     for (int k = 0; k < stack.columns; k++) {
         bool pad = fw_process_where_holds(f, "pad", k),
