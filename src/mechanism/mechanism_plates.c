@@ -257,19 +257,36 @@ void fw_mechanism_plates_answer(const fw_mechanism_plates *p, const double *f, d
     }
 }
 
+/* What a flexure on the ground is bent by where the layer would lie on a sphere and the ground is flat: -(z, turns) of the
+   sphere at its root there, carried rigidly to the pin; false: it is not on the ground, and follows the sphere */
+static bool held_flat(const fw_mechanism_plates *p, int hinge, double curvature_per_m,
+                      fw_geometry_vec2 middle, double d[3]) {
+    const fw_mechanism_pin *pin = &p->mechanism->pin[p->mechanism->hinge[hinge].pin];
+    const bool first = pin->body_a == FW_GROUND;
+    const fw_geometry_vec2 to = first ? pin->root_a_m : pin->root_b_m;
+    const fw_geometry_vec2 g = vec_sub(vec_add(p->hinge[hinge].pin, to), middle);
+    d[0] = -curvature_per_m * (0.5 * vec_dot(g, g) - vec_dot(g, to));
+    d[1] = -curvature_per_m * g.y, d[2] = curvature_per_m * g.x;
+    return first != (pin->body_b == FW_GROUND);
+}
+
 void fw_mechanism_plates_wrench(const fw_mechanism_plates *p, int hinge, const double *x,
-                                double wrench[3]) {
+                                double curvature_per_m, double wrench[3]) {
     const fw_mechanism_hinge *h = &p->mechanism->hinge[hinge];
     const fw_mechanism_pin *pin = &p->mechanism->pin[h->pin];
     const fw_mechanism_plate_hinge *is = &p->hinge[hinge];
     const int body[2] = {pin->body_a, pin->body_b};
-    double apart[3] = {0}, world[3] = {0}, b[3][3];
+    double apart[3] = {0}, world[3] = {0}, d[3], b[3][3];
     for (int s = 0; s < 2; s++) {
         if (body[s] == FW_GROUND) continue;
         lever(p->mechanism, body[s], is->pin, b);
         for (int i = 0; i < 9; i++)
             apart[i / 3] += (s ? 1 : -1) * b[i / 3][i % 3] * x[3 * body[s] + i % 3];
     }
+    const fw_geometry_vec2 middle = fw_mechanism_ground_centre(p->mechanism);
+    if (curvature_per_m != 0 && held_flat(p, hinge, curvature_per_m, middle, d))
+        for (int i = 0; i < 3; i++)
+            apart[i] += (pin->body_a == FW_GROUND ? -1 : 1) * d[i];
     for (int i = 0; i < 9; i++)
         world[i / 3] += is->k[i / 3][i % 3] * apart[i % 3] / h->scale;
     const double e = cos(h->axis_rad), s = sin(h->axis_rad);
@@ -293,7 +310,7 @@ void fw_mechanism_plates_weight(const fw_mechanism_plates *p, double m_per_s2, d
 
 /* Free of the ground the whole layer, strips and plates alike, would lie on one sphere; the ground is flat instead.
    So x is counted from the sphere z = kappa |r - m|^2/2, and each flexure on the ground is pulled by as much as its
-   root there departs from it: -(z, turns) of the sphere at the root, carried rigidly to the pin. */
+   root there departs from it. */
 void fw_mechanism_plates_curl(const fw_mechanism_plates *p, double curvature_per_m,
                               fw_geometry_vec2 *middle, double *f) {
     const fw_mechanism *m = p->mechanism;
@@ -301,15 +318,10 @@ void fw_mechanism_plates_curl(const fw_mechanism_plates *p, double curvature_per
     memset(f, 0, (size_t)p->n * sizeof *f);
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-        bool first = pin->body_a == FW_GROUND;
-        int body = first ? pin->body_b : pin->body_a;
-        if (!first && pin->body_b != FW_GROUND) continue;
-        fw_geometry_vec2 to = first ? pin->root_a_m : pin->root_b_m, at = p->hinge[k].pin;
-        fw_geometry_vec2 g = vec_sub(vec_add(at, to), *middle);
-        const double d[3] = {-curvature_per_m * (0.5 * vec_dot(g, g) - vec_dot(g, to)),
-                             -curvature_per_m * g.y, curvature_per_m * g.x};
-        double b[3][3], w[3] = {0, 0, 0};
-        lever(m, body, at, b);
+        const int body = pin->body_a == FW_GROUND ? pin->body_b : pin->body_a;
+        double b[3][3], d[3], w[3] = {0, 0, 0};
+        if (!held_flat(p, k, curvature_per_m, *middle, d)) continue;
+        lever(m, body, p->hinge[k].pin, b);
         for (int i = 0; i < 9; i++)
             w[i / 3] += p->hinge[k].k[i / 3][i % 3] * d[i % 3];
         for (int i = 0; i < 9; i++)
@@ -568,30 +580,4 @@ fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plate
     *factor = all > 0 ? 1 / all : HUGE_VAL;
     fw_arena_rewind(arena, mark);
     return FW_OK;
-}
-
-/* ---- what scenes ask ---- */
-
-static double gradient_of(const fw_device_scene *s) {
-    double sum = 0;
-    for (int i = 0; i < s->nstress; i++)
-        sum += s->stress[i].gradient_Pa_per_m;
-    return sum;
-}
-
-bool fw_mechanism_plates_shaken(const fw_device_scene *s) {
-    for (int i = 0; i < s->nbase; i++)
-        if (s->base[i].az_m_per_s2 != 0) return true;
-    return false;
-}
-
-bool fw_mechanism_plates_asked(const fw_device_scene *s) {
-    return s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s) || gradient_of(s) != 0;
-}
-
-double fw_mechanism_plates_curvature(const fw_mechanism *m, const fw_device_scene *s) {
-    const fw_device_material *of = &m->variant->material;
-    double gradient = gradient_of(s);
-    if (gradient == 0 || of->youngs.unknown) return 0;
-    return gradient * (1 - (of->poisson.unknown ? 0 : of->poisson.value)) / of->youngs.value;
 }

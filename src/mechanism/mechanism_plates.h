@@ -60,9 +60,10 @@ fw_status fw_mechanism_plates_in_plane(const fw_mechanism_plates *plates, const 
 
 /* x (n) of generalised forces f (n): N, N m about the centres of mass */
 void fw_mechanism_plates_answer(const fw_mechanism_plates *plates, const double *f, double *x);
-/* (Fz, Mx, My) that a flexure bears about its pin when the bodies are at x (n), in its own frame and of its own stiffness */
+/* (Fz, Mx, My) that a flexure bears about its pin when the bodies are at x (n), counted from a sphere of that curvature
+   (fw_mechanism_plates_curl; 0: from the plane), in its own frame and of its own stiffness */
 void fw_mechanism_plates_wrench(const fw_mechanism_plates *plates, int hinge, const double *x,
-                                double wrench[3]);
+                                double curvature_per_m, double wrench[3]);
 /* z of a point of a body, drawn place in the world */
 double fw_mechanism_plates_z(const fw_mechanism_plates *plates, const double *x, int body,
                              fw_geometry_vec2 at);

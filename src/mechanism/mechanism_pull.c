@@ -356,3 +356,29 @@ double fw_mechanism_strip_pull_in(double bend_Nm2, double length_m, double width
     double l2 = length_m * length_m;
     return 116.94 * bend_Nm2 * gap_m * gap_m / ((1 + more) * width_m * l2 * l2);
 }
+
+/* ---- what scenes ask ---- */
+
+static double gradient_of(const fw_device_scene *s) {
+    double sum = 0;
+    for (int i = 0; i < s->nstress; i++)
+        sum += s->stress[i].gradient_Pa_per_m;
+    return sum;
+}
+
+bool fw_mechanism_plates_shaken(const fw_device_scene *s) {
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].az_m_per_s2 != 0) return true;
+    return false;
+}
+
+bool fw_mechanism_plates_asked(const fw_device_scene *s) {
+    return s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s) || gradient_of(s) != 0;
+}
+
+double fw_mechanism_plates_curvature(const fw_mechanism *m, const fw_device_scene *s) {
+    const fw_device_material *of = &m->variant->material;
+    double gradient = gradient_of(s);
+    if (gradient == 0 || of->youngs.unknown) return 0;
+    return gradient * (1 - (of->poisson.unknown ? 0 : of->poisson.value)) / of->youngs.value;
+}

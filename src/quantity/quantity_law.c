@@ -126,9 +126,11 @@ double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double 
 
 enum { PER_PERIOD = 24 };
 
-double fw_quantity_law_swing(const fw_quantity_law *law, double end_s, double omega_per_s,
-                             double damping) {
-    const double most_steps = 4e6, fastest = fw_quantity_law_wave_of(law).fastest_Hz;
+double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as, double end_s,
+                             double omega_per_s, double damping) {
+    const bool squared = as == FW_LAW_SQUARED, behind = as == FW_LAW_OF_COORDINATE;
+    const double most_steps = 4e6,
+                 fastest = (squared ? 2 : 1) * fw_quantity_law_wave_of(law).fastest_Hz;
     const double n = ceil(PER_PERIOD * end_s * fmax(omega_per_s / (2 * FW_PI), fastest));
     if (!(n < most_steps) || !(damping < 1)) return -1;
     const double h = end_s / n, w = omega_per_s, turn = w * sqrt(1 - damping * damping);
@@ -136,17 +138,38 @@ double fw_quantity_law_swing(const fw_quantity_law *law, double end_s, double om
                  s = decay * sin(turn * h) / turn;
     double q = 0, v = 0, most = 0, value[3];
     fw_quantity_law_value(law, 0, 0.5 * h, value);
-    double f = value[0];
+    const double start = behind ? value[0] : 0;
+    double f = squared ? value[0] * value[0] : value[0] - start;
     for (double k = 1; k <= n; k++) {
         fw_quantity_law_value(law, k * h, (k - 0.5) * h, value);
-        const double slope = (value[0] - f) / h, late = 2 * damping * slope / w;
+        const double next = squared ? value[0] * value[0] : value[0] - start,
+                     slope = (next - f) / h;
+        const double late = behind ? 0 : 2 * damping * slope / w;
         const double x = q - f + late, y = v - slope; /* from what follows f, 2 zeta/w behind */
-        q = value[0] - late + x * c + (y + damping * w * x) * s;
+        q = next - late + x * c + (y + damping * w * x) * s;
         v = slope + y * c - (w * w * x + damping * w * y) * s;
-        f = value[0];
-        most = fmax(most, fabs(q));
+        f = next;
+        most = fmax(most, fabs(behind ? q - f : q));
     }
     return most;
+}
+
+bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s) {
+    enum { LOOKS = 2000 };
+    const double once = 0.25; /* of the range: no more than that beyond one way there and back */
+    if (fw_quantity_law_is_constant(law)) return false;
+    double variation = fw_quantity_law_measure(law, end_s).variation, value[3];
+    fw_quantity_law_value(law, 0, 0.5 * end_s / LOOKS, value);
+    if (law->kind->variation) variation = fmin(variation, law->kind->variation(law, end_s));
+    const double first = value[0];
+    double least = first, most = first;
+    for (int i = 1; i <= LOOKS; i++) {
+        const double t = end_s * i / LOOKS;
+        fw_quantity_law_value(law, t, t - 0.5 * end_s / LOOKS, value);
+        least = fmin(least, value[0]), most = fmax(most, value[0]);
+    }
+    variation -= fabs(first); /* what it jumps by at the start */
+    return !(variation - 2 * (most - least) + fabs(value[0] - first) <= once * (most - least));
 }
 
 /* of all frequencies of [low, high]; -1: it would take too long, or samples could miss something of the law */
@@ -159,8 +182,9 @@ static double swings(const fw_quantity_law *law, double end_s, double low, doubl
         return -1;
     double most = 0;
     for (double k = 0; k < n; k++)
-        most = fmax(most, fw_quantity_law_swing(
-                              law, end_s, n > 1 ? low + (high - low) * k / (n - 1) : high, 0));
+        most =
+            fmax(most, fw_quantity_law_swing(law, FW_LAW_OF_LOAD, end_s,
+                                             n > 1 ? low + (high - low) * k / (n - 1) : high, 0));
     return most;
 }
 

@@ -83,11 +83,20 @@ double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double 
 double fw_quantity_law_answer(const fw_quantity_law *law, double end_s, double low_per_s,
                               double high_per_s);
 
-/* Largest |q| of q'' + 2 damping w q' + w^2 q = w^2 f(t), at rest before, by exact steps of f that is linear between 24
-   samples to a period of w or of what the law is made of; below by 2 % at most. damping: share of the critical one, < 1.
-   -1: beyond 4e6 steps. Test: test_time_law.c answers */
-double fw_quantity_law_swing(const fw_quantity_law *law, double end_s, double omega_per_s,
-                             double damping);
+/* Largest |q| of q'' + 2 damping w q' + w^2 q = w^2 g(t), at rest before, by exact steps of g that is linear between 24
+   samples to a period of w or of what the law is made of; below by 2 % at most. g: the law of a load, its square for
+   one that goes with the square of a voltage. Of a coordinate |q| is how far what hangs on it is behind: q'' + 2 damping
+   w q' + w^2 q = -f''(t). damping: share of the critical one, < 1. -1: beyond 4e6 steps. Test: test_time_law.c swings */
+typedef enum fw_quantity_law_acts {
+    FW_LAW_OF_LOAD,
+    FW_LAW_SQUARED,
+    FW_LAW_OF_COORDINATE
+} fw_quantity_law_acts;
+double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as, double end_s,
+                             double omega_per_s, double damping);
+/* It goes to and fro more often than once: what it varies by beyond one way there and back is more than a quarter of its
+   range, by 2001 samples of it. True of a law whose variation nothing bounds */
+bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s);
 
 /* ---- steps that see all of it (stride.c) ---- */
 

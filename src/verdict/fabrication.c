@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/verdict_parts.h"
 #include "verdict/verdict_fabrication.h"
 #include "flexure/flexure.h"
 #include "geometry/segment.h"
@@ -386,4 +387,54 @@ fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
         change_body(&layout->body[b], fabricated->edge_m, &out->device.body[b],
                     &out->layout.body[b]);
     return FW_OK;
+}
+
+/* ---- what of a device that was made is kept and compared: how it was shaken ---- */
+
+fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                 const fw_verdict_shaken **kept) {
+    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1;
+    fw_verdict_shaken *to;
+    *kept = NULL;
+    if (!v->shaken) return FW_OK;
+    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
+    for (size_t i = 0; i < scenes; i++) {
+        const size_t n = (size_t)to[i].n;
+        FW_NEED(to[i].factor = fw_arena_grow(arena, to[i].factor, 2 * h, 2 * h, sizeof(double)));
+        if (n == 0) continue;
+        FW_NEED(to[i].mode = fw_arena_grow(arena, to[i].mode, n, n, sizeof *to[i].mode));
+        for (size_t k = 0; k < n; k++)
+            FW_NEED(to[i].mode[k].share =
+                        fw_arena_grow(arena, to[i].mode[k].share, h, h, sizeof(double)));
+    }
+    *kept = to;
+    return FW_OK;
+}
+
+/* ---- what of a clearance is used ---- */
+
+static double between(double used) {
+    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
+    return fmin(fmax(used, least), most);
+}
+
+/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
+   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
+   much as is asked for. */
+double fw_verdict_search_used_nearest(const fw_verdict_clearance *c) {
+    const fw_clearance_least *l = &c->least;
+    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
+    double used = target / l->m;
+    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
+    if (c->box == FW_NONE && l->start_m <= target) used = most;
+    if (l->m <= 0) used = 1 / l->share;
+    return between(used);
+}
+
+/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
+   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
+double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
+    const bool meet = c->least.m <= 0 && c->least.share > 0;
+    const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
+    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }

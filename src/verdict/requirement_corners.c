@@ -9,6 +9,7 @@
 #include "verdict/verdict_parts.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* an input that moves an end by less than this share of the value does not decide which corner is worst */
 static const double fw_of_no_account = 2e-3;
@@ -257,5 +258,106 @@ fw_status fw_verdict_search_most(fw_verdict_search *s) {
     *s->told = (fw_progress_whole){.what = "judging what a flow makes of it",
                                    .of = -(1.0 + free + (1u << free) + s->v->nsuspect + apart),
                                    .unit = "devices"};
+    return FW_OK;
+}
+
+/* ---- between corners ----
+   A corner at which a mode is lower and one at which it is higher may both be shaken less than a device between them,
+   whose mode is where the law is. Of each mode that swings at the nominal device
+
+     ln w = ln w0 + sum of slopes d ln w/dx (x - x0)
+
+   over all ranges, by the runs that slopes are made of, and at least what was met at any corner; with the error at either
+   end. The nominal device is widened by what it may do anywhere there (fw_verdict_shaken_within), loads by its
+   stiffness, too. Test: test_effects.py Resonance */
+
+/* a mode as it is at a point; NULL: nothing is known of it there */
+static const fw_verdict_shaken_mode *mode_at(const fw_verdict_search *s, int point, int scene,
+                                             int number) {
+    const fw_verdict_shaken *there = s->fabricated->corner[point].shaken;
+    for (int k = 0; there && k < there[scene].n; k++)
+        if (there[scene].mode[k].number == number) return &there[scene].mode[k];
+    return NULL;
+}
+
+static void spread_mode(const fw_verdict_search *s, int scene, fw_verdict_shaken_mode *mode) {
+    const fw_verdict_fabrication_input *in = s->v->input;
+    const double w = mode->omega;
+    double slope[FW_FABRICATION_INPUTS] = {0}, up = 0, down = 0;
+    for (int i = 0; i < s->v->ninput && s->first > 0; i++) {
+        const int like = s->slope_like[i], p = s->slope_point[i];
+        const fw_verdict_shaken_mode *at = p == FW_NONE ? NULL : mode_at(s, p, scene, mode->number);
+        if (like < i) slope[i] = slope[like] * in[i].edge_m / in[like].edge_m;
+        if (at) slope[i] = log(at->omega / w) / (s->fabricated->corner[p].x[i] - in[i].nominal);
+        if (!fw_verdict_search_has_range(&in[i])) continue;
+        const double a = slope[i] * (in[i].high - in[i].nominal),
+                     b = slope[i] * (in[i].low - in[i].nominal);
+        up += fmax(0, fmax(a, b)), down += fmin(0, fmin(a, b));
+    }
+    mode->low *= exp(down), mode->high *= exp(up);
+    for (int p = 0; p < s->fabricated->ncorner; p++) {
+        const fw_verdict_shaken_mode *at = mode_at(s, p, scene, mode->number);
+        if (at) mode->low = fmin(mode->low, at->low), mode->high = fmax(mode->high, at->high);
+    }
+}
+
+/* what may be beyond its limit there, as words; NULL: nothing */
+static const char *meets(const fw_verdict_search *s, int scene, const double *factor, double late) {
+    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[0];
+    const double *now = c->shaken[scene].factor;
+    const int nh = s->v->nhinge, scenes = s->device->nscene;
+    double most[2];
+    for (int h = 0; h < nh; h++) {
+        const fw_verdict_hinge_verdict *is = &c->hinge[h];
+        const double used = exp(s->ln[(size_t)h * ((size_t)scenes + 1) + (size_t)scene]);
+        const bool same = is->scene && strcmp(is->scene, s->device->scene[scene].name) == 0;
+        const double band = is->utilisation > 0 ? is->utilisation_high / is->utilisation : 1;
+        if (used * band * factor[2 * h] / (same ? now[2 * h] : 1) >= 1)
+            return fw_arena_printf(s->arena, "%s%s", FW_NAMED("hinge", is->id));
+    }
+    fw_verdict_requirement_factor(factor, nh, most);
+    for (int k = 0; c->requirement && k < s->v->nrequirement; k++) {
+        fw_verdict_requirement r = c->requirement[k];
+        if (r.scene_index != scene || !r.measure || r.why) continue;
+        fw_verdict_requirement_shaken(most, late, s->device->requirement[r.asked].measure, &r);
+        if (r.decision != FW_ACCEPT) return r.probe;
+    }
+    for (int k = 0; k < s->v->nclearance; k++) {
+        const fw_verdict_clearance *of = &s->v->clearance[k];
+        if (of->scene_index == scene && of->box == FW_NONE && of->way.share * factor[2 * nh] >= 1)
+            return "a distance between parts";
+    }
+    return NULL;
+}
+
+fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v) {
+    const fw_verdict_shaken *nominal =
+        s->fabricated->ncorner > 1 ? s->fabricated->corner[0].shaken : NULL;
+    double *factor = fw_arena_array(s->arena, double, 2 * (size_t)v->nhinge + 2), late;
+    FW_NEED(factor);
+    for (int i = 0; nominal && i < s->device->nscene; i++) {
+        fw_verdict_shaken wide = nominal[i];
+        if (wide.n == 0) continue;
+        FW_NEED(wide.mode = fw_arena_grow(s->arena, wide.mode, (size_t)wide.n, (size_t)wide.n,
+                                          sizeof *wide.mode));
+        for (int k = 0; k < wide.n; k++)
+            spread_mode(s, i, &wide.mode[k]);
+        FW_TRY(fw_verdict_shaken_within(s->arena, v->mechanism, i, &wide, factor, &late));
+        const char *what = meets(s, i, factor, late);
+        if (!what) continue;
+        char most[32];
+        const char *flow = v->variant->flow ? v->variant->flow : "this flow";
+        FW_NEED(s->fabricated->reason = fw_arena_printf(
+                    s->arena,
+                    "as %s makes it a mode may lie where the law of %s%s shakes it hardest, though "
+                    "at no corner of its ranges: up to %s times what it does as made nominally, "
+                    "and %s may then be beyond its limit; keep the frequencies apart by more than "
+                    "the flow moves them, or state what damps",
+                    flow, FW_NAMED("scene", s->device->scene[i].name),
+                    fw_number_text(most, sizeof most, factor[2 * v->nhinge], 2), what));
+        s->fabricated->decision = v->decision = FW_INCONCLUSIVE;
+        return fw_verdict_scene_reason(v, &s->device->scene[i], 636, FW_INCONCLUSIVE, 0.5,
+                                       s->fabricated->reason);
+    }
     return FW_OK;
 }

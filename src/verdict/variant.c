@@ -253,7 +253,7 @@ size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         FW_REASONS * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
-        10; /* strips; out of reach or badly held, what hinges give, as made, riders, rims; stiction; drawn bent */
+        11; /* strips; out of reach or badly held, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncontact;
     return most;
@@ -390,7 +390,7 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         const fw_verdict_strain_monitor *observed =
             v->motion[i]->observed ? v->motion[i]->observed : &monitor[i];
         FW_TRY(judge_scene(arena, by, v->motion[i], observed, k, device->scene[i].name, &now));
-        widen(v->detuned + 2 * i, &now);
+        widen(v->shaken[i].factor + 2 * k, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);

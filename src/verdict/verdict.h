@@ -167,6 +167,7 @@ typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the ba
 
 /* one requirement in one scene, or about one equilibrium: verdict_requirement.c. All in SI of the
    unit; of a measure that is a size, the size */
+typedef struct fw_verdict_shaken fw_verdict_shaken;
 typedef struct fw_verdict_requirement {
     int asked; /* index into device->requirement */
     const char *probe, *kind, *unit;
@@ -181,6 +182,9 @@ typedef struct fw_verdict_requirement {
     /* bound / value of a min, value / bound of a max; where a bound is not above 0 both from the value
        as drawn: 1 at the bound; NaN: nothing to measure by */
     double utilisation, utilisation_low, utilisation_high;
+    double
+        swing; /* how far it goes from where it was drawn; of a gap, how far its outlines are moved */
+    bool size;      /* it is a gap, which is not below 0 */
     double numeric; /* part of the band on either side that a tighter run would take away */
     double lasting; /* relative part of it that no better model of the hinges would take away */
     double t_s;     /* when; NaN: no one time */
@@ -204,6 +208,7 @@ typedef struct fw_verdict_fabricated_corner {
     double keep;                         /* share of its loads that it may bear */
     bool not_by_loads, not_by_width;     /* of `why`, as in fw_verdict_reason */
     fw_verdict_requirement *requirement; /* (nrequirement) of the variant; NULL: nothing was run */
+    const fw_verdict_shaken *shaken;     /* (nscene) NULL: nothing was run */
     fw_verdict_decision decision;
     bool undecided; /* it is not accepted, and closer numbers might decide that */
 } fw_verdict_fabricated_corner;
@@ -271,8 +276,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
        why */
     const fw_dynamics_motion **motion;
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    double *
-        detuned; /* (2 device->nscene) factors on what moves where a mode lies within its error (FW-D642) */
+    /* (device->nscene) where a mode lies within its error (verdict_parts.h, FW-D642) */
+    fw_verdict_shaken *shaken;
     bool beyond_pull_in;       /* a scene may ask for more than its pull-in voltage */
     fw_verdict_reason *reason; /* (nreason) */
     int nreason;

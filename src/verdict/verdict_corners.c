@@ -577,7 +577,7 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     if (!decided) FW_TRY(fw_verdict_ends_made(&s));
     fw_verdict_search_govern(&s);
     v->fabricated = s.fabricated;
-    if (s.fabricated->decision == FW_ACCEPT) return FW_OK;
+    if (s.fabricated->decision == FW_ACCEPT) return fw_verdict_between_corners(&s, v);
     if (quick) {
         v->decision = FW_INCONCLUSIVE;
         return FW_OK;

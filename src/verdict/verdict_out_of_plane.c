@@ -275,12 +275,12 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
 
 /* Every mode rings either way on top of what weight does at rest: (1 + n) wrenches of a hinge. A shock that grows so
    slowly that nothing rings is in the amplitudes, too, which are at least those at rest. */
-static void put_wrenches(const both *is, int hinge, double (*wrench)[3]) {
+static void put_wrenches(const both *is, int hinge, double curvature_per_m, double (*wrench)[3]) {
     const fw_mechanism_plates *p = &is->rigid;
-    fw_mechanism_plates_wrench(p, hinge, is->x, wrench[0]);
+    fw_mechanism_plates_wrench(p, hinge, is->x, curvature_per_m, wrench[0]);
     for (int k = 0; k < p->n; k++) {
         double *w = wrench[1 + k];
-        fw_mechanism_plates_wrench(p, hinge, p->shape + (size_t)k * (size_t)p->n, w);
+        fw_mechanism_plates_wrench(p, hinge, p->shape + (size_t)k * (size_t)p->n, 0, w);
         for (int i = 0; i < 3; i++)
             w[i] *= is->ring[k];
     }
@@ -325,6 +325,65 @@ static fw_status tell_strained(fw_arena *arena, const fw_device_scene *s, double
                         sure ? "" : "up to ", used, plane));
 }
 
+/* ---- what hinges last across the plane ---- */
+
+/* cycles of a hinge in one repetition of the scene: of the fastest mode that makes a hundredth of what rings, from the
+   scene's start to its end, with those counted in the plane */
+static double cycles_of(const both *is, const double (*wrench)[3], double end_s, double in_plane) {
+    const double little = 0.01;
+    const fw_mechanism_plates *p = &is->rigid;
+    double all = 0, fastest = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < p->n; k++) {
+            const double *w = wrench[1 + k],
+                         size = hypot(w[0], hypot(w[1], w[2]) / p->hinge[0].length_m);
+            if (!pass) all += size;
+            if (pass && size > little * all) fastest = fmax(fastest, p->f_Hz[k]);
+        }
+    return 1 + ceil(fastest * end_s) + (in_plane > 0 ? in_plane : 0);
+}
+
+/* Share of what it lasts, at most: all that rings and all of the plane is an amplitude, fully reversed about what there is
+   at rest, in every cycle; 0: nothing is repeated, or no life is known */
+static fw_status lasted(fw_arena *arena, const both *is, const fw_verdict_variant_verdict *v, int k,
+                        const fw_device_scene *s, const double (*wrench)[3], double in,
+                        double across, double *share) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_mechanism_hinge *h = &m->hinge[k];
+    const fw_device *d = m->device;
+    const double E = m->variant->material.youngs.value, more = 1 + is->rigid.error;
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&h->limits);
+    double rest[2];
+    *share = 0;
+    if (!(d->limits.cycles > 0) || !h->limits.life.known) return FW_OK;
+    FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form, wrench, 1, rest));
+    const double allowed = limit ? limit->allowable_Pa : m->variant->material.strength.value;
+    const double amplitude_Pa = in * allowed / d->safety_factor + (across - rest[1]) * more * E;
+    const fw_maths_cycle one = {2 * amplitude_Pa, rest[1] * more * E,
+                                cycles_of(is, wrench, s->duration_s, v->hinge[k].cycles)};
+    *share = d->safety_factor *
+             fw_verdict_fatigue_utilisation(&h->limits.life, &one, 1, d->limits.cycles);
+    return FW_OK;
+}
+
+static fw_status tell_lasted(fw_arena *arena, const fw_device_scene *s, double share,
+                             const char *hinge, fw_verdict_variant_verdict *v,
+                             fw_verdict_across *to) {
+    char used[32], times[32];
+    if (!(share > 1) || to->strained > 1) return FW_OK;
+    to->decision = fw_verdict_worse(to->decision, FW_INCONCLUSIVE);
+    return fw_verdict_scene_reason(
+        v, s, 637, FW_INCONCLUSIVE, 0.95 / share,
+        fw_arena_printf(arena,
+                        "%s%s is not known to last %s repetitions of %s%s, which bends it across "
+                        "the plane, too: it uses up to %s %% of its fatigue limit there; a thicker "
+                        "layer, shorter or wider flexures, or a weaker shock relieve it",
+                        FW_NAMED("hinge", hinge),
+                        fw_number_text(times, sizeof times, v->mechanism->device->limits.cycles, 3),
+                        FW_NAMED("scene", s->name),
+                        (fw_percent_text(used, sizeof used, share), used)));
+}
+
 static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v,
                               fw_verdict_across *to) {
     const fw_mechanism *m = v->mechanism;
@@ -332,17 +391,23 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
     const int n = 1 + is->rigid.n;
     fw_geometry_vec2 middle;
     double(*wrench)[3] = fw_arena_alloc(arena, (size_t)n, sizeof *wrench), worst_in = 0, dynamic;
+    const double curvature = fw_mechanism_plates_curvature(m, s);
+    double lasts = 0;
+    const char *tires = NULL;
     FW_NEED(wrench);
-    load_scene(is, &is->rigid, s, 0, &middle, &dynamic);
+    load_scene(is, &is->rigid, s, curvature, &middle, &dynamic);
     to->strained = to->strained_sure = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *h = &m->hinge[k];
         const double limit = v->hinge[k].strain_limit, in = in_the_plane(v, k, to->scene_index);
-        double strain[2];
-        put_wrenches(is, k, wrench);
+        double strain[2], share;
+        put_wrenches(is, k, curvature, wrench);
         FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form,
                                         (const double(*)[3])wrench, n, strain));
         if (!(limit > 0)) continue;
+        FW_TRY(lasted(arena, is, v, k, s, (const double(*)[3])wrench, in, strain[1], &share));
+        if (share > lasts || isnan(share))
+            lasts = isnan(share) ? (double)INFINITY : share, tires = m->pin[h->pin].id;
         const double most = in + strain[1] * (1 + is->rigid.error) / limit;
         const double sure = strain[0] / (1 + is->rigid.error) / limit;
         to->strained_sure = fmax(to->strained_sure, sure);
@@ -351,14 +416,15 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
         to->strained = isnan(most) ? (double)INFINITY : most, worst_in = in;
         to->strained_hinge = m->pin[h->pin].id;
     }
-    return tell_strained(arena, s, worst_in, v, to);
+    FW_TRY(tell_strained(arena, s, worst_in, v, to));
+    return tell_lasted(arena, s, lasts, tires, v, to);
 }
 
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
     for (int i = 0; o && !o->why && i < o->nscene; i++) {
         const fw_device_scene *s = &v->mechanism->device->scene[o->scene[i].scene_index];
-        if (s->gz_m_per_s2 == 0 && !fw_mechanism_plates_shaken(s)) continue;
+        if (!fw_mechanism_plates_asked(s)) continue;
         FW_TRY(judge_strain(arena, o->plates, v, &o->scene[i]));
     }
     return FW_OK;

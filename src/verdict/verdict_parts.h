@@ -88,11 +88,31 @@ fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device
                                   int number, fw_verdict_decision decision, double keep,
                                   const char *text);
 
-/* v->detuned: factors on what moves in each scene that its modes' own errors allow, [0] >= 1 upwards, [1] <= 1 downwards,
-   both 1 where no law goes to and fro; bodies (nscene): share that they give
+/* a mode that swings in a scene whose law goes to and fro */
+typedef struct fw_verdict_shaken_mode {
+    int number;                       /* from 0 */
+    double omega, damping, low, high; /* rad/s; where it may lie */
+    double *
+        share; /* (nhinge + 1) what of a hinge's bending, last of a body's way, it does as computed */
+    double late; /* how far it still swings at the end, over how far it ever does */
+} fw_verdict_shaken_mode;
+struct fw_verdict_shaken {
+    fw_verdict_shaken_mode *mode; /* (n) */
+    int n;
+    /* (2 x (nhinge + 1)) on what bends each hinge, last on what moves: upwards >= 1, downwards <= 1 */
+    double *factor;
+    double late; /* what of a largest way may be there at the end besides, for phases run apart */
+};
+/* v->shaken, whose factors are 1 where no law goes to and fro; bodies (nscene): share that they give
    (fw_verdict_bending_share). A warning (FW-D642), and what may meet then, or may not, is undecided */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,
                             bool brief, fw_diags *diags, fw_verdict_variant_verdict *v);
+/* factors (2 x (nhinge + 1)) and `late` for modes that lie anywhere between their low and high, at other stiffnesses */
+fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                                   const fw_verdict_shaken *shaken, double *factor, double *late);
+/* a copy that lives as long as the arena; NULL where nothing was run */
+fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                 const fw_verdict_shaken **kept);
 
 /* ---- verdict_scene.c: what the motion has and the masks lack ---- */
 
@@ -126,6 +146,10 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *mechanism, int sc
 fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *mechanism,
                                       const fw_dynamics_motion_options *options,
                                       fw_verdict_variant_verdict *v);
+/* what a mode that lies elsewhere may do to one of a motion (decision.c): the most of the factors, which widen it */
+void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]);
+void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
+                                   fw_verdict_requirement *r);
 /* what may still decide those that are inconclusive, and the accuracy that would */
 fw_verdict_refinement fw_verdict_requirements_refinement(const fw_verdict_requirement *requirement,
                                                          int count);
@@ -205,10 +229,13 @@ unsigned fw_verdict_ends_next(const fw_verdict_search *s);
 fw_status fw_verdict_ends_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
-/* decision.c, corner_search.c and requirement_corners.c, shared */
+/* fabrication.c, corner_search.c and requirement_corners.c, shared */
 /* has any clearance (by_nearest: any by its nearest pair) used so much that a corner may take the rest? */
 double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);
 double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
+/* after all corners are accepted: may a device between them meet a resonance? Then s->fabricated and v are
+   undecided, with a reason (FW-D636) */
+fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v);
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest);
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
 void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x);

@@ -205,6 +205,10 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
     const double model = model_of(m, motion, p->level),
                  lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
     const bool size = !isnan(p->moved); /* a gap is not below 0 */
+    r->size = size;
+    r->swing = size ? p->moved : fmax(fabs(p->maximum - p->origin), fabs(p->minimum - p->origin));
+    if (q->measure == FW_MEASURE_PARASITIC) r->swing = fabs(p->across);
+    if (q->measure == FW_MEASURE_PEAK_TO_PEAK) r->swing *= 2; /* either end may */
     switch (q->measure) {
     case FW_MEASURE_PEAK:
         put(r, fabs(p->peak), p->numeric, model, lasting, departure(p, p->peak), true);
@@ -447,12 +451,43 @@ static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_req
     return r->measure && !v->motion[r->scene_index];
 }
 
-/* by what a mode that lies elsewhere may do more or less (decision.c) */
-static void widen(const double factor[2], fw_verdict_requirement *r) {
-    const double more = fabs(r->value) * (factor[0] - 1), less = fabs(r->value) * (1 - factor[1]);
+/* By what a mode that lies elsewhere may do more or less (decision.c): of how far it goes to and fro. A final value may
+   be at any place of that within which phases run apart. A settling time goes with the logarithm of what swings:
+   it has no bound */
+void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
+                                   fw_verdict_requirement *r) {
+    const bool final = measure == FW_MEASURE_FINAL;
+    const double more = r->swing * (final ? late : factor[0] - 1),
+                 less = r->swing * (final ? late : 1 - factor[1]);
     if (!(more > 0) && !(less > 0)) return;
-    r->high += r->value > 0 ? more : less, r->low -= r->value > 0 ? less : more;
+    if (measure == FW_MEASURE_SETTLING) {
+        if (factor[0] - 1 < 0.02) return;
+        r->low = 0, r->high = HUGE_VAL;
+        r->open = "it is shaken near a mode whose frequency is known to some per cent";
+    } else if (measure == FW_MEASURE_PEAK || measure == FW_MEASURE_PEAK_TO_PEAK ||
+               measure == FW_MEASURE_PARASITIC)
+        r->high += more, r->low = fmax(0, r->low - less);
+    else
+        r->high += fmax(more, less), r->low -= fmax(more, less);
+    if (r->size) r->low = fmax(0, r->low);
     decide(r);
+}
+
+/* the most of what anything moves or bends by: what a probe goes with is not looked up */
+void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]) {
+    most[0] = most[1] = 1;
+    for (int h = 0; h <= nhinge; h++) {
+        most[0] = fmax(most[0], factor[2 * h]);
+        most[1] = fmin(most[1], factor[2 * h + 1]);
+    }
+}
+
+static void put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v,
+                       fw_verdict_requirement *r) {
+    const fw_verdict_shaken *s = &v->shaken[r->scene_index];
+    double most[2];
+    fw_verdict_requirement_factor(s->factor, m->nhinge, most);
+    fw_verdict_requirement_shaken(most, s->late, m->device->requirement[r->asked].measure, r);
 }
 
 fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
@@ -467,7 +502,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
     }
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].measure && !v->requirement[k].why)
-            widen(v->detuned + 2 * v->requirement[k].scene_index, &v->requirement[k]);
+            put_shaken(m, v, &v->requirement[k]);
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].decision != FW_ACCEPT && !has_reason(v, &v->requirement[k]))
             FW_TRY(add_reason(arena, m, &v->requirement[k], v));

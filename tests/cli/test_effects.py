@@ -381,6 +381,72 @@ class Resonance(unittest.TestCase):
         self.assertEqual(far["verdict"], "accept")
         self.assertLess(far["hinges"][0]["utilisation_band"][1], 1.1 * far["hinges"][0]["utilisation"])
 
+    ARM = """<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><limits safety-factor="2"/>
+<flexure id="leaf" kind="leaf" length="400 um" width="10 um"/><mechanism>
+<body id="arm" x="1 mm" y="0 mm" mass="0.2 mg" inertia="0.1 mg mm^2"/><body id="table" x="0 mm" y="0 mm" mass="1 mg" inertia="1 mg mm^2"/>
+<revolute id="A" a="table" b="arm" b-x="-1 mm" hinge="leaf" axis="90 deg"/><prismatic id="slide" a="ground" b="table" axis="90 deg"/>
+<driver id="go" joint="slide" value="1 um*sin(2*pi*%s Hz*t)"/></mechanism><probe id="tip" kind="angle" on="arm"/>
+<require frequency="1" min="10 Hz"/><require probe="tip" measure="maximum" max="1 rad" scene="s"/><require probe="tip" measure="final" max="1 rad" scene="s"/>
+<scene name="s" duration="90 ms"/></device>"""
+
+    def electrodes(self, frequency):
+        """a voltage of half the frequency shakes as a force of the whole does"""
+        text = (ROOT / "docs/gallery/comb-stage/device.xml").read_text()
+        text = re.sub(r'<scene name="switch-on".*?</scene>', "", text, flags=re.S)
+        combs = "".join(f'<comb-drive id="{name}" kind="comb" on="stage" x="0.43 mm" y="{y} mm" direction="0 deg" fingers="15" gap="10 um" '
+                        f'overlap="40 um" length="100 um" voltage="12 V" law="sine" frequency="{frequency / 2} Hz"/>'
+                        for name, y in (("upper", 0.44), ("lower", -0.44)))
+        return text.replace("</device>", '<probe id="tip" kind="displacement" on="stage" direction="0 deg"/><require frequency="1" min="10 Hz"/>'
+                            '<require probe="tip" measure="maximum" max="300 um" scene="s"/><require probe="tip" measure="final" max="300 um" scene="s"/>'
+                            f'<scene name="s" duration="150 ms">{combs}</scene></device>')
+
+    def judged(self, text, *options):
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(text)
+            done = run("check", device, "--advice", "none", "--json", *(options or ("--corners", "none")))
+        return json.loads(done.stdout), done.stderr
+
+    LAB = """<process xmlns="urn:flexwright:process:1" flow="al-masked-rie" id="ours" version="1" title="edges of the aluminium alone">
+<source id="bench" kind="measured" date="2026-11-01">our bench</source><q id="litho.edge" value="0" u="0" unit="um" status="measured" src="bench"/>
+<q id="made.A" value="0.995" lo="0.995" hi="0.995" unit="1" status="measured" src="bench"/></process>"""
+
+    def test_between_corners(self):
+        """a law between the frequencies of all corners: each is accepted by itself, and what lies between them is beyond its limit"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text().replace('safety-factor="2"', 'safety-factor="5"')
+        text = re.sub(r'<scene name="draw".*?</scene>|<probe id="tension"[^>]*/>|<require probe="stroke"[^>]*/>', "", text, flags=re.S)
+        text = text.replace("</device>", '<scene name="s" duration="60 ms"><base-motion ax="21 m/s^2" law="sine" frequency="729 Hz"/></scene></device>')
+        with tempfile.TemporaryDirectory() as place:
+            lab = pathlib.Path(place, "lab.xml")
+            lab.write_text(self.LAB)
+            made, _ = self.judged(text, "--lab", lab)
+        corners = made["flows"][0]["as_fabricated"]["corners"]
+        self.assertTrue(all(c["verdict"] == "accept" for c in corners))
+        self.assertLess(max(c["utilisation"] for c in corners), 0.6)
+        self.assertEqual(made["verdict"], "inconclusive")
+        self.assertIn("FW-D636", [r["code"] for r in made["reasons"]])
+        # leaves thinner by less than the edges of the flow: 0.22 um each
+        between, _ = self.judged(text.replace('name="width" value="12 um"', 'name="width" value="11.5 um"'))
+        self.assertGreater(between["hinges"][0]["utilisation"], 1)
+
+    def test_whatever_drives_it(self):
+        """a driver that shakes what hangs on it, and a voltage: with the law moved by the error of the frequency, which is what another
+        stiffness does, what hinges use and probes read stays within the bands. (Bodies that give only make it softer.)"""
+        for what, mode_Hz in ((lambda f: self.ARM % f, 388.3), (self.electrodes, 284.3)):
+            near, said = self.judged(what(0.985 * mode_Hz))
+            mode = next(r for r in near["requirements"] if r["kind"] == "frequency")
+            self.assertAlmostEqual(mode["value"] / mode_Hz, 1, delta=3e-3)
+            self.assertIn("FW-D642", said)
+            off = mode["value"] / mode["band"][0]
+            for times in (off, 1 - 0.3 * (off - 1)):
+                other, _ = self.judged(what(0.985 * mode_Hz * times))
+                for h, now in zip(near["hinges"], other["hinges"]):
+                    self.assertTrue(h["utilisation_band"][0] <= now["utilisation"] <= h["utilisation_band"][1], (times, h["utilisation_band"], now))
+                for r, now in zip(near["requirements"], other["requirements"]):
+                    if r["measure"]:
+                        self.assertTrue(r["band"][0] <= now["value"] <= r["band"][1], (times, r["measure"], r["band"], now["value"]))
+            self.assertGreater(near["hinges"][0]["utilisation_band"][1], 1.1 * near["hinges"][0]["utilisation"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -145,6 +145,32 @@ class OutOfPlane(unittest.TestCase):
         self.assertTrue(any("bends across the plane" in r["text"] for r in much[0]["reasons"]))
         self.assertEqual(little[0]["verdict"], "accept")
 
+    def test_repeated_shocks(self):
+        """a shock that hinges bear once is not accepted ten million times, and one that is a tenth of it is"""
+        shock = '</scene><scene name="drop" duration="5 ms"><base-motion az="%s km/s^2" law="half-sine" rise="0.5 ms"/>'
+        lasts = '<require frequency="1" min="1 Hz" plane="in"/>'
+        repeated = '<limits safety-factor="2" cycles="1e7"/>'
+        single = '<limits safety-factor="2"/>'
+        once = self.stage("check", scene=shock % "0.1", asked=lasts, flow=single)
+        used = once["out_of_plane"][0]["scenes"][1]["strained"]
+        strong = f"{0.1 * 0.9 / used:.4g}"
+        for flow, a, verdict in ((single, strong, "accept"), (repeated, strong, "inconclusive"), (repeated, f"{0.01 * 0.9 / used:.4g}", "accept")):
+            whole = self.stage("check", scene=shock % a, asked=lasts, flow=flow)
+            self.assertEqual(whole["verdict"], verdict, whole["reasons"])
+            self.assertEqual(any("repetitions of scene drop" in r["text"] for r in whole["reasons"]), verdict != "accept")
+
+    def test_a_stress_gradient_bends_its_hinges(self):
+        """it lifts what it curls, and the flexures on the ground hold that: in proportion, and rejected where it is past their limit"""
+        used = []
+        for gradient in (1, 2, 4000):
+            whole, _, now = self.across(f'<residual-stress gradient="{gradient} MPa/um"/>', flow='<limits safety-factor="2"/>')
+            used.append((now["strained_sure"], now["strained"], whole["verdict"]))
+        self.assertGreater(used[0][0], 0)
+        self.assertAlmostEqual(used[1][0] / used[0][0], 2, places=6)
+        self.assertAlmostEqual(used[2][0] / used[0][0], 4000, places=2)
+        self.assertEqual(used[0][2], "accept")
+        self.assertEqual(used[2][2], "reject")
+
     def test_a_shaker_at_a_resonance(self):
         """N periods of a sine at the lowest frequency across the plane do pi N times what its amplitude does at rest, the stiffness
         known or not; far from it a few times"""

@@ -189,6 +189,33 @@ static void expressions(void **state) {
 /* What a law does to an oscillator: a step 2; a half sine at rise/period = 0.8101 the top of its shock spectrum, 1.7684
    (closed form: cos at the turning point, sin(2 pi n/(2r + 1)) 2r/(2r - 1)); a sine at resonance N periods long pi N;
    far from it (1 + r)/|1 - r^2| at most, which a long scene comes near; a slow ramp hardly more than itself */
+/* closed forms at resonance: of a coordinate q = -(sin wt + wt cos wt)/2, of a square (1 - cos wt)/2 - wt sin wt/4; and what
+   is no shake: pulses, ramps, steps, once to and fro */
+static void swings(void **state) {
+    (void)state;
+    const double w = 2 * pi * 1000, period = 1e-3, ever = (double)INFINITY;
+    const fw_quantity_law_kind *sine = fw_quantity_law_find("sine"),
+                               *ramp = fw_quantity_law_find("ramp"),
+                               *half = fw_quantity_law_find("half-sine");
+    const fw_quantity_law same = {.kind = sine, .frequency_Hz = 1000, .end_s = ever},
+                          slow = {.kind = ramp, .rise_s = 0.1},
+                          pulse = {.kind = half, .rise_s = 2e-3},
+                          below = {.kind = sine, .frequency_Hz = 500, .end_s = ever};
+    for (int n = 4; n <= 64; n *= 4) {
+        const double end = n * period;
+        assert_near(fw_quantity_law_swing(&same, FW_LAW_OF_COORDINATE, end, w, 0) / (pi * n), 1, 0.02);
+        assert_near(fw_quantity_law_swing(&below, FW_LAW_SQUARED, end, w, 0) / (0.5 * pi * n), 1, 0.12);
+        assert_near(fw_quantity_law_swing(&same, FW_LAW_OF_LOAD, end, w, 0) / (pi * n), 1, 0.02);
+    }
+    assert_true(fw_quantity_law_swing(&slow, FW_LAW_OF_COORDINATE, 0.09, w, 0) < 1.02 / (0.1 * w) * 2);
+    assert_true(fw_quantity_law_goes_to_and_fro(&same, 3 * period));
+    assert_true(fw_quantity_law_goes_to_and_fro(&same, 1.5 * period));
+    assert_false(fw_quantity_law_goes_to_and_fro(&same, period));
+    assert_false(fw_quantity_law_goes_to_and_fro(&slow, 0.2));
+    assert_false(fw_quantity_law_goes_to_and_fro(&pulse, 0.2));
+    assert_false(fw_quantity_law_goes_to_and_fro(NULL, 0.2));
+}
+
 static void answers(void **state) {
     (void)state;
     const double w = 2 * pi * 1000, period = 1e-3;
@@ -312,6 +339,7 @@ int main(void) {
         cmocka_unit_test(expressions),
         cmocka_unit_test(jolts),
         cmocka_unit_test(answers),
+        cmocka_unit_test(swings),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
