@@ -173,7 +173,10 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *mhd, con
     if (r->received != r->declared) return MHD_NO;
     phase(r->connection, FW_WORKING);
     r->server->asked = true;
-    r->route->handle(r);
+    if (r->server->ending)
+        fw_serve_reply_error(r, 503, NULL, "the server ends");
+    else
+        r->route->handle(r);
     if (r->reply.status) return send_reply(r, mhd);
     r->suspended = true;
     MHD_suspend_connection(mhd);
@@ -316,11 +319,15 @@ static bool start_http(fw_serve_server *server, fw_diags *diags) {
     return server->daemon[1] || could_not_listen(server, "::1", diags);
 }
 
+/* Ends every connection. What comes in during the last run of the library, and a stream whose
+   first words are just out, must not be put to sleep: the library ends the whole program then. */
 static void stop_http(fw_serve_server *server) {
+    server->ending = true;
     for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++) {
         fw_serve_connection *slot = &server->connection[i];
-        if (slot->fd < 0 || !slot->request || !slot->request->suspended) continue;
+        if (slot->fd < 0 || !slot->request) continue;
         slot->request->gone = true;
+        if (!slot->request->suspended) continue;
         if (!slot->request->stream)
             fw_serve_reply_error(slot->request, 503, NULL, "the server ends");
         fw_serve_request_answer(slot->request);

@@ -21,7 +21,8 @@ typedef struct fw_serve_server {
     fw_serve_jobs *jobs;
     fw_serve_file_watch *watch; /* NULL: no file */
     fw_serve_scratch *scratch;
-    bool asked; /* something was asked for since workers and jobs were looked at */
+    bool asked;  /* something was asked for since workers and jobs were looked at */
+    bool ending; /* no request waits any more: the library ends only what waits for nothing */
 } fw_serve_server;
 
 /* ---- routes.c: one row for everything that can be asked for ---- */

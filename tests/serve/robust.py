@@ -670,6 +670,33 @@ def streams(program, directory):
 
 # ---- the end ----
 
+def asked_while_it_ends(program, directory):
+    """what is asked for in the very moment of the signal, streams, previews and jobs, is answered or cut, and the server ends well"""
+    for last in (b"GET /api/events", b"POST /api/preview", b"POST /api/pose"):
+        server = Server(program, directory).enter()
+        body = json.dumps({"text": TEXT}).encode()
+        head = last + (f" HTTP/1.1\r\nHost: {server.host}\r\nCookie: {server.cookie}\r\nX-Flexwright-Token: {server.token}\r\n"
+                       f"Origin: http://{server.host}\r\n").encode()
+        if last.startswith(b"POST"):
+            head += f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n".encode() + body
+        else:
+            head += b"\r\n"
+        many = [server.connect() for _ in range(6)]
+        for s in many:
+            s.sendall(head[:-5])
+        server.ask("GET", "/api/session")  # they are taken, and read so far
+        server.process.send_signal(signal.SIGSTOP)
+        for s in many:
+            s.sendall(head[-5:])
+        server.process.send_signal(signal.SIGTERM)
+        server.process.send_signal(signal.SIGCONT)
+        server.process.wait(timeout=20)
+        for s in many:
+            s.close()
+        server.stop()
+        assert server.process.returncode == 0 and not server.said(), (last, server.process.returncode, server.said())
+
+
 def signals(program, directory):
     """SIGTERM, SIGINT and SIGHUP end it, 2 s later at most on a quiet machine, whatever it does; nothing is left"""
     port = 0  # the next one takes the port of the first
@@ -790,7 +817,7 @@ def started_wrongly(program, directory):
 
 WAITING = [half_open, drip_alone, stopped]  # these do little but wait: beside the others
 TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, given_up, file, lost_file, draft, beside, words,
-         entry, streams, signals, killed, six, browser, started_wrongly]
+         entry, streams, asked_while_it_ends, signals, killed, six, browser, started_wrongly]
 
 
 def run(test, program):
