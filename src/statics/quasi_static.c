@@ -419,7 +419,8 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         double rings = 0;
         if (tried && !elsewhere && fw_statics_level_is_below(step, stated))
             FW_TRY(fw_statics_level_rings(arena, mechanism, scene, found, &rings));
-        if (tried && (elsewhere || !fw_statics_level_is_below(step, stated) || rings >= stated)) {
+        if (tried && (elsewhere || !fw_statics_level_is_below(step, stated) ||
+                      rings >= fw_statics_level_rings_most)) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }

@@ -341,6 +341,8 @@ fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *mecha
                                       const fw_device_scene *scene, const fw_effect_choice *asked,
                                       bool *first);
 static const double fw_statics_level_stated = 30;
+/* what rings may be: pins in a motion are taken to be off by 2.9 %, whatever the step says (verdict_strain.c) */
+static const double fw_statics_level_rings_most = 0.029;
 /* it was computed, and changes less; step may be NULL */
 bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy);
 
