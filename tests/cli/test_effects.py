@@ -396,7 +396,7 @@ class Resonance(unittest.TestCase):
 <revolute id="A" a="table" b="arm" b-x="-1 mm" hinge="leaf" axis="90 deg"/><prismatic id="slide" a="ground" b="table" axis="90 deg"/>
 <driver id="go" joint="slide" value="1 um*sin(2*pi*%s Hz*t)"/></mechanism><probe id="tip" kind="angle" on="arm"/>
 <require frequency="1" min="10 Hz"/><require probe="tip" measure="maximum" max="1 rad" scene="s"/><require probe="tip" measure="final" max="1 rad" scene="s"/>
-<scene name="s" duration="200 ms"/></device>"""
+<scene name="s" duration="90 ms"/></device>"""
 
     def electrodes(self, frequency):
         """a voltage of half the frequency shakes as a force of the whole does"""

@@ -140,8 +140,8 @@ with tempfile.TemporaryDirectory() as here:
     for name in names:
         form = (ROOT / f"docs/studies/{name}.xml").read_text().replace("../gallery", str(ROOT / "docs/gallery"))
         if not os.environ.get("FW_TEST_ALL") and not os.environ.get("FW_UPDATE"):  # keys need no more than a few devices
-            form = form.replace('samples="300"', 'samples="50"').replace('as="made"', 'as="drawn" samples="12"')
-            form = form.replace('kind="sensitivity"', 'kind="sensitivity" samples="64"')
+            form = form.replace('samples="300"', 'samples="200"').replace('as="made"', 'as="drawn" samples="12"')
+            form = form.replace('kind="sensitivity"', 'kind="sensitivity" samples="128"')
         (pathlib.Path(here) / f"{name}.xml").write_text(form)
         one = ["--study", name] if form.count("<study ") > 1 else []
         done = subprocess.run([program, "study", f"{here}/{name}.xml", "-q", "-o", f"{here}/{name}", "--flow", "al-masked-rie", *one],
@@ -155,7 +155,7 @@ with tempfile.TemporaryDirectory() as here:
             kept = ROOT / "docs/pictures" / PICTURES[name][picture]
             if os.environ.get("FW_UPDATE"):
                 kept.write_bytes(drawn)
-            elif not os.environ.get("FW_TEST_ALL") and 'samples="64"' in form:
+            elif not os.environ.get("FW_TEST_ALL") and 'samples="128"' in form:
                 continue  # of fewer samples
             elif not kept.exists() or kept.read_bytes() != drawn:
                 problems.append(f"docs/pictures/{kept.name} is not what docs/studies/{name}.xml draws; FW_UPDATE=1 renews it")

@@ -408,9 +408,9 @@ export const actions = {
     },
 };
 
-/** One action; whatever it was, afterwards the page shows what is true. Returns [action, what it is compared with].
+/** One action, `kind` or any; whatever it was, afterwards the page shows what is true. Returns [action, what it is compared with].
  *  mend: the text has no answer, and mostly something is taken back. */
-export async function step(page, server, d, { mend = false, whole = d.below(4) === 0 } = {}) {
+export async function step(page, server, d, { mend = false, whole = d.below(4) === 0, kind = "" } = {}) {
     let name = "";
     const settle = () => page.waitForFunction((all) => globalThis.flexwright.settled(all), whole, { timeout: 240000 }).catch(async (error) => {
         const { set, options, working, job } = await page.evaluate(() => {
@@ -421,7 +421,7 @@ export async function step(page, server, d, { mend = false, whole = d.below(4) =
         throw new Error(`${error.message} Not settled after ${name}: ${JSON.stringify({ whole, set, options, working, job })}`);
     });
     const same = () => compare(page, server);
-    name = mend && d.below(4) ? "undo" : d.of(Object.keys(actions));
+    name = kind || (mend && d.below(4) ? "undo" : d.of(Object.keys(actions)));
     await actions[name](page, d, settle, same);
     await settle();
     assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {}, "a value is held that nobody holds");

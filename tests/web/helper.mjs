@@ -13,6 +13,8 @@ const [libraries, program, source] = ["FW_WEB_LIBRARIES", "FW_PROGRAM", "FW_SOUR
     return process.env[name];
 });
 export { program, source };
+/** All of what repeats, not its first part: ./test --all. */
+export const ALL = Boolean(process.env.FW_TEST_ALL);
 const require = createRequire(join(libraries, "package.json"));
 const { chromium } = require("playwright-core");
 export const axeSource = require("axe-core").source;
@@ -127,6 +129,15 @@ export const view = async (page, id) => {
     await page.click(`#tab-${id}`);
     await page.waitForSelector(`#panel-${id}:not([hidden])`);
 };
+/** The layout of a window that has another size now: what watches sizes is told before the next frame but one. */
+export const laidOut = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(resolve, 0)))));
+
+/** Serious findings of axe in `where` (a selector, null: the whole page), whose script the page has, each with the view's name. */
+export async function serious(page, name, where, options = {}) {
+    const result = await page.evaluate(([w, o]) => globalThis.axe.run(w ? { include: [w] } : document, { resultTypes: ["violations"], ...o }), [where, options]);
+    return result.violations.filter((v) => ["serious", "critical"].includes(v.impact))
+        .map((v) => `${name}: ${v.id}: ${v.nodes.slice(0, 3).map((n) => `${n.target} ${n.html.slice(0, 150)} ${n.any[0]?.message ?? ""}`).join("; ")}`);
+}
 export const text = (page) => page.evaluate(() => globalThis.flexwright.state.text);
 export const setText = (page, change) => page.evaluate((c) => {
     const { editor } = globalThis.flexwright.parts;
