@@ -182,6 +182,7 @@ typedef struct fw_effect_ledger {
         beside; /* likewise of what no motion has, whatever was asked for; those that are finite */
     const char
         *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
+    double undecided_share; /* by which it may change forces */
     fw_effects_hinge_use hinge;
 } fw_effect_ledger;
 

@@ -45,8 +45,25 @@ static double mass_of(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? (double)INFINITY : m->body[body].mass_kg;
 }
 
-/* The largest of all that has a law, drivers among it, and of what begins with a velocity; weight and
-   friction are there from the start and jolt nothing. */
+/* springs between points, and of pins that are no flexures, that are let go strained */
+static bool springs_let_go(const fw_mechanism *m) {
+    const double rounding = 1e-9;
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_device_spring *s = &m->spring[i];
+        const fw_geometry_vec2 a = fw_mechanism_local_place(m, s->body_a, s->ax_m, s->ay_m),
+                               b = fw_mechanism_local_place(m, s->body_b, s->bx_m, s->by_m);
+        const double length = hypot(b.x - a.x, b.y - a.y), by = length - s->length_m;
+        if (s->stiffness_N_per_m > 0 && (s->cable ? by : fabs(by)) > rounding * length) return true;
+    }
+    for (int i = 0; i < m->npin; i++)
+        if (m->pin[i].hinge == FW_NONE && m->pin[i].stiffness_Nm_per_rad > 0 &&
+            fabs(fw_effects_pin_deflection(m, i)) > rounding)
+            return true;
+    return false;
+}
+
+/* The largest of all that has a law, drivers among it, of what begins with a velocity, and of springs that are let go;
+   weight and friction are there from the start and jolt nothing. */
 static double largest_jolt(const fw_effect_case *c, double omega) {
     const fw_device_scene *s = c->scene;
     const fw_mechanism *m = c->mechanism;
@@ -67,7 +84,7 @@ static double largest_jolt(const fw_effect_case *c, double omega) {
         most = fmax(most, fw_quantity_law_jolt(s->part[i].law, false, end, omega));
     for (int i = 0; i < m->ndriver; i++)
         most = fmax(most, fw_quantity_law_jolt(&m->driver[i].law, true, end, omega));
-    return s->ninitial > 0 ? 1 : most;
+    return s->ninitial > 0 || springs_let_go(m) ? 1 : most;
 }
 
 /* A loss factor hardly depends on the frequency, a damper's is proportional to it. So along either

@@ -176,7 +176,9 @@ static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
             continue;
         }
         FW_TRY(rows[i]->beside(c, &share));
-        if (share > fw_beside_small) ledger->undecided = e->reason;
+        if (!(share > fw_beside_small)) continue;
+        ledger->undecided = e->reason;
+        ledger->undecided_share = fmax(ledger->undecided_share, share);
     }
     return FW_OK;
 }
@@ -307,7 +309,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
     ledger->left_out = ledger->beside = 0;
-    ledger->undecided = NULL;
+    ledger->undecided = NULL, ledger->undecided_share = 0;
     FW_TRY(fw_effects_loads_new(arena, mechanism, scene, loads));
     FW_NEED(envelope.taken = fw_arena_array(arena, bool, ROWS));
     FW_TRY(look_around(&c, &envelope));

@@ -416,7 +416,11 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(fw_statics_level_of_motion(arena, mechanism, scene, found, &step));
         /* pins that take a stated velocity away cannot say what flexures make of it */
         bool elsewhere = found->stats.velocity_moved > fw_assembly_another_start;
-        if (tried && (elsewhere || !fw_statics_level_is_below(step, stated))) {
+        double rings = 0;
+        if (tried && !elsewhere && fw_statics_level_is_below(step, stated))
+            FW_TRY(fw_statics_level_rings(arena, mechanism, scene, found, &rings));
+        if (tried && (elsewhere || !fw_statics_level_is_below(step, stated) ||
+                      rings >= fw_statics_level_rings_most)) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }

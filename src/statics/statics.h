@@ -315,6 +315,12 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *mechan
                                      const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                      const fw_statics_level_step **step);
 
+/* of a motion of pins: strain that forces of joints which come at once set ringing along what flexures give, over the
+   largest that their turns strain them by; 0 where there are no such forces */
+fw_status fw_statics_level_rings(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                 double *share);
+
 struct fw_statics_equilibrium;
 /* of an equilibrium that was solved for at s = 1 with these effects */
 fw_status fw_statics_level_of_equilibrium(struct fw_statics_equilibrium *w,
@@ -327,13 +333,16 @@ fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *re
 /* Where every flexure's stiffness is stated and its axis known, auto tries pins before anything
    else: the statement is of the rotation, the pin is its model, and it costs a tenth. They stay
    where the step to hinges that give changes less than `fw_statics_level_stated` times the accuracy
-   (3 % at the default accuracy: what stiffnesses are known to). Not where something acts on
+   (3 % at the default accuracy: what stiffnesses are known to), and where less than that of their strain rings along
+   what they give. Not where something acts on
    hinges that give in another way, or draws them across their strip, and not where pins hold a body
    that flexures let move. */
 fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *mechanism,
                                       const fw_device_scene *scene, const fw_effect_choice *asked,
                                       bool *first);
 static const double fw_statics_level_stated = 30;
+/* what rings may be: pins in a motion are taken to be off by 2.9 %, whatever the step says (verdict_strain.c) */
+static const double fw_statics_level_rings_most = 0.029;
 /* it was computed, and changes less; step may be NULL */
 bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy);
 

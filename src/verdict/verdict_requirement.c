@@ -168,7 +168,8 @@ static void put(fw_verdict_requirement *r, double value, double numeric, double 
 static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, double level) {
     const double bodies = fw_verdict_bending_share(motion);
     double whole = fw_verdict_motion_model_error(m, motion) + bodies;
-    if (isnan(level) || motion->ledger.hinge.used == FW_HINGE_ELASTICA) return whole;
+    const bool exact = motion->ledger.hinge.used == FW_HINGE_ELASTICA;
+    if (isnan(level) || exact || motion->ledger.undecided) return whole;
     double computed = level + fw_verdict_motion_lasting_error(m) + bodies;
     bool swings = motion->loads && !motion->loads->quasi_static;
     return swings && motion->ledger.hinge.used == FW_HINGE_REVOLUTE ? fmax(computed, whole)

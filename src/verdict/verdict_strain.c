@@ -488,13 +488,17 @@ double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
    are judged by the reference cases where these are worse: frequencies that shift are not in the
    step. Exact beams have no next level: what is left is what they have in common with solids. Where the
    step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
-   equilibrium, the utilisation may be off by half: a verdict is then neither. */
+   equilibrium, the utilisation may be off by half: a verdict is then neither. Nor is it where no motion has what
+   matters and nothing bounds it (FW-D607): that may take as much away as it adds, and a rejection is no surer than an
+   acceptance; forces that it changes by a share may change what they do by twice as much. */
 const double fw_verdict_model_not_known = 0.5;
 
 double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const fw_statics_level_step *s = x->level;
     double usual = fw_verdict_model_error.motion, common = fw_verdict_motion_lasting_error(m),
            off = 0, largest = 0;
+    if (x->ledger.undecided)
+        return fmin(1, fmax(fw_verdict_model_not_known, 2 * x->ledger.undecided_share));
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
     if (s && s->unknown) return fw_verdict_model_not_known;
     if (!s || s->why_not || m->nhinge == 0) return usual;
