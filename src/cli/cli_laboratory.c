@@ -112,8 +112,26 @@ static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, 
     return fw_process_calibrate_wafers(w->arena, flow, &readings, &w->diags, found);
 }
 
+/* what was read of the value that a message names: a lab has no 'u' to correct there, but wafers that differ */
+static const char *with_readings(work *w, const fw_process_calibration *found,
+                                 const char *message) {
+    for (int i = 0; i < found->count; i++) {
+        const fw_process_calibrated *c = &found->item[i];
+        const char *name = fw_arena_printf(w->arena, "'%s'", c->id);
+        if (!name) return NULL;
+        if (!strstr(message, name)) continue;
+        return fw_arena_printf(
+            w->arena,
+            "%s. It comes of %s (%s): measure more wafers, or leave out what was "
+            "read where a step was repeated or went otherwise than planned",
+            message, c->source ? c->source : c->coupon, c->note);
+    }
+    return message;
+}
+
 /* what --lab would not take is not written: the same questions, asked of the flow with these values */
-static fw_status is_taken(work *w, fw_process_flow *flow, const fw_text *pack) {
+static fw_status is_taken(work *w, fw_process_flow *flow, const fw_process_calibration *found,
+                          const fw_text *pack) {
     fw_diags said = fw_diags_new(w->arena);
     fw_status status =
         fw_process_lab_apply(w->arena, "calibrated", pack->data, pack->length, flow, &said);
@@ -122,6 +140,7 @@ static fw_status is_taken(work *w, fw_process_flow *flow, const fw_text *pack) {
         if (said.item[i].severity == FW_ERROR) {
             fw_diag d = said.item[i];
             d.place = (fw_place){.file = w->options->device};
+            FW_NEED(d.message = with_readings(w, found, d.message));
             fw_diags_add(&w->diags, &d, FW_ERROR);
         }
     return w->diags.failed ? FW_NOMEM : status;
@@ -144,7 +163,7 @@ static fw_status run(work *w) {
     fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
     FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
     FW_TRY(fw_process_calibration_text(flow, &found, &table));
-    FW_TRY(is_taken(w, flow, &pack));
+    FW_TRY(is_taken(w, flow, &found, &pack));
     const char *to = w->options->output ? w->options->output : "-";
     FW_TRY(fw_output_single(w->arena, to, pack.data, pack.length, &w->diags));
     if (!w->options->quiet) fputs(table.data, strcmp(to, "-") == 0 ? stderr : stdout);

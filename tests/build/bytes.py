@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bytes.py PROGRAM: the masks of the gallery and of five (./test --all: a dozen) random devices are the same bytes from gcc -O2 (PROGRAM) and from clang,
+"""bytes.py PROGRAM: the masks of the gallery and of three (./test --all: a dozen) random devices are the same bytes from gcc -O2 (PROGRAM) and from clang,
 some rooms -O0 and some -O1, under the sanitizers (build-asan, where build.sanitized has left it; else clang -O2, in build-clang).
 FW_BYTES_LEVELS=1: from clang -O2, gcc -O0 and -O3, too, in directories beside it, which takes some minutes. Only the programs are
 built. Motion is not compared: masks depend on the description and the process alone."""
@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True
 import random_devices  # noqa: E402
 
 FAST = ["--force", "--corners", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--mask-format", "all", "-q"]
-COUNT = int(os.environ.get("FW_BYTES_COUNT", "12" if os.environ.get("FW_TEST_ALL") else "5"))
+COUNT = int(os.environ.get("FW_BYTES_COUNT", "12" if os.environ.get("FW_TEST_ALL") else "3"))
 GALLERY = len(list((ROOT / "docs/gallery").glob("*/device.xml")))
 
 

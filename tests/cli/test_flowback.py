@@ -360,6 +360,17 @@ class Flowback(unittest.TestCase):
         self.assertIn("wafer 1", said)
         self.assertFalse((self.here / "lab.xml").exists())
 
+    def test_wafers_that_differ_beyond_sense(self):
+        """two wafers of which one was etched twice: what is refused says which wafers and by how much, and nothing is written"""
+        for wafer, read in (("1", "700 701 699 700 702"), ("2", "1100 1101 1099 1100 1102")):
+            words = f"S14; start=2026-11-01T08:0{wafer}; end=2026-11-01T08:2{wafer}; by=AB; second=CD"
+            begun = ("--wafers", "2") if wafer == "1" else ()
+            self.expect(self.command("--entry", words, *begun, "--wafer", wafer, "--coupon", f"etch-rate, pan.R, value={read} nm, at=15 min"))
+        said = self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", self.here / "lab.xml"), 3).stderr
+        self.assertIn("[FW-D530]", said)
+        self.assertRegex(said, r"'pan\.R'.* of wafers 1, 2: .*mean of 2 wafers, which differ by 31 % .*measure more wafers")
+        self.assertFalse((self.here / "lab.xml").exists())
+
     def test_corners(self):
         """an edge and an anisotropy that are read off the same lines: one is high where the other is low"""
         (self.here / "lot.csv").write_text("""coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit

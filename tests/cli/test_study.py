@@ -18,7 +18,7 @@ import tempfile
 import time
 import unittest
 
-from common import ALL, GALLERY, PROGRAM, run
+from common import ALL, GALLERY, PROGRAM, only_all, run
 
 FLOW = ("--flow", "al-masked-rie")
 
@@ -371,6 +371,7 @@ class Study(unittest.TestCase):
                                f"arc={arc} deg").stdout)["governing"]["utilisation"] for arc in (200, 260)]
         self.assertEqual([worst["worst_least"]["value"], worst["worst_largest"]["value"]], sorted(ends))
 
+    @only_all
     def test_a_yield_of_one_uncertain_load_is_that_of_its_limit(self):
         """U rises with the load, so a device fails where the load is beyond the one that uses the limit up"""
         path = self.write(bare(), "bare.xml")
@@ -563,7 +564,7 @@ class Study(unittest.TestCase):
         result = self.run_study(self.write(study("s", "sensitivity", rows, samples=160 if ALL else 128).replace("<study", '<study as="drawn"')), "s")
         by = {d["what"]: d for d in result["responses"][0]["by"]}
         at = {"arc": (240, "deg", math.pi / 180), "flexure[C]/@width": (8, "um", 1e-6)}
-        for what, (centre, unit, factor) in at.items():
+        for what, (centre, unit, factor) in at.items() if ALL else [*at.items()][1:]:
             step = centre * 1e-3
             u = []
             for k in (-2, -1, 1, 2):
