@@ -331,7 +331,8 @@ void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out) {
     const hazards met = met_by(flow, out);
     if (met.n == 0) return;
     fw_text_add(out,
-                "<h3>Hazards: read before the lot begins</h3>\n<p>Emergency number ____________ "
+                "<h3>Hazards: read before the lot begins</h3>\n"
+                "<p style=\"break-after:avoid\">Emergency number ____________ "
                 "&ensp; Nearest shower, eye wash, first aid ____________</p>\n"
                 "<table class=\"small\"><thead><tr><th></th><th style=\"width:26%\">Hazard, bench: "
                 "steps</th><th>Wear and keep ready</th><th>First aid</th><th style=\"width:16%\">"
