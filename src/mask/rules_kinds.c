@@ -134,10 +134,9 @@ static int stretches_of(const fw_mask_rule_finding *f, int n, double limit_m, st
     return count;
 }
 
-/* the first stretch of the place that this one is in; the way there is halved, which thousands of teeth in a row need */
-static int root(stretch *list, int i) {
-    for (int up; (up = list[i].place) != i && up >= 0; i = up)
-        if (list[up].place >= 0) list[i].place = list[up].place;
+static int root(const stretch *list, int i) {
+    while (list[i].place != i && list[i].place >= 0)
+        i = list[i].place;
     return i;
 }
 

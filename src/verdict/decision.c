@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Decisions, their order, the errors of the model that they allow for, and what a refined computation may decide. */
 #include "base/constants.h"
+#include "geometry/segment.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/verdict_parts.h"
@@ -275,15 +276,11 @@ static fw_status modes_about(fw_arena *arena, const fw_mechanism *m, const fw_de
 
 /* ---- how far each mode swings, and bends what ---- */
 
-static fw_geometry_vec2 turned(double phi, double x, double y) {
-    return (fw_geometry_vec2){cos(phi) * x - sin(phi) * y, sin(phi) * x + cos(phi) * y};
-}
-
 /* pin's place on body b of the pose q (ground: as it is) */
 static fw_geometry_vec2 place_of(const double *q, int b, double x, double y) {
     if (b == FW_GROUND) return (fw_geometry_vec2){x, y};
-    const fw_geometry_vec2 at = turned(q[3 * b + 2], x, y);
-    return (fw_geometry_vec2){q[3 * b] + at.x, q[3 * b + 1] + at.y};
+    return vec_add((fw_geometry_vec2){q[3 * b], q[3 * b + 1]},
+                   fw_geometry_vec_rotate((fw_geometry_vec2){x, y}, q[3 * b + 2]));
 }
 
 /* how a small displacement u about the pose q, or the difference of two poses, bends a hinge: its turn, and what its
@@ -298,7 +295,8 @@ static double bent_by(const fw_mechanism *m, const fw_mechanism_hinge *h, const 
         const int b = body[i];
         if (b == FW_GROUND) continue;
         const double sign = i ? 1 : -1;
-        const fw_geometry_vec2 arm = turned(q[3 * b + 2], local[i][0], local[i][1]);
+        const fw_geometry_vec2 arm =
+            fw_geometry_vec_rotate((fw_geometry_vec2){local[i][0], local[i][1]}, q[3 * b + 2]);
         turn += sign * u[3 * b + 2];
         x += sign * (u[3 * b] - arm.y * u[3 * b + 2]);
         y += sign * (u[3 * b + 1] + arm.x * u[3 * b + 2]);
