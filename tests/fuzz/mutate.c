@@ -256,7 +256,7 @@ void fuzz_mutate_number(fuzz_text *t) {
         memcpy(old, t->data + s.a.value,
                s.a.value_length < sizeof old - 1 ? s.a.value_length : sizeof old - 1);
         if (sscanf(old, "%lf%n", &v, &used) != 1 ||
-            strstr(t->data + s.a.name, "xmlns") == t->data + s.a.name)
+            (s.a.name_length >= 5 && memcmp(t->data + s.a.name, "xmlns", 5) == 0))
             continue;
         snprintf(value, sizeof value, "%.6g",
                  v * factor[fuzz_below(sizeof factor / sizeof *factor)]);
