@@ -26,8 +26,8 @@ BUILD, PLACE = ROOT / "build-fuzz", ROOT / "build-fuzz/fuzz"
 CONFIGURE = ["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_C_COMPILER=clang", "-DFW_SANITIZE=ON", "-DFW_FUZZ=ON", "-DFW_FUZZ_LONG=ON",
              "-DFW_TESTS=ON", "-DFW_PAGE=OFF", "-DFW_TOGETHER=ON", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_C_FLAGS_DEBUG=-g1 -O1"]
 # parts of a thousand, by how long one takes (3 us to 9 ms) and how much there is to reach
-WEIGHTS = {"device": 60, "flow": 3, "laboratory": 20, "layers": 40, "study": 90, "materials": 6, "map": 150, "log": 60, "coupons": 20,
-           "drawing": 200, "expression": 251, "request": 100}
+WEIGHTS = {"device": 25, "flow": 1.5, "laboratory": 8, "layers": 10, "study": 40, "materials": 3, "map": 150, "log": 40, "coupons": 8,
+           "drawing": 280, "expression": 290, "request": 144.5}
 PIECE_S = 120
 SECONDS, MIB = 20, 1024
 
@@ -78,7 +78,7 @@ def main():
         left = False
         for number, name in enumerate(names):
             here = done.setdefault(f"{number} {name}", {"runs": 0, "seconds": 0.0, "pieces": 0, "found": 0})
-            wanted = o.count * WEIGHTS[name] // 1000 // names.count(name) - here["runs"]
+            wanted = int(o.count * WEIGHTS[name] / 1000 / names.count(name)) - here["runs"]
             if wanted <= 0 or (o.kind and name not in o.kind) or time.monotonic() >= end:
                 continue
             runs, took_s, said = piece(number, wanted, here["pieces"] + 1)
