@@ -62,6 +62,15 @@ def below(pid):
     return found[1:]
 
 
+def descriptors(server):
+    """of the server once connections are closed: the least that is seen"""
+    least = 1 << 30
+    for _ in range(8):
+        least = min(least, len(os.listdir(f"/proc/{server.process.pid}/fd")))
+        time.sleep(0.02)
+    return least
+
+
 class Refused(Exception):
     """an error of HTTP that says why, or no answer"""
 
@@ -90,15 +99,19 @@ def script(server):
             got[what] = refused
         if isinstance(got[what], bytes) and what in ("preview", "verdict"):
             got[what] = TIMES.sub(b"", got[what])
+        if what == "preview" and isinstance(got[what], bytes) and b'"exit_status":5' in got[what] and b'"severity":"error"' in got[what]:
+            got[what] = Refused("a preview that says what could not be read")
         return got[what] if isinstance(got[what], bytes) else None
 
-    if server.token is None:
-        try:
-            server.enter()
-        except (AssertionError, OSError, http.client.HTTPException, KeyError, ValueError) as error:
-            server.cookie = server.token = None
-            got["entering"] = Refused(repr(error))
-            return got
+    try:
+        if server.cookie is None:  # the address with its token is good once: what failed behind it is asked again without
+            status, headers, _ = server.ask("GET", f"/?token={server.entry}", cookie=False)
+            server.cookie = headers["set-cookie"].split(";")[0]
+        if server.token is None:
+            server.token = json.loads(asked(server, "GET", "/api/session")[1])["token"]
+    except (Refused, OSError, http.client.HTTPException, KeyError) as error:
+        got["entering"] = Refused(repr(error))
+        return got
     step("preview", "POST", "/api/preview", LIVE)
     begun = step("begun", "POST", "/api/jobs", JOB)
     if begun is None:
@@ -129,7 +142,7 @@ def script(server):
 class Tried:
     def __init__(self, program, preload):
         self.program, self.preload = program, preload
-        self.wanted, self.counts, self.seen = None, {}, 0
+        self.wanted, self.counts, self.seen, self.most = None, {}, 0, 0
 
     def begin(self, here, fault):
         environment = {"LD_PRELOAD": str(self.preload), "OPENBLAS_NUM_THREADS": "1", **fault}
@@ -141,6 +154,8 @@ class Tried:
             with self.begin(name, {"FW_FAULT_KIND": "none", "FW_FAULT_REPORT": str(report)}) as server:
                 self.wanted = script(server)
                 again = script(server)
+                script(server)
+                self.most = descriptors(server) + 1  # jobs that are kept have their directories
             refused = [w for w in self.wanted.values() if isinstance(w, Refused)]
             assert not refused, f"without a fault: {refused}"
             assert again == self.wanted, "the same questions have other answers: " + ", ".join(k for k in again if again[k] != self.wanted[k])
@@ -173,7 +188,7 @@ class Tried:
         pid = server.process.pid
         try:
             first = script(server)
-            fds, got = len(os.listdir(f"/proc/{pid}/fd")), None
+            got = None
             for _ in range(2):
                 got = script(server)
         except FileNotFoundError:
@@ -188,12 +203,14 @@ class Tried:
         if not stays and got != self.wanted:
             return "not right again: " + ", ".join(f"{k}: {v}" for k, v in got.items() if v != self.wanted.get(k))[:600]
         end = time.monotonic() + 5
-        while (len(below(pid)) > 3 or len(os.listdir(f"/proc/{pid}/fd")) > fds + 2) and time.monotonic() < end:
+        most = self.most
+        while (len(below(pid)) > 3 or len(os.listdir(f"/proc/{pid}/fd")) > most) and time.monotonic() < end:
             time.sleep(0.05)
         if len(below(pid)) > 3:
             return f"{len(below(pid))} processes stay"
-        if len(os.listdir(f"/proc/{pid}/fd")) > fds + 2:
-            return f"descriptors grow from {fds} to {len(os.listdir(f'/proc/{pid}/fd'))}"
+        if len(os.listdir(f"/proc/{pid}/fd")) > most:
+            names = sorted(os.readlink(e) for e in pathlib.Path(f"/proc/{pid}/fd").iterdir())
+            return f"{len(names)} descriptors, without a fault {most - 1}: {names}"
         return self.ended(server, here, stays)
 
     def ended(self, server, here, stays):
