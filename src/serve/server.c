@@ -428,7 +428,10 @@ static fw_status absolute(fw_serve_server *server) {
 static void say(const fw_serve_server *server, const fw_diags *diags) {
     fw_text text = fw_text_new(server->arena);
     fw_diags_print(diags, &text, "flexwright", NULL, 0, 0);
-    if (fw_text_end(&text) == FW_OK) fputs(text.data, stderr);
+    if (fw_text_end(&text) == FW_OK)
+        fputs(text.data, stderr);
+    else
+        fprintf(stderr, "flexwright: error: %s\n", fw_status_text(FW_NOMEM));
 }
 
 static void announce(const fw_serve_server *server) {
@@ -477,7 +480,8 @@ int fw_serve_run(const fw_serve_options *options) {
         for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++)
             server->connection[i].fd = -1;
         status = serve(server);
-    }
+    } else
+        fprintf(stderr, "flexwright: error: %s\n", fw_status_text(status));
     fw_arena_free(arena);
     return fw_status_exit(status);
 }
