@@ -79,8 +79,10 @@ class Refused(Exception):
 
 def asked(server, method, path, body=None):
     try:
-        status, _, data = server.ask(method, path, body, timeout=MOST_S)
+        status, _, data = server.ask(method, path, body, timeout=2 if server.deaf else MOST_S)
     except TimeoutError as error:
+        if server.deaf:
+            raise Refused(f"{path} is not heard") from error
         raise AssertionError(f"{path} is never answered") from error
     except (OSError, http.client.HTTPException) as error:
         raise Refused(f"{path}: {error!r}") from error
@@ -107,7 +109,7 @@ def script(server):
 
     try:
         if server.cookie is None:  # the address with its token is good once: what failed behind it is asked again without
-            status, headers, _ = server.ask("GET", f"/?token={server.entry}", cookie=False)
+            status, headers, _ = server.ask("GET", f"/?token={server.entry}", cookie=False, timeout=2 if server.deaf else MOST_S)
             server.cookie = headers["set-cookie"].split(";")[0]
         if server.token is None:
             server.token = json.loads(asked(server, "GET", "/api/session")[1])["token"]
@@ -148,7 +150,9 @@ class Tried:
 
     def begin(self, here, fault):
         environment = {"LD_PRELOAD": str(self.preload), "OPENBLAS_NUM_THREADS": "1", **fault}
-        return Server(self.program, here, environment=environment)
+        server = Server(self.program, here, environment=environment)
+        server.deaf = False
+        return server
 
     def clean(self):
         with tempfile.TemporaryDirectory() as name:
@@ -172,6 +176,7 @@ class Tried:
                 server = self.begin(name, fault)
             except AssertionError:
                 return self.refused_to_begin(pathlib.Path(name), kind)
+            server.deaf = ever and kind == "socket" and not children  # where nobody can be accepted for good, nobody is
             try:
                 return self.of(server, pathlib.Path(name), ever or children)
             finally:
