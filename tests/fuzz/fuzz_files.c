@@ -221,8 +221,10 @@ static void measured(fw_arena *arena, fw_diags *diags, const char *text, size_t 
     fw_diags own = fw_diags_new(arena);
     s = fw_process_lab_apply(arena, "lab.xml", pack.data, pack.length, flow, &own);
     /* values beyond what makes sense are said of the pack as of the table */
-    if (s == FW_INPUT && own.item[0].number != 278 && own.item[0].number != 211)
-        wrong(own.item[0].message);
+    for (size_t i = 0; s == FW_INPUT && i < own.count; i++)
+        if (own.item[i].severity == FW_ERROR && own.item[i].number != 278 &&
+            own.item[i].number != 211 && own.item[i].number != 530)
+            wrong(own.item[i].message);
 }
 
 /* ---- a cell written as plain polygons, in both formats, is read as the same ---- */
@@ -297,6 +299,8 @@ static void written_again(fw_arena *arena, const fw_drawing_cell_layer *layer, b
     fw_diags own = fw_diags_new(arena);
     const fw_status s = fw_drawing_cell_read(arena, out.data, out.length, &asked, &own, &again);
     if (s == FW_NOMEM || s == FW_LIMIT) return;
+    /* of a DXF file points within 1 nm are one, and an outline may not touch itself */
+    if (s == FW_INPUT && !gds) return;
     if (s != FW_OK) wrong(own.item[0].message);
     if (again.nlayer != 1) wrong("a cell written again has other layers");
     const fw_geometry_box a = layer->box, b = again.layer[0].box;
@@ -548,6 +552,20 @@ static int inputs(char **directory) {
     return 0;
 }
 
+/* each file that was written for this, as it is: what was found once is looked for in every run */
+static void seeds(unsigned char *room, const char *only) {
+    for (int kind = 0; kind < KINDS; kind++) {
+        glob_t found;
+        const char *pattern = fw_arena_printf(kept, FW_TEST_SOURCE_DIR "/%s", kinds[kind].files);
+        if (!strstr(kinds[kind].files, "tests/fuzz") || (only && strcmp(only, kinds[kind].name)))
+            continue;
+        if (!pattern || glob(pattern, 0, NULL, &found) != 0) wrong(kinds[kind].files);
+        for (size_t i = 0; i < found.gl_pathc; i++)
+            from_file(room, kind, found.gl_pathv[i], 1);
+        globfree(&found);
+    }
+}
+
 static double cpu_s(void) {
     struct timespec t;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -583,6 +601,7 @@ int main(int argc, char **argv) {
     if (!room) return 1;
     prepare();
     fuzz_seed ^= seed * 0x2545f4914f6cdd1dULL;
+    seeds(room, only);
     long done[KINDS] = {0};
     double took_s[KINDS] = {0};
     for (long i = 0; i < runs;) {
