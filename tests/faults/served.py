@@ -153,7 +153,7 @@ class Tried:
 
     def begin(self, here, fault):
         environment = {"LD_PRELOAD": str(self.preload), "OPENBLAS_NUM_THREADS": "1", **fault}
-        server = Server(self.program, here, environment=environment)
+        server = Server(self.program, here, environment=environment, patience=15)
         server.deaf = server.stays = False
         return server
 
@@ -191,6 +191,8 @@ class Tried:
     def refused_to_begin(self, here, kind):
         said = (here / "server.err").read_text()
         left = [p.name for p in here.iterdir() if p.name != "server.err"]
+        if "; the address is http" in said:
+            return None  # standard output failed; ended from here since it waits for somebody
         if "error:" not in said:
             return f"does not begin, and does not say why: {said[-300:]!r}"
         return f"does not begin, and leaves {left}" if left and kind not in ("unlink", "opendir", "memory", "open") else None

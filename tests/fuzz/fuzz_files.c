@@ -437,7 +437,7 @@ static void no_table(fuzz_text *t) {
 }
 static void drawing(fuzz_text *t) {
     if (t->n > 1 && t->data[0] == '\0')
-        fuzz_mutate_gds(t);
+        fuzz_mutate_gds(t), fuzz_smaller_arrays(t);
     else
         fuzz_mutate_lines(t);
 }
@@ -484,8 +484,11 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t n, size_t most, unsigned se
     if (kind) data[0] = (uint8_t)strtol(kind, NULL, 10);
     fuzz_text text = {(char *)data + 1, n - 1, most - 1};
 #ifndef FUZZ_ALONE
-    if (fuzz_below(8) == 0) /* what the fuzzer itself makes of comparisons that it saw fail */
-        return 1 + LLVMFuzzerMutate(data + 1, text.n, text.room);
+    if (fuzz_below(8) == 0) { /* what the fuzzer itself makes of it */
+        text.n = LLVMFuzzerMutate(data + 1, text.n, text.room);
+        if (kinds[data[0] % KINDS].read == a_drawing) fuzz_smaller_arrays(&text);
+        return 1 + text.n;
+    }
 #endif
     for (size_t k = 1 + fuzz_below(3); k > 0; k--)
         kinds[data[0] % KINDS].mutate(&text);

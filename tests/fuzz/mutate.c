@@ -316,6 +316,20 @@ static unsigned size_at(const fuzz_text *t, size_t at) {
     return (unsigned)(unsigned char)t->data[at] << 8 | (unsigned char)t->data[at + 1];
 }
 
+/* arrays of a thousand and more, which take a hundred times as long as all else, are left one time of a hundred */
+void fuzz_smaller_arrays(fuzz_text *t) {
+    enum { COLROW = 0x13 };
+    if (fuzz_below(100) == 0) return;
+    for (size_t at = 0; at + 8 <= t->n;) {
+        const size_t n = size_at(t, at);
+        if (n < 4 || at + n > t->n) return;
+        if (t->data[at + 2] == COLROW && n >= 8)
+            for (size_t k = 4; k < 8; k += 2)
+                t->data[at + k] = 0, t->data[at + k + 1] &= 0x1f;
+        at += n;
+    }
+}
+
 /* records: one again, elsewhere, gone, or with other contents */
 void fuzz_mutate_gds(fuzz_text *t) {
     size_t start[2] = {0}, count = 0;
