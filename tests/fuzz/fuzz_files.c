@@ -303,10 +303,12 @@ static void written_again(fw_arena *arena, const fw_drawing_cell_layer *layer, b
     if (s == FW_INPUT && !gds) return;
     if (s != FW_OK) wrong(own.item[0].message);
     if (again.nlayer != 1) wrong("a cell written again has other layers");
-    const fw_geometry_box a = layer->box, b = again.layer[0].box;
-    if (a.x0 != b.x0 || a.y0 != b.y0 || a.x1 != b.x1 || a.y1 != b.y1)
-        wrong("a cell written again has another box");
-    if (fabs(area(layer) - area(&again.layer[0])) > 1e-12 * (a.x1 - a.x0) * (a.y1 - a.y0))
+    /* An edge that was led through one rounded crossing may pass another one, and be led through that the next time (iterated
+       snap rounding, Halperin and Packer 2002): each moves it by less than 1 nm, after which slivers may be nothing. */
+    double perimeter = 0;
+    for (int i = 0; i < layer->n; i++)
+        perimeter += fw_geometry_contour_perimeter(&layer->outline[i]);
+    if (fabs(area(layer) - area(&again.layer[0])) > 1e-9 * perimeter)
         wrong("a cell written again has another area");
 }
 
