@@ -35,7 +35,8 @@
    0.98 of the column's buckling load. Error against the exact beam, up to strains of 1 %, 30 deg
    and displacements of ten widths or 0.6 r: place 1 % (0.7 % was the largest of 2700 states), root
    moments 0.4 %; of a guided leaf whose ends keep their distance forces and moments 0.5 %. Cost
-   2500 instructions of an arc, 4400 of a leaf with roots, 900 more of the second derivatives.
+   2000 instructions, 700 more where the pull is of the size of a column's buckling load, 1000 more with
+   second derivatives.
    Source: docs/theory/effects/nonlinear-hinge.md; stability functions: Livesley, Chandler 1956.
    Test: test_finite_force.c. */
 
