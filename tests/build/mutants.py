@@ -4,6 +4,7 @@
 notices it? Not part of ./test.
 
     mutants.py try [--count N] [--seed S] [--rooms ROOM,ROOM] [--each SECONDS] [--for SECONDS] [FILE ...]
+    mutants.py together [--seed S] [--group N] [--for SECONDS]
     mutants.py table [--seed S]    how many of each room were noticed, with an interval of 95 %, and by which kind of test
     mutants.py left [--seed S]     what no test noticed, each with its line
     mutants.py measure REGEX       which lines the tests of this name pass, where that is not known yet
@@ -12,7 +13,8 @@ notices it? Not part of ./test.
 try draws N changes over the rooms, each by how many it has and one at least, in an order that mixes them, so that what was tried so
 far is a sample, too. A change meets the tests that pass its line (then its function), one case of a program at a time: first those that
 notice much for their time. It ends with the first that fails, or takes many times its time. --each: the seconds of tests that it meets
-at most; a later run with more goes on where this one ended. Everything is kept in build-mutants/: what was tried in changes-SEED.csv,
+at most; a later run with more goes on where this one ended. together asks every other test of what is left, of N changes of different
+files in one program: where a test fails, halves of them tell which it notices. Everything is kept in build-mutants/: what was tried in changes-SEED.csv,
 to which the next run adds. Only tests whose lines are measured are asked: `measure unit` before the first run.
 
 Changes: + and - exchanged, * and / exchanged, a factor of 2 or 1/2 left out, a minus or fabs left out, fmax and fmin, < and >, && and ||
@@ -146,8 +148,10 @@ def judged(change, order, how, each_s, asked):
     """(noticed by "compiler", a test, "time of" a test or "", how many tests pass it, names asked); asked: names that need not be again"""
     path, number, begin, end, by, _ = change
     text = (TREE / path).read_text()
-    if not ground.replace(path, text[:begin] + by + text[end:], how):
+    objects = ground.compiled(path, text[:begin] + by + text[end:], how, "changed")
+    if not objects:
         return "compiler", 0, []
+    ground.replace(objects)
     names, near = order.of(path, number)
     asked, left = set(asked), each_s
     for name in names:
@@ -195,6 +199,79 @@ def attempt(options):
                 if not by_whom:
                     print(f"left: {path}:{line}: {marked(change)} ({len(asked)} of {passed} tests)", flush=True)
             order.kept.write_text(json.dumps(order.count))
+    ground.empty()
+
+
+def culprits(name, what, within_s, objects):
+    """which of several changes the test notices: all at once first, then halves. {number: "" or "time of "}"""
+    ground.replace([o for made in objects.values() for o in made])
+    status, _ = ground.run(what, within_s)
+    if status == 0:
+        return {}
+    if len(objects) == 1:
+        return {n: "time of " if status == "time" else "" for n in objects}
+    numbers, found = list(objects), {}
+    for half in (numbers[:len(numbers) // 2], numbers[len(numbers) // 2:]):
+        found |= culprits(name, what, within_s, {n: objects[n] for n in half})
+    return found
+
+
+def gather(options, chosen, before, equal, how):
+    """what is left, one change of a file at most, and those first that fewest tests were asked of: {number: objects}"""
+    files, group = set(), {}
+    for number in sorted(before, key=lambda n: (len(before[n]["asked"]), n)):
+        row, (path, _, begin, end, by, _) = before[number], chosen[number]
+        if row["noticed"] or (row["file"], row["change"]) in equal or path in files or len(group) == options.group:
+            continue
+        text = (TREE / path).read_text()
+        made = ground.compiled(path, text[:begin] + by + text[end:], how[str(path)], f"change{number}")
+        if made:
+            files.add(path)
+            group[number] = made
+    return group
+
+
+def together(options):
+    """asks the tests that were not asked yet of what is left, many changes of different files in one program: most tests notice none
+    of them, and then all have their answer at once"""
+    order, how, until = Order(ground.Passed()), ground.commands(), time.monotonic() + options.limit_s
+    chosen, equal = sample(options)[0], known_equal()
+    while time.monotonic() < until:
+        before = rows(options)
+        group = gather(options, chosen, before, equal, how)
+        reach = {n: order.of(chosen[n][0], chosen[n][1]) for n in group}
+        asked = {n: set(before[n]["asked"].split()) for n in group}
+        alive, first = dict(group), time.monotonic()
+        hope = collections.Counter()  # how much a test may notice for its time
+        for n, (names, near) in reach.items():
+            for name in set(names) - asked[n]:
+                hope[name] += 1 / order.cost(name, chosen[n][0].parts[1], name in near)
+        if not hope:
+            break
+        print(f"{len(group)} changes together, {len(hope)} tests", flush=True)
+        with open(kept(options), "a", newline="") as file:
+            out = csv.DictWriter(file, FIELDS)
+
+            def keep(n, by_whom):
+                out.writerow({**before[n], "noticed": by_whom, "passed": len(reach[n][0]), "asked": "" if by_whom else " ".join(sorted(asked[n])),
+                              "seconds": round(float(before[n]["seconds"]) + (time.monotonic() - first) / len(group), 2)})
+                file.flush()
+
+            for name, _ in hope.most_common():
+                now = {n: made for n, made in alive.items() if name in reach[n][0] and name not in asked[n]}
+                if not now or time.monotonic() > until:
+                    continue
+                found = culprits(name, order.passed.what[name], 2 + 5 * order.passed.seconds[name], now)
+                for n in now:
+                    asked[n].add(name)
+                    if name in reach[n][1]:
+                        order.saw(name, n in found)
+                for n, how_so in found.items():
+                    keep(n, how_so + name)
+                    del alive[n]
+            for n in alive:
+                keep(n, "")
+        order.kept.write_text(json.dumps(order.count))
     ground.empty()
 
 
@@ -256,11 +333,12 @@ def anew(options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("try", "table", "left", "measure", "anew"))
+    parser.add_argument("what", choices=("try", "together", "table", "left", "measure", "anew"))
     parser.add_argument("--count", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=26)
     parser.add_argument("--rooms")
     parser.add_argument("--each", type=float, default=20)
+    parser.add_argument("--group", type=int, default=64)
     parser.add_argument("--new", dest="again", action="store_false", help="only what was not tried yet")
     parser.add_argument("--for", type=float, dest="limit_s", default=math.inf)
     parser.add_argument("files", nargs="*")
@@ -274,6 +352,8 @@ def main():
         ground.chart((options.files or ["."])[0], time.monotonic() + options.limit_s)
     elif options.what == "anew":
         anew(options)
+    elif options.what == "together":
+        together(options)
     else:
         attempt(options)
     return 0

@@ -225,14 +225,23 @@ class Passed:
     def by(self, edges):
         return {name for name, b in self.bytes.items() if any(e < len(b) and b[e] for e in edges)}
 
-    def of(self, path, number):
+    def of(self, path, number, seen=()):
         """(cases that pass the last counted place before the line, cases that pass its function)"""
         text = (TREE / path).read_text().splitlines()
         begin = next((i for i in range(number - 1, 0, -1) if text[i - 1].startswith("}")), 0)
         end = next((i for i in range(number, len(text) + 1) if text[i - 1].startswith("}")), len(text))
         inside = {n: edges for n, edges in self.lines.get(str(path), {}).items() if begin < n <= end}
         last = max((n for n in inside if n <= number), default=None)
-        return (self.by(inside[last]) if last else set()), self.by([e for edges in inside.values() for e in edges])
+        if inside:
+            return (self.by(inside[last]) if last else set()), self.by([e for edges in inside.values() for e in edges])
+        # a short function of this file, which is part of those that call it and has no place of its own
+        head = next((re.match(r"static\b.*?\b(\w+)\(", t) for t in text[begin:number] if re.match(r"static\b.*\(", t)), None)
+        name, near, anywhere = head.group(1) if head else None, set(), set()
+        for i, row in enumerate(text, 1):
+            if name and name not in seen and not begin < i <= end and re.search(rf"\b{name}\b", row):
+                for found, there in zip((near, anywhere), self.of(path, i, (*seen, name))):
+                    found |= there
+        return near, anywhere
 
 
 def commands():
@@ -261,21 +270,25 @@ def own_library():
     return quiet("clang", "-print-libgcc-file-name").strip()
 
 
-def replace(path, text, how):
-    """the file with this text in place of the one in the library; false where the compiler refuses it"""
-    source, objects = WORK / "changed.c", []
+def compiled(path, text, how, name):
+    """objects of the file with this text, by what they are to be called; none where the compiler refuses it"""
+    source, objects = WORK / f"{name}.c", []
     source.write_text(text)
     # a file that computes for long is optimised as the others; of most it takes more time than it saves
     level = [] if path.parts[1] in COMPUTE else ["-O0"]
     for i, command in enumerate(how):
-        objects.append(str(WORK / f"changed{i}.o"))
+        objects.append(str(WORK / f"{name}-{i}.o"))
         if subprocess.run([*command, *level, "-c", str(source), "-o", objects[-1]], capture_output=True, check=False).returncode:
-            return False
+            return []
+    return objects
+
+
+def replace(objects):
+    """these in place of what the library has"""
     new = WORK / "new.so"
     # what the compiler itself calls is in its own library
     subprocess.run(["ld.lld", "-shared", "-o", str(new), *objects, own_library()], check=True)
     os.replace(new, REPLACED)
-    return True
 
 
 def isolated():
