@@ -220,7 +220,7 @@ class Passed:
             if status == 0 and name in listed:
                 self.seconds[name] = seconds
                 self.bytes[name] = zlib.decompress((MAP / (name.replace("/", "_") + ".edges")).read_bytes())
-        self.what = {name: listed[name] for name in self.seconds}
+        self.every, self.what = listed, {name: listed[name] for name in self.seconds}
 
     def by(self, edges):
         return {name for name, b in self.bytes.items() if any(e < len(b) and b[e] for e in edges)}
@@ -232,11 +232,12 @@ class Passed:
         end = next((i for i in range(number, len(text) + 1) if text[i - 1].startswith("}")), len(text))
         inside = {n: edges for n, edges in self.lines.get(str(path), {}).items() if begin < n <= end}
         last = max((n for n in inside if n <= number), default=None)
-        if inside:
-            return (self.by(inside[last]) if last else set()), self.by([e for edges in inside.values() for e in edges])
-        # a short function of this file, which is part of those that call it and has no place of its own
-        head = next((re.match(r"static\b.*?\b(\w+)\(", t) for t in text[begin:number] if re.match(r"static\b.*\(", t)), None)
-        name, near, anywhere = head.group(1) if head else None, set(), set()
+        near, anywhere = self.by(inside[last]) if last else set(), self.by([e for edges in inside.values() for e in edges])
+        if last:
+            return near, anywhere
+        # a short function of this file, which is part of those that call it and has no place of its own at its start
+        head = next(filter(None, (re.match(r"(?:static|INLINE)\b.*?\b(\w+)\(", t) for t in text[begin:number])), None)
+        name = head.group(1) if head else None
         for i, row in enumerate(text, 1):
             if name and name not in seen and not begin < i <= end and re.search(rf"\b{name}\b", row):
                 for found, there in zip((near, anywhere), self.of(path, i, (*seen, name))):
