@@ -129,14 +129,13 @@ class Order:
     def __init__(self, passed):
         self.passed, self.kept = passed, MAP / "notices.json"
         self.count = json.loads(self.kept.read_text()) if self.kept.exists() else {}
+        # tests that were not measured may pass anything: many changes at once are asked of them, too
+        self.others = set(passed.every) - set(ground.measured()) - {n for n, c in self.count.items() if c[0] < 0}
 
     def cost(self, name, room, near):
         asked, noticed = map(max, self.count.get(name, (0, 0)), (0, 0))
         guess = (0.35 if name.startswith(f"unit.{room}.") else 0.3 if name.startswith("golden") else 0.1) * (1 if near else 0.1)
         return (self.passed.seconds[name] + 0.02) / ((noticed + 3 * guess) / (asked + 3))
-
-        # tests that were not measured may pass anything: many changes at once are asked of them, too
-        self.others = set(passed.every) - set(ground.measured()) - {n for n, c in self.count.items() if c[0] < 0}
 
     def usable(self, name):
         """whether it passes without a change; what does not is not asked again"""
