@@ -281,6 +281,7 @@ def compiled(path, text, how, name):
     source.write_text(text)
     # a file that computes for long is optimised as the others; of most it takes more time than it saves
     level = [] if path.parts[1] in COMPUTE else ["-O0"]
+    level += ["-Wtautological-unsigned-zero-compare"]  # gcc, which builds the project, too, refuses that by -Wextra
     for i, command in enumerate(how):
         objects.append(str(WORK / f"{name}-{i}.o"))
         if subprocess.run([*command, *level, "-c", str(source), "-o", objects[-1]], capture_output=True, check=False).returncode:
