@@ -270,7 +270,7 @@ def together(options):
                               "seconds": round(float(before[n]["seconds"]) + (time.monotonic() - first) / len(group), 2)})
                 file.flush()
 
-            for name, _ in hope.most_common():
+            for name, _ in hope.most_common(options.most):
                 now = {n: made for n, made in alive.items() if (name in reach[n][0] or name in order.others) and name not in asked[n]}
                 if not now or time.monotonic() > until:
                     continue
@@ -353,7 +353,8 @@ def main():
     parser.add_argument("--seed", type=int, default=26)
     parser.add_argument("--rooms")
     parser.add_argument("--each", type=float, default=20)
-    parser.add_argument("--group", type=int, default=64)
+    parser.add_argument("--most", type=int, help="tests that a group is asked at a time")
+    parser.add_argument("--group", type=int, default=16)
     parser.add_argument("--new", dest="again", action="store_false", help="only what was not tried yet")
     parser.add_argument("--for", type=float, dest="limit_s", default=math.inf)
     parser.add_argument("files", nargs="*")
