@@ -252,7 +252,7 @@ def together(options):
         group = gather(options, chosen, before, equal, how)
         reach = {n: order.of(chosen[n][0], chosen[n][1]) for n in group}
         asked = {n: set(before[n]["asked"].split()) for n in group}
-        alive, first = dict(group), time.monotonic()
+        alive, first, asks = dict(group), time.monotonic(), 0
         hope = collections.Counter()  # how much a test may notice for its time
         for n, (names, near) in reach.items():
             for name in set(names) - asked[n]:
@@ -274,7 +274,7 @@ def together(options):
                 now = {n: made for n, made in alive.items() if (name in reach[n][0] or name in order.others) and name not in asked[n]}
                 if not now or time.monotonic() > until:
                     continue
-                found = culprits(name, order.passed.every[name], 2 + 5 * order.passed.seconds.get(name, 12), now)
+                found = culprits(name, order.passed.every[name], 2 + 5 * order.passed.seconds.get(name, 3), now)
                 if found and name in order.others and not order.usable(name):
                     continue
                 for n in now:
@@ -284,6 +284,10 @@ def together(options):
                 for n, how_so in found.items():
                     keep(n, how_so + name)
                     del alive[n]
+                asks += 1
+                if asks % 10 == 0:
+                    for n in alive:
+                        keep(n, "")
             for n in alive:
                 keep(n, "")
         order.kept.write_text(json.dumps(order.count))
@@ -362,7 +366,7 @@ def main():
     if options.what in ("table", "left"):
         return {"table": table, "left": left}[options.what](options)
     if not ground.isolated():
-        ground.prepare()
+        ground.prepare(options.what == "anew")
         ground.isolate()
     if options.what == "measure":
         ground.chart((options.files or ["."])[0], time.monotonic() + options.limit_s)
