@@ -61,7 +61,7 @@ void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hin
 
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other) {
     if (h->decision != other->decision) return fw_verdict_is_worse(h->decision, other->decision);
-    return h->utilisation > other->utilisation;
+    return h->utilisation > fw_verdict_tied * other->utilisation;
 }
 
 /* ---- what a refined computation may decide ----
