@@ -301,7 +301,12 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     at_time(&high, step->t_s);
     double least[2];
     FW_TRY(sizes(arena, m, x, low.q0, least));
-    return climb(&low, &high, least, step);
+    FW_TRY(climb(&low, &high, least, step));
+    double uncoupled = 0;
+    if (step->used == FW_HINGE_COMPLIANCE)
+        FW_TRY(fw_statics_level_uncoupled(arena, m, scene, x, &uncoupled));
+    step->relative = fmax(step->relative, uncoupled);
+    return FW_OK;
 }
 
 /* ---- what is put on at once, or nearly so ----
@@ -338,20 +343,6 @@ static int jumps_of(const fw_device_scene *s, double *t_s) {
     for (int i = 0; i < laws_of(s); i++)
         n += fw_quantity_law_breaks_of(law_of(s, i), s->duration_s, t_s + n, FW_JUMPS - n);
     return n;
-}
-
-/* rad/s: nothing rings along flexures below it */
-static double slowest_along(const fw_mechanism *m) {
-    double k = (double)INFINITY, mass = 0;
-    for (int i = 0; i < m->nhinge; i++) {
-        const fw_flexure_result *r = &m->hinge[i].closed_form;
-        const double stated =
-            m->pin[m->hinge[i].pin].stiffness_Nm_per_rad / r->stiffness_Nm_per_rad;
-        k = fmin(k, stated * fmin(r->kx_N_per_m, r->ky_N_per_m));
-    }
-    for (int i = 0; i < m->nbody; i++)
-        mass += m->body[i].mass_kg;
-    return sqrt(k / (m->nbody * mass));
 }
 
 /* forces of the pins and what flexures give under them, world axes, (4 npin), with laws as they are on this side of t_s */
@@ -405,16 +396,16 @@ static double largest_ring(const fw_mechanism *m, const fw_dynamics_motion *x,
 typedef struct {
     fw_statics_equilibrium low, high;
     double *gravity, *f[2], *ring_J;
-} fw_ringing;
+} fw_statics_ringing;
 
-static fw_status side_at(fw_ringing *r, const double *q, double t_s, double piece_s, double *f,
-                         bool *found) {
+static fw_status side_at(fw_statics_ringing *r, const double *q, double t_s, double piece_s,
+                         double *f, bool *found) {
     memcpy(r->high.gravity, r->gravity, (size_t)r->high.model->nq * sizeof *r->gravity);
     return forces_of(&r->low, &r->high, q, t_s, piece_s, f, found);
 }
 
 /* what lies between both sides rings by so much of it; amplitudes add up */
-static void add_ring(fw_ringing *r, double share) {
+static void add_ring(fw_statics_ringing *r, double share) {
     for (int i = 0; i < r->low.mechanism->npin; i++) {
         const double *a = r->f[0] + 4 * i, *b = r->f[1] + 4 * i;
         const double U = 0.5 * fabs((b[0] - a[0]) * (b[2] - a[2]) + (b[1] - a[1]) * (b[3] - a[3]));
@@ -424,7 +415,7 @@ static void add_ring(fw_ringing *r, double share) {
 }
 
 /* what the laws do where they jump; before the scene nothing acts */
-static fw_status ring_of_jumps(fw_ringing *r, const fw_device_scene *scene,
+static fw_status ring_of_jumps(fw_statics_ringing *r, const fw_device_scene *scene,
                                const fw_dynamics_motion *x, bool *found) {
     double t_s[FW_JUMPS];
     const int jumps = jumps_of(scene, t_s);
@@ -438,9 +429,9 @@ static fw_status ring_of_jumps(fw_ringing *r, const fw_device_scene *scene,
 }
 
 /* what they do where they do not */
-static fw_status ring_of_laws(fw_ringing *r, const fw_device_scene *scene,
+static fw_status ring_of_laws(fw_statics_ringing *r, const fw_device_scene *scene,
                               const fw_dynamics_motion *x, bool *found) {
-    const double omega = slowest_along(r->low.mechanism), none = 1e-4;
+    const double omega = fw_statics_level_slowest(r->low.mechanism), none = 1e-4;
     for (int i = 0; i < laws_of(scene) && *found; i++) {
         double t_s;
         const double share =
@@ -460,7 +451,7 @@ fw_status fw_statics_level_rings(fw_arena *arena, const fw_mechanism *m,
                                  double *share) {
     fw_diags own = fw_diags_new(arena);
     fw_effects_loads loads = *x->loads, up;
-    fw_ringing r = {0};
+    fw_statics_ringing r = {0};
     bool found = true;
     *share = 0;
     if (!scene || m->nhinge == 0 || x->nsample < 1 || x->loads->quasi_static) return FW_OK;
