@@ -173,49 +173,6 @@ fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *s
     return FW_OK;
 }
 
-/* ---- what rings along a path's two directions ----
-   A path that is no mirror image of itself is drawn across by a force along it, and the closed form leaves that out: by c =
-   c_xy/sqrt(c_xx c_yy) it is too stiff along one direction and too soft along another by up to 1 -+ c, its frequencies with it,
-   which an instant does not show. So of what rings as much as c may be wrong, r of what turns (fw_statics_level_rings, of pins):
-
-     c r/max(1, r)
-
-   In: SI; out: relative. Cost: none without such paths, else that of rings. Source: the general eigenvalues of both
-   compliances. Test: judge.examples path-pulse. */
-
-double fw_statics_level_slowest(const fw_mechanism *m) {
-    double k = (double)INFINITY, mass = 0;
-    for (int i = 0; i < m->nhinge; i++) {
-        const fw_flexure_result *r = &m->hinge[i].closed_form;
-        const double stated =
-            m->pin[m->hinge[i].pin].stiffness_Nm_per_rad / r->stiffness_Nm_per_rad;
-        k = fmin(k, stated * fmin(r->kx_N_per_m, r->ky_N_per_m));
-    }
-    for (int i = 0; i < m->nbody; i++)
-        mass += m->body[i].mass_kg;
-    return sqrt(k / (m->nbody * mass));
-}
-
-fw_status fw_statics_level_uncoupled(fw_arena *arena, const fw_mechanism *m,
-                                     const fw_device_scene *scene, const fw_dynamics_motion *x,
-                                     double *relative) {
-    const fw_effect_choice pins = {.mode = FW_EFFECTS_AUTO, .hinge = FW_HINGE_REVOLUTE};
-    const double matters = 0.01;
-    double most = 0, rings;
-    *relative = 0;
-    for (int k = 0; k < m->nhinge; k++)
-        most = fmax(most, m->hinge[k].coupling);
-    if (!(most > matters) || !scene || x->loads->quasi_static) return FW_OK;
-    fw_dynamics_motion of_pins = *x;
-    fw_effects_loads loads;
-    fw_diags own = fw_diags_new(arena);
-    FW_TRY(fw_effects_compile(arena, m, scene, &pins, 1e-3, &own, &of_pins.ledger, &loads));
-    of_pins.loads = &loads;
-    FW_TRY(fw_statics_level_rings(arena, m, scene, &of_pins, &rings));
-    *relative = most * fmin(1, rings);
-    return FW_OK;
-}
-
 /* ---- pins first ---- */
 
 /* row of a pin's point on a body: coordinate `axis` of it by the body's place and turn, sign +-1 */

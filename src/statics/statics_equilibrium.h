@@ -18,14 +18,6 @@
 /* unknowns up to which a step to the next level is computed: more would take longer than the motion itself */
 enum { FW_LEVEL_MOST = 300 };
 
-/* rad/s: nothing rings along flexures below it (statics_level.c) */
-double fw_statics_level_slowest(const fw_mechanism *mechanism);
-/* of a motion of closed forms: what rings along paths' two directions, of which that leaves a coupling out; relative to the
-   largest strain, 0 where there are no such paths (statics.c) */
-fw_status fw_statics_level_uncoupled(fw_arena *arena, const fw_mechanism *mechanism,
-                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
-                                     double *relative);
-
 typedef struct fw_statics_entries {
     fw_arena *arena;
     int *row, *column;

@@ -301,12 +301,7 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     at_time(&high, step->t_s);
     double least[2];
     FW_TRY(sizes(arena, m, x, low.q0, least));
-    FW_TRY(climb(&low, &high, least, step));
-    double uncoupled = 0;
-    if (step->used == FW_HINGE_COMPLIANCE)
-        FW_TRY(fw_statics_level_uncoupled(arena, m, scene, x, &uncoupled));
-    step->relative = fmax(step->relative, uncoupled);
-    return FW_OK;
+    return climb(&low, &high, least, step);
 }
 
 /* ---- what is put on at once, or nearly so ----
@@ -343,6 +338,20 @@ static int jumps_of(const fw_device_scene *s, double *t_s) {
     for (int i = 0; i < laws_of(s); i++)
         n += fw_quantity_law_breaks_of(law_of(s, i), s->duration_s, t_s + n, FW_JUMPS - n);
     return n;
+}
+
+/* rad/s: nothing rings along flexures below it */
+static double slowest_along(const fw_mechanism *m) {
+    double k = (double)INFINITY, mass = 0;
+    for (int i = 0; i < m->nhinge; i++) {
+        const fw_flexure_result *r = &m->hinge[i].closed_form;
+        const double stated =
+            m->pin[m->hinge[i].pin].stiffness_Nm_per_rad / r->stiffness_Nm_per_rad;
+        k = fmin(k, stated * fmin(r->kx_N_per_m, r->ky_N_per_m));
+    }
+    for (int i = 0; i < m->nbody; i++)
+        mass += m->body[i].mass_kg;
+    return sqrt(k / (m->nbody * mass));
 }
 
 /* forces of the pins and what flexures give under them, world axes, (4 npin), with laws as they are on this side of t_s */
@@ -431,7 +440,7 @@ static fw_status ring_of_jumps(fw_statics_ringing *r, const fw_device_scene *sce
 /* what they do where they do not */
 static fw_status ring_of_laws(fw_statics_ringing *r, const fw_device_scene *scene,
                               const fw_dynamics_motion *x, bool *found) {
-    const double omega = fw_statics_level_slowest(r->low.mechanism), none = 1e-4;
+    const double omega = slowest_along(r->low.mechanism), none = 1e-4;
     for (int i = 0; i < laws_of(scene) && *found; i++) {
         double t_s;
         const double share =
