@@ -65,14 +65,15 @@ static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool la
     bent b = placed(f, s);
     const double o = f->sense, at[3] = {o * b.th, o * b.x, o * b.y};
     fw_effects_bent *last = f->last;
-    if (law && !(last->known && memcmp(last->at, at, sizeof at) == 0)) {
+    bool known = last->known && memcmp(last->at, at, sizeof at) == 0;
+    if (law && !known) {
         fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &last->law);
         memcpy(last->at, at, sizeof at);
-        last->known = true;
+        known = last->known = true;
     }
-    if (law) b.law = last->law;
+    if (known) b.law = last->law;
     if (fw_effects_flexed_loses(f)) {
-        if (!law) softness_alone(f, &b);
+        if (!known) softness_alone(f, &b); /* the same bits as the whole law's */
         rates(s, &b);
     }
     return b;

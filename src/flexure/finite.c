@@ -393,3 +393,39 @@ bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double th) {
     bool within = fabs(law->half_angle_rad + 0.5 * law->share * th) < FW_PI;
     return within && (!law->table || fabs(th) < 2 * FW_PI);
 }
+
+/* ---- twists, as the frame half turned sees them ---- */
+
+/* w = c ux + s uy, v = c uy - s ux with c, s = cos, sin(th/2):  dw/dth = v/2,  dv/dth = -w/2
+   in: rad, m; out: N m, N and their derivatives, symmetric. Test: test_finite_force.c
+   wrench_and_tangent */
+fw_flexure_half_turned fw_flexure_hinge_half_turned(const double twist[3]) {
+    const double c = cos(0.5 * twist[0]), s = sin(0.5 * twist[0]);
+    return (fw_flexure_half_turned){
+        {twist[0], c * twist[1] + s * twist[2], c * twist[2] - s * twist[1]}, c, s};
+}
+
+void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *b, const fw_flexure_half_turned *half,
+                                double wrench[3], double tangent[3][3]) {
+    const double w = half->at[1], v = half->at[2], c = half->cosine, s = half->sine;
+    const double *g = b->gradient;
+    const double j[3][3] = {
+        {1, 0, 0}, {0.5 * v, c, s}, {-0.5 * w, -s, c}}; /* d(th, w, v)/d twist */
+    for (int i = 0; i < 3; i++) {
+        wrench[i] = 0;
+        for (int k = 0; k < 3; k++)
+            wrench[i] += g[k] * j[k][i];
+    }
+    if (!tangent) return;
+    for (int i = 0; i < 3; i++)
+        for (int m = 0; m < 3; m++) {
+            tangent[i][m] = 0;
+            for (int k = 0; k < 3; k++)
+                for (int l = 0; l < 3; l++)
+                    tangent[i][m] += j[k][i] * b->hessian[k][l] * j[l][m];
+        }
+    tangent[0][0] -= 0.25 * (g[1] * w + g[2] * v);
+    const double wx = -0.5 * s, wy = 0.5 * c; /* d2w/dth du; of v: -wy, wx */
+    tangent[0][1] += g[1] * wx - g[2] * wy, tangent[0][2] += g[1] * wy + g[2] * wx;
+    tangent[1][0] = tangent[0][1], tangent[2][0] = tangent[0][2];
+}

@@ -35,12 +35,18 @@
    0.98 of the column's buckling load. Error against the exact beam, up to strains of 1 %, 30 deg
    and displacements of ten widths or 0.6 r: place 1 % (0.7 % was the largest of 2700 states), root
    moments 0.4 %; of a guided leaf whose ends keep their distance forces and moments 0.5 %. Cost
-   2500 instructions of an arc, 4400 of a leaf with roots, 900 more of the second derivatives.
+   2000 instructions, 700 more where the pull is of the size of a column's buckling load, 1000 more with
+   second derivatives.
    Source: docs/theory/effects/nonlinear-hinge.md; stability functions: Livesley, Chandler 1956.
    Test: test_finite_force.c. */
 
 /* so that what is not asked for is not worked out, at any level of optimisation */
 #define INLINE static inline __attribute__((always_inline))
+
+/* of numbers that are none of them NaN: the library's functions, which look for it, are calls */
+INLINE double larger(double a, double b) {
+    return a > b ? a : b;
+}
 
 /* ---- the pulled strip ---- */
 
@@ -178,17 +184,19 @@ INLINE double slope_of(const terms *t, const state *s, double F, double *second)
            r * by_l;
 }
 
-/* the interval of F between the poles of a and n; an arc that is pressed bows below a column's load */
-static void between_poles(const terms *t, double *low, double *high) {
+/* the interval of F between the poles of a and n; an arc that is pressed bows below a column's load.
+   Returns the largest y of a unit F */
+static double between_poles(const terms *t, double *low, double *high) {
     const double most = 0.999 * pole_at[0];
-    const double pressed = fmax(t->x.per_N, fmax(t->x.py.value, t->x.px.value));
-    *low = -most / fmax(pressed, 1e-300); /* 0: a plain spring */
+    const double pressed = larger(t->x.per_N, larger(t->x.py.value, t->x.px.value));
+    *low = -most / larger(pressed, 1e-300); /* 0: a plain spring */
     *high = t->x.px.value < 0 ? -most / t->x.px.value : (double)INFINITY;
-    *low = fmax(*low, -0.5 * t->length_m / fmax(t->c.rest_y.value, 1e-300)); /* l > L/2 */
+    *low = larger(*low, -0.5 * t->length_m / larger(t->c.rest_y.value, 1e-300)); /* l > L/2 */
+    return larger(pressed, -t->x.px.value);
 }
 
-/* Newton's first step from no force, where all functions are known */
-static double first_guess(const terms *t) {
+/* dPhi/dF and its derivative at no force, where all functions are known */
+static double unloaded(const terms *t, double *second) {
     static const curve a = {1, -1 / 60.0, 2 * A_CURVE};
     static const curve b = {1 / 60.0, -A_CURVE, 2 * B_CURVE};
     double e = t->e, per = 1 / (1 / 60.0 + e), d = e, dd = 2 * e * a.d, v = b.v + e;
@@ -197,11 +205,9 @@ static double first_guess(const terms *t) {
                .n = {1, per * v1, per * (b.dd + e * a.dd - v * dd - 2 * v1 * d)},
                .qa = {0, 0, 2},
                .qn = {0, 0, 2}};
-    double second;
     soften(t, &s);
     shorten(t, 0, &s.s);
-    double slope = slope_of(t, &s, 0, &second);
-    return second < 0 ? -slope / second : 0;
+    return slope_of(t, &s, 0, second);
 }
 
 /* what was looked at, at F + more: first derivatives by the second ones, values to the third order */
@@ -215,12 +221,29 @@ static void advance(const terms *t, double more, state *s) {
     soften(t, s);
 }
 
-/* Newton's method: near its end a step leaves its square, and where second derivatives are not asked for
-   those of the last place do for the rest of it */
+/* A step of Newton's method from F, the first place behind no force, and what it leaves out by Hermite's
+   interpolation of F over the slope: with p, q the slope and its derivative there, p0, q0 at no force
+   and D = (0 - F)/(p0 - p)
+
+     F - p/q + p^2 (c2 - c3 p0),  c2 = (D - 1/q)/(p0 - p),  c3 = (1/q0 - 2 D + 1/q)/(p0 - p)^2
+
+   F is off by a part e of itself because the slope curves; what is added is e^3 of it, what is still left
+   out e^5. 0: too far for that, 1e-13 of the law's force being what is allowed. Test:
+   test_finite_force.c in_one_step */
+static double hermite_step(double p0, double q0, double F, double p, double q) {
+    const double far = 2e-3, most = 5e-9;
+    double over = 1 / (p0 - p), D = -F * over, step = -p / q;
+    double more = p * p * over * (D - 1 / q - p0 * over * (1 / q0 - 2 * D + 1 / q));
+    return fabs(step) <= far * fabs(F) && fabs(more) <= most * fabs(F) ? step + more : 0;
+}
+
+/* Newton's method, from its first step from no force: near its end a step leaves its square. Where second
+   derivatives are not asked for, those of the last place do for the rest of it, which one look at the
+   functions mostly is enough for */
 static double solve(const terms *t, bool hessian, state *s) {
-    const double near = 1e-6;
-    double low, high, F = first_guess(t), second;
-    between_poles(t, &low, &high);
+    const double near = 1e-6, moved = 2e-4; /* of y, what `advance` is good for */
+    double low, high, second, second_0, slope_0 = unloaded(t, &second_0);
+    double pressed = between_poles(t, &low, &high), F = second_0 < 0 ? -slope_0 / second_0 : 0;
     if (!(F > low && F < high)) F = 0;
     for (int i = 0; i < 60; i++) {
         look(t, F, s);
@@ -229,11 +252,18 @@ static double solve(const terms *t, bool hessian, state *s) {
             low = F;
         else
             high = F;
-        double to = F + (second < 0 ? -slope / second : 0);
-        if (second < 0 && fabs(to - F) <= 2e-12 * fabs(F)) return to; /* s is that near, too */
-        if (!hessian && second < 0 && fabs(to - F) <= near * fabs(F)) {
-            advance(t, to - F, s);
-            return to;
+        double step = second < 0 ? -slope / second : 0, to = F + step;
+        if (second < 0 && fabs(step) <= 2e-12 * fabs(F)) return to; /* s is that near, too */
+        if (!hessian && second < 0) {
+            bool small = fabs(step) <= near * fabs(F);
+            if (!small && i == 0 && pressed * fabs(step) <= moved) {
+                double whole = hermite_step(slope_0, second_0, F, slope, second);
+                if (whole != 0) step = whole, small = true;
+            }
+            if (small) {
+                advance(t, step, s);
+                return F + step;
+            }
         }
         if (!(to > low && to < high) || !(second < 0))
             to = isfinite(high) ? 0.5 * (low + high) : 2 * F + fabs(F - low) + 1 / t->x.py.value;
@@ -314,7 +344,7 @@ INLINE void bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *r
     const shortening *p = &s.s;
     shorten_more(&t, F, &s.s);
     const turning turn = by_rotation(&t, &s, F);
-    double pressed = fmax(t.x.per_N, fmax(t.x.px.value, t.x.py.value));
+    double pressed = larger(t.x.per_N, larger(t.x.px.value, t.x.py.value));
     out->pull_N = F;
     out->energy_J = 0.5 * K * at[0] * at[0] + F * (t.free + p->h) -
                     0.5 * F * F * (t.c.rest_y.value + t.c.bend_y.value * s.N.v) + 0.5 * k * p->g;
@@ -322,7 +352,7 @@ INLINE void bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *r
     out->gradient[1] = F * p->h_w + 0.5 * k * p->g_w;
     out->gradient[2] = F;
     out->holds = fw_flexure_hinge_law_holds(law, at[0]) && fabs(at[1]) < 0.4 * law->length_m &&
-                 fmin(pressed * F, t.x.px.value * F) > -0.98 * pole_at[0];
+                 larger(-pressed * F, -t.x.px.value * F) < 0.98 * pole_at[0];
     out->kx_N_per_m = 1 / (t.c.bend_x.value + t.c.rest_x.value);
     out->ky_N_per_m = 1 / (t.c.bend_y.value + t.c.rest_y.value);
     out->drift_slope = t.c.drift_m.slope;
@@ -423,40 +453,6 @@ bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure
     look(&t, pull_N, &s);
     known(law, &t, &s, th, pull_N, displaced_m, moment_Nm, pull);
     return true;
-}
-
-/* w = c ux + s uy, v = c uy - s ux with c, s = cos, sin(th/2):  dw/dth = v/2,  dv/dth = -w/2
-   in: rad, m; out: N m, N and their derivatives, symmetric. Test: test_finite_force.c
-   wrench_and_tangent */
-fw_flexure_half_turned fw_flexure_hinge_half_turned(const double twist[3]) {
-    const double c = cos(0.5 * twist[0]), s = sin(0.5 * twist[0]);
-    return (fw_flexure_half_turned){
-        {twist[0], c * twist[1] + s * twist[2], c * twist[2] - s * twist[1]}, c, s};
-}
-
-void fw_flexure_hinge_wrench_of(const fw_flexure_hinge_bent *b, const fw_flexure_half_turned *half,
-                                double wrench[3], double tangent[3][3]) {
-    const double w = half->at[1], v = half->at[2], c = half->cosine, s = half->sine;
-    const double *g = b->gradient;
-    const double j[3][3] = {
-        {1, 0, 0}, {0.5 * v, c, s}, {-0.5 * w, -s, c}}; /* d(th, w, v)/d twist */
-    for (int i = 0; i < 3; i++) {
-        wrench[i] = 0;
-        for (int k = 0; k < 3; k++)
-            wrench[i] += g[k] * j[k][i];
-    }
-    if (!tangent) return;
-    for (int i = 0; i < 3; i++)
-        for (int m = 0; m < 3; m++) {
-            tangent[i][m] = 0;
-            for (int k = 0; k < 3; k++)
-                for (int l = 0; l < 3; l++)
-                    tangent[i][m] += j[k][i] * b->hessian[k][l] * j[l][m];
-        }
-    tangent[0][0] -= 0.25 * (g[1] * w + g[2] * v);
-    const double wx = -0.5 * s, wy = 0.5 * c; /* d2w/dth du; of v: -wy, wx */
-    tangent[0][1] += g[1] * wx - g[2] * wy, tangent[0][2] += g[1] * wy + g[2] * wx;
-    tangent[1][0] = tangent[0][1], tangent[2][0] = tangent[0][2];
 }
 
 void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,

@@ -7,6 +7,8 @@
 
 /* ---- decision.c: which of two hinges matters more, what may still decide ---- */
 
+/* of two that are equal but for rounding, mirrored hinges say, the first one governs on every machine */
+static const double fw_verdict_tied = 1 + 1e-6;
 void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other);
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other);
 /* hinges of which some are inconclusive: what may decide them */
@@ -81,7 +83,7 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
 fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                     fw_verdict_variant_verdict *v);
 
-/* ---- decision.c: what speaks against a scene, and where a mode may lie elsewhere ---- */
+/* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
 
 /* text NULL: FW_NOMEM. keep: share of the scene's loads that would do, held between 0.001 and 0.99 */
 fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device_scene *scene,
@@ -146,7 +148,7 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *mechanism, int sc
 fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *mechanism,
                                       const fw_dynamics_motion_options *options,
                                       fw_verdict_variant_verdict *v);
-/* what a mode that lies elsewhere may do to one of a motion (decision.c): the most of the factors, which widen it */
+/* what a mode that lies elsewhere may do to one of a motion (resonance.c): the most of the factors, which widen it */
 void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]);
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
                                    fw_verdict_requirement *r);

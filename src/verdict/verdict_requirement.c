@@ -452,7 +452,7 @@ static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_req
     return r->measure && !v->motion[r->scene_index];
 }
 
-/* By what a mode that lies elsewhere may do more or less (decision.c): of how far it goes to and fro. A final value may
+/* By what a mode that lies elsewhere may do more or less (resonance.c): of how far it goes to and fro. A final value may
    be at any place of that within which phases run apart. A settling time goes with the logarithm of what swings:
    it has no bound */
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,

@@ -561,7 +561,8 @@ class Study(unittest.TestCase):
     def test_derivatives_are_those_of_tight_runs(self):
         rows = ('<vary what="arc" from="230 deg" to="250 deg"/><vary what="flexure[C]/@width" from="7.5 um" to="8.5 um"/>'
                 '<respond name="U" value="hinges[C].utilisation"/>')
-        result = self.run_study(self.write(study("s", "sensitivity", rows, samples=160 if ALL else 128).replace("<study", '<study as="drawn"')), "s")
+        judged = "drawn" if ALL else "hinges"  # the same derivatives, without bodies, masks and clearances
+        result = self.run_study(self.write(study("s", "sensitivity", rows, samples=160 if ALL else 128).replace("<study", f'<study as="{judged}"')), "s")
         by = {d["what"]: d for d in result["responses"][0]["by"]}
         at = {"arc": (240, "deg", math.pi / 180), "flexure[C]/@width": (8, "um", 1e-6)}
         for what, (centre, unit, factor) in at.items() if ALL else [*at.items()][1:]:

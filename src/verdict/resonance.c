@@ -1,0 +1,452 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a law does near a resonance. Bands hold what a stiffness is off by in proportion. A law that goes to and fro near a mode does much more or less where
+   the mode lies a little lower or higher than computed, which its own error allows. Of every mode k and each such law,
+   whatever it acts by, A(w) is the largest answer of an oscillator with the mode's damping (fw_quantity_law_swing), and
+
+     r_k = max over laws and over w of A(w)/A(w_k),
+
+   w within the mode's error and what bodies give, half a radian apart at the end of the scene. How far a mode swings is
+   seen in the motion: a_k, the largest of its modal speed over w_k, shape . M v. Of a hinge that is bent in mode k by
+   s_k, and by S at most in the motion,
+
+     up = 1 + sum a_k s_k (r_k - 1)/S,
+
+   down likewise with the least A; of what bodies move by the same with how far they go, the worst body counts.
+   Inputs: the motion, and modes about the equilibrium of what does not go to and fro, voltages that do by their root mean
+   square. Where that may be reached from rest within the scene frequencies in between belong to the range.
+   Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
+   Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "quantity/law_kind.h"
+#include "statics/statics.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+enum { MODES_SHAKEN = 24 };
+
+typedef struct shaking {
+    const fw_quantity_law *law;
+    fw_quantity_law_acts as;
+} shaking;
+
+typedef struct shakings { /* of one scene, those that go to and fro */
+    shaking *item;
+    int n;
+    double end_s;
+} shakings;
+
+static void take_law(shakings *to, const fw_quantity_law *law, fw_quantity_law_acts as) {
+    if (fw_quantity_law_goes_to_and_fro(law, to->end_s)) to->item[to->n++] = (shaking){law, as};
+}
+
+static bool in_the_plane(const fw_device_base_motion *b) {
+    return b->ax_m_per_s2 != 0 || b->ay_m_per_s2 != 0;
+}
+
+/* What prescribes a coordinate is followed, and heat strains what is held as a load does: it counts as both. A voltage also
+   makes stiffnesses come and go with its law, parts of a scene may act by its square: likewise */
+static fw_status find_laws(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                           shakings *to) {
+    const int most = s->nforce + s->ntorque + s->ntendon + s->nbase +
+                     2 * (s->ncomb + s->ntemperature + s->npart) + m->ndriver;
+    *to = (shakings){.end_s = s->duration_s};
+    FW_NEED(to->item = fw_arena_array(arena, shaking, (size_t)most));
+    for (int i = 0; i < s->nforce; i++)
+        take_law(to, s->force[i].law, FW_LAW_OF_LOAD);
+    for (int i = 0; i < s->ntorque; i++)
+        take_law(to, s->torque[i].law, FW_LAW_OF_LOAD);
+    for (int i = 0; i < s->ntendon; i++)
+        take_law(to, s->tendon[i].law, FW_LAW_OF_LOAD);
+    for (int i = 0; i < s->nbase; i++)
+        if (in_the_plane(&s->base[i])) take_law(to, s->base[i].law, FW_LAW_OF_LOAD);
+    for (int i = 0; i < m->ndriver; i++)
+        take_law(to, &m->driver[i].law, FW_LAW_OF_COORDINATE);
+    for (int as = 0; as < 2; as++) {
+        for (int i = 0; i < s->ncomb; i++)
+            take_law(to, s->comb[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_SQUARED);
+        for (int i = 0; i < s->npart; i++)
+            take_law(to, s->part[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_SQUARED);
+        for (int i = 0; i < s->ntemperature; i++)
+            take_law(to, s->temperature[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_OF_COORDINATE);
+    }
+    return FW_OK;
+}
+
+/* ---- about which pose: what of a scene does not go to and fro ---- */
+
+static double root_mean_square(const fw_quantity_law *law, double end_s) {
+    enum { SAMPLES = 2048 };
+    double sum = 0, value[3];
+    for (int i = 0; i < SAMPLES; i++) {
+        const double t = end_s * (i + 0.5) / SAMPLES;
+        fw_quantity_law_value(law, t, t, value);
+        sum += value[0] * value[0] / SAMPLES;
+    }
+    return sqrt(sum);
+}
+
+/* *moves: it stands elsewhere than at rest, or as stiff; *slowly: it comes there in the scene */
+static fw_status steady_part(fw_arena *arena, const fw_device_scene *s, fw_device_scene *to,
+                             bool *moves, bool *slowly) {
+    const double end = s->duration_s;
+    *to = *s;
+    FW_TRY(fw_device_own_scene(arena, to));
+    to->nforce = to->ntorque = to->ntendon = to->nbase = to->ntemperature = to->npart = 0;
+    *slowly = false;
+#define STAYS(kind)                                                                                \
+    for (int i = 0; i < s->n##kind; i++) {                                                         \
+        if (fw_quantity_law_goes_to_and_fro(s->kind[i].law, end)) continue;                        \
+        *slowly = *slowly || !fw_quantity_law_is_constant(s->kind[i].law);                         \
+        to->kind[to->n##kind++] = s->kind[i];                                                      \
+    }
+    STAYS(force)
+    STAYS(torque)
+    STAYS(tendon)
+    STAYS(base)
+    STAYS(temperature)
+    STAYS(part)
+#undef STAYS
+    for (int i = 0; i < s->ncomb; i++) {
+        *slowly = *slowly || !fw_quantity_law_is_constant(s->comb[i].law);
+        if (!fw_quantity_law_goes_to_and_fro(s->comb[i].law, end)) continue;
+        to->comb[i].voltage_V *= root_mean_square(s->comb[i].law, end);
+        to->comb[i].law = NULL;
+    }
+    *moves = to->nforce + to->ntorque + to->ntendon + to->nbase + to->ntemperature + to->npart +
+                 to->ncomb + to->nstress >
+             0;
+    *moves = *moves || to->gx_m_per_s2 != 0 || to->gy_m_per_s2 != 0 || to->gravity;
+    return FW_OK;
+}
+
+/* NULL: there are none */
+static fw_status modes_about(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                             bool at_equilibrium, const fw_statics_modes **modes) {
+    const fw_statics_mode_options o = {.accuracy = 0.03, .at_equilibrium = at_equilibrium};
+    fw_diags own = fw_diags_new(arena);
+    *modes = NULL;
+    fw_status status = fw_statics_small_motions(arena, m, scene, &o, &own, modes);
+    if (status == FW_CANCELLED) return status;
+    return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- how far each mode swings, and bends what ---- */
+
+/* pin's place on body b of the pose q (ground: as it is) */
+static fw_geometry_vec2 place_of(const double *q, int b, double x, double y) {
+    if (b == FW_GROUND) return (fw_geometry_vec2){x, y};
+    return vec_add((fw_geometry_vec2){q[3 * b], q[3 * b + 1]},
+                   fw_geometry_vec_rotate((fw_geometry_vec2){x, y}, q[3 * b + 2]));
+}
+
+/* how a hinge is bent: its turn, and what its ends are displaced by over its length, which strains it by 3/2 of the
+   same turn */
+static double bend_of(const fw_mechanism_hinge *h, double turn, double x_m, double y_m) {
+    return fabs(turn) + (h->law.length_m > 0 ? 1.5 * hypot(x_m, y_m) / h->law.length_m : 0);
+}
+
+/* by a small displacement u about the pose q */
+static double bent_by(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
+                      const double *u) {
+    const fw_mechanism_pin *p = &m->pin[h->pin];
+    const int body[2] = {p->body_a, p->body_b};
+    const double local[2][2] = {{p->ax_m, p->ay_m}, {p->bx_m, p->by_m}};
+    double turn = 0, x = 0, y = 0;
+    for (int i = 0; i < 2; i++) {
+        const int b = body[i];
+        if (b == FW_GROUND) continue;
+        const double sign = i ? 1 : -1;
+        const fw_geometry_vec2 arm =
+            fw_geometry_vec_rotate((fw_geometry_vec2){local[i][0], local[i][1]}, q[3 * b + 2]);
+        turn += sign * u[3 * b + 2];
+        x += sign * (u[3 * b] - arm.y * u[3 * b + 2]);
+        y += sign * (u[3 * b + 1] + arm.x * u[3 * b + 2]);
+    }
+    return bend_of(h, turn, x, y);
+}
+
+/* between two poses, exactly */
+static double bent_between(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *from,
+                           const double *to) {
+    const fw_mechanism_pin *p = &m->pin[h->pin];
+    double turn = 0;
+    if (p->body_a != FW_GROUND) turn -= to[3 * p->body_a + 2] - from[3 * p->body_a + 2];
+    if (p->body_b != FW_GROUND) turn += to[3 * p->body_b + 2] - from[3 * p->body_b + 2];
+    fw_geometry_vec2 gap[2];
+    const double *pose[2] = {from, to};
+    for (int i = 0; i < 2; i++) {
+        const fw_geometry_vec2 a = place_of(pose[i], p->body_a, p->ax_m, p->ay_m),
+                               b = place_of(pose[i], p->body_b, p->bx_m, p->by_m);
+        gap[i] = (fw_geometry_vec2){b.x - a.x, b.y - a.y};
+    }
+    return bend_of(h, turn, gap[1].x - gap[0].x, gap[1].y - gap[0].y);
+}
+
+static double moved_by(const double *u, int b, double unit_m) {
+    return hypot(u[3 * b], u[3 * b + 1]) + unit_m * fabs(u[3 * b + 2]);
+}
+
+/* largest modal speed over w of every mode: in the scene, and in the last period of its frequency */
+static void see_swings(const fw_mechanism *m, const fw_statics_modes *modes,
+                       const fw_dynamics_motion *motion, int k, double swings[2]) {
+    const fw_statics_mode *mode = &modes->mode[k];
+    const double w = mode->omega_rad_per_s, late = motion->end_s - 2 * FW_PI / w;
+    swings[0] = swings[1] = 0;
+    for (int r = 0; r < motion->nsample; r++) {
+        const double *v = motion->v + (size_t)r * 3 * (size_t)m->nbody;
+        double speed = 0;
+        for (int b = 0; b < m->nbody; b++) {
+            const double *u = mode->shape + 3 * b, *of = v + 3 * b;
+            speed += m->body[b].mass_kg * (u[0] * of[0] + u[1] * of[1]) +
+                     m->body[b].inertia_kg_m2 * u[2] * of[2];
+        }
+        const double now = fabs(speed) / (mode->modal_mass_kg_m2 * w);
+        swings[0] = fmax(swings[0], now);
+        if (motion->t_s[r] >= late || r + 2 >= motion->nsample) swings[1] = fmax(swings[1], now);
+    }
+}
+
+/* S of every hinge, and how far every body goes (nhinge + nbody) */
+static void see_most(const fw_mechanism *m, const fw_dynamics_motion *motion, double unit_m,
+                     double *most) {
+    const size_t n = 3 * (size_t)m->nbody;
+    for (int r = 1; r < motion->nsample; r++) {
+        const double *from = motion->q, *to = motion->q + (size_t)r * n;
+        for (int h = 0; h < m->nhinge; h++)
+            most[h] = fmax(most[h], bent_between(m, &m->hinge[h], from, to));
+        for (int b = 0; b < m->nbody; b++) {
+            const double u[3] = {to[3 * b] - from[3 * b], to[3 * b + 1] - from[3 * b + 1],
+                                 to[3 * b + 2] - from[3 * b + 2]};
+            most[m->nhinge + b] = fmax(most[m->nhinge + b], moved_by(u, 0, unit_m));
+        }
+    }
+}
+
+/* what hardly moves beside the others is moved by them */
+static double largest_of(const double *x, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
+static fw_status put_shares(fw_arena *arena, const fw_mechanism *m, const fw_statics_modes *modes,
+                            const fw_dynamics_motion *motion, fw_verdict_shaken *to) {
+    const double hardly = 1e-3;
+    const int nh = m->nhinge;
+    double *most = fw_arena_array(arena, double, (size_t)(nh + m->nbody));
+    FW_NEED(most);
+    see_most(m, motion, modes->unit_length_m, most);
+    const double bends = largest_of(most, nh), goes = largest_of(most + nh, m->nbody);
+    for (int k = 0; k < modes->count && k < MODES_SHAKEN; k++) {
+        const fw_statics_mode *mode = &modes->mode[k];
+        double swings[2];
+        if (!(mode->stiffness_per_s2 > 0) || !mode->shape) continue;
+        see_swings(m, modes, motion, k, swings);
+        fw_verdict_shaken_mode *out = &to->mode[to->n];
+        FW_NEED(out->share = fw_arena_array(arena, double, (size_t)nh + 1));
+        for (int h = 0; h < nh; h++)
+            if (most[h] > hardly * bends)
+                out->share[h] =
+                    swings[0] * bent_by(m, &m->hinge[h], modes->q, mode->shape) / most[h];
+        for (int b = 0; b < m->nbody; b++)
+            if (most[nh + b] > hardly * goes)
+                out->share[nh] =
+                    fmax(out->share[nh],
+                         swings[0] * moved_by(mode->shape, b, modes->unit_length_m) / most[nh + b]);
+        if (!(largest_of(out->share, nh + 1) > hardly)) continue;
+        out->number = k;
+        out->omega = mode->omega_rad_per_s;
+        out->damping = fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: 0 */
+        out->late = swings[0] > 0 ? swings[1] / swings[0] : 0;
+        to->n++;
+    }
+    return FW_OK;
+}
+
+/* ---- what a mode may do more or less ---- */
+
+typedef struct answer {
+    double up, down;
+} answer;
+
+/* r of one law over [low, high]; of what is of another stiffness there, a load moves it the more, too */
+static answer answers_to(const shaking *by, double end_s, const fw_verdict_shaken_mode *mode,
+                         double low, double high, bool softer) {
+    const double most_steps = 3e6, steps = 24 * high / (2 * FW_PI);
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(by->law);
+    const double a_second = fmax(steps, 48 * wave.fastest_Hz),
+                 end = fmin(end_s, most_steps / a_second); /* by then it swings evenly */
+    const double as_computed =
+        fw_quantity_law_swing(by->law, by->as, end, mode->omega, mode->damping);
+    const double own = (by->as == FW_LAW_SQUARED ? 2 : 1) * wave.rad_per_s;
+    const double n =
+        fmin(2 + ceil((high - low) * end / 0.5), fmax(20, most_steps / (a_second * end)));
+    answer r = {1, 1};
+    if (!(as_computed > 0)) return r;
+    for (double k = 0; k <= n; k++) {
+        const double at = k == n ? fmin(fmax(own, low), high) : low + (high - low) * k / (n - 1);
+        const double now = fw_quantity_law_swing(by->law, by->as, end, at, mode->damping);
+        const bool load = softer && by->as != FW_LAW_OF_COORDINATE;
+        const double by_stiffness = load ? mode->omega * mode->omega / (at * at) : 1;
+        if (!(now >= 0)) continue;
+        r.up = fmax(r.up, now / as_computed * by_stiffness);
+        r.down = fmin(r.down, now / as_computed * by_stiffness);
+    }
+    return r;
+}
+
+static answer answers_of(const shakings *by, const fw_verdict_shaken_mode *mode, double low,
+                         double high, bool softer) {
+    answer r = {1, 1};
+    for (int i = 0; i < by->n; i++) {
+        const answer now = answers_to(&by->item[i], by->end_s, mode, low, high, softer);
+        r = (answer){fmax(r.up, now.up), fmin(r.down, now.down)};
+    }
+    return r;
+}
+
+static void add_answer(const fw_verdict_shaken_mode *mode, answer r, double end_s, int nhinge,
+                       double *factor, double *late) {
+    for (int h = 0; h <= nhinge; h++) {
+        factor[2 * h] += mode->share[h] * (r.up - 1);
+        factor[2 * h + 1] = fmax(0, factor[2 * h + 1] - mode->share[h] * (1 - r.down));
+    }
+    const double phase = fmax(mode->high - mode->omega, mode->omega - mode->low) * end_s;
+    *late += mode->share[nhinge] * mode->late * fmin(r.up + 1, r.up - 1 + phase);
+}
+
+/* where the modes of `other`, at rest, lie elsewhere: the scene passes there */
+static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_shaken *s) {
+    for (int k = 0; k < s->n; k++) {
+        fw_verdict_shaken_mode *mode = &s->mode[k];
+        if (mode->number >= other->count) continue;
+        const fw_statics_mode *at = &other->mode[mode->number];
+        if (!(at->stiffness_per_s2 > 0)) continue;
+        const double off = fmin(fw_statics_mode_error(at), 0.5);
+        mode->low = fmin(mode->low, at->omega_rad_per_s * (1 - off - 0.5 * bodies));
+        mode->high = fmax(mode->high, at->omega_rad_per_s * (1 + off));
+    }
+}
+
+/* modes of the scene with how far they swing in it; none: nothing goes to and fro, or nothing swings */
+static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                             const fw_dynamics_motion *motion, double bodies, shakings *by,
+                             fw_verdict_shaken *to) {
+    const fw_statics_modes *modes = NULL, *rest = NULL;
+    fw_device_scene steady, still = {.name = "(none)", .duration_s = 1};
+    bool moves, slowly;
+    FW_TRY(find_laws(arena, m, s, by));
+    if (by->n == 0 || motion->nsample < 2) return FW_OK;
+    FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
+    FW_TRY(modes_about(arena, m, &steady, moves, &modes));
+    if (modes && slowly) FW_TRY(modes_about(arena, m, &steady, false, &rest));
+    if (!modes) FW_TRY(modes_about(arena, m, &still, false, &modes));
+    if (!modes) return FW_OK;
+    FW_NEED(to->mode = fw_arena_array(arena, fw_verdict_shaken_mode, MODES_SHAKEN));
+    FW_TRY(put_shares(arena, m, modes, motion, to));
+    for (int k = 0; k < to->n; k++) {
+        const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
+        to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies);
+        to->mode[k].high = to->mode[k].omega * (1 + off);
+    }
+    if (rest) hold_both(rest, bodies, to);
+    return FW_OK;
+}
+
+static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, double bodies,
+                         fw_verdict_variant_verdict *v) {
+    const fw_device_scene *s = &m->device->scene[scene];
+    fw_verdict_shaken *to = &v->shaken[scene];
+    shakings by;
+    FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
+    for (int k = 0; k < to->n; k++)
+        add_answer(&to->mode[k],
+                   answers_of(&by, &to->mode[k], to->mode[k].low, to->mode[k].high, false),
+                   by.end_s, m->nhinge, to->factor, &to->late);
+    return FW_OK;
+}
+
+fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *m, int scene,
+                                   const fw_verdict_shaken *shaken, double *factor, double *late) {
+    shakings by;
+    FW_TRY(find_laws(arena, m, &m->device->scene[scene], &by));
+    for (int h = 0; h <= m->nhinge; h++)
+        factor[2 * h] = factor[2 * h + 1] = 1;
+    *late = 0;
+    for (int k = 0; k < shaken->n; k++)
+        add_answer(
+            &shaken->mode[k],
+            answers_of(&by, &shaken->mode[k], shaken->mode[k].low, shaken->mode[k].high, true),
+            by.end_s, m->nhinge, factor, late);
+    return FW_OK;
+}
+
+/* what meets may not, where a mode that lies elsewhere moves less */
+static void may_not_meet(fw_verdict_variant_verdict *v, int scene, double less) {
+    const char *name = v->mechanism->device->scene[scene].name;
+    for (int k = 0; k < v->nreason; k++) {
+        fw_verdict_reason *r = &v->reason[k];
+        if (r->number == 294 && r->decision == FW_REJECT && r->scene && r->keep > less &&
+            strcmp(r->scene, name) == 0)
+            r->decision = FW_INCONCLUSIVE;
+    }
+    for (int k = 0; k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index == scene && c->decision == FW_REJECT && c->keep > less)
+            c->decision = FW_INCONCLUSIVE;
+    }
+}
+
+static fw_status may_meet(fw_arena *arena, int scene, double by, fw_verdict_variant_verdict *v) {
+    char share[32], up[32];
+    const fw_device_scene *s = &v->mechanism->device->scene[scene];
+    for (int k = 0; k < v->nclearance; k++) {
+        const fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT || !(c->way.share * by > 1))
+            continue;
+        const char *text = fw_arena_printf(
+            arena,
+            "%s and %s may meet in %s%s: they come %s of the way as computed, and a mode that "
+            "lies within its error may move %s times as far",
+            c->way.a ? c->way.a : "parts", c->way.b ? c->way.b : "others",
+            FW_NAMED("scene", s->name), fw_number_text(share, sizeof share, c->way.share, 2),
+            fw_number_text(up, sizeof up, by, 2));
+        return fw_verdict_scene_reason(v, s, 642, FW_INCONCLUSIVE, 0.95 / (c->way.share * by),
+                                       text);
+    }
+    return FW_OK;
+}
+
+/* v->shaken; a warning, and a reason where what does not meet may then meet */
+fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
+                            bool brief, fw_diags *diags, fw_verdict_variant_verdict *v) {
+    const double told = 1.1;
+    const fw_device *d = m->device;
+    const int nh = m->nhinge;
+    FW_NEED(v->shaken = fw_arena_array(arena, fw_verdict_shaken, (size_t)d->nscene));
+    for (int i = 0; i < d->nscene; i++) {
+        double *f, most, least = 1;
+        char up[32], down[32];
+        FW_NEED(f = v->shaken[i].factor = fw_arena_array(arena, double, 2 * (size_t)nh + 2));
+        for (int h = 0; h < 2 * nh + 2; h++)
+            f[h] = 1;
+        if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
+        if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
+        FW_TRY(may_meet(arena, i, f[2 * nh], v));
+        most = largest_of(f, 2 * nh + 2);
+        if (!(most > told) || brief) continue;
+        for (int h = 0; h <= nh; h++)
+            least = fmin(least, f[2 * h + 1]);
+        fw_diag_warning(diags, 642, d->scene[i].place,
+                        "%s%s shakes near a mode whose frequency is known to some per cent: "
+                        "within them it moves %s to %s times as far, which the bands hold; "
+                        "keep the frequencies apart, or say by <material-damping> what damps",
+                        FW_NAMED("scene", d->scene[i].name),
+                        fw_number_text(down, sizeof down, least, 2),
+                        fw_number_text(up, sizeof up, most, 2));
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
