@@ -12,7 +12,8 @@
 void __sanitizer_cov_8bit_counters_init(const uint8_t *begin, const uint8_t *end);
 void __sanitizer_cov_pcs_init(const uintptr_t *begin, const uintptr_t *end);
 
-extern const char __executable_start; /* the linker's: where the program's file begins in memory */
+/* the linker's: where the program's file, or the shared library that this is linked into, begins in memory */
+extern const char __ehdr_start __attribute__((visibility("hidden")));
 extern char *program_invocation_short_name;
 
 static const uint8_t *edge, *edge_end;
@@ -40,7 +41,7 @@ __attribute__((destructor)) static void edges_write(void) {
     to = opened(directory, "%s/%s.places", program_invocation_short_name);
     if (!to) return;
     for (const uintptr_t *p = place; p < place_end; p += 2) {
-        const uint64_t row[2] = {p[0] - (uintptr_t)&__executable_start, p[1] & 1};
+        const uint64_t row[2] = {p[0] - (uintptr_t)&__ehdr_start, p[1] & 1};
         fwrite(row, sizeof row, 1, to);
     }
     fclose(to);

@@ -4,7 +4,7 @@
 # of the gallery are what the program makes today, byte for byte (verdicts: the words and the percentages
 # that it prints; ledgers: the table of simulate for every scene).
 set -eu
-# FW_GALLERY_PLANS: where tests/golden/plans.sh has left them.
+# FW_GALLERY_PLANS: where tests/golden/plans.sh has left them. FW_GALLERY_ONLY: one device by its name.
 program=$1
 update=${2:-}
 cd "$(dirname "$0")/../.."
@@ -25,7 +25,7 @@ keep() { # keep NEW COMMITTED
         status=1
     fi
 }
-for device in docs/gallery/*/device.xml; do
+for device in docs/gallery/${FW_GALLERY_ONLY:-*}/device.xml; do
     name=$(basename "$(dirname "$device")")
     sed '/^results:/d' "$plans/$name.said" >"$work/$name.txt"
     keep "$work/$name.txt" "docs/gallery/$name/verdict.txt"

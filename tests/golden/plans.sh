@@ -8,7 +8,7 @@ to=$2
 cd "$(dirname "$0")/../.."
 rm -rf "$to"
 mkdir -p "$to"
-for device in docs/gallery/*/device.xml; do
+for device in docs/gallery/${FW_GALLERY_ONLY:-*}/device.xml; do
     name=$(basename "$(dirname "$device")")
     status=0
     "$program" plan "$device" --mask-format all -o "$to/$name" >"$to/$name.said" 2>"$to/$name.err" || status=$?

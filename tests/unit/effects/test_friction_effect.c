@@ -200,11 +200,76 @@ static void test_bound(void **state) {
     fw_arena_free(arena);
 }
 
+/* A chain of three bodies from the frame: two pins with springs, then a slide with one, each body turned. `at` is the index that each
+   has, `other` says that what is between two bodies begins at the other one: the same device in other words. */
+static double bound_of_chain(fw_arena *arena, const int at[3], bool other, bool slides) {
+    static const double phi[] = {0.3, -0.5, 0.7};
+    static const fw_geometry_vec2 centre[] = {{1e-3, 2e-4}, {3e-3, 0}, {5e-3, 1e-4}};
+    static const fw_geometry_vec2 place[] = {{0, 0}, {2e-3, 5e-4}, {4e-3, 3e-4}};
+    const double axis = 0.4, apart = 2e-4;
+    fw_mechanism_mass body[3];
+    fw_mechanism_pin pin[2];
+    fw_geometry_vec2 local[3][2]; /* of each joint: in the body before it and in the one behind it */
+    for (int i = 0; i < 3; i++) {
+        body[at[i]] = (fw_mechanism_mass){"b", (1 + i) * 2e-8, (2 + i) * 3e-15, centre[i].x, centre[i].y, phi[i], {0, 0}};
+        for (int side = 0; side < 2; side++) {
+            const int b = i - 1 + side;
+            fw_geometry_vec2 p = place[i];
+            if (i == 2 && side) p.x += apart * cos(axis), p.y += apart * sin(axis);
+            if (b >= 0) {
+                const double x = p.x - centre[b].x, y = p.y - centre[b].y;
+                p = (fw_geometry_vec2){cos(phi[b]) * x + sin(phi[b]) * y, cos(phi[b]) * y - sin(phi[b]) * x};
+            }
+            local[i][side] = p;
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        const int before = i ? at[i - 1] : FW_GROUND, behind = at[i], turned = i && other;
+        pin[i] = (fw_mechanism_pin){.id = "p", .body_a = turned ? behind : before, .body_b = turned ? before : behind,
+                                    .ax_m = local[i][turned].x, .ay_m = local[i][turned].y, .bx_m = local[i][!turned].x,
+                                    .by_m = local[i][!turned].y, .stiffness_Nm_per_rad = (2 - i) * 1e-6, .hinge = FW_NONE};
+        pin[i].free_angle_rad = (pin[i].body_b == FW_GROUND ? 0 : body[pin[i].body_b].phi_rad) -
+                                (pin[i].body_a == FW_GROUND ? 0 : body[pin[i].body_a].phi_rad);
+    }
+    const double to_a = other ? phi[2] : phi[1], to_b = other ? phi[1] : phi[2];
+    fw_device_joint slide = {.id = "s", .kind = FW_JOINT_PRISMATIC, .body_a = other ? at[2] : at[1], .body_b = other ? at[1] : at[2],
+                             .ax_m = local[2][other].x, .ay_m = local[2][other].y, .bx_m = local[2][!other].x, .by_m = local[2][!other].y,
+                             .axis_rad = axis - to_a + (other ? acos(-1.0) : 0), .angle_rad = to_b - to_a, .stiffness_N_per_m = 2,
+                             .free_length_m = apart};
+    const fw_mechanism m = {.body = body, .pin = pin, .joint = &slide, .nbody = 3, .npin = 2, .njoint = 1};
+    const fw_device_torque torque = {.body = at[2], .value_Nm = 1e-10};
+    fw_device_friction_use rubs = {.revolute = slides ? FW_NONE : 1, .joint = slides ? 0 : FW_NONE, .coefficient = 0.01,
+                                   .static_coefficient = NOT, .radius_m = slides ? NOT : 2e-5, .preload_N = 1e-9, .place = {"device.xml", 7, 3}};
+    const fw_device_scene scene = {.name = "s", .duration_s = 1e-2, .friction = &rubs, .nfriction = 1, .torque = (fw_device_torque *)&torque, .ntorque = 1};
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_effects_loads loads;
+    const fw_effect_choice all = {.mode = FW_EFFECTS_AUTO};
+    assert_int_equal(fw_effects_compile(arena, &m, &scene, &all, 1e-3, &diags, &ledger, &loads), FW_OK);
+    for (int i = 0; i < ledger.count; i++)
+        if (strcmp(ledger.item[i].id, "friction") == 0) return ledger.item[i].bound;
+    return NOT;
+}
+
+/* what a device is does not depend on the order in which its bodies are named, nor on which of two is said to hold the other */
+static void test_order(void **state) {
+    (void)state;
+    static const int order[][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    fw_arena *arena = fw_arena_new(0);
+    for (int slides = 0; slides < 2; slides++) {
+        const double is = bound_of_chain(arena, order[0], false, slides);
+        assert_true(is > 1e-6 && is < 1);
+        for (int i = 0; i < 12; i++)
+            assert_near(bound_of_chain(arena, order[i / 2], i % 2, slides) / is, 1, 1e-9);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_called_for),     cmocka_unit_test(test_values),
         cmocka_unit_test(test_unknown_radius), cmocka_unit_test(test_contact_presses),
-        cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_bound),        cmocka_unit_test(test_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -430,6 +430,63 @@ static void free_rotation_of_two_sectors(void **state) {
     fw_arena_free(arena);
 }
 
+static fw_geometry_contour triangle(fw_arena *arena, const fw_geometry_vec2 at[3]) {
+    fw_geometry_contour c = {.segment = fw_arena_array(arena, fw_geometry_segment, 3), .count = 3};
+    assert_non_null(c.segment);
+    for (int i = 0; i < 3; i++)
+        c.segment[i] = (fw_geometry_segment){.kind = FW_LINE, .a = at[i], .b = at[(i + 1) % 3]};
+    return c;
+}
+
+/* directions in which the edges of a triangle cross a circle about the origin */
+static int directions(const fw_geometry_vec2 at[3], double radius, double out[6]) {
+    int n = 0;
+    for (int i = 0; i < 3; i++) {
+        const fw_geometry_vec2 a = at[i], b = at[(i + 1) % 3];
+        const double ux = b.x - a.x, uy = b.y - a.y, length = hypot(ux, uy);
+        const double along = -(a.x * ux + a.y * uy) / length, beside = (a.x * uy - a.y * ux) / length;
+        for (int sign = -1; sign <= 1 && fabs(beside) <= radius; sign += 2) {
+            const double s = along + sign * sqrt(radius * radius - beside * beside);
+            if (s >= 0 && s <= length) out[n++] = atan2(a.y + s * uy / length, a.x + s * ux / length);
+        }
+    }
+    return n;
+}
+
+/* of random triangles with no corner on a circle, many of which lie about the hinge or in each other's shade: what every edge gives on all 400 circles, none left out */
+static void free_rotation_of_any_two(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_geometry_vec2 w = {1e-3, -2e-3};
+    const double radius = 200e-6;
+    unsigned seed = 26;
+    int met = 0;
+    for (int trial = 0; trial < 300; trial++) {
+        fw_geometry_vec2 at[2][3], placed[3];
+        fw_geometry_contour c[2];
+        for (int k = 0; k < 2; k++) {
+            const double toward = 2.2 * k + 1e-3 * (rand_r(&seed) % 6284);
+            for (int i = 0; i < 3; i++) {
+                const double far = 30.04e-6 + 1e-7 * (rand_r(&seed) % 2500), angle = toward + 1e-3 * (rand_r(&seed) % 1500);
+                at[k][i] = (fw_geometry_vec2){far * cos(angle), far * sin(angle)};
+                placed[i] = (fw_geometry_vec2){w.x + at[k][i].x, w.y + at[k][i].y};
+            }
+            c[k] = triangle(arena, placed);
+        }
+        double want = M_PI;
+        for (int k = 1; k <= 400; k++) {
+            double p[6], q[6];
+            const int np = directions(at[0], radius * k / 400, p), nq = directions(at[1], radius * k / 400, q);
+            for (int i = 0; i < np * nq; i++)
+                want = fmin(want, fabs(remainder(p[i / nq] - q[i % nq], 2 * M_PI)));
+        }
+        assert_near(fw_layout_free_rotation(w, &c[0], &c[1], radius), want, 1e-7);
+        met += want < M_PI;
+    }
+    assert_true(met > 200);
+    fw_arena_free(arena);
+}
+
 /* the same two as their edges move: a corner of one nears the flat of the other by 2 d, and what passes as drawn does
    not where both have grown into each other's way */
 static void free_rotation_as_made(void **state) {
@@ -818,6 +875,14 @@ static void large_mechanisms_are_not_drawn(void **state) {
     fw_arena_free(d.arena);
 }
 
+/* how far walls stand out below: what their edges do and what they lean, whichever way */
+static void walls_lean_either_way(void **state) {
+    (void)state;
+    const fw_layout in = {.edge_m = 1e-7, .flare_m = -3e-7}, out = {.edge_m = -1e-7, .flare_m = 3e-7};
+    assert_near(fw_layout_walls_m(&in), 5e-7, 1e-20);
+    assert_near(fw_layout_walls_m(&out), 1e-7, 1e-20);
+}
+
 static void same_input_same_outlines(void **state) {
     (void)state;
     fixture f;
@@ -870,6 +935,7 @@ int main(void) {
         cmocka_unit_test(tethers_break_at_the_body),
         cmocka_unit_test(free_rotation_is_free),
         cmocka_unit_test(free_rotation_of_two_sectors),
+        cmocka_unit_test(free_rotation_of_any_two),
         cmocka_unit_test(free_rotation_as_made),
         cmocka_unit_test(symmetric_device_gives_symmetric_layout),
         cmocka_unit_test(variants_are_drawn_or_refused),
@@ -884,6 +950,7 @@ int main(void) {
         cmocka_unit_test(without_shapes_nothing_is_drawn),
         cmocka_unit_test(joints_are_not_drawn),
         cmocka_unit_test(large_mechanisms_are_not_drawn),
+        cmocka_unit_test(walls_lean_either_way),
         cmocka_unit_test(same_input_same_outlines),
         cmocka_unit_test(out_of_memory_is_reported),
     };

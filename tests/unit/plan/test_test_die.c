@@ -90,6 +90,7 @@ static void a_place_of_a_wafer_is_said(void **state) {
         fw_plan *plan = planned(i, "", "<wafer diameter=\"50.8 mm\" test-dies=\"1\"/>");
         const char *why = said(plan, 621), *with = why ? strstr(why, "with <die width=") : NULL;
         assert_false(all_there(plan, &read));
+        assert_non_null(said(plan, 186));
         assert_non_null(with);
         assert_non_null(plan->flow[0].coupons_lack);
         assert_non_null(strstr(why, plan->flow[0].coupons_lack));

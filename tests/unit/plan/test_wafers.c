@@ -7,7 +7,7 @@
 
 #define WAFER "tests/data/wafer/leaf-wafer.xml"
 
-static fw_plan *planned(const fw_device_set *set, int nset, bool force, int dies) {
+static fw_plan *begun(const fw_device_set *set, int nset, bool force, int dies) {
     fw_plan_options o = fw_plan_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.set = set;
@@ -19,9 +19,14 @@ static fw_plan *planned(const fw_device_set *set, int nset, bool force, int dies
     o.verdict.motion.accuracy = 3e-2;
     fw_plan *plan = fw_plan_new(&o);
     assert_non_null(plan);
-    if (fw_plan_load(plan, FW_TEST_SOURCE_DIR "/" WAFER) != FW_OK || fw_plan_judge(plan) != FW_OK ||
-        fw_plan_fabricate(plan) != FW_OK)
+    if (fw_plan_load(plan, FW_TEST_SOURCE_DIR "/" WAFER) != FW_OK || fw_plan_judge(plan) != FW_OK)
         fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "?");
+    return plan;
+}
+
+static fw_plan *planned(const fw_device_set *set, int nset, bool force, int dies) {
+    fw_plan *plan = begun(set, nset, force, dies);
+    if (fw_plan_fabricate(plan) != FW_OK) fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "?");
     return plan;
 }
 
@@ -159,9 +164,22 @@ static void process_knows_dies(void **state) {
     fw_plan_free(one);
 }
 
+/* as many dies as there is room for the largest of the sweep, whichever way it is larger */
+static void largest_step_counts(void **state) {
+    (void)state;
+    const fw_device_set to_it[] = {{"sweep/@parameter", "room"}, {"sweep/@from", "400 um"}, {"sweep/@to", "1.2 mm"}, {"sweep/@steps", "2"}},
+                        at_it[] = {to_it[0], {"sweep/@from", "1.1 mm"}, to_it[2], to_it[3], {"room", "1.2 mm"}};
+    fw_plan *sweep = begun(to_it, 4, false, 0), *alone = begun(at_it, 5, false, 0);
+    assert_true(alone->dies > 1 && 2 * alone->dies < shared->dies);
+    assert_int_equal(sweep->dies, alone->dies);
+    fw_plan_free(sweep);
+    fw_plan_free(alone);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steps_are_what_set_makes),
+        cmocka_unit_test(largest_step_counts),
         cmocka_unit_test(rejected_steps),
         cmocka_unit_test(refused_steps),
         cmocka_unit_test(process_knows_dies),

@@ -286,7 +286,12 @@ static void what_is_known_of_printing_is_taken_back(void **state) {
     set(f, "litho.edge", 0.2e-6);
     assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_relative(f->bias_m, 0.9e-6, 1e-12);
-    assert_non_null(strstr(f->bias_note, "0.2 um outside"));
+    assert_non_null(strstr(f->bias_note, "0.2 um outside where they are drawn and the mask takes back that"));
+    f = flow_of(SILICON);
+    set(f, "litho.edge", -0.1e-6);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_relative(f->bias_m, 1.2e-6, 1e-12);
+    assert_non_null(strstr(f->bias_note, "0.1 um inside where they are drawn and the mask adds that"));
 }
 
 /* copper: printed edges within 0.5 um, walls within a degree of upright over 9 um */

@@ -733,6 +733,15 @@ static void who_is_there(void **state) {
         expect(at[i].number, at[i].says);
         assert_true(reasons(f, at[i].says) == 1);
     }
+    /* a minute of developing, a fifth of it over, and an hour beside it, all told 61.2 min */
+    static const char developed[] = "title=\"Develop, rinse, dry\" equipment=\"litho-bench\" in-source=\"yes\" batch=\"1\" attended=\"5\"";
+    for (int minutes = 61; minutes <= 62; minutes++) {
+        char *to = fw_arena_printf(arena, "title=\"Develop, rinse, dry\" equipment=\"litho-bench\" in-source=\"yes\" batch=\"1\" attended=\"%d\"",
+                                   minutes);
+        diags = fw_diags_new(arena);
+        read_pack(arena, SILICON, developed, to, &diags);
+        assert_true(!said_of(609, "at step S11 for") == (minutes == 61));
+    }
     computed_pack(SILICON, NULL, NULL);
     assert_null(said_of(617, ""));
     assert_null(said_of(609, ""));

@@ -159,6 +159,9 @@ static void shrink(void **state) {
         {"shrink=\"cavity.d\"", "shrink=\"si.d\"",
          "plate \"cavity\" is drawn smaller by 50 um (shrink), but step G12 takes 20 um"},
         {" shrink=\"cavity.d\"", "", "drawn smaller by 0 um (shrink), but step G12 takes 20 um"},
+        {"overrun=\"0\" k=\"2\"><arg name=\"thickness\" q=\"cavity.d\"/>",
+         "overrun=\"0.5\" k=\"2\"><arg name=\"thickness\" q=\"cavity.d\"/>",
+         "drawn smaller by 20 um (shrink), but step G12 takes 30 um"},
         {"outside=\"bare\"", "outside=\"bare\" shrink=\"al.d\"",
          "plate \"pads\" is drawn smaller by 1 um (shrink), but no isotropic etch takes 0 um"},
     };

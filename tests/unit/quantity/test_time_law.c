@@ -240,6 +240,10 @@ static void answers(void **state) {
         /* a frequency that is known to 4 % has resonance within it */
         assert_true(fw_quantity_law_answer(&same, n * period, 0.98 * w, 1.02 * w) > 0.99 * is);
     }
+    /* frequencies so far apart that to try them all would take too long: the bound by jolts, not what a try gives */
+    const fw_quantity_law long_one = {.kind = sine, .frequency_Hz = 1000, .end_s = (double)INFINITY};
+    const double near = fw_quantity_law_answer(&long_one, 128 * period, 0.98 * w, 1.02 * w);
+    assert_true(fw_quantity_law_answer(&long_one, 128 * period, 0.5 * w, 1.5 * w) > 1.1 * near);
     for (double r = 0.3; r < 3; r *= 1.7) {
         const fw_quantity_law other = {
             .kind = sine, .frequency_Hz = 1000 * r, .end_s = (double)INFINITY};

@@ -335,8 +335,14 @@ static void rims_of_what_a_cut_leaves(void **state) {
         fw_device device = {.release_pitch_m = 100e-6, .release_hole_m = 40e-6};
         s.m.device = &device;
         assert_true(s.arm[3].rim_m2 == 0); /* without holes nobody asks */
+        const fw_device in_proportion = {.release_pitch_m = 40e-6 / 0.3}; /* a hole is 0.3 of the pitch where none is stated */
+        fw_verdict_arm *unstated;
+        s.m.device = &in_proportion;
+        assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &unstated), FW_OK);
+        s.m.device = &device;
         assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &s.arm), FW_OK);
         const fw_verdict_arm *left = &s.arm[3];
+        assert_relative(unstated[3].rim_m2, left->rim_m2, 1e-12);
         const double second = (60e-6 * 60e-6 * 60e-6 - 40e-6 * 40e-6 * 40e-6) / 12,
                      bends = 30e-6 / second, c = fabs(cos(0.6 * turn)), d = fabs(sin(0.6 * turn));
         assert_true(left->edge_m2 > 0.95 * 6 / (10e-6 * 10e-6));
