@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Descriptions that are mostly valid, through judging, masks, recipes and documents, each with little memory and a second
+/* Descriptions that are mostly valid, through judging, masks, recipes and documents, each with little memory and half a second
    of the processor: then it is cancelled, as a user would. The first byte says what is asked of it. What must hold: it ends as it
    says, what it writes is JSON, what was cancelled stops (how long that takes is printed, the longest), and two methods that
    both say how exact they are agree within what they say.
@@ -139,7 +139,7 @@ static double number(const json_t *object, const char *key) {
 
 static void two_methods(const char *text, size_t n) {
     json_t *a = peaks(text, n, "chain");
-    json_t *b = cancelled_s > 0 ? NULL : peaks(text, n, "udwadia-kalaba"); /* its second is over */
+    json_t *b = cancelled_s > 0 ? NULL : peaks(text, n, "udwadia-kalaba"); /* its time is over */
     for (size_t i = 0; a && b && i < json_array_size(a) && json_array_size(a) == json_array_size(b);
          i++) {
         const json_t *p = json_array_get(a, i), *q = json_array_get(b, i);
