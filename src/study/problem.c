@@ -225,7 +225,7 @@ static void failed(const fw_diags *diags, fw_status status, char *buffer, size_t
 
 fw_status fw_study_problem_run(fw_study_problem *p, const fw_study_tradeoff_setting *s,
                                fw_study_tradeoff_point *point) {
-    char why[600] = "";
+    char why[400] = "";
     fw_dynamics_motion_options o = options_of(p, s);
     fw_verdict_strain_monitor saw, looser;
     const fw_dynamics_motion *motion = NULL;
