@@ -57,6 +57,13 @@ set(FW_EDGES "" CACHE STRING "counters of coverage (clang): edge or func")
 set(FW_ROOMS_FUZZED base quantity xml device)
 # Rooms that read what strangers wrote: under the sanitizers every pointer is looked at (flags.cmake)
 set(FW_ROOMS_READ ${FW_ROOMS_FUZZED} drawing serve)
+# A build that fuzzes for hours (FUZZ_LONG of tests/build/fuzz.sh): every reader's room guides the fuzzer and is optimised
+option(FW_FUZZ_LONG "rooms of all readers carry the fuzzer's counters, and are optimised" OFF)
+if(FW_FUZZ_LONG)
+    set(FW_ROOMS_FUZZED base quantity xml device drawing process mask recipe study serve)
+    set(FW_ROOMS_READ ${FW_ROOMS_FUZZED})
+    set(FW_ROOMS_PLAIN)
+endif()
 
 set(below)
 foreach(room ${FW_ROOMS})

@@ -192,6 +192,8 @@ if(NOT FW_SANITIZE) # a sanitizer has an allocator of its own
                      WHOLE --most 12)
     fw_first_part_of(fault.kill COMMAND ${FW_LOOPS} --kill --kind open write fsync rename close mkdir unlink
                      FIRST --most 2 --runs 3 --case plan log statics study WHOLE --most 8)
+    fw_first_part_of(fault.served COMMAND ${Python3_EXECUTABLE} tests/faults/served.py ${FW_PROGRAM} $<TARGET_FILE:fault_preload>
+                     FIRST --count 6 WHOLE --count 60)
 endif()
 fw_script_test(fault.instead COMMAND ${Python3_EXECUTABLE} tests/faults/instead.py ${FW_PROGRAM})
 fw_script_test(hostile.documents COMMAND ${Python3_EXECUTABLE} tests/hostile/hostile.py ${FW_PROGRAM} TIMEOUT 600)

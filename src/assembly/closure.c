@@ -232,6 +232,9 @@ void fw_assembly_closure_nearest(fw_assembly_closure *c) {
 /* bodies whose angles are held against each other turn together; group (nbody + 1) is work */
 void fw_assembly_closure_unwind(const fw_assembly_closure *c, int *group) {
     const fw_multibody_model *m = c->model;
+    const size_t n = (size_t)m->nbody;
+    double *sum = c->held, *count = c->wanted; /* by group, whose number is one of its bodies */
+    if (n == 0) return;
     for (int b = 0; b <= m->nbody; b++)
         group[b] = b;
     for (int i = 0; i < m->nblock; i++) {
@@ -241,15 +244,14 @@ void fw_assembly_closure_unwind(const fw_assembly_closure *c, int *group) {
         for (int b = 0; b <= m->nbody; b++)
             if (group[b] == from) group[b] = to;
     }
-    for (int g = 0; g <= m->nbody; g++) {
-        double sum = 0;
-        int count = 0;
-        for (int b = 0; b < m->nbody; b++)
-            if (group[b] == g) sum += c->u[3 * b + 2], count++;
-        if (count == 0 || group[m->nbody] == g) continue;
-        double turns = round(sum / count / (2 * FW_PI));
-        for (int b = 0; b < m->nbody && turns != 0; b++)
-            if (group[b] == g) c->u[3 * b + 2] -= turns * 2 * FW_PI;
+    memset(sum, 0, (n + 1) * sizeof *sum);
+    memset(count, 0, (n + 1) * sizeof *count);
+    for (size_t b = 0; b < n; b++)
+        sum[group[b]] += c->u[3 * b + 2], count[group[b]]++;
+    for (size_t b = 0; b < n; b++) {
+        if (group[b] == group[n]) continue; /* held by the ground */
+        double turns = round(sum[group[b]] / count[group[b]] / (2 * FW_PI));
+        if (turns != 0) c->u[3 * b + 2] -= turns * 2 * FW_PI;
     }
 }
 

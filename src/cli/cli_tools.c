@@ -6,6 +6,7 @@
 #include "continuum/continuum.h"
 #include "report/report.h"
 #include "serve/serve.h"
+#include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
 #include <signal.h>
@@ -54,7 +55,10 @@ static void ready(const char *url, const char *page, void *context) {
     printf("%s\n", url);
     if (!options->quiet)
         puts("The address opens once, on this machine only. Ctrl-C ends the server.");
-    fflush(stdout);
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout)) /* without it nobody would ever come */
+        fprintf(stderr, "flexwright: error: standard output: %s; the address is %s\n",
+                strerror(errno), url);
     if (page && !options->no_browser && somebody_looks()) open_browser(page);
 }
 

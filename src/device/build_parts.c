@@ -287,11 +287,6 @@ static fw_device_wafer_side side_of(const fw_xml_record *record) {
     return says(record, "flat-side", "right") ? FW_SIDE_RIGHT : FW_SIDE_BOTTOM;
 }
 
-static int whole_or(const fw_xml_record *record, const char *name, int other) {
-    double value = fw_xml_number_or(record, name, other);
-    return isfinite(value) ? (int)value : other;
-}
-
 /* nothing is said */
 static const fw_device_order_asked no_order = {.scale = 1,
                                                .size_m = (double)NAN,
@@ -325,7 +320,7 @@ static fw_device_order_asked order_of(const fw_xml_record *record,
     if (fw_xml_given(record, "pellicle")) o.pellicle = says(record, "pellicle", "yes");
     if (fw_xml_given(record, "flat-line")) o.flat_line = says(record, "flat-line", "yes");
     if (fw_xml_given(record, "barcode")) o.barcode = fw_xml_text_of(record, "barcode");
-    o.quantity = whole_or(record, "quantity", o.quantity);
+    o.quantity = fw_xml_whole_or(record, "quantity", o.quantity);
     o.plate = fw_xml_text_of(record, "plate");
     o.place = record->element->place;
     return o;

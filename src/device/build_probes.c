@@ -253,8 +253,7 @@ static void build_probe(fw_device_reader *r, const fw_xml_record *record) {
         p.body_b = FW_GROUND;
     }
     p.plane = plane_of(fw_xml_text_of(record, "plane"));
-    if (fw_xml_given(record, "mode") && isfinite(fw_xml_number_of(record, "mode")))
-        p.mode = (int)fw_xml_number_of(record, "mode");
+    p.mode = fw_xml_whole_or(record, "mode", p.mode);
     read_carrier(r, record, &p);
     check_opening(r, record, &p);
     d->probe[d->nprobe++] = p;

@@ -96,7 +96,7 @@ static fw_status add_symmetric(builder *b, const fw_geometry_contour *contour, b
 /* an outline in the body's frame: its copies, and their mirror images */
 static fw_status add_copies(builder *b, const fw_geometry_contour *contour, bool nested) {
     const fw_xml_record *record = b->record;
-    int copies = (int)fw_xml_number_or(record, "copies", 1);
+    int copies = fw_xml_whole_or(record, "copies", 1);
     double dx = fw_xml_number_or(record, "pitch-x", 0), dy = fw_xml_number_or(record, "pitch-y", 0);
     bool hole = word_is(record, "hole", "yes") != nested;
     for (int i = 0; i < copies && b->room >= 0; i++) {

@@ -114,7 +114,7 @@ static fw_status build_vary(fw_xml_reader *r, const fw_xml_record *record, fw_de
         .unit = "",
         .logarithmic =
             word_of(record, "scale", (const char *const[]){"linear", "logarithmic", NULL}, 0) == 1,
-        .steps = (int)fw_xml_number_or(record, "steps", 11),
+        .steps = fw_xml_whole_or(record, "steps", 11),
         .place = record->element->place};
     bool known = false;
     size_t before = r->diags->errors;
@@ -461,8 +461,8 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         .kind = (fw_device_study_kind)word_of(record, "kind", words->kind, 0),
         .points = (fw_device_study_points)word_of(record, "points", words->points, FW_POINTS_GRID),
         .judge = (fw_device_study_judge)word_of(record, "as", words->judge, FW_JUDGE_MADE),
-        .samples = (int)fw_xml_number_or(record, "samples", 0),
-        .seed = (long)fw_xml_number_or(record, "seed", 1),
+        .samples = fw_xml_whole_or(record, "samples", 0),
+        .seed = fw_xml_whole_or(record, "seed", 1),
         .confidence = fw_xml_number_or(record, "confidence", 0.95),
         .yield = fw_xml_number_or(record, "yield", 0),
         .place = record->element->place};

@@ -165,8 +165,15 @@ static fw_status merge_layer(fw_drawing_flat *flat, int first, fw_drawing_cell_l
         input[n++] = (fw_geometry_merge_input){&s->polygon, s->hole};
         holes = holes || s->hole;
     }
-    FW_TRY(fw_geometry_merge(flat->arena, input, n, terms, holes ? 2 : 1, FW_DRAWING_CORNERS_MOST,
-                             &merged));
+    fw_status status = fw_geometry_merge(flat->arena, input, n, terms, holes ? 2 : 1,
+                                         FW_DRAWING_CORNERS_MOST, &merged);
+    if (status == FW_LIMIT)
+        return fw_diag_error(flat->diags, 567, flat->asked->place,
+                             "%s: its %d polygons lie upon each other so often that to make one "
+                             "region of them would take minutes; merge them where they are drawn, "
+                             "or let arrays step by more than their cell",
+                             flat->asked->file, n);
+    FW_TRY(status);
     *corners += (size_t)merged.vertices;
     *parts += (size_t)merged.n;
     if (*corners > FW_DRAWING_CORNERS_MOST || *parts > FW_DRAWING_PARTS_MOST)

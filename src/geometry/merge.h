@@ -25,9 +25,10 @@ typedef struct fw_geometry_merged {
     int n;
     int outlines, holes; /* of the region that they cover */
     int cuts;     /* edges that two polygons share: where a hole, or too many vertices, needs it */
-    double cut_m;   /* their length in all */
-    double clear_m; /* least distance of one from a vertex that it does not end at; INFINITY: none */
-    int rounded;  /* crossings that were not on the grid */
+    double cut_m; /* their length in all */
+    double
+        clear_m; /* least distance of one from a vertex that it does not end at; INFINITY: none */
+    int rounded; /* crossings that were not on the grid */
     int64_t area2_dbu; /* twice the area */
     int vertices;      /* of all polygons */
 } fw_geometry_merged;
@@ -38,7 +39,8 @@ typedef struct fw_geometry_merged {
    that is put together of pieces (>= 8; a piece that needs no cut may have more). Out: polygons in a
    fixed order. Exact, but for crossings between points of the grid: each is rounded by at most 0.5 dbu
    in x and y, and an edge that is led through a rounded point moves there by at most 0.71 dbu; `rounded`
-   counts them. Cost: O((n + k) log n) for k crossings, but for lists that are moved at local extremes.
+   counts them. Cost: O((n + k) log n) for k crossings, but for lists that are moved at local extremes;
+   where edges lie so close upon each other that it would be more than some seconds, FW_LIMIT. FW_CANCELLED as the arena says.
 
    Method: (1) snap rounding: every edge is cut at each vertex and rounded crossing whose square of 1 dbu
    it passes, after which edges meet at their ends only; (2) equal edges become one, and a sweep finds the

@@ -30,7 +30,18 @@ typedef struct work {
     int nhot, capacity;
     cells grid;
     int rounded;
+    int64_t looks; /* at two edges, or an edge and a point, that share a cell */
 } work;
+
+/* a second and a half: a mask of two million vertices takes a tenth of it. What lies upon itself over and over, as an array
+   that steps by less than its cell, grows with the square of its shapes */
+static const int64_t LOOKS_MOST = 300000000;
+
+static fw_status goes_on(work *w, int64_t looks) {
+    w->looks += looks;
+    if (w->looks > LOOKS_MOST) return FW_LIMIT;
+    return fw_arena_cancelled(w->arena) ? FW_CANCELLED : FW_OK;
+}
 
 static int by_point(const void *left, const void *right) {
     const fw_geometry_point *a = left, *b = right;
@@ -200,7 +211,8 @@ static fw_status find_hot(work *w) {
     unique_points(w);
     int from = w->nhot, ncell = w->grid.columns * w->grid.rows;
     for (int c = 0; c < ncell; c++)
-        for (int i = w->grid.edge_from[c]; i < w->grid.edge_from[c + 1]; i++)
+        for (int i = w->grid.edge_from[c]; i < w->grid.edge_from[c + 1]; i++) {
+            FW_TRY(goes_on(w, w->grid.edge_from[c + 1] - i));
             for (int k = i + 1; k < w->grid.edge_from[c + 1]; k++) {
                 const fw_geometry_merge_edge *e = &w->in->edge[w->grid.edge[i]];
                 const fw_geometry_merge_edge *f = &w->in->edge[w->grid.edge[k]];
@@ -211,6 +223,7 @@ static fw_status find_hot(work *w) {
                 if (!exact && row * w->grid.columns + column == c) w->rounded++;
                 FW_TRY(add_hot(w, at));
             }
+        }
     if (w->nhot > from) unique_points(w);
     return listed(w, place_points, &w->grid.point_from, &w->grid.point);
 }
@@ -289,6 +302,7 @@ static fw_status cut(work *w, const fw_geometry_merge_edge *e, stops *s,
         rows_of(g, e, c, &first, &last);
         for (int r = first; r <= last; r++) {
             int cell = r * g->columns + c;
+            FW_TRY(goes_on(w, g->point_from[cell + 1] - g->point_from[cell]));
             for (int k = g->point_from[cell]; k < g->point_from[cell + 1]; k++)
                 if (passes(e, w->hot[g->point[k]])) FW_TRY(stop_at(w, s, e, w->hot[g->point[k]]));
         }

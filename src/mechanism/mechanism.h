@@ -93,6 +93,8 @@ typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
        of the flexure's forces are its own times `scale` */
     fw_flexure_path_strain section;
     fw_flexure_hinge_law law;
+    double
+        coupling; /* c_xy/sqrt(c_xx c_yy) that the law leaves out up to the limit's rotation; 0: none */
     double scale; /* stated stiffness over its own; 1: none is stated, or 0 */
     double
         stated_less; /* share by which a moment may strain it less than the stated stiffness says */

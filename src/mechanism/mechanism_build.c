@@ -256,11 +256,12 @@ fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *
    image of itself */
 static void report_left_out(const fw_mechanism_builder *b, const fw_device_flexure *f,
                             const fw_device_revolute *joint, const fw_flexure_path_way *way,
-                            double limit_rad) {
+                            fw_mechanism_hinge *hinge) {
     double drift, coupling;
     char um[32], share[32], degrees[32];
-    double most = fmin(limit_rad, 1.0);
+    double most = fmin(hinge->closed_form.limit_angle_rad, 1.0);
     fw_flexure_path_left_out(way, most, &drift, &coupling);
+    hinge->coupling = coupling;
     if (!(drift > 1e-9 || coupling > 0.01) || fw_mechanism_said_already(b->diags, 265, f->place))
         return;
     fw_diag_warning(
@@ -282,7 +283,7 @@ static fw_status varying(const fw_mechanism_builder *b, const fw_device_flexure 
     FW_TRY(fw_flexure_path_law(b->arena, &hinge->input, &hinge->closed_form, &hinge->law));
     fw_flexure_path_strain_bend(&hinge->section, flared);
     FW_TRY(fw_flexure_path_way_new(b->arena, &hinge->input, &way));
-    report_left_out(b, f, joint, way, hinge->closed_form.limit_angle_rad);
+    report_left_out(b, f, joint, way, hinge);
     return FW_OK;
 }
 

@@ -237,7 +237,8 @@ int fw_mechanism_plates_mover(const fw_mechanism_plates *p, int mode, bool *tilt
         const double *u = p->shape + (size_t)mode * (size_t)p->n + 3 * b, *mass = p->mass + 9 * b;
         double up = mass[0] * u[0] * u[0],
                turn = mass[4] * u[1] * u[1] + 2 * mass[5] * u[1] * u[2] + mass[8] * u[2] * u[2];
-        if (up + turn > far) far = up + turn, most = b, *tilts = turn > up;
+        /* of bodies that move as much but for rounding, mirrored arms say, the first one is named by every library */
+        if (up + turn > far * (1 + 1e-6)) far = up + turn, most = b, *tilts = turn > up;
     }
     return most;
 }

@@ -122,6 +122,40 @@ double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double 
     return isfinite(jolt) && jolt < most ? jolt / most : jolt > 0 ? 1 : 0;
 }
 
+enum { PER_PIECE = 64 }; /* places of a piece that are looked at */
+
+/* how far the law goes from its first value at most, and when */
+static double furthest(const fw_quantity_law *law, double end_s, double *at_s) {
+    double at[JOLTS + 1], value[3], most = 0, from = 0;
+    int count = fw_quantity_law_breaks_of(law, end_s, at, JOLTS);
+    count = count < JOLTS ? count : JOLTS;
+    fw_sort_doubles(at, (size_t)count);
+    at[count] = end_s;
+    fw_quantity_law_value(law, 0, 0.5 * at[0], value);
+    const double start = value[0];
+    *at_s = 0;
+    for (int i = 0; i <= count; from = at[i++])
+        for (int k = 0; k <= PER_PIECE; k++) {
+            const double t_s = from + (at[i] - from) * k / PER_PIECE;
+            fw_quantity_law_value(law, t_s, 0.5 * (from + at[i]), value);
+            if (fabs(value[0] - start) > most) most = fabs(value[0] - start), *at_s = t_s;
+        }
+    return most;
+}
+
+double fw_quantity_law_rings(const fw_quantity_law *law, double end_s, double omega_per_s,
+                             double *at_s) {
+    double most;
+    *at_s = 0;
+    if (fw_quantity_law_is_constant(law)) return 0;
+    const double variation = fw_quantity_law_measure(law, end_s).variation;
+    const double all = jolts(law, false, end_s, omega_per_s, &most),
+                 jumps = jolts(law, false, end_s, (double)INFINITY, &most);
+    const double rings = isfinite(all) ? fmin(all - jumps, variation) : variation;
+    const double far = furthest(law, end_s, at_s);
+    return rings > 0 ? rings / far : 0;
+}
+
 /* ---- what it does to an oscillator ---- */
 
 enum { PER_PERIOD = 24 };

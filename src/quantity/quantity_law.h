@@ -71,6 +71,16 @@ fw_quantity_law_size fw_quantity_law_measure(const fw_quantity_law *law, double 
 double fw_quantity_law_jolt(const fw_quantity_law *law, bool coordinate, double end_s,
                             double omega_per_s);
 
+/* What a load with this law sets ringing at omega, rad/s, besides its jumps: over the furthest that it goes from its first
+   value, which it has at *at_s. By parts once or twice, at most
+
+     min(variation, (jumps and variation of the slope)/omega)
+
+   and 0 of what jumps only; above 1 where it goes to and fro. Infinite: nothing bounds it. An estimate where
+   fw_quantity_law_jolt is one. Test: test_time_law.c rings */
+double fw_quantity_law_rings(const fw_quantity_law *law, double end_s, double omega_per_s,
+                             double *at_s);
+
 /* Largest |q| over (0, end_s) of q'' + w^2 q = w^2 f(t), f the law, without damping and at rest before, for every w of
    [low, high], rad/s: what a load with this law does to a mode at most, over what it does at rest. By parts twice
 

@@ -141,7 +141,7 @@ static fw_status read_first(const fw_recipe_asrun_reader *r, const char *plan, c
 /* a line behind the first one, into the next of run->entry */
 static fw_status read_entry(fw_recipe_asrun_reader *r, const char *line, size_t length,
                             fw_recipe_asrun *run) {
-    size_t words;
+    size_t words = 0;
     FW_TRY(unchain(r, line, length, run->chain, &words));
     FW_TRY(fw_recipe_asrun_entry_read(r, line, words, '\t', &run->entry[run->nentry]));
     memcpy(run->entry[run->nentry++].chain, run->chain, sizeof run->chain);

@@ -397,8 +397,10 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
         *equal = '\0';
         /* whoever wrote the log: it is shown on terminals and pages */
         const char *value = fw_text_shown(r->arena, equal + 1, strlen(equal + 1));
+        const char *name = fw_text_shown(r->arena, word, strlen(word));
         FW_NEED(value);
-        FW_TRY(read_word(r, e, word, value));
+        FW_NEED(name);
+        FW_TRY(read_word(r, e, name, value));
     }
     if (!e->step)
         return fw_diag_error(r->diags, 282, r->place,

@@ -71,7 +71,7 @@ fw_report_view fw_report_figure_view(const fw_geometry_box *box, double width) {
     double pad = fmin(PAD, 0.08 * width), inner = width - 2 * pad;
     wide = fmax(wide, 0.25 * size), high = fmax(high, 0.2 * size);
     fw_report_view view = {.width = width, .scale = fmin(inner / wide, 0.85 * inner / high)};
-    view.height = ceil(high * view.scale) + 2 * pad + FLOOR;
+    view.height = fw_report_whole_pixels(high * view.scale) + 2 * pad + FLOOR;
     view.x0_m = 0.5 * (b.x0 + b.x1) - 0.5 * width / view.scale;
     view.y1_m = 0.5 * (b.y0 + b.y1) + 0.5 * (view.height - FLOOR) / view.scale;
     return view;

@@ -21,6 +21,9 @@ typedef struct fw_report_view {
     double x0_m, y1_m, scale; /* pixel per m */
     double width, height;
 } fw_report_view;
+/* the whole pixels that a picture of this height takes: a millionth of one is round-off, and would make another picture of the
+   same device with another library of linear algebra */
+double fw_report_whole_pixels(double height);
 fw_report_view fw_report_view_fit(fw_geometry_box box, double width, double pad_m);
 double fw_report_x(const fw_report_view *view, double x_m);
 double fw_report_y(const fw_report_view *view, double y_m);

@@ -29,6 +29,10 @@ void fw_report_box_add(fw_geometry_box *box, double x_m, double y_m) {
     box->y1 = fmax(box->y1, y_m);
 }
 
+double fw_report_whole_pixels(double height) {
+    return ceil(height - 1e-6);
+}
+
 fw_report_view fw_report_view_fit(fw_geometry_box box, double width, double pad_m) {
     if (!(box.x1 >= box.x0) || !(box.y1 >= box.y0)) box = (fw_geometry_box){0.0, 0.0, 1e-3, 1e-3};
     double wide = box.x1 - box.x0 + 2.0 * pad_m, high = box.y1 - box.y0 + 2.0 * pad_m;
@@ -38,7 +42,7 @@ fw_report_view fw_report_view_fit(fw_geometry_box box, double width, double pad_
     high = fmax(high, 0.25 * size);
     fw_report_view view = {.width = width};
     view.scale = fmin(width / wide, 1.25 * width / high); /* never taller than 5:4 */
-    view.height = ceil(high * view.scale);
+    view.height = fw_report_whole_pixels(high * view.scale);
     view.x0_m = 0.5 * (box.x0 + box.x1) - 0.5 * width / view.scale;
     view.y1_m = 0.5 * (box.y0 + box.y1) + 0.5 * view.height / view.scale;
     return view;

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -73,11 +74,21 @@ static void become(const fw_serve_child_plan *p, pid_t server) {
     execv("/proc/self/exe", (char *const *)(uintptr_t)p->argv);
 }
 
+/* to whoever reads its messages, in place of a status alone; where that is, place_all may have been on its way to change */
+static _Noreturn void fail(const fw_serve_child_plan *p, const char *why) {
+    static const char before[] = "flexwright: error: a process of the page could not begin: ";
+    char line[sizeof before + 200];
+    const int n = snprintf(line, sizeof line, "%s%.190s\n", before, why);
+    if (p->err < 0 || write(p->err, line, (size_t)n) < 0)
+        if (write(2, line, (size_t)n) < 0) _exit(126); /* nobody is left to be told */
+    _exit(127);
+}
+
 pid_t fw_serve_child_start(const fw_serve_child_plan *plan) {
     pid_t server = getpid(), pid = fork();
     if (pid == 0) {
         become(plan, server);
-        _exit(127);
+        fail(plan, strerror(errno));
     }
     if (pid > 0) setpgid(pid, pid); /* whoever is first */
     return pid;

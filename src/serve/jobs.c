@@ -259,9 +259,8 @@ static fw_status prepare(fw_serve_jobs *jobs, fw_serve_job *job, fw_serve_job_or
 static bool start(fw_serve_job *job) {
     int errors[2];
     int out = openat(job->fd, "printed", O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (out < 0) return false;
-    if (pipe2(errors, O_CLOEXEC) != 0) {
-        close(out);
+    if (out < 0 || pipe2(errors, O_CLOEXEC) != 0) {
+        if (out >= 0) close(out); /* which leaves errno as it is */
         return false;
     }
     fw_serve_child_plan plan = {.argv = job->argv,
@@ -272,12 +271,19 @@ static bool start(fw_serve_job *job) {
                                 .err = errors[1],
                                 .channel = -1,
                                 .limits = limits};
-    job->pid = fw_serve_child_start(&plan);
+    const pid_t pid = fw_serve_child_start(&plan);
+    const int why = errno;
     close(out);
     close(errors[1]);
+    if (pid < 0) { /* a pipe whose other end is gone would be looked at without end */
+        close(errors[0]);
+        errno = why;
+        return false;
+    }
     fcntl(errors[0], F_SETFL, O_NONBLOCK);
+    job->pid = pid;
     job->err = errors[0];
-    return job->pid > 0;
+    return true;
 }
 
 /* ---- what it says ---- */
@@ -577,7 +583,7 @@ void fw_serve_jobs_run(fw_serve_jobs *jobs) {
     if (!start(next)) {
         next->state = FW_JOB_FAILED;
         next->ended_ms = now;
-        next->why = "it could not be started";
+        next->why = fw_arena_printf(next->arena, "it could not be started: %s", strerror(errno));
     }
     tell(jobs, next);
 }

@@ -14,6 +14,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/socket.h>
+#include <time.h>
 
 enum { HEAD_BYTES = 32 * 1024, REQUEST_CAP = 256 * 1024 * 1024 };
 
@@ -381,7 +382,10 @@ static void round_once(fw_serve_server *server) {
     struct pollfd at[MOST_POLLED];
     int wait_ms;
     size_t n = what_to_poll(server, at, &wait_ms);
-    poll(at, n, server->asked ? 0 : wait_ms);
+    if (server->asked) wait_ms = 0;
+    /* no memory to wait with: everybody is asked in turn as always, but not without a pause, which would take a processor */
+    if (poll(at, n, wait_ms) < 0 && errno != EINTR)
+        nanosleep(&(struct timespec){.tv_nsec = 1000000L * wait_ms}, NULL);
     run_http(server);
     server->asked = false;
     fw_serve_pool_run(server->pool);
@@ -424,7 +428,10 @@ static fw_status absolute(fw_serve_server *server) {
 static void say(const fw_serve_server *server, const fw_diags *diags) {
     fw_text text = fw_text_new(server->arena);
     fw_diags_print(diags, &text, "flexwright", NULL, 0, 0);
-    if (fw_text_end(&text) == FW_OK) fputs(text.data, stderr);
+    if (fw_text_end(&text) == FW_OK)
+        fputs(text.data, stderr);
+    else
+        fprintf(stderr, "flexwright: error: %s\n", fw_status_text(FW_NOMEM));
 }
 
 static void announce(const fw_serve_server *server) {
@@ -473,7 +480,8 @@ int fw_serve_run(const fw_serve_options *options) {
         for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++)
             server->connection[i].fd = -1;
         status = serve(server);
-    }
+    } else
+        fprintf(stderr, "flexwright: error: %s\n", fw_status_text(status));
     fw_arena_free(arena);
     return fw_status_exit(status);
 }

@@ -357,6 +357,50 @@ static fw_status stay(fw_arena *arena, const fw_mechanism *m, const fw_device_sc
     return move(arena, m, scene, &o, &quiet, &again);
 }
 
+/* ---- what rings along a path's two directions ----
+   A path that is no mirror image of itself is drawn across by a force along it, and the closed form leaves that out: by c =
+   c_xy/sqrt(c_xx c_yy) it is too stiff along one direction and too soft along another by up to 1 -+ c, its frequencies with it,
+   which an instant does not show. So of what rings as much as c may be wrong, r of what turns (fw_statics_level_rings, of pins):
+
+     c r/max(1, r)
+
+   In: SI; out: relative. Cost: none without such paths, else that of rings. Source: the general eigenvalues of both
+   compliances. Test: judge.examples path-pulse. */
+
+static fw_status uncoupled(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                           const fw_dynamics_motion *x, double *relative) {
+    const fw_effect_choice pins = {.mode = FW_EFFECTS_AUTO, .hinge = FW_HINGE_REVOLUTE};
+    const double matters = 0.01;
+    double most = 0, rings;
+    *relative = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        most = fmax(most, m->hinge[k].coupling);
+    if (!(most > matters) || !scene || x->loads->quasi_static) return FW_OK;
+    fw_dynamics_motion of_pins = *x;
+    fw_effects_loads loads;
+    fw_diags own = fw_diags_new(arena);
+    FW_TRY(fw_effects_compile(arena, m, scene, &pins, 1e-3, &own, &of_pins.ledger, &loads));
+    of_pins.loads = &loads;
+    FW_TRY(fw_statics_level_rings(arena, m, scene, &of_pins, &rings));
+    *relative = most * fmin(1, rings);
+    return FW_OK;
+}
+
+/* the step of a motion to the next level, by which closed forms are off where paths ring, too */
+static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                          const fw_dynamics_motion *x, const fw_statics_level_step **out) {
+    FW_TRY(fw_statics_level_of_motion(arena, m, scene, x, out));
+    if (!*out || (*out)->why_not || (*out)->used != FW_HINGE_COMPLIANCE) return FW_OK;
+    double relative;
+    FW_TRY(uncoupled(arena, m, scene, x, &relative));
+    if (!(relative > (*out)->relative)) return FW_OK;
+    fw_statics_level_step *more = fw_arena_one(arena, fw_statics_level_step);
+    FW_NEED(more);
+    *more = **out, more->relative = relative;
+    *out = more;
+    return FW_OK;
+}
+
 /* exact beams cost some 10 us each: not by itself where there would be very many */
 static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
                                 const fw_dynamics_motion_options *options,
@@ -413,7 +457,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         if (!higher && !tried) fw_diags_take(diags, &own);
         FW_TRY(status);
         rows_of_peaks(mechanism, found);
-        FW_TRY(fw_statics_level_of_motion(arena, mechanism, scene, found, &step));
+        FW_TRY(level_of(arena, mechanism, scene, found, &step));
         /* pins that take a stated velocity away cannot say what flexures make of it */
         bool elsewhere = found->stats.velocity_moved > fw_assembly_another_start;
         double rings = 0;

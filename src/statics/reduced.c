@@ -309,7 +309,7 @@ bool fw_statics_sparse_close(fw_statics_equilibrium *w, double *u) {
 fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m, bool sparse,
                                  fw_statics_reduced *r) {
     size_t n = (size_t)m->nq, rows = (size_t)m->rows;
-    *r = (fw_statics_reduced){.n = m->nq, .rows = m->rows};
+    *r = (fw_statics_reduced){.n = m->nq, .rows = m->rows, .cancel = fw_arena_request(arena)};
     FW_NEED(r->root = fw_arena_array(arena, double, n));
     FW_NEED(r->balance = fw_arena_array(arena, double, rows));
     for (int i = 0; i < m->nq; i++)
@@ -385,7 +385,7 @@ fw_status fw_statics_reduced_null(const fw_multibody_model *m, const fw_multibod
 /* N^T K N for the rows of r->shape, into r->small (dof x dof), symmetric */
 static void project(fw_statics_reduced *r, const double *stiffness) {
     size_t n = (size_t)r->n, dof = (size_t)r->dof;
-    for (size_t k = 0; k < dof; k++) {
+    for (size_t k = 0; k < dof && !fw_cancel_requested(r->cancel); k++) {
         for (size_t i = 0; i < n; i++) { /* K times row k */
             r->work[i] = 0;
             for (size_t j = 0; j < n; j++)
@@ -431,7 +431,7 @@ static void refine(fw_statics_reduced *r, const double *stiffness) {
     project(r, stiffness);
     for (int sweep = 0, turned = 1; sweep < 8 && turned; sweep++) {
         turned = 0;
-        for (size_t p = 0; p < dof; p++)
+        for (size_t p = 0; p < dof && !fw_cancel_requested(r->cancel); p++)
             for (size_t q = p + 1; q < dof; q++) {
                 double size = sqrt(fabs(h[p * dof + p] * h[q * dof + q]));
                 if (!(fabs(h[p * dof + q]) > DBL_EPSILON * size)) continue;
@@ -464,7 +464,7 @@ static void set_zero(fw_statics_reduced *r, const double *stiffness) {
     double most = 0;
     for (int k = 0; k < r->dof; k++)
         most = fmax(most, fabs(r->value[k]));
-    for (size_t k = 0; k < (size_t)r->dof; k++) {
+    for (size_t k = 0; k < (size_t)r->dof && !fw_cancel_requested(r->cancel); k++) {
         const double *shape = r->shape + k * n;
         r->zero[k] = small * small * r->dof * most;
         for (size_t i = 0; i < n; i++) {
@@ -533,6 +533,7 @@ fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiff
         for (size_t i = 0; i < n; i++)
             r->shape[k * n + i] = basis[k * n + i] * r->root[i];
     project(r, stiffness);
+    if (fw_cancel_requested(r->cancel)) return FW_CANCELLED;
     for (size_t k = 0; k < dof * dof; k++)
         if (!isfinite(r->small[k])) return FW_SOLVER;
     if (dof > 0 && !fw_maths_eigen(r->dof, r->small, r->value, &r->eigen)) return FW_SOLVER;
@@ -551,7 +552,7 @@ fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiff
         sort_modes(r);
         set_zero(r, stiffness);
     }
-    return FW_OK;
+    return fw_cancel_requested(r->cancel) ? FW_CANCELLED : FW_OK;
 }
 
 void fw_statics_reduced_multipliers(const fw_multibody_model *m, const fw_statics_reduced *r,

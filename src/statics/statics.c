@@ -143,6 +143,36 @@ fw_status fw_statics_equilibrium_statics(fw_statics_equilibrium *w,
     return FW_OK;
 }
 
+/* ---- why a level is used ---- */
+
+fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *step, double accuracy,
+                                const fw_effect_choice *asked, fw_effects_hinge_use *use) {
+    char by[32], wanted[32];
+    if (!step || step->why_not) return FW_OK;
+    use->error = step->relative;
+    if (asked->hinge != FW_HINGE_AUTO || !(step->relative < accuracy) || !use->why) return FW_OK;
+    fw_percent_text(by, sizeof by, step->relative);
+    fw_percent_text(wanted, sizeof wanted, accuracy);
+    FW_NEED(use->why = fw_arena_printf(arena,
+                                       "%s; the cheapest that is good enough: %s is computed to "
+                                       "change %s %%, below %s, %s %%",
+                                       use->why, fw_effects_hinge_model_text(step->next), by,
+                                       use->pins_first ? "what they are taken to be good to"
+                                                       : "the accuracy wanted",
+                                       wanted));
+    return FW_OK;
+}
+
+fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *step,
+                                 const char *why_not, fw_effects_hinge_use *use) {
+    char by[32];
+    fw_percent_text(by, sizeof by, step->relative);
+    FW_NEED(use->why = fw_arena_printf(arena, "%s; %s is computed to change %s %%, but %s",
+                                       use->why ? use->why : "",
+                                       fw_effects_hinge_model_text(step->next), by, why_not));
+    return FW_OK;
+}
+
 /* ---- pins first ---- */
 
 /* row of a pin's point on a body: coordinate `axis` of it by the body's place and turn, sign +-1 */

@@ -57,6 +57,7 @@ typedef struct fw_statics_reduced {
     double *right; /* (n x n) row-major: right singular vectors, those of the null space last */
     double *balance, *g, *a, *sigma, *small, *work;
     fw_maths_lapack_space svd, eigen;
+    const fw_cancel *cancel; /* a spectrum of a thousand unknowns takes half a minute */
 } fw_statics_reduced;
 
 /* sparse: modes are found by fw_statics_sparse_lowest alone, and there is no spectrum */
@@ -65,7 +66,7 @@ fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m, b
 /* null space of G; FW_SOLVER: not finite */
 fw_status fw_statics_reduced_null(const fw_multibody_model *m, const fw_multibody_pose *pose,
                                   fw_statics_reduced *r);
-/* modes of K (n x n) in it, after fw_statics_reduced_null */
+/* modes of K (n x n) in it, after fw_statics_reduced_null; FW_CANCELLED between two of its rows */
 fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiffness);
 /* lambda (2 nblock) with G^T lambda as close to the force (n) as it gets in the mass metric; of all
    such, the one of least norm */

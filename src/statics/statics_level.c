@@ -304,29 +304,54 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     return climb(&low, &high, least, step);
 }
 
-/* ---- what is put on at once ----
+/* ---- what is put on at once, or nearly so ----
    Forces of joints that come at once ring along what flexures give, as long as nothing damps them: of that pins know
-   nothing, and an instant of their motion has only what stands still of it. The ring is as large as the jump. With its
-   energy U = F d / 2 (d: what the flexure gives by) the largest moment along a strip is at most that of a turn by
-   sqrt(6 U/K): 3 is the most that its square is above the mean, of a moment that goes from -M to M; pulled along, the
-   fibres bear less than that. In: SI; out: largest strain of what rings over the largest of what turns, 1; infinite
-   where no equilibrium of flexures that give was found. Cost: as a step, twice for each instant at which a law jumps.
-   Source: Clapeyron. Test: judge.examples spring-let-go. */
+   nothing, and an instant of their motion has only what stands still of it. The ring is as large as the jump, and of a law
+   that does not jump as large as the share r of how far it goes that fw_quantity_law_rings bounds for
+
+     omega = sqrt(k/(n M)),   k: least stiffness of a flexure, M: mass of all n bodies,
+
+   below which nothing rings along flexures: an opening of one joint carries at most all bodies, and n openings add up to at most
+   sqrt(n) of each. With its energy U = r^2 F d / 2 (d: what the flexure gives by) the largest moment along a strip is at most that
+   of a turn by sqrt(6 U/K): 3 is the most that its square is above the mean, of a moment that goes from -M to M; pulled along,
+   the fibres bear less than that. In: SI; out: largest strain of what rings over the largest of what turns, 1; infinite
+   where no equilibrium of flexures that give was found. Cost: as a step, twice for each instant at which a law jumps, and for
+   each law. Source: Clapeyron; Duhamel's integral by parts. Test: judge.examples spring-let-go, arm-stated-pulse. */
 
 enum { FW_JUMPS = 16 };
+
+static int laws_of(const fw_device_scene *s) {
+    return s->nforce + s->ntorque + s->nbase + s->ntendon;
+}
+
+static const fw_quantity_law *law_of(const fw_device_scene *s, int i) {
+    if (i < s->nforce) return s->force[i].law;
+    i -= s->nforce;
+    if (i < s->ntorque) return s->torque[i].law;
+    i -= s->ntorque;
+    return i < s->nbase ? s->base[i].law : s->tendon[i - s->nbase].law;
+}
 
 static int jumps_of(const fw_device_scene *s, double *t_s) {
     int n = 1;
     t_s[0] = 0;
-    for (int i = 0; i < s->nforce; i++)
-        n += fw_quantity_law_breaks_of(s->force[i].law, s->duration_s, t_s + n, FW_JUMPS - n);
-    for (int i = 0; i < s->ntorque; i++)
-        n += fw_quantity_law_breaks_of(s->torque[i].law, s->duration_s, t_s + n, FW_JUMPS - n);
-    for (int i = 0; i < s->nbase; i++)
-        n += fw_quantity_law_breaks_of(s->base[i].law, s->duration_s, t_s + n, FW_JUMPS - n);
-    for (int i = 0; i < s->ntendon; i++)
-        n += fw_quantity_law_breaks_of(s->tendon[i].law, s->duration_s, t_s + n, FW_JUMPS - n);
+    for (int i = 0; i < laws_of(s); i++)
+        n += fw_quantity_law_breaks_of(law_of(s, i), s->duration_s, t_s + n, FW_JUMPS - n);
     return n;
+}
+
+/* rad/s: nothing rings along flexures below it */
+static double slowest_along(const fw_mechanism *m) {
+    double k = (double)INFINITY, mass = 0;
+    for (int i = 0; i < m->nhinge; i++) {
+        const fw_flexure_result *r = &m->hinge[i].closed_form;
+        const double stated =
+            m->pin[m->hinge[i].pin].stiffness_Nm_per_rad / r->stiffness_Nm_per_rad;
+        k = fmin(k, stated * fmin(r->kx_N_per_m, r->ky_N_per_m));
+    }
+    for (int i = 0; i < m->nbody; i++)
+        mass += m->body[i].mass_kg;
+    return sqrt(k / (m->nbody * mass));
 }
 
 /* forces of the pins and what flexures give under them, world axes, (4 npin), with laws as they are on this side of t_s */
@@ -376,13 +401,67 @@ static double largest_ring(const fw_mechanism *m, const fw_dynamics_motion *x,
     return rings > 0 ? rings / turns : 0;
 }
 
+/* both levels of a motion of pins, and what their forces leave ringing so far */
+typedef struct {
+    fw_statics_equilibrium low, high;
+    double *gravity, *f[2], *ring_J;
+} fw_statics_ringing;
+
+static fw_status side_at(fw_statics_ringing *r, const double *q, double t_s, double piece_s,
+                         double *f, bool *found) {
+    memcpy(r->high.gravity, r->gravity, (size_t)r->high.model->nq * sizeof *r->gravity);
+    return forces_of(&r->low, &r->high, q, t_s, piece_s, f, found);
+}
+
+/* what lies between both sides rings by so much of it; amplitudes add up */
+static void add_ring(fw_statics_ringing *r, double share) {
+    for (int i = 0; i < r->low.mechanism->npin; i++) {
+        const double *a = r->f[0] + 4 * i, *b = r->f[1] + 4 * i;
+        const double U = 0.5 * fabs((b[0] - a[0]) * (b[2] - a[2]) + (b[1] - a[1]) * (b[3] - a[3]));
+        const double all = sqrt(r->ring_J[i]) + share * sqrt(U);
+        r->ring_J[i] = all * all;
+    }
+}
+
+/* what the laws do where they jump; before the scene nothing acts */
+static fw_status ring_of_jumps(fw_statics_ringing *r, const fw_device_scene *scene,
+                               const fw_dynamics_motion *x, bool *found) {
+    double t_s[FW_JUMPS];
+    const int jumps = jumps_of(scene, t_s);
+    for (int j = 0; j < jumps && j < FW_JUMPS && *found; j++) {
+        const double *q = x->q + (size_t)row_at(x, t_s[j]) * (size_t)r->low.model->nq;
+        for (int side = j > 0 ? 0 : 1; side < 2 && *found; side++)
+            FW_TRY(side_at(r, q, t_s[j], side ? t_s[j] : t_s[j] * (1 - 1e-12), r->f[side], found));
+        if (*found) add_ring(r, 1);
+    }
+    return FW_OK;
+}
+
+/* what they do where they do not */
+static fw_status ring_of_laws(fw_statics_ringing *r, const fw_device_scene *scene,
+                              const fw_dynamics_motion *x, bool *found) {
+    const double omega = slowest_along(r->low.mechanism), none = 1e-4;
+    for (int i = 0; i < laws_of(scene) && *found; i++) {
+        double t_s;
+        const double share =
+            fw_quantity_law_rings(law_of(scene, i), scene->duration_s, omega, &t_s);
+        if (share < none) continue;
+        const double *q = x->q + (size_t)row_at(x, t_s) * (size_t)r->low.model->nq;
+        FW_TRY(side_at(r, q, 0, 0, r->f[0], found));
+        if (*found) FW_TRY(side_at(r, q, t_s, t_s, r->f[1], found));
+        *found = *found && isfinite(share);
+        if (*found) add_ring(r, share);
+    }
+    return FW_OK;
+}
+
 fw_status fw_statics_level_rings(fw_arena *arena, const fw_mechanism *m,
                                  const fw_device_scene *scene, const fw_dynamics_motion *x,
                                  double *share) {
     fw_diags own = fw_diags_new(arena);
-    fw_statics_equilibrium low, high;
     fw_effects_loads loads = *x->loads, up;
-    double t_s[FW_JUMPS], *f[2], *ring_J, *gravity;
+    fw_statics_ringing r = {0};
+    bool found = true;
     *share = 0;
     if (!scene || m->nhinge == 0 || x->nsample < 1 || x->loads->quasi_static) return FW_OK;
     fw_statics_level_step *step = begin(arena, m, &x->ledger, 0);
@@ -390,35 +469,18 @@ fw_status fw_statics_level_rings(fw_arena *arena, const fw_mechanism *m,
     loads.nfriction = 0;
     FW_TRY(next_loads(arena, m, scene, &x->ledger, &loads, &up, step));
     if (step->why_not) return FW_OK; /* which the step of the peak says */
-    FW_TRY(in_time(&low, arena, m, scene, &loads, &own));
-    FW_TRY(in_time(&high, arena, m, scene, &up, &own));
-    low.ledger = x->ledger;
-    const size_t n = 4 * (size_t)m->npin, size = (size_t)high.model->nq * sizeof(double);
-    FW_NEED(f[0] = fw_arena_array(arena, double, n));
-    FW_NEED(f[1] = fw_arena_array(arena, double, n));
-    FW_NEED(ring_J = fw_arena_array(arena, double, (size_t)m->npin));
-    FW_NEED(gravity = fw_arena_array(arena, double, (size_t)high.model->nq));
-    memcpy(gravity, high.gravity, size);
-    const int jumps = jumps_of(scene, t_s);
-    for (int j = 0; j < jumps && j < FW_JUMPS; j++) {
-        const double *q = x->q + (size_t)row_at(x, t_s[j]) * 3 * (size_t)m->nbody;
-        for (int side = j > 0 ? 0 : 1; side < 2; side++) { /* before the scene nothing acts */
-            const double piece_s = side ? t_s[j] : t_s[j] * (1 - 1e-12);
-            bool found;
-            memcpy(high.gravity, gravity, size);
-            FW_TRY(forces_of(&low, &high, q, t_s[j], piece_s, f[side], &found));
-            if (!found) *share = (double)INFINITY;
-            if (!found) return FW_OK;
-        }
-        for (int i = 0; i < m->npin; i++) {
-            const double *a = f[0] + 4 * i, *b = f[1] + 4 * i;
-            const double U =
-                0.5 * fabs((b[0] - a[0]) * (b[2] - a[2]) + (b[1] - a[1]) * (b[3] - a[3]));
-            const double all = sqrt(ring_J[i]) + sqrt(U);
-            ring_J[i] = all * all;
-        }
-    }
-    *share = largest_ring(m, x, ring_J);
+    FW_TRY(in_time(&r.low, arena, m, scene, &loads, &own));
+    FW_TRY(in_time(&r.high, arena, m, scene, &up, &own));
+    r.low.ledger = x->ledger;
+    const size_t n = 4 * (size_t)m->npin, nq = (size_t)r.high.model->nq;
+    FW_NEED(r.f[0] = fw_arena_array(arena, double, n));
+    FW_NEED(r.f[1] = fw_arena_array(arena, double, n));
+    FW_NEED(r.ring_J = fw_arena_array(arena, double, (size_t)m->npin));
+    FW_NEED(r.gravity = fw_arena_array(arena, double, nq));
+    memcpy(r.gravity, r.high.gravity, nq * sizeof *r.gravity);
+    FW_TRY(ring_of_jumps(&r, scene, x, &found));
+    if (found) FW_TRY(ring_of_laws(&r, scene, x, &found));
+    *share = found ? largest_ring(m, x, r.ring_J) : (double)INFINITY;
     return FW_OK;
 }
 
@@ -513,32 +575,4 @@ bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
     choice->hinge = step->next;
     choice->below = step->relative;
     return true;
-}
-
-fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *step, double accuracy,
-                                const fw_effect_choice *asked, fw_effects_hinge_use *use) {
-    char by[32], wanted[32];
-    if (!step || step->why_not) return FW_OK;
-    use->error = step->relative;
-    if (asked->hinge != FW_HINGE_AUTO || !(step->relative < accuracy) || !use->why) return FW_OK;
-    fw_percent_text(by, sizeof by, step->relative);
-    fw_percent_text(wanted, sizeof wanted, accuracy);
-    FW_NEED(use->why = fw_arena_printf(arena,
-                                       "%s; the cheapest that is good enough: %s is computed to "
-                                       "change %s %%, below %s, %s %%",
-                                       use->why, fw_effects_hinge_model_text(step->next), by,
-                                       use->pins_first ? "what they are taken to be good to"
-                                                       : "the accuracy wanted",
-                                       wanted));
-    return FW_OK;
-}
-
-fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *step,
-                                 const char *why_not, fw_effects_hinge_use *use) {
-    char by[32];
-    fw_percent_text(by, sizeof by, step->relative);
-    FW_NEED(use->why = fw_arena_printf(arena, "%s; %s is computed to change %s %%, but %s",
-                                       use->why ? use->why : "",
-                                       fw_effects_hinge_model_text(step->next), by, why_not));
-    return FW_OK;
 }

@@ -5,6 +5,7 @@
    (fw_xml_numbers). */
 #include "xml/xml_reader.h"
 #include <ctype.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,6 +31,11 @@ double fw_xml_number_or(const fw_xml_record *record, const char *name, double ab
     const fw_xml_cell *cell = fw_xml_cell_of(record, name);
     if (!cell->given && !cell->missing) return absent;
     return cell->ok ? cell->number : (double)NAN;
+}
+
+int fw_xml_whole_or(const fw_xml_record *record, const char *name, int otherwise) {
+    const double value = fw_xml_number_or(record, name, otherwise);
+    return value >= INT_MIN && value <= INT_MAX ? (int)value : otherwise;
 }
 
 double fw_xml_number_of(const fw_xml_record *record, const char *name) {

@@ -200,6 +200,8 @@ double fw_xml_number_of(const fw_xml_record *record,
                         const char *name); /* NaN when absent or failed */
 double fw_xml_number_or(const fw_xml_record *record, const char *name,
                         double absent); /* NaN when failed */
+/* a whole number that the table bounds; `otherwise` also when failed, since an int has no NaN */
+int fw_xml_whole_or(const fw_xml_record *record, const char *name, int otherwise);
 const char *fw_xml_text_of(const fw_xml_record *record,
                            const char *name); /* NULL when absent or failed */
 fw_place fw_xml_place_of(const fw_xml_record *record,

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The same devices in many environments: what is the same to the last byte, and what differs by how much.
 
-    environments.py PROGRAM [--build NAME ...] [--blas NAME=DIRECTORY ...] [--device FILE ...] [--valgrind]
+    environments.py PROGRAM [--build NAME ...] [--blas NAME=DIRECTORY ...] [--under NAME=WORDS ...] [--device FILE ...] [--valgrind]
+                    [--only PATTERN]
 
-Environments of PROGRAM itself: the mathematical library without FMA, without AVX2 and without AVX (GLIBC_TUNABLES), languages,
-zones, another working directory, umask, number of threads, little stack. --build: programs built here, of gcc-O0, gcc-O3,
+Environments of PROGRAM itself: the mathematical library without AVX-512, FMA, AVX2 and AVX (GLIBC_TUNABLES; what the program chooses by
+itself among its own lanes is as the processor has it: for that, --under "Nehalem=qemu-x86_64 -cpu Nehalem" and --valgrind, which
+has no AVX-512), languages (made by localedef where the system has them not), zones, another working directory, umask, number of
+threads, little stack. --build: programs built here, of gcc-O0, gcc-O3,
 clang-O2, clang-O0 (some minutes each, kept in build-NAME). --blas: another libblas.so.3 and liblapack.so.3, from that directory.
 
 Of each it compares: masks (all formats), recipes, certificates of masks and workspaces, and decisions, byte for byte: a
@@ -18,6 +21,7 @@ import math
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -44,17 +48,29 @@ def built(name):
     return directory / "flexwright"
 
 
-def environments(program, options):
+def localised(where):
+    """German and Turkish, whatever the system has: a comma in numbers, and an i that is no lower case of I"""
+    for name in ("de_DE", "tr_TR"):
+        subprocess.run(["localedef", "-i", name, "-f", "UTF-8", where / (name + ".UTF-8")], capture_output=True, check=False)
+    return {"LOCPATH": str(where)}
+
+
+def environments(program, options, where):
     """name: (words before the program's, program, variables, preparation of the child)"""
-    off = {"without FMA": "-FMA,-FMA4,-AVX512F", "without AVX2": "-FMA,-FMA4,-AVX512F,-AVX2", "without AVX": "-FMA,-FMA4,-AVX512F,-AVX2,-AVX"}
+    off = {"without AVX-512": "-AVX512F,-AVX512VL,-AVX512BW,-AVX512DQ,-AVX512CD", "without FMA": "-FMA,-FMA4,-AVX512F", "without AVX2": "-FMA,-FMA4,-AVX512F,-AVX2", "without AVX": "-FMA,-FMA4,-AVX512F,-AVX2,-AVX"}
     yield "as it is", ([], program, {}, None)
     yield "again", ([], program, {}, None)
     for name, what in off.items():
         yield name, ([], program, {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=" + what}, None)
-    yield "German, Auckland", ([], program, {"LC_ALL": "de_DE.UTF-8", "TZ": "Pacific/Auckland", "HOME": "/nonexistent"}, None)
-    yield "Turkish, no zone", ([], program, {"LC_ALL": "tr_TR.UTF-8", "TZ": ""}, None)
+    languages = localised(where)
+    yield "German, Auckland", ([], program, {**languages, "LC_ALL": "de_DE.UTF-8", "TZ": "Pacific/Auckland", "HOME": "/nonexistent"}, None)
+    yield "Turkish, no zone", ([], program, {**languages, "LC_ALL": "tr_TR.UTF-8", "TZ": ""}, None)
     yield "umask 077", ([], program, {}, lambda: os.umask(0o77))
     yield "eight threads", ([], program, {"OPENBLAS_NUM_THREADS": "8", "OMP_NUM_THREADS": "8"}, None)
+    yield "a stack of 512 KiB", ([], program, {}, lambda: resource.setrlimit(resource.RLIMIT_STACK, (1 << 19, 1 << 19)))
+    for given in options.under:
+        name, words = given.split("=", 1)
+        yield name, (words.split(), program, {}, None)
     for given in options.blas:
         name, directory = given.split("=", 1)
         yield "BLAS " + name, ([], program, {"LD_LIBRARY_PATH": str(pathlib.Path(directory).resolve()), "OPENBLAS_NUM_THREADS": "2"}, None)
@@ -96,11 +112,15 @@ def main():
     parser.add_argument("--build", action="append", default=[], choices=sorted(BUILDS))
     parser.add_argument("--blas", action="append", default=[])
     parser.add_argument("--device", action="append", type=pathlib.Path, default=[])
+    parser.add_argument("--under", action="append", default=[])
     parser.add_argument("--valgrind", action="store_true")
+    parser.add_argument("--only", default="", help="beside the first, only environments whose names fit this pattern")
     options = parser.parse_args()
     devices, failed, first = [d.resolve() for d in options.device] or DEVICES, 0, {}
     with tempfile.TemporaryDirectory() as name:
-        for title, environment in environments(options.program.resolve(), options):
+        for title, environment in environments(options.program.resolve(), options, pathlib.Path(name)):
+            if first and not re.search(options.only, title):
+                continue
             same, differs = 0, collections.defaultdict(list)
             for device in devices:
                 place = pathlib.Path(name) / re.sub(r"\W+", "-", title + device.parent.name)

@@ -3,13 +3,15 @@
 """Limits of time and memory: `--time-limit` and `--memory` drawn by the seed, on every device of the tree and on devices
 with an extreme number, for every command that computes.
 
-    limits.py PROGRAM [--seed N] [--count N]
+    limits.py PROGRAM [--seed N] [--count N] [--longest SECONDS] [--first N]
 
 What must hold: the run ends, by itself, with a status of the contract; with 6 there is a message that says which limit,
 and neither a directory nor a leftover; with another status the result is there. The processor time that a run took beyond its limit is
 printed, the largest with its command; nothing is asserted of it but that a run ends within HANG_S, since other work may take the
 machine."""
 import argparse
+import functools
+import math
 import pathlib
 import random
 import re
@@ -29,6 +31,7 @@ ANGLES = ["0.001 deg", "1 deg", "89.999 deg", "180 deg", "270 deg", "359 deg", "
 WHOLE = ["1", "2", "50000", "1000000"]
 
 
+@functools.cache
 def devices():
     found = [*ROOT.glob("docs/gallery/*/device.xml"), *ROOT.glob("tests/data/effects/*.xml"),
              *ROOT.glob("tests/data/wafer/*.xml")]
@@ -57,7 +60,18 @@ def extreme(text, rng):
     return text, changed
 
 
-def command(rng, here, device):
+def chain(rng):
+    """so many bodies that what grows with their square or cube takes hours"""
+    n = round(10 ** rng.uniform(1, 4.7))
+    bodies = "".join(f'<body id="b{i}" mass="0.02 mg" inertia="0.003 mg mm^2" x="{0.5 + i} mm" y="0 mm"/>' for i in range(n))
+    joints = '<revolute id="r0" a="ground" b="b0" b-x="-0.5 mm"/>' + "".join(
+        f'<revolute id="r{i}" a="b{i - 1}" a-x="0.5 mm" b="b{i}" b-x="-0.5 mm"/>' for i in range(1, n))
+    scene = '<scene name="s" duration="1 ms"><gravity gy="-9.81 m/s^2"/></scene>'
+    return (f'<?xml version="1.0"?>\n<device xmlns="urn:flexwright:device:1" name="many"><mechanism>{bodies}{joints}</mechanism>{scene}'
+            f'</device>\n'), [f"{n} bodies"]
+
+
+def command(rng, here, device, longest):
     name = rng.choice(COMMANDS)
     arguments = [name, str(device), "-o", str(here / "out"), "-q"]
     if rng.random() < 0.2:
@@ -66,7 +80,7 @@ def command(rng, here, device):
         arguments += ["--accuracy", rng.choice(["1e-9", "1e-6", "0.1"])]
     if rng.random() < 0.2:
         arguments += ["--memory", str(rng.choice([16, 20, 40, 100, 300]))]
-    limit = 10 ** rng.uniform(-2, 0.7)
+    limit = 10 ** rng.uniform(-2, math.log10(longest))
     return arguments + ["--time-limit", f"{limit:.3f}"], limit
 
 
@@ -89,6 +103,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--keep", type=int, help="only writes the description of this run to kept.xml and its command")
+    parser.add_argument("--longest", type=float, default=5, help="of the limits of time, s; with 0.5 some thirty runs a second")
+    parser.add_argument("--first", type=int, default=0, help="the runs before this one are drawn, and not done")
     o = parser.parse_args()
     rng, bad, statuses, most = random.Random(o.seed), 0, {}, (0.0, "")
     for i in range(o.count):
@@ -100,8 +116,12 @@ def main():
             text, changed = source.read_text(), []
             if rng.random() < 0.7:
                 text, changed = extreme(text, rng)
+            if rng.random() < 0.01:
+                text, changed = chain(rng)
             (here / "device.xml").write_text(text)
-            arguments, limit = command(rng, here, here / "device.xml")
+            arguments, limit = command(rng, here, here / "device.xml", o.longest)
+            if i < o.first:
+                continue
             if o.keep is not None:
                 if i == o.keep:
                     pathlib.Path("kept.xml").write_text(text)
@@ -130,7 +150,7 @@ def main():
     if o.keep is not None:
         return 0
     print("statuses: " + ", ".join(f"{s} {n}" for s, n in sorted(statuses.items())))
-    print(f"{o.count} runs, {bad} wrong; longest beyond its limit {most[0]:.2f} s: {most[1]}")
+    print(f"{o.count - o.first} runs, {bad} wrong; longest beyond its limit {most[0]:.2f} s: {most[1]}")
     return bool(bad)
 
 

@@ -3,12 +3,16 @@
    them fail. What it does is said by the environment:
 
        FW_FAULT_KIND    memory, or open, write, short, fsync, rename, read, close, mmap, fork, socket, opendir, mkdir,
-                        stat, unlink, pictures (memory, asked for by what draws)
+                        stat, unlink, pictures (memory, asked for by what draws), pipe (and pairs of sockets, and what events
+                        are told by), watch (one more), wait (poll), interrupted (other waiting, for events and processes), send
+                        (and receive), exec, descriptor (fcntl, dup2)
        FW_FAULT_AT      n, from 1; 0 or absent: only count
        FW_FAULT_EVER    1: every later one fails, too
        FW_FAULT_ERRNO   number of the error (memory: always ENOMEM; short: a write of half the bytes, at least one, is done)
        FW_FAULT_REPORT  file that gets a line "KIND COUNT" of every kind at the end, from the process that was started and no child of it
        FW_FAULT_TRACE   1: who made the call that failed, and who was active at SIGSEGV or SIGABRT, to standard error
+       FW_FAULT_CHILDREN 1: the program itself runs as it is, and those of its children that are this program again count from
+                        their own main
        FW_FAULT_KILL    1: instead of failing, the call is preceded by kill -9
 
    What happens before main (the loader, constructors of libraries) is neither counted nor failed: nothing of ours runs
@@ -20,6 +24,7 @@
 #include <fcntl.h>
 #include <link.h>
 #include <malloc.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -27,11 +32,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/types.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 /* the allocator under ours: of glibc, by their other names, so that dlsym need not be asked while it allocates */
@@ -57,16 +65,25 @@ enum kind {
     MKDIR,
     STAT,
     UNLINK,
-    PICTURES
+    PICTURES,
+    PIPE,
+    WAIT,
+    SEND,
+    EXEC,
+    DESCRIPTOR,
+    WATCH,
+    INTERRUPTED,
+    KINDS
 };
-static const char *const name[] = {"none",    "memory", "open",  "write",  "short",   "fsync",
-                                   "rename",  "read",   "close", "mmap",   "fork",    "socket",
-                                   "opendir", "mkdir",  "stat",  "unlink", "pictures"};
+static const char *const name[KINDS] = {
+    "none",   "memory",  "open",  "write", "short",  "fsync",    "rename", "read", "close", "mmap", "fork",
+    "socket", "opendir", "mkdir", "stat",  "unlink", "pictures", "pipe",   "wait", "send",  "exec", "descriptor",
+    "watch",  "interrupted"};
 
 static enum kind wanted;
 static long at;
-static int ever, error_number, trace, killing, running;
-static atomic_long counts[PICTURES + 1];
+static int ever, error_number, trace, killing, running, spared;
+static atomic_long counts[KINDS];
 static pid_t first;
 static char report[4096];
 
@@ -353,18 +370,100 @@ int listen(int fd, int backlog) {
     return fault(SOCKET) ? -1 : (int)syscall(SYS_listen, fd, backlog);
 }
 
+int accept(int fd, struct sockaddr *address, socklen_t *n) {
+    return fault(SOCKET) ? -1 : (int)syscall(SYS_accept4, fd, address, n, 0);
+}
+
 int accept4(int fd, struct sockaddr *address, socklen_t *n, int flags) {
     return fault(SOCKET) ? -1 : (int)syscall(SYS_accept4, fd, address, n, flags);
+}
+
+int setsockopt(int fd, int level, int option, const void *value, socklen_t n) {
+    return fault(SOCKET) ? -1 : (int)syscall(SYS_setsockopt, fd, level, option, value, n);
+}
+
+int pipe2(int fd[2], int flags) {
+    return fault(PIPE) ? -1 : (int)syscall(SYS_pipe2, fd, flags);
+}
+
+int pipe(int fd[2]) {
+    return fault(PIPE) ? -1 : (int)syscall(SYS_pipe2, fd, 0);
+}
+
+int socketpair(int domain, int type, int protocol, int fd[2]) {
+    return fault(PIPE) ? -1 : (int)syscall(SYS_socketpair, domain, type, protocol, fd);
+}
+
+int epoll_create1(int flags) {
+    return fault(PIPE) ? -1 : (int)syscall(SYS_epoll_create1, flags);
+}
+
+int epoll_ctl(int fd, int what, int of, struct epoll_event *event) {
+    if (what == EPOLL_CTL_ADD && fault(WATCH)) return -1; /* to take one out needs nothing */
+    return (int)syscall(SYS_epoll_ctl, fd, what, of, event);
+}
+
+int eventfd(unsigned n, int flags) {
+    return fault(PIPE) ? -1 : (int)syscall(SYS_eventfd2, n, flags);
+}
+
+int poll(struct pollfd *of, nfds_t n, int timeout_ms) {
+    BELOW(int, "poll", (struct pollfd *, nfds_t, int));
+    return fault(WAIT) ? -1 : below(of, n, timeout_ms);
+}
+
+int ppoll(struct pollfd *of, nfds_t n, const struct timespec *time, const sigset_t *mask) {
+    BELOW(int, "ppoll", (struct pollfd *, nfds_t, const struct timespec *, const sigset_t *));
+    return fault(WAIT) ? -1 : below(of, n, time, mask);
+}
+
+int epoll_wait(int fd, struct epoll_event *event, int most, int timeout_ms) {
+    BELOW(int, "epoll_wait", (int, struct epoll_event *, int, int));
+    return fault(INTERRUPTED) ? -1 : below(fd, event, most, timeout_ms);
+}
+
+pid_t waitpid(pid_t pid, int *status, int options) {
+    BELOW(pid_t, "waitpid", (pid_t, int *, int));
+    return fault(INTERRUPTED) ? -1 : below(pid, status, options);
+}
+
+ssize_t send(int fd, const void *data, size_t n, int flags) {
+    return fault(SEND) ? -1 : syscall(SYS_sendto, fd, data, n, flags, NULL, 0);
+}
+
+ssize_t recv(int fd, void *data, size_t n, int flags) {
+    return fault(SEND) ? -1 : syscall(SYS_recvfrom, fd, data, n, flags, NULL, NULL);
+}
+
+ssize_t sendmsg(int fd, const struct msghdr *message, int flags) {
+    return fault(SEND) ? -1 : syscall(SYS_sendmsg, fd, message, flags);
+}
+
+int execv(const char *path, char *const argv[]) {
+    BELOW(int, "execv", (const char *, char *const *));
+    return fault(EXEC) ? -1 : below(path, argv);
+}
+
+int dup2(int from, int to) {
+    return fault(DESCRIPTOR) ? -1 : (int)syscall(SYS_dup2, from, to);
+}
+
+int fcntl(int fd, int what, ...) {
+    va_list arguments;
+    va_start(arguments, what);
+    const long argument = va_arg(arguments, long); /* a number or a pointer; where there is none, it is not looked at */
+    va_end(arguments);
+    return fault(DESCRIPTOR) ? -1 : (int)syscall(SYS_fcntl, fd, what, argument);
 }
 
 /* ---- from main to the end ---- */
 
 static void tell(void) {
     running = 0;
-    if (!report[0] || getpid() != first) return;
+    if (!report[0] || spared || getpid() != first) return;
     int fd = (int)syscall(SYS_openat, AT_FDCWD, report, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (fd < 0) return;
-    for (size_t i = 1; i < sizeof name / sizeof name[0]; i++) {
+    for (size_t i = 1; i < KINDS; i++) {
         char line[64];
         int n = snprintf(line, sizeof line, "%s %ld\n", name[i], atomic_load(&counts[i]));
         if (syscall(SYS_write, fd, line, (size_t)n) < 0) say("fault: no report\n");
@@ -379,7 +478,7 @@ static long number(const char *variable) {
 
 static void settings(void) {
     const char *kind = getenv("FW_FAULT_KIND"), *file = getenv("FW_FAULT_REPORT");
-    for (size_t i = 1; kind && i < sizeof name / sizeof name[0]; i++)
+    for (size_t i = 1; kind && i < KINDS; i++)
         if (strcmp(kind, name[i]) == 0) wanted = (enum kind)i;
     at = number("FW_FAULT_AT");
     ever = number("FW_FAULT_EVER") != 0;
@@ -388,7 +487,11 @@ static void settings(void) {
     killing = number("FW_FAULT_KILL") != 0;
     if (file && strlen(file) < sizeof report) strcpy(report, file);
     first = getpid();
-    unsetenv("LD_PRELOAD"); /* other programs that it starts run as they are */
+    spared = number("FW_FAULT_CHILDREN") != 0;
+    if (spared)
+        unsetenv("FW_FAULT_CHILDREN"), unsetenv("FW_FAULT_REPORT");
+    else
+        unsetenv("LD_PRELOAD"); /* other programs that it starts run as they are */
     if (!trace) return;
     void *frame[2];
     backtrace(frame, 2); /* loads what it needs */
@@ -405,7 +508,7 @@ static int counted_main(int argc, char **argv, char **environment) {
     settings();
     dl_iterate_phdr(is_of_drawing, NULL);
     atexit(tell);
-    running = 1;
+    running = !spared;
     return program_main(argc, argv, environment);
 }
 

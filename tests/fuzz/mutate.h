@@ -19,6 +19,7 @@ size_t fuzz_below(size_t n);
 void fuzz_mutate_xml(fuzz_text *text, const fw_xml_table *table);
 void fuzz_mutate_number(fuzz_text *text);
 void fuzz_mutate_gds(fuzz_text *text);
+void fuzz_smaller_arrays(fuzz_text *text);
 void fuzz_mutate_lines(fuzz_text *text); /* of DXF, logs, tables, layer maps, requests */
 void fuzz_mutate_bytes(fuzz_text *text);
 

@@ -18,7 +18,7 @@ DEVICE = ROOT / "docs/gallery/reference-six-bar/device.xml"
 class Server:
     """flexwright serve in a process; `with` ends it"""
 
-    def __init__(self, program, directory, device=None, options=(), environment=None):
+    def __init__(self, program, directory, device=None, options=(), environment=None, patience=None):
         self.directory = pathlib.Path(directory)
         command = [str(pathlib.Path(program).resolve()), "serve", "--no-browser", *options]
         if device:
@@ -26,7 +26,10 @@ class Server:
         self.errors = open(self.directory / "server.err", "wb")
         self.process = subprocess.Popen(command, cwd=directory, stdout=subprocess.PIPE, stderr=self.errors,
                                         env={**os.environ, "TMPDIR": str(self.directory), **(environment or {})})
-        line = self.process.stdout.readline().decode()
+        if patience and not select.select([self.process.stdout], [], [], patience)[0]:
+            self.process.kill()
+            self.process.wait()
+        line = self.process.stdout.readline().decode() if self.process.poll() is None or not patience else ""
         found = re.match(r"http://(127\.0\.0\.1):(\d+)/\?token=([0-9a-f]{64})\n$", line)
         assert found, f"no address but {line!r}; {(self.directory / 'server.err').read_text()}"
         self.port, self.entry = int(found.group(2)), found.group(3)

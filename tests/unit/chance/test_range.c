@@ -22,6 +22,10 @@ static void set(void *context, const double *unknown) {
     memcpy(((unknown_limit *)context)->z, unknown, 2 * sizeof *unknown);
 }
 
+static void set_one(void *context, const double *unknown) {
+    ((unknown_limit *)context)->z[0] = unknown[0];
+}
+
 static fw_chance_range run(unknown_limit *l, fw_chance_search search) {
     static const double low[] = {0, 0}, high[] = {1, 1};
     fw_chance_limit limit = {.dimensions = 2, .g = call, .context = l};
@@ -74,7 +78,7 @@ static void refused(void **state) {
     assert_non_null(strstr(why, "lower end"));
     unknowns.count = 11;
     assert_int_equal(fw_chance_range_run(arena, &limit, &unknowns, &options, &out, &why), FW_INPUT);
-    unknowns.count = 1, options.budget = 1;
+    unknowns.count = 1, unknowns.set = set_one, options.budget = 1;
     assert_int_equal(fw_chance_range_run(arena, &limit, &unknowns, &options, &out, &why), FW_INPUT);
     assert_non_null(strstr(why, "200 evaluations"));
 }

@@ -420,6 +420,33 @@ static void empty_arrays_end(void **state) {
     fw_arena_free(arena);
 }
 
+/* 33 thousand squares, each 18 nm beside the one before, are 300 bytes and a square of them to compare: refused within seconds,
+   where a user's time limit ends it at once */
+static void what_lies_upon_itself_is_refused(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    stream s;
+    static const long step[3][2] = {{0, 0}, {300000, 0}, {0, 200000}};
+    static const long wide[][2] = {{0, 0}, {30000, 0}, {30000, 30000}, {0, 30000}, {0, 0}};
+    library(&s, 1e-9);
+    cell(&s, "A");
+    shape(&s, 0x0800, 2, wide, 5);
+    end(&s, false);
+    cell(&s, "B");
+    array(&s, "A", 16511, 2, step);
+    end(&s, true);
+    fw_drawing_cell_asked asked = asked_for(NULL, 0);
+    refused(arena, &s, &asked, 567, "upon each other");
+    fw_cancel stop = {0};
+    fw_cancel_request(&stop, 2);
+    fw_arena_stop_with(arena, &stop);
+    fw_diags diags = fw_diags_new(arena);
+    fw_drawing_cell c;
+    assert_int_equal(fw_drawing_cell_read(arena, s.data, s.n, &asked, &diags, &c), FW_CANCELLED);
+    assert_int_equal(diags.count, 0);
+    fw_arena_free(arena);
+}
+
 static void damage_is_survived(void **state) {
     (void)state;
     static stream s, t;
@@ -458,7 +485,7 @@ int main(void) {
         cmocka_unit_test(references_are_followed), cmocka_unit_test(layers_are_merged),
         cmocka_unit_test(paths_are_strokes),       cmocka_unit_test(rings_are_cut),
         cmocka_unit_test(off_grid_is_noted),       cmocka_unit_test(bad_files_are_refused),
-        cmocka_unit_test(empty_arrays_end),        cmocka_unit_test(damage_is_survived),
+        cmocka_unit_test(empty_arrays_end), cmocka_unit_test(what_lies_upon_itself_is_refused),        cmocka_unit_test(damage_is_survived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

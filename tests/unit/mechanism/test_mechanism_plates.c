@@ -260,8 +260,22 @@ static void counted(void **state) {
     assert_int_equal(fw_mechanism_plates_nth(3, FW_PLANE_IN, in, out, &across), -1);
 }
 
+/* two arms that are mirror images move as much, but for the last digits of the library: it is the first one that is named */
+static void of_equal_movers_the_first(void **state) {
+    (void)state;
+    double mass[18] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    double shape[36] = {0.7, 0.1, 0, 0.7 * (1 + 1e-12), 0.1, 0};
+    const fw_mechanism_plates p = {.n = 6, .mass = mass, .shape = shape};
+    bool tilts = true;
+    assert_int_equal(fw_mechanism_plates_mover(&p, 0, &tilts), 0);
+    assert_false(tilts);
+    shape[3] = 0.71;
+    assert_int_equal(fw_mechanism_plates_mover(&p, 0, &tilts), 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_equal_movers_the_first),
         cmocka_unit_test(tip_mass), cmocka_unit_test(between_two), cmocka_unit_test(curls),
         cmocka_unit_test(as_far_as_its_middle),
         cmocka_unit_test(pressed),  cmocka_unit_test(not_known),   cmocka_unit_test(counted),

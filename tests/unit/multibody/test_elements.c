@@ -95,6 +95,8 @@ static void plant_new(fw_arena *arena, uint64_t seed, double far, bool released,
     p->r.scene.duration_s = 4;
     assert_int_equal(fw_effects_loads_new(arena, &p->r.m, &p->r.scene, &p->loads), FW_OK);
     fw_effects_loads *t = &p->loads;
+    assert_int_equal(t->nspring, 0); /* of the mechanism: there is room for no more */
+    t->spring = fw_arena_array(arena, fw_device_spring, 1);
     t->spring[t->nspring++] = (fw_device_spring){.body_a = FW_GROUND,
                                                  .body_b = 2,
                                                  .ax_m = far,

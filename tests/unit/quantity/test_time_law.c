@@ -278,6 +278,37 @@ static void jolts(void **state) {
     assert_near(fw_quantity_law_jolt(&table, true, end, w), 2 / w, 1e-12);
 }
 
+/* what rings at rate w behind a law that does not jump, against exact steps: never more than is said, and not far below it */
+static void rings(void **state) {
+    (void)state;
+    const double w = 100, end = 1, T = 2 * pi / w;
+    const double length[] = {0.1 * T, 0.5 * T, 0.7 * T, T, 3 * T, 10.3 * T};
+    double at, largest = 0;
+    for (int i = 0; i < 6; i++) {
+        const fw_quantity_law pulse = {.kind = &fw_quantity_law_half_sine, .rise_s = length[i]};
+        const double said = fw_quantity_law_rings(&pulse, end, w, &at);
+        assert_near(at, 0.5 * length[i], 0.02 * length[i]);
+        const int steps = 200000;
+        double q = 0, v = 0, value[3], most = 0;
+        for (int k = 0; k < steps; k++) { /* f of the step's middle, exact for that */
+            const double h = end / steps, t_s = (k + 0.5) * h;
+            fw_quantity_law_value(&pulse, t_s, t_s, value);
+            const double x = q - value[0], y = v / w;
+            q = value[0] + x * cos(w * h) + y * sin(w * h);
+            v = w * (y * cos(w * h) - x * sin(w * h));
+            fw_quantity_law_value(&pulse, (k + 1) * h, t_s, value);
+            most = fmax(most, fabs(q - value[0]));
+        }
+        assert_true(most <= said);
+        largest = fmax(largest, most / said);
+    }
+    assert_true(largest > 0.5);
+    const fw_quantity_law late = {
+        .kind = &fw_quantity_law_step, .start_s = 0.3, .end_s = (double)INFINITY};
+    assert_near(fw_quantity_law_rings(&late, end, w, &at), 0, 0);
+    assert_near(fw_quantity_law_rings(NULL, end, w, &at), 0, 0);
+}
+
 /* what is said of a law as a whole, before 40001 samples of it: slopes and how they vary, over pieces without a break */
 static void sizes_before_samples(void **state) {
     (void)state;
@@ -342,6 +373,7 @@ int main(void) {
         cmocka_unit_test(table),
         cmocka_unit_test(expressions),
         cmocka_unit_test(jolts),
+        cmocka_unit_test(rings),
         cmocka_unit_test(answers),
         cmocka_unit_test(swings),
     };

@@ -111,6 +111,11 @@ static void picture_keeps_points_where_they_are(void **state) {
         assert_true(fw_report_x(&v, box.x0) >= -1e-6 && fw_report_x(&v, box.x1) <= 640.0 + 1e-6);
         assert_true(fw_report_y(&v, box.y1) >= -1e-6 && fw_report_y(&v, box.y0) <= v.height + 1e-6);
     }
+    /* round-off of another library makes no other picture: a square that is a hair too high is as high as it is wide */
+    fw_geometry_box square = {0.0, 0.0, 1e-3, 1e-3 * (1 + 1e-13)};
+    assert_near(fw_report_view_fit(square, 360.0, 0.0).height, 360.0, 0.0);
+    square.y1 = 1.001e-3;
+    assert_near(fw_report_view_fit(square, 360.0, 0.0).height, 361.0, 0.0);
     fw_report_view none = fw_report_view_fit(fw_report_box_empty(), 640.0, 0.0);
     assert_true(isfinite(none.scale) && none.scale > 0.0);
 }

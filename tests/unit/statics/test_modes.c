@@ -48,6 +48,32 @@ static void six_bar_reference(void **state) {
     }
 }
 
+/* a spectrum of a thousand unknowns takes half a minute: it looks by itself whether it should stop */
+static void a_spectrum_stops(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r = rig_six_bar(f.arena, false);
+    double *q = fw_arena_array(f.arena, double, 3 * (size_t)r.m.nbody);
+    for (int b = 0; b < r.m.nbody; b++)
+        q[3 * b] = r.m.body[b].x_m, q[3 * b + 1] = r.m.body[b].y_m,
+              q[3 * b + 2] = r.m.body[b].phi_rad;
+    const fw_multibody_model *m;
+    fw_statics_reduced reduced;
+    fw_cancel cancel = {0};
+    fw_arena_stop_with(f.arena, &cancel);
+    assert_int_equal(fw_multibody_model_new(f.arena, &r.m, NULL, q, 1, NULL, &m), FW_OK);
+    assert_int_equal(fw_statics_reduced_new(f.arena, m, false, &reduced), FW_OK);
+    const size_t n = (size_t)reduced.n;
+    double *stiffness = fw_arena_array(f.arena, double, n *n);
+    reduced.dof = reduced.n; /* nothing is held: of bodies without joints */
+    for (size_t i = 0; i < n; i++)
+        reduced.right[i * n + i] = stiffness[i * n + i] = 1;
+    assert_int_equal(fw_statics_reduced_spectrum(&reduced, stiffness), FW_OK);
+    fw_cancel_request(&cancel, 2);
+    assert_int_equal(fw_statics_reduced_spectrum(&reduced, stiffness), FW_CANCELLED);
+    fw_arena_free(f.arena);
+}
+
 /* shapes are what they are said to be: largest part 1, allowed by the joints, modal mass and
    stiffness as the bodies and springs have them */
 static void shapes_of_the_six_bar(void **state) {
@@ -401,7 +427,7 @@ static void short_memory_is_said(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(six_bar_reference),
+        cmocka_unit_test(six_bar_reference), cmocka_unit_test(a_spectrum_stops),
         cmocka_unit_test(shapes_of_the_six_bar),
         cmocka_unit_test(pendulum_up_and_down),
         cmocka_unit_test(damping_of_one_wheel),

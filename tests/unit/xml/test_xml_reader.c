@@ -76,6 +76,26 @@ static fw_status read(fw_arena *arena, const char *xml, fw_diags *diags, fw_xml_
 #define SHELF(text) "<shelf xmlns=\"urn:s\">\n" text "\n</shelf>"
 #define BOX(text)   SHELF("<box id=\"a\" " text "/>")
 
+/* an int has no NaN: what a failed number becomes is stated, as what an absent one is */
+static void whole_numbers_that_are_none(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static const struct {
+        const char *xml;
+        int value;
+    } of[] = {{BOX("size=\"1 um\" count=\"4\""), 4},
+              {BOX("size=\"1 um\""), 9},
+              {BOX("size=\"1 um\" count=\"many\""), 9},
+              {BOX("size=\"1 um\" count=\"1e300\""), 9}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        fw_diags diags;
+        fw_xml_reader r;
+        read(arena, of[i].xml, &diags, &r);
+        assert_int_equal(fw_xml_whole_or(r.record->first_child, "count", 9), of[i].value);
+    }
+    fw_arena_free(arena);
+}
+
 static void values_are_read(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -160,7 +180,7 @@ static void the_schema_counts(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_read),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_read), cmocka_unit_test(whole_numbers_that_are_none),
                                        cmocka_unit_test(mistakes_have_their_place),
                                        cmocka_unit_test(the_schema_counts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
