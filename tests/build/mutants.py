@@ -138,13 +138,14 @@ class Order:
         return (self.passed.seconds[name] + 0.02) / ((noticed + 3 * guess) / (asked + 3))
 
     def usable(self, name):
-        """whether it passes without a change; what does not is not asked again"""
+        """its seconds without a change, None where it does not pass; that one is not asked again"""
         ground.empty()
-        passes = ground.run(self.passed.every[name], 300)[0] == 0
-        if not passes:
-            self.count[name] = (-1, 0)
-            self.others.discard(name)
-        return passes
+        status, seconds = ground.run(self.passed.every[name], 300)
+        if status == 0:
+            return seconds
+        self.count[name] = (-1, 0)
+        self.others.discard(name)
+        return None
 
     def of(self, path, number):
         near, anywhere = self.passed.of(path, number)
@@ -275,8 +276,12 @@ def together(options):
                 if not now or time.monotonic() > until:
                     continue
                 found = culprits(name, order.passed.every[name], 2 + 5 * order.passed.seconds.get(name, 3), now)
-                if found and name in order.others and not order.usable(name):
-                    continue
+                if found and name in order.others:
+                    normal = order.usable(name)
+                    if normal is None:
+                        continue
+                    if normal > 3:  # the limit above was of a shorter test
+                        found = culprits(name, order.passed.every[name], 2 + 5 * normal, now)
                 for n in now:
                     asked[n].add(name)
                     if name in reach[n][1]:

@@ -140,10 +140,34 @@ static void a_wall_beside_the_strip(void **state) {
     fw_arena_free(arena);
 }
 
+/* a strip may bend most where it is narrowest, wherever along it that is */
+static void the_narrowest_bends_most(void **state) {
+    (void)state;
+    static const double width[3][3] = {{6, 9, 8}, {8, 9, 6}, {9, 6, 8}};
+    for (int i = 0; i < 3; i++) {
+        fw_geometry_strip_piece piece[3];
+        for (int k = 0; k < 3; k++) {
+            const double w = width[i][k] * 1e-6;
+            piece[k] = (fw_geometry_strip_piece){.length_m = 100e-6, .width_m = {w, w, w}};
+        }
+        const fw_device device = {.safety_factor = 2};
+        const fw_mechanism_variant variant = {.material = {.strength = {.value = 1e9}}};
+        const fw_mechanism m = {.device = &device, .variant = &variant};
+        const fw_mechanism_hinge hinge = {
+            .limits = {.governing = FW_NONE},
+            .input = {.piece = piece, .npiece = 3, .length_m = 300e-6, .width_m = 20e-6, .youngs_Pa = 100e9}};
+        const fw_clearance_bend bend = fw_clearance_bend_of(&m, &hinge);
+        assert_true(bend.known);
+        assert_relative(bend.width_m, 6e-6, 1e-9);
+        assert_relative(bend.curvature_per_m, 2 * 1e9 / 2 / 100e9 / 6e-6, 1e-9);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_stay_within_the_bound),
         cmocka_unit_test(a_wall_beside_the_strip),
+        cmocka_unit_test(the_narrowest_bends_most),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

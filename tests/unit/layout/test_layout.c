@@ -716,6 +716,34 @@ static void other_mechanisms_are_drawn(void **state) {
     }
 }
 
+/* half the width of the bar between two ground hinges on the x axis: its longest side is parallel to it */
+static double base_half_width(const fw_layout *l) {
+    double longest = 0, half = 0;
+    for (int i = 0; i < l->npiece; i++) {
+        const fw_layout_piece *p = &l->piece[i];
+        for (int k = 0; p->role == FW_ROLE_STRUCTURE && p->body == FW_GROUND && k < p->contour.count; k++) {
+            const fw_geometry_segment *s = &p->contour.segment[k];
+            double length = fabs(s->b.x - s->a.x);
+            if (s->kind == FW_LINE && fabs(s->b.y - s->a.y) < 1e-9 * length && length > longest && s->a.x > 0.2e-3 && s->a.x < 1.3e-3)
+                longest = length, half = fabs(s->a.y);
+        }
+    }
+    return half;
+}
+
+/* <die anchor="..."/> is how wide bases are: device.md */
+static void a_base_is_as_wide_as_its_anchor(void **state) {
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        fixture f;
+        fixture_four_bar(&f);
+        f.device.die.anchor_m = (60 + 30 * i) * 1e-6;
+        drawn d = draw_well(&f);
+        assert_near(base_half_width(d.layout), 0.5 * f.device.die.anchor_m, 1e-9);
+        fw_arena_free(d.arena);
+    }
+}
+
 static void leaf_is_exact(void **state) {
     (void)state;
     fixture f;
@@ -940,6 +968,7 @@ int main(void) {
         cmocka_unit_test(symmetric_device_gives_symmetric_layout),
         cmocka_unit_test(variants_are_drawn_or_refused),
         cmocka_unit_test(other_mechanisms_are_drawn),
+        cmocka_unit_test(a_base_is_as_wide_as_its_anchor),
         cmocka_unit_test(leaf_is_exact),
         cmocka_unit_test(tight_devices_are_refused),
         cmocka_unit_test(a_fillet_that_does_not_fit),

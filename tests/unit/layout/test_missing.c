@@ -121,6 +121,31 @@ static void too_many_fingers_are_fewer(void **unused) {
     fw_arena_free(d.arena);
 }
 
+/* on a die that is stated, what is said is the most that has room: with one more there is none */
+static void as_many_fingers_as_there_is_room_for(void **unused) {
+    (void)unused;
+    fixture f;
+    int most = 0;
+    paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.48e-3, 0.0);
+    comb.fingers = 22;
+    drawn d = draw(&f.device);
+    f.device.die.width_m = d.layout->die.x1 - d.layout->die.x0;
+    f.device.die.height_m = d.layout->die.y1 - d.layout->die.y0;
+    fw_arena_free(d.arena);
+    comb.fingers = 38; /* 37, 36, 34 and 30 are tried, and then what is between */
+    d = draw(&f.device);
+    const fw_layout_missing *m = only_missing(&d, &f.device, 131);
+    const char *at = strstr(m->room, "fingers=\"");
+    if (!at || sscanf(at, "fingers=\"%d\"", &most) != 1) fail_msg("%s: %s", m->why, m->room);
+    fw_arena_free(d.arena);
+    for (int more = 0; more < 2; more++) {
+        comb.fingers = most + more;
+        d = draw(&f.device);
+        if (d.layout->nmissing != more) fail_msg("%d fingers: %d missing", comb.fingers, d.layout->nmissing);
+        fw_arena_free(d.arena);
+    }
+}
+
 static void short_fingers_are_longer(void **unused) {
     (void)unused;
     fixture f;
@@ -436,6 +461,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_comb_names_a_place_that_has_room),
         cmocka_unit_test(too_many_fingers_are_fewer),
+        cmocka_unit_test(as_many_fingers_as_there_is_room_for),
         cmocka_unit_test(short_fingers_are_longer),
         cmocka_unit_test(narrow_fingers_are_wider),
         cmocka_unit_test(narrow_fingers_without_room_get_both),

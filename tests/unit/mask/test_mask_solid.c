@@ -198,6 +198,36 @@ static void cut_outlines_stay_one(void **state) {
     scene_free(s);
 }
 
+static void half_ring(scene *s, const char *label, double turn) {
+    const fw_geometry_vec2 o = {0, 0};
+    const double c = cos(turn), inner = 40 * UM, outer = 60 * UM;
+    const fw_geometry_vec2 corner[4] = {{c * inner, 0}, {c * outer, 0}, {-c * outer, 0}, {-c * inner, 0}};
+    fw_geometry_outline a = fw_geometry_outline_start(s->arena, corner[0]);
+    fw_geometry_outline_line(&a, corner[1], FW_SEGMENT_JOINT);
+    fw_geometry_outline_arc_to(&a, o, PI, corner[2], 0);
+    fw_geometry_outline_line(&a, corner[3], FW_SEGMENT_JOINT);
+    fw_geometry_outline_arc_to(&a, o, -PI, corner[0], 0);
+    fw_geometry_contour c_ring;
+    assert_int_equal(fw_geometry_outline_close(&a, &c_ring), FW_OK);
+    scene_add(s, FW_ROLE_STRUCTURE, label, c_ring);
+}
+
+/* as a frame around the device is: two halves that share their cuts make one solid, and what is within them is a hole in its faces */
+static void a_hole_stays_a_hole(void **state) {
+    (void)state;
+    scene *s = scene_new(0, 0);
+    half_ring(s, "upper half", 0);
+    half_ring(s, "lower half", PI);
+    scene_box(s, "island", -10, -10, 10, 10);
+    s->options.thickness_m = 16 * UM;
+    const fw_mask *mask = built(s);
+    check_step(s, mask, 2);
+    fw_text step = fw_text_new(s->arena);
+    assert_int_equal(fw_mask_write_step(mask, &step), FW_OK);
+    assert_int_equal(times(step.data, "=FACE_BOUND("), 2); /* above and below */
+    scene_free(s);
+}
+
 /* only what the process makes of the device: letters are not drawn up */
 static void other_layers_are_left_out(void **state) {
     (void)state;
@@ -234,6 +264,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pieces_become_one_solid),
         cmocka_unit_test(cut_outlines_stay_one),
+        cmocka_unit_test(a_hole_stays_a_hole),
         cmocka_unit_test(other_layers_are_left_out),
         cmocka_unit_test(short_memory),
     };

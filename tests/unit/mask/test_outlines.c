@@ -148,6 +148,22 @@ static void the_picture(void **state) {
     }
 }
 
+/* what a flow takes from every edge is seen, as is what it adds: what was made has an outline of its own */
+static void what_an_edge_loses_is_drawn(void **state) {
+    (void)state;
+    const double edge[] = {0, 0.5 * UM, -0.5 * UM};
+    for (int k = 0; k < 3; k++) {
+        scene *s = some_shapes();
+        edges = (fw_mask_edges){
+            .top_m = edge[k], .bottom_m = edge[k], .least_m = (double)NAN, .most_m = (double)NAN, .range = ""};
+        fw_text out = fw_text_new(s->arena);
+        assert_int_equal(fw_mask_write_outlines(built(s, 1.1 * UM), &out), FW_OK);
+        assert_int_equal(occurrences(out.data, "id=\"test-flow-top\""), k > 0);
+        assert_int_equal(occurrences(out.data, "href=\"#test-flow-top\"") > 0, k > 0);
+        scene_free(s);
+    }
+}
+
 /* without edges there is nothing to take back: the drawing and the mask alone */
 static void without_edges(void **state) {
     (void)state;
@@ -171,6 +187,7 @@ int main(void) {
         cmocka_unit_test(faces_stand_where_they_are_said_to),
         cmocka_unit_test(nothing_is_drawn_of_what_is_gone),
         cmocka_unit_test(the_picture),
+        cmocka_unit_test(what_an_edge_loses_is_drawn),
         cmocka_unit_test(without_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -172,6 +172,21 @@ static void two_places_of_one_pair(void **state) {
     scene_free(s);
 }
 
+/* of a pair that which is drawn first is named first, whichever lies to the left */
+static void first_drawn_first_named(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        scene_box(s, "first", 20 * i, 0, 20 * i + 18, 50);
+        scene_box(s, "second", 20 * (1 - i), 0, 20 * (1 - i) + 18, 50);
+        const fw_mask *mask = examine(s);
+        assert_int_equal(mask->nfinding, 1);
+        assert_string_equal(mask->finding[0].label[0], "first");
+        assert_string_equal(mask->finding[0].label[1], "second");
+        scene_free(s);
+    }
+}
+
 /* a row for what the layer says as well is judged once, as the row says it */
 static void row_and_layer_are_one(void **state) {
     (void)state;
@@ -281,7 +296,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_between_layers), cmocka_unit_test(windows_cut_outlines),
         cmocka_unit_test(all_are_findings),       cmocka_unit_test(what_crosses_has_no_space),
-        cmocka_unit_test(notches_of_one_shape),
+        cmocka_unit_test(notches_of_one_shape),   cmocka_unit_test(first_drawn_first_named),
         cmocka_unit_test(row_and_layer_are_one),  cmocka_unit_test(two_places_of_one_pair),
         cmocka_unit_test(warnings_let_pass),      cmocka_unit_test(findings_are_written),
         cmocka_unit_test(short_memory),

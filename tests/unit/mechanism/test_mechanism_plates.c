@@ -171,6 +171,30 @@ static void curls(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* a bowed plate reaches as far as its middle on one side, whichever way it bows, and at least as far as its corners on the other */
+static void as_far_as_its_middle(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    const double a = 400e-6, b = 100e-6, away = 1e-6;
+    add_body(&r, 0, 0, a, b, 1e-9);
+    fw_layout_piece piece = {.role = FW_ROLE_STRUCTURE, .body = 0};
+    const fw_layout layout = {.piece = &piece, .npiece = 1};
+    assert_int_equal(fw_geometry_contour_rectangle(
+                         r.arena, (fw_geometry_box){-0.5 * a, -0.5 * b, 0.5 * a, 0.5 * b}, &piece.contour),
+                     FW_OK);
+    r.m.layout = &layout;
+    const fw_mechanism_plates p = {.mechanism = &r.m, .n = 3};
+    for (int up = -1; up <= 1; up += 2) {
+        const double x[3] = {-up * away, 0, 0}, bow = 5 * (a * a + b * b) / 8;
+        const fw_mechanism_plates_reach reach = fw_mechanism_plates_reached(&p, x, NULL, up * 5.0, (fw_geometry_vec2){0, 0});
+        assert_near(up > 0 ? reach.lowest_m : reach.highest_m, -up * away, 1e-18);
+        assert_near(up > 0 ? reach.highest_m : reach.lowest_m, fmax(bow - away, 0) * up, 1e-18);
+        assert_near(reach.tilt_rad, 0, 1e-18);
+    }
+    fw_arena_free(r.arena);
+}
+
 /* a link that is pressed between its leaves: P over what the plate's tilt bears, and each leaf as a cantilever */
 static void pressed(void **state) {
     (void)state;
@@ -253,6 +277,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_equal_movers_the_first),
         cmocka_unit_test(tip_mass), cmocka_unit_test(between_two), cmocka_unit_test(curls),
+        cmocka_unit_test(as_far_as_its_middle),
         cmocka_unit_test(pressed),  cmocka_unit_test(not_known),   cmocka_unit_test(counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

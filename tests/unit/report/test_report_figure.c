@@ -216,6 +216,26 @@ static void frames_have_the_same_commands(void **state) {
     fw_arena_free(arena);
 }
 
+/* a stop's arc goes from its one angle to its other one, the long way round where that is how far it lets turn */
+static void a_stop_shows_its_range(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double q[3] = {0}, to_rad[] = {0.5, 2, 4};
+    fw_report_view view = fw_report_figure_view(&(fw_geometry_box){-4, -4, 5, 5}, 700);
+    for (int i = 0; i < 3; i++) {
+        fw_text text = fw_text_new(arena);
+        const fw_report_figure_part part = {
+            .role = FW_FIGURE_STOP, .end = {{FW_GROUND, 0, 0}}, .turns_with = FW_GROUND, .from_rad = 0, .to_rad = to_rad[i]};
+        const fw_report_figure_pen pen = {.view = &view, .out = &text, .still = q, .nbody = 1, .mark = 10};
+        fw_report_figure_draw(&part, &pen);
+        assert_int_equal(fw_text_end(&text), FW_OK);
+        const char *arc = strstr(text.data, "A33 33 0 ");
+        assert_non_null(arc);
+        assert_int_equal(arc[9], i < 2 ? '0' : '1');
+    }
+    fw_arena_free(arena);
+}
+
 static void memory_may_be_short(void **state) {
     (void)state;
     for (long n = 1; n < 100; n++) {
@@ -242,6 +262,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_of_a_mechanism), cmocka_unit_test(everything_is_in_view),
         cmocka_unit_test(outline_is_convex),    cmocka_unit_test(frames_have_the_same_commands),
+        cmocka_unit_test(a_stop_shows_its_range),
         cmocka_unit_test(memory_may_be_short),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
