@@ -351,7 +351,7 @@ static fw_status members_of(const fw_study *study, int document, fw_arena *arena
 
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags) {
-    char why[FW_STUDY_WHY];
+    char why[2 * FW_STUDY_WHY]; /* with the keys that there are */
     for (int d = 0; d < fw_study_document_count; d++) {
         json_t *root = NULL;
         for (int k = 0; k < study->nresponse; k++) {

@@ -113,6 +113,7 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
 
 typedef struct walk {
     const fw_study_response *response;
+    const json_t *root;
     double value;
     long found;   /* numbers that were met */
     bool strange; /* something else than a number was met */
@@ -256,6 +257,17 @@ static const char *nearest(const json_t *node, const char *word) {
     return best;
 }
 
+/* behind the keys of one document, the names of the others */
+static void say_others(walk *w) {
+    size_t at = strlen(w->why);
+    const char *before = "; of other documents, with the name in front: ";
+    for (int i = 0; i < fw_study_document_count; i++) {
+        if (i == w->response->document) continue;
+        snprintf(w->why + at, w->n - at, "%s%s:", before, fw_study_documents[i].name);
+        at += strlen(w->why + at), before = " ";
+    }
+}
+
 static void into_object(walk *w, const json_t *node, const char *path) {
     size_t n = strcspn(path, ".[");
     char key[80], names[220];
@@ -273,6 +285,7 @@ static void into_object(walk *w, const json_t *node, const char *path) {
     const char *near = nearest(node, key);
     say(w, "there is no '%s'%s%s%s%s%s", key, FW_DID_YOU_MEAN(near),
         names[0] ? near ? " There are " : "; there are " : "", names);
+    if (node == w->root) say_others(w);
 }
 
 static void go(walk *w, const json_t *node, const char *path) {
@@ -299,7 +312,7 @@ bool fw_study_response_of_hinges(const fw_study_response *response) {
 
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
                             char *why, size_t n) {
-    walk w = {.response = response, .value = (double)NAN, .why = why, .n = n};
+    walk w = {.response = response, .root = root, .value = (double)NAN, .why = why, .n = n};
     why[0] = '\0';
     go(&w, root, response->path);
     if (w.found > 1 && response->asked->take == FW_TAKE_ONE)
