@@ -245,6 +245,37 @@ class Tried:
         return None if status in (0, 5, 6, -signal.SIGTERM, 128 + signal.SIGTERM) else f"ended with {status}"
 
 
+def fixed(program, preload):
+    """what was found once, without a client: what is wrong"""
+    def begun(fault, out, seconds):
+        with tempfile.TemporaryDirectory() as name:
+            report = pathlib.Path(name) / "count"
+            environment = {**os.environ, "TMPDIR": name, "LD_PRELOAD": str(preload), "FW_FAULT_REPORT": str(report), **fault}
+            with open(out, "wb") as stdout:
+                server = subprocess.Popen([str(program), "serve", "--no-browser"], cwd=name, stdout=stdout, stderr=subprocess.PIPE, env=environment)
+            try:
+                status = server.wait(seconds)
+            except subprocess.TimeoutExpired:
+                server.send_signal(signal.SIGTERM)
+                status = None
+            said = server.communicate(timeout=10)[1].decode()
+            counts = dict(line.split() for line in report.read_text().splitlines()) if report.exists() else {}
+            return status, said, counts
+
+    wrong = []
+    memory = {"FW_FAULT_KIND": "memory", "FW_FAULT_AT": "1", "FW_FAULT_ERRNO": "12", "FW_FAULT_EVER": "1"}
+    status, said, _ = begun(memory, "/dev/null", 10)
+    if status != 6 or "error: " not in said:
+        wrong.append(f"without memory it ends with {status} and says {said!r}")
+    status, said, _ = begun({"FW_FAULT_KIND": "none"}, "/dev/full", 0.4)
+    if "the address is http://127.0.0.1:" not in said:
+        wrong.append(f"where standard output is full the address is nowhere: {status}, {said!r}")
+    _, said, counts = begun({"FW_FAULT_KIND": "wait", "FW_FAULT_AT": "1", "FW_FAULT_ERRNO": "12", "FW_FAULT_EVER": "1"}, "/dev/null", 0.6)
+    if not 0 < int(counts.get("wait", 0)) < 300:  # thousands where it does not rest
+        wrong.append(f"without memory to wait with it asks {counts.get('wait')} times in 0.6 s; it said {said!r}")
+    return wrong
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program", type=pathlib.Path)
@@ -273,6 +304,9 @@ def main():
             n = 1 + int((10 if children else max(tried.counts[kind], 1)) ** rng.random())
             error = rng.choice(ERRORS[kind])
             points.append((kind, n, error, error != "EINTR" and rng.random() < 0.4, children))
+    for what in fixed(tried.program, tried.preload) if not o.at and not o.all and o.kind == sorted(ERRORS) else []:
+        bad += 1
+        print(what, flush=True)
     for kind, n, error, ever, children in points:
         what = tried.wrong(kind, n, error, ever, children)
         runs += 1
