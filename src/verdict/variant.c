@@ -500,6 +500,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     v->mechanism = m;
     v->governing = FW_NONE;
     v->nreason = 0;
+    v->bent = false;
     v->nhinge = m->nhinge;
     FW_NEED(v->hinge = fw_arena_array(arena, fw_verdict_hinge_verdict, (size_t)m->nhinge));
     size_t rows = (size_t)m->nhinge * ((size_t)device->nscene + 1);
@@ -518,12 +519,15 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     for (int i = 0; i < device->nscene; i++)
         bodies[i] = fw_verdict_bending_share(v->motion[i]);
     FW_TRY(fw_verdict_detune(arena, m, bodies, brief, diags, v));
+    fw_verdict_bent_leaves_open(v, 0);
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
     if (!options->hinges_only)
         FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
+    int first = v->nreason;
     FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, options->kept, diags, &v->workspace));
     FW_TRY(fw_verdict_bending_judge_required(arena, v));
+    fw_verdict_bent_leaves_open(v, first);
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));
 
@@ -539,10 +543,13 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     }
     FW_TRY(in_series(arena, v));
     FW_TRY(fw_verdict_out_of_plane_strain(arena, v));
+    first = v->nreason;
     FW_TRY(fw_verdict_clearance_strips(arena, layout, v));
+    fw_verdict_bent_leaves_open(v, first);
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {
-        if (!v->hinge[k].scene) v->hinge[k].decision = FW_INCONCLUSIVE; /* nothing was run */
+        if (!v->hinge[k].scene || v->bent) /* nothing was run, or the motion of another device */
+            v->hinge[k].decision = FW_INCONCLUSIVE;
         v->decision = fw_verdict_worse(v->decision, v->hinge[k].decision);
         if (v->hinge[k].scene &&
             (v->governing == FW_NONE || fw_verdict_governs(&v->hinge[k], &v->hinge[v->governing])))

@@ -278,7 +278,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
     /* (device->nscene) where a mode lies within its error (verdict_parts.h, FW-D642) */
     fw_verdict_shaken *shaken;
-    bool beyond_pull_in;       /* a scene may ask for more than its pull-in voltage */
+    bool beyond_pull_in; /* a scene may ask for more than its pull-in voltage */
+    bool bent;           /* its motion begins with flexures bent that are made at rest (FW-D622) */
     fw_verdict_reason *reason; /* (nreason) */
     int nreason;
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */

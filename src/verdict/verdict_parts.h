@@ -124,6 +124,9 @@ fw_status fw_verdict_missing(fw_arena *arena, const fw_device *device, const fw_
                              fw_verdict_variant_verdict *v);
 /* a reason of v where flexures are strained in the pose in which masks draw them (FW-D622) */
 fw_status fw_verdict_bent(fw_arena *arena, const fw_device *device, fw_verdict_variant_verdict *v);
+/* Such a motion is that of another device: reasons from `first` on, requirements and what meets in scenes are left open
+   where they reject. What the drawing, required poses and the plane's other side say holds all the same. */
+void fw_verdict_bent_leaves_open(fw_verdict_variant_verdict *v, int first);
 /* the masks contradict the motion: no value of a number, of a load or of a flexure mends that. *why: what does */
 bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 

@@ -366,6 +366,7 @@ fw_status fw_verdict_bent(fw_arena *arena, const fw_device *device, fw_verdict_v
     if (!m->variant->flow) return FW_OK;
     FW_TRY(list_bent(device, m, &list, &n));
     if (n == 0) return FW_OK;
+    v->bent = true;
     FW_NEED(text =
                 fw_arena_printf(arena,
                                 "its motion begins with flexures bent that are made at rest where "
@@ -380,6 +381,20 @@ fw_status fw_verdict_bent(fw_arena *arena, const fw_device *device, fw_verdict_v
                                                   .not_by_width = true,
                                                   .text = text};
     return FW_OK;
+}
+
+void fw_verdict_bent_leaves_open(fw_verdict_variant_verdict *v, int first) {
+    if (!v->bent) return;
+    for (int i = first; i < v->nreason; i++)
+        if (fw_verdict_is_worse(v->reason[i].decision, FW_INCONCLUSIVE))
+            v->reason[i].decision = FW_INCONCLUSIVE;
+    for (int k = 0; k < v->nrequirement; k++)
+        if (fw_verdict_is_worse(v->requirement[k].decision, FW_INCONCLUSIVE))
+            v->requirement[k].decision = FW_INCONCLUSIVE;
+    for (int i = 0; i < v->nclearance; i++)
+        if (v->clearance[i].scene_index != FW_NONE &&
+            fw_verdict_is_worse(v->clearance[i].decision, FW_INCONCLUSIVE))
+            v->clearance[i].decision = FW_INCONCLUSIVE;
 }
 
 bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why) {

@@ -78,6 +78,14 @@ static void a_flexure_is_at_rest_where_it_is_drawn(void **unused) {
     assert_int_equal(plan->verdict.nproposal, 0);
     assert_non_null(strstr(plan->verdict.advice_note, "free-angle"));
     fw_plan_free(plan);
+    /* a free-angle that contradicts the drawing: its hinges "used" 879 and its loads "stood" on an unstable equilibrium,
+       so that a device was rejected by the motion of another one; what is drawn bears its loads (3.2 %) */
+    plan = of_text(tilted, "-30 deg", false);
+    assert_int_equal(plan->verdict.variant[0].reason[0].number, 622);
+    assert_int_equal(plan->verdict.drawn, FW_INCONCLUSIVE);
+    for (int k = 0; k < plan->verdict.nhinge; k++)
+        assert_int_equal(plan->verdict.hinge[k].decision, FW_INCONCLUSIVE);
+    fw_plan_free(plan);
 }
 
 /* a word that stands again at the head of the next one: "link link-2"; none in what is written for a comb
