@@ -9,7 +9,7 @@ Environments of PROGRAM itself: the mathematical library without AVX-512, FMA, A
 itself among its own lanes is as the processor has it: for that, --under "Nehalem=qemu-x86_64 -cpu Nehalem" and --valgrind, which
 has no AVX-512), languages (made by localedef where the system has them not), zones, another working directory, umask, number of
 threads, little stack. --build: programs built here, of gcc-O0, gcc-O3,
-clang-O2, clang-O0 (some minutes each, kept in build-NAME). --blas: another libblas.so.3 and liblapack.so.3, from that directory.
+clang-O2, clang-O0, clang-O3 (some minutes each, kept in build-NAME). --blas: another libblas.so.3 and liblapack.so.3, from that directory.
 
 Of each it compares: masks (all formats), recipes, certificates of masks and workspaces, and decisions, byte for byte: a
 difference there is a failure, status 1, but for what EXCUSED names with its reason. Other files (verdict, motion, report) are listed
@@ -29,7 +29,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DEVICES = [ROOT / "docs/gallery" / name / "device.xml" for name in ("reference-six-bar", "leaf-four-bar", "free-form-gripper", "copper-nodder")]
-BUILDS = {"gcc-O0": ("gcc", "-O0"), "gcc-O3": ("gcc", "-O3"), "clang-O2": ("clang", "-O2"), "clang-O0": ("clang", "-O0")}
+BUILDS = {"gcc-O0": ("gcc", "-O0"), "gcc-O3": ("gcc", "-O3"), "clang-O2": ("clang", "-O2"), "clang-O0": ("clang", "-O0"),
+          "clang-O3": ("clang", "-O3")}
 FAST = ["--corners", "none", "--accuracy", "3e-2", "--advice", "none", "--force", "--mask-format", "all", "-q"]
 NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 STRICT = re.compile(r"masks/|recipes/|certificate\.json$")
