@@ -8,14 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#if defined(__SANITIZE_ADDRESS__)
-#define ASAN 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ASAN 1
-#endif
-#endif
-#ifdef ASAN
+#ifdef FW_ASAN
 #include <sanitizer/asan_interface.h>
 #endif
 
@@ -40,7 +33,7 @@ struct fw_arena {
 
 /* AddressSanitizer sees only blocks of malloc, of which an arena hands out parts: without its being told, nothing that is read or
    written behind an array of ours, or after a rewind, would be noticed. Nothing otherwise. */
-#ifdef ASAN
+#ifdef FW_ASAN
 enum { BETWEEN = ALIGNMENT }; /* bytes behind each block that are nobody's */
 
 static void hide(const void *at, size_t n) {

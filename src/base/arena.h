@@ -8,6 +8,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* defined where AddressSanitizer watches, by gcc's word for it and by clang's */
+#if defined(__SANITIZE_ADDRESS__)
+#define FW_ASAN 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define FW_ASAN 1
+#endif
+#endif
+
 /* A request to stop, which signal handlers and other threads may make and long loops look at. Every
    design has one of its own; its arena carries it (fw_arena_cancelled), so that whatever computes
    for that design sees it and nothing else does. */

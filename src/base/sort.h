@@ -4,6 +4,7 @@
    keeps no order among rows that compare as equal. Test: test_sort.c */
 #ifndef FW_BASE_SORT_H
 #define FW_BASE_SORT_H
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -23,5 +24,11 @@ static inline int fw_compare_doubles(const void *a, const void *b) {
 /* ascending; n may be 0, and list then NULL */
 static inline void fw_sort_doubles(double *list, size_t n) {
     if (n > 1) qsort(list, n, sizeof *list, fw_compare_doubles);
+}
+
+/* a is above b, and not by rounding alone: of what is equal, mirrored hinges say, the first one is the largest on
+   every machine */
+static inline bool fw_above_rounding(double a, double b) {
+    return a > (1 + 1e-6) * b;
 }
 #endif

@@ -254,16 +254,14 @@ static double solve(const terms *t, bool hessian, state *s) {
             high = F;
         double step = second < 0 ? -slope / second : 0, to = F + step;
         if (second < 0 && fabs(step) <= 2e-12 * fabs(F)) return to; /* s is that near, too */
-        if (!hessian && second < 0) {
-            bool small = fabs(step) <= near * fabs(F);
-            if (!small && i == 0 && pressed * fabs(step) <= moved) {
-                double whole = hermite_step(slope_0, second_0, F, slope, second);
-                if (whole != 0) step = whole, small = true;
-            }
-            if (small) {
-                advance(t, step, s);
-                return F + step;
-            }
+        double rest = 0; /* of the way, where the derivatives of this place are good for it */
+        if (!hessian && second < 0 && fabs(step) <= near * fabs(F))
+            rest = step;
+        else if (!hessian && second < 0 && i == 0 && pressed * fabs(step) <= moved)
+            rest = hermite_step(slope_0, second_0, F, slope, second);
+        if (rest != 0) {
+            advance(t, rest, s);
+            return F + rest;
         }
         if (!(to > low && to < high) || !(second < 0))
             to = isfinite(high) ? 0.5 * (low + high) : 2 * F + fabs(F - low) + 1 / t->x.py.value;

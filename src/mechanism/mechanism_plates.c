@@ -3,6 +3,7 @@
    in the plane that tip them out of it. */
 #include "mechanism/mechanism_plates.h"
 #include "base/constants.h"
+#include "base/sort.h"
 #include "flexure/path.h"
 #include "geometry/segment.h"
 #include "maths/dense.h"
@@ -237,8 +238,7 @@ int fw_mechanism_plates_mover(const fw_mechanism_plates *p, int mode, bool *tilt
         const double *u = p->shape + (size_t)mode * (size_t)p->n + 3 * b, *mass = p->mass + 9 * b;
         double up = mass[0] * u[0] * u[0],
                turn = mass[4] * u[1] * u[1] + 2 * mass[5] * u[1] * u[2] + mass[8] * u[2] * u[2];
-        /* of bodies that move as much but for rounding, mirrored arms say, the first one is named by every library */
-        if (up + turn > far * (1 + 1e-6)) far = up + turn, most = b, *tilts = turn > up;
+        if (fw_above_rounding(up + turn, far)) far = up + turn, most = b, *tilts = turn > up;
     }
     return most;
 }

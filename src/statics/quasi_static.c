@@ -367,15 +367,16 @@ static fw_status stay(fw_arena *arena, const fw_mechanism *m, const fw_device_sc
    In: SI; out: relative. Cost: none without such paths, else that of rings. Source: the general eigenvalues of both
    compliances. Test: judge.examples path-pulse. */
 
+/* 0 where it is not above `least`, either */
 static fw_status uncoupled(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                           const fw_dynamics_motion *x, double *relative) {
+                           const fw_dynamics_motion *x, double least, double *relative) {
     const fw_effect_choice pins = {.mode = FW_EFFECTS_AUTO, .hinge = FW_HINGE_REVOLUTE};
     const double matters = 0.01;
     double most = 0, rings;
     *relative = 0;
     for (int k = 0; k < m->nhinge; k++)
         most = fmax(most, m->hinge[k].coupling);
-    if (!(most > matters) || !scene || x->loads->quasi_static) return FW_OK;
+    if (!(most > fmax(matters, least)) || !scene || x->loads->quasi_static) return FW_OK;
     fw_dynamics_motion of_pins = *x;
     fw_effects_loads loads;
     fw_diags own = fw_diags_new(arena);
@@ -392,7 +393,7 @@ static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_devic
     FW_TRY(fw_statics_level_of_motion(arena, m, scene, x, out));
     if (!*out || (*out)->why_not || (*out)->used != FW_HINGE_COMPLIANCE) return FW_OK;
     double relative;
-    FW_TRY(uncoupled(arena, m, scene, x, &relative));
+    FW_TRY(uncoupled(arena, m, scene, x, (*out)->relative, &relative));
     if (!(relative > (*out)->relative)) return FW_OK;
     fw_statics_level_step *more = fw_arena_one(arena, fw_statics_level_step);
     FW_NEED(more);
@@ -460,11 +461,13 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(level_of(arena, mechanism, scene, found, &step));
         /* pins that take a stated velocity away cannot say what flexures make of it */
         bool elsewhere = found->stats.velocity_moved > fw_assembly_another_start;
-        double rings = 0;
-        if (tried && !elsewhere && fw_statics_level_is_below(step, stated))
+        bool stay_pins = tried && !elsewhere && fw_statics_level_is_below(step, stated);
+        if (stay_pins) {
+            double rings;
             FW_TRY(fw_statics_level_rings(arena, mechanism, scene, found, &rings));
-        if (tried && (elsewhere || !fw_statics_level_is_below(step, stated) ||
-                      rings >= fw_statics_level_rings_most)) {
+            stay_pins = rings < fw_statics_level_rings_most;
+        }
+        if (tried && !stay_pins) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }

@@ -14,10 +14,10 @@
 /* Motions that the joints allow, and the stiffness against them: the null space of G and the
    symmetric pencil (K, M) in it. Scaled units. Private to statics/. */
 
-/* entries of a matrix one by one: those of the same place add up */
 /* unknowns up to which a step to the next level is computed: more would take longer than the motion itself */
 enum { FW_LEVEL_MOST = 300 };
 
+/* entries of a matrix one by one: those of the same place add up */
 typedef struct fw_statics_entries {
     fw_arena *arena;
     int *row, *column;

@@ -56,7 +56,7 @@ void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hin
 
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other) {
     if (h->decision != other->decision) return fw_verdict_is_worse(h->decision, other->decision);
-    return h->utilisation > fw_verdict_tied * other->utilisation;
+    return fw_above_rounding(h->utilisation, other->utilisation);
 }
 
 /* ---- what a refined computation may decide ----

@@ -433,7 +433,7 @@ void fw_verdict_search_govern(fw_verdict_search *s) {
             fabricated->at = c, fabricated->governing = FW_NONE, most = 0.0;
         for (int k = 0; k < s->v->nhinge; k++)
             if (corner->hinge[k].scene && !fw_verdict_is_worse(worst, corner->hinge[k].decision) &&
-                corner->hinge[k].utilisation > fw_verdict_tied * most) {
+                fw_above_rounding(corner->hinge[k].utilisation, most)) {
                 most = corner->hinge[k].utilisation;
                 fabricated->at = c, fabricated->governing = k;
             }

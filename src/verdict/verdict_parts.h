@@ -3,12 +3,11 @@
    search over what a flow may make. Private to the room and its tests. */
 #ifndef FW_VERDICT_VERDICT_PARTS_H
 #define FW_VERDICT_VERDICT_PARTS_H
+#include "base/sort.h"
 #include "verdict/verdict.h"
 
 /* ---- decision.c: which of two hinges matters more, what may still decide ---- */
 
-/* of two that are equal but for rounding, mirrored hinges say, the first one governs on every machine */
-static const double fw_verdict_tied = 1 + 1e-6;
 void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other);
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other);
 /* hinges of which some are inconclusive: what may decide them */

@@ -28,7 +28,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/serve"))
-from client import DEVICE, Server  # noqa: E402
+from client import DEVICE, Server, processes  # noqa: E402
 
 ERRORS = {
     "fork": ["EAGAIN", "ENOMEM"], "exec": ["ENOMEM", "EAGAIN", "EMFILE", "EACCES"], "pipe": ["EMFILE", "ENFILE", "ENOMEM"],
@@ -49,19 +49,7 @@ MOST_S = 30  # far above what any of this takes
 
 def below(pid):
     """processes below this one that have not ended"""
-    rows = {}
-    for entry in pathlib.Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                stat = (entry / "stat").read_text()
-            except OSError:
-                continue
-            fields = stat[stat.rindex(")") + 2:].split()
-            rows[int(entry.name)] = int(fields[1]), fields[0]
-    found = [pid]
-    for p in found:
-        found += [q for q, (parent, state) in rows.items() if parent == p and q not in found and state != "Z"]
-    return found[1:]
+    return [p for p, (_, state, _) in processes(pid).items() if p != pid and state != "Z"]
 
 
 def descriptors(server):

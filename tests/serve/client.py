@@ -15,6 +15,22 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DEVICE = ROOT / "docs/gallery/reference-six-bar/device.xml"
 
 
+def processes(of):
+    """{pid: (parent, state, resident bytes)} of this process and all below it"""
+    found, rows = [of], {}
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                stat = (entry / "stat").read_text()
+            except OSError:
+                continue
+            fields = stat[stat.rindex(")") + 2:].split()
+            rows[int(entry.name)] = (int(fields[1]), fields[0], int(fields[21]) * os.sysconf("SC_PAGE_SIZE"))
+    for pid in found:
+        found += [p for p, row in rows.items() if row[0] == pid and p not in found]
+    return {pid: rows[pid] for pid in found if pid in rows}
+
+
 class Server:
     """flexwright serve in a process; `with` ends it"""
 

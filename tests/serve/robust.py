@@ -18,28 +18,12 @@ import threading
 import time
 import zipfile
 
-from client import DEVICE, ROOT, Server
+from client import DEVICE, ROOT, Server, processes
 
 TEXT = DEVICE.read_text()
 QUICK = {"kind": "check", "text": TEXT, "options": {"accuracy": 0.05, "corners": "none"}}
 SLOW = {"kind": "workspace", "text": TEXT, "options": {"accuracy": 1e-6}}
 DEADLINE_S = 12.0  # a client that is too slow is cut by then
-
-
-def processes(session_of):
-    """(pid, parent, name, resident bytes) of all processes below this one"""
-    found, rows = [session_of], {}
-    for entry in pathlib.Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                stat = (entry / "stat").read_text()
-            except OSError:
-                continue
-            fields = stat[stat.rindex(")") + 2:].split()
-            rows[int(entry.name)] = (int(fields[1]), fields[0], int(fields[21]) * os.sysconf("SC_PAGE_SIZE"))
-    for pid in found:
-        found += [p for p, row in rows.items() if row[0] == pid and p not in found]
-    return {pid: rows[pid] for pid in found if pid in rows}
 
 
 def scratch(directory):

@@ -2,14 +2,7 @@
 #include "base/arena.h"
 #include "test.h"
 
-#if defined(__SANITIZE_ADDRESS__)
-#define ASAN 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ASAN 1
-#endif
-#endif
-#ifdef ASAN
+#ifdef FW_ASAN
 #include <sanitizer/asan_interface.h>
 #endif
 
@@ -62,7 +55,7 @@ static void rewinding_gives_back(void **state) {
 /* AddressSanitizer is told what is nobody's: behind a block, and after a rewind; what a copy put back is ours again */
 static void a_sanitizer_sees_inside(void **state) {
     (void)state;
-#ifdef ASAN
+#ifdef FW_ASAN
     fw_arena *arena = fw_arena_new(0);
     char *first = fw_arena_alloc(arena, 64, 1);
     fw_mark mark = fw_arena_mark(arena);

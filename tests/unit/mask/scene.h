@@ -85,19 +85,25 @@ static inline void scene_box(scene *s, const char *label, double x0, double y0, 
     scene_add(s, FW_ROLE_STRUCTURE, label, polygon(s->arena, p, 4));
 }
 
-/* half ring about the origin above y = 0 between two legs that go down by `leg`, all `width` wide;
-   the ends of the ring are joints */
-static inline void scene_arch(scene *s, double radius, double width, double leg) {
-    double ri = (radius - 0.5 * width) * UM, ro = (radius + 0.5 * width) * UM;
-    fw_geometry_vec2 o = {0, 0}, corner[4] = {{ri, 0}, {ro, 0}, {-ro, 0}, {-ri, 0}};
-    fw_geometry_outline a = fw_geometry_outline_start(s->arena, corner[0]);
+/* half ring about the origin through its corners, inner and outer at either end, anticlockwise from the first; its ends are joints */
+static inline fw_geometry_contour scene_half_ring(fw_arena *arena, const fw_geometry_vec2 corner[4]) {
+    const fw_geometry_vec2 o = {0, 0};
+    fw_geometry_outline a = fw_geometry_outline_start(arena, corner[0]);
     fw_geometry_outline_line(&a, corner[1], FW_SEGMENT_JOINT);
     fw_geometry_outline_arc_to(&a, o, PI, corner[2], 0);
     fw_geometry_outline_line(&a, corner[3], FW_SEGMENT_JOINT);
     fw_geometry_outline_arc_to(&a, o, -PI, corner[0], 0);
     fw_geometry_contour ring;
     assert_int_equal(fw_geometry_outline_close(&a, &ring), FW_OK);
-    scene_add(s, FW_ROLE_FLEXURE, "arch", ring);
+    return ring;
+}
+
+/* half ring about the origin above y = 0 between two legs that go down by `leg`, all `width` wide;
+   the ends of the ring are joints */
+static inline void scene_arch(scene *s, double radius, double width, double leg) {
+    double ri = (radius - 0.5 * width) * UM, ro = (radius + 0.5 * width) * UM;
+    fw_geometry_vec2 corner[4] = {{ri, 0}, {ro, 0}, {-ro, 0}, {-ri, 0}};
+    scene_add(s, FW_ROLE_FLEXURE, "arch", scene_half_ring(s->arena, corner));
     for (int side = 0; side < 2; side++) {
         fw_geometry_vec2 left = corner[2 * side], right = corner[2 * side + 1];
         fw_geometry_outline b =

@@ -198,26 +198,18 @@ static void cut_outlines_stay_one(void **state) {
     scene_free(s);
 }
 
-static void half_ring(scene *s, const char *label, double turn) {
-    const fw_geometry_vec2 o = {0, 0};
-    const double c = cos(turn), inner = 40 * UM, outer = 60 * UM;
-    const fw_geometry_vec2 corner[4] = {{c * inner, 0}, {c * outer, 0}, {-c * outer, 0}, {-c * inner, 0}};
-    fw_geometry_outline a = fw_geometry_outline_start(s->arena, corner[0]);
-    fw_geometry_outline_line(&a, corner[1], FW_SEGMENT_JOINT);
-    fw_geometry_outline_arc_to(&a, o, PI, corner[2], 0);
-    fw_geometry_outline_line(&a, corner[3], FW_SEGMENT_JOINT);
-    fw_geometry_outline_arc_to(&a, o, -PI, corner[0], 0);
-    fw_geometry_contour c_ring;
-    assert_int_equal(fw_geometry_outline_close(&a, &c_ring), FW_OK);
-    scene_add(s, FW_ROLE_STRUCTURE, label, c_ring);
+static void half_ring(scene *s, const char *label, double sign) {
+    const double inner = sign * 40 * UM, outer = sign * 60 * UM;
+    const fw_geometry_vec2 corner[4] = {{inner, 0}, {outer, 0}, {-outer, 0}, {-inner, 0}};
+    scene_add(s, FW_ROLE_STRUCTURE, label, scene_half_ring(s->arena, corner));
 }
 
 /* as a frame around the device is: two halves that share their cuts make one solid, and what is within them is a hole in its faces */
 static void a_hole_stays_a_hole(void **state) {
     (void)state;
     scene *s = scene_new(0, 0);
-    half_ring(s, "upper half", 0);
-    half_ring(s, "lower half", PI);
+    half_ring(s, "upper half", 1);
+    half_ring(s, "lower half", -1);
     scene_box(s, "island", -10, -10, 10, 10);
     s->options.thickness_m = 16 * UM;
     const fw_mask *mask = built(s);

@@ -117,18 +117,11 @@ static void island(field *f, double size, known *k) {
 /* a ring of two joined halves around a hole */
 static void hole(field *f, double size, known *k) {
     double area = size, ri = sqrt(area / PI), ro = ri + 15;
-    fw_geometry_vec2 o = {0, 0}, e[4] = {{ri * UM, 0}, {ro * UM, 0}, {-ro * UM, 0}, {-ri * UM, 0}};
+    fw_geometry_vec2 e[4] = {{ri * UM, 0}, {ro * UM, 0}, {-ro * UM, 0}, {-ri * UM, 0}};
     for (int lower = 0; lower < 2; lower++) {
         const fw_geometry_vec2 p[4] = {e[lower ? 3 : 0], e[lower ? 2 : 1], e[lower ? 1 : 2],
                                        e[lower ? 0 : 3]};
-        fw_geometry_outline a = fw_geometry_outline_start(f->s->arena, p[0]);
-        fw_geometry_outline_line(&a, p[1], FW_SEGMENT_JOINT);
-        fw_geometry_outline_arc_to(&a, o, PI, p[2], 0);
-        fw_geometry_outline_line(&a, p[3], FW_SEGMENT_JOINT);
-        fw_geometry_outline_arc_to(&a, o, -PI, p[0], 0);
-        fw_geometry_contour half;
-        assert_int_equal(fw_geometry_outline_close(&a, &half), FW_OK);
-        draw(f, FW_ROLE_FRAME, half);
+        draw(f, FW_ROLE_FRAME, scene_half_ring(f->s->arena, p));
     }
     *k = (known){&fw_mask_kind_area, FW_ROLE_FRAME, area * UM * UM, world(f, 0, 0), 0, 0};
 }
