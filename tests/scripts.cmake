@@ -199,6 +199,7 @@ fw_script_test(fault.instead COMMAND ${Python3_EXECUTABLE} tests/faults/instead.
 fw_script_test(hostile.documents COMMAND ${Python3_EXECUTABLE} tests/hostile/hostile.py ${FW_PROGRAM} TIMEOUT 600)
 fw_first_part_of(fault.limits COMMAND ${Python3_EXECUTABLE} tests/faults/limits.py ${FW_PROGRAM} FIRST --count 8 WHOLE --count 200)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
+fw_script_test(golden.said COMMAND ${Python3_EXECUTABLE} tests/golden/said.py ${FW_PROGRAM})
 fw_script_test(accept.wafer COMMAND tests/accept/wafer.sh ${FW_PROGRAM} TIMEOUT 600)
 set_tests_properties(accept.masks accept.wafer accept.nets accept.random accept.selftest accept.written
                      PROPERTIES SKIP_RETURN_CODE 77)
