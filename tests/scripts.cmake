@@ -174,6 +174,7 @@ fw_first_part_of(live.designs COMMAND live designs FIRST 30 WHOLE 1000)
 # files and descriptions that are mostly right, by seed; tests/build/fuzz.sh has the same with coverage, under the sanitizers
 fw_first_part_of(fuzz.files COMMAND fuzzed_files FIRST 2000 WHOLE 100000)
 fw_first_part_of(fuzz.judge COMMAND fuzzed_judge FIRST 40 WHOLE 500)
+fw_first_part_of(fuzz.bodies COMMAND fuzzed_bodies FIRST 300 WHOLE 20000)
 
 add_executable(fault_memory faults/memory.c faults/sites.c)
 target_include_directories(fault_memory PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
