@@ -418,6 +418,19 @@ class Probe(unittest.TestCase):
                                  r"above ([\d.]+) um\)", said).groups()
         self.near(float(worst) * 1e-6, made["band"][1], 1e-3)
         self.near(float(reach) * 1e-6, made["all_corners_band"][1], 1e-3)
+        def least(bound, status):
+            return self.answer(text.replace('measure="parasitic" max="1.66 um"', f'measure="parasitic" min="{bound!r} m"'),
+                               "check", "--advice", "none", statuses=(status,))
+        made = next(r for r in least(1e-9, 0)["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        self.assertLess(made["all_corners_band"][0], made["band"][0])
+        low = 0.5 * (made["band"][0] + made["value"])
+        verdict = least(low, 4)
+        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
+        worst, reach, asked = re.search(r"\(([\d.]+) nm to [\d.]+ nm; no corner of the flow is below ([\d.]+) nm\), and at least ([\d.]+) nm", said).groups()
+        self.near(float(worst) * 1e-9, made["band"][0], 1e-3)
+        self.near(float(reach) * 1e-9, made["all_corners_band"][0], 1e-3)
+        self.near(float(asked) * 1e-9, low, 1e-3)
 
     def test_links_that_bend_are_told_and_in_the_bands(self):
         """the same leaves between links of 120 and of 26 um: the second give, which every band and a warning say"""
