@@ -43,6 +43,10 @@ CASES = {
     "simulate_film": "simulate tests/data/effects/closing-film.xml --samples 201 -o OUT",
     "check_gripper": f"check {PADDLE} --corners none --verbose",
     "check_stage": f"check docs/gallery/straight-stage/device.xml {QUICK} --verbose",
+    "study_sweep": "study tests/data/said/sweep.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_line": "study tests/data/said/line.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_worst": "study tests/data/said/worst.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_survive": "study tests/data/said/survive.xml --flow al-masked-rie --jobs 1 -o OUT",
     "plan_gripper": f"plan {PADDLE} {QUICK} -o OUT",
     "plan_stage": f"plan docs/gallery/straight-stage/device.xml {QUICK} -o OUT",
     "plan_combs": f"plan docs/gallery/comb-stage/device.xml {QUICK} -o OUT",
@@ -175,6 +179,18 @@ class Said(unittest.TestCase):
 
     def test_plan_nodder(self):
         self.keeps("plan_nodder")
+
+    def test_study_sweep(self):
+        self.keeps("study_sweep")
+
+    def test_study_line(self):
+        self.keeps("study_line")
+
+    def test_study_worst(self):
+        self.keeps("study_worst")
+
+    def test_study_survive(self):
+        self.keeps("study_survive")
 
     def test_every_case_is_kept(self):
         """and nothing else is"""
