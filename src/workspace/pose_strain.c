@@ -1,8 +1,228 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What poses strain: the sections of the flexures that may be strained, the strain over a box, and what is known of it
+   at the worst poses. */
 #include "base/text.h"
 #include "workspace/pose_load.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- places along a flexure at which its strain is looked at ---- */
+
+enum { INSIDE = 16 }; /* parts of an arc */
+
+static double lever_of(const fw_device_flexure *f, const fw_flexure_result *c) {
+    double a = 0.5 * f->angle_rad, off = hypot(c->offset_m[0], c->offset_m[1]);
+    double arc = hypot(f->radius_m * cos(a) - c->centre_m, f->radius_m * sin(a));
+    return (f->kind == FW_FLEXURE_CSFH ? arc : 0.5 * f->length_m) + off;
+}
+
+/* no section is farther from the pin than this */
+static double farthest(const fw_flexure_path_strain *s, const double pin[2]) {
+    double far = 0;
+    for (int i = 0; i < s->n; i++)
+        far = fmax(far, hypot(s->point[i].x_m - pin[0], s->point[i].y_m - pin[1]));
+    return far;
+}
+
+/* M(P) = M + (y - yW) Fx - (x - xW) Fy, the force on the second body -F: the lever of F is (y - yW,
+   xW - x) */
+static fw_workspace_station place(const double pin[2], double x, double y, double bending,
+                                  double axial) {
+    return (fw_workspace_station){{y - pin[1], pin[0] - x}, bending, axial};
+}
+
+/* Stations of an arc: the roots with their concentration, and inside of it places so close that
+   between two of them |M| is at most r |F| (1 - cos of half their distance) above the larger. All
+   of them are below the moment at the arc's centre and r |F|. */
+static void arc(const fw_device_flexure *f, const fw_flexure_result *c, const double pin[2],
+                double bending, double kt, double axial, fw_workspace_station *to,
+                fw_workspace_section *out) {
+    double r = f->radius_m, a = 0.5 * f->angle_rad, inside = bending * c->fibre / c->concentration;
+    double above = r * (1.0 - cos(a / INSIDE)) * inside;
+    out->roots = 2;
+    out->inside = place(pin, 0.0, 0.0, inside, axial + r * inside);
+    for (int side = -1; side <= 1; side += 2)
+        to[out->n++] = place(pin, r * cos(a), side * r * sin(a), bending, kt * axial);
+    for (int i = 1; i < INSIDE; i++) {
+        double b = a * (2.0 * i / INSIDE - 1.0);
+        to[out->n++] = place(pin, r * cos(b), r * sin(b), inside, axial + above);
+    }
+}
+
+/* of a flexure that varies: between two sections the moment may rise by an eighth of its second
+   difference */
+static int varying(const fw_flexure_path_strain *s, const double pin[2], fw_workspace_station *to) {
+    for (int i = 0; i < s->n; i++) {
+        const fw_flexure_path_point *p = &s->point[i];
+        double above = 0.0;
+        if (i > 0 && i + 1 < s->n)
+            above =
+                0.125 * hypot(p[-1].x_m - 2 * p->x_m + p[1].x_m, p[-1].y_m - 2 * p->y_m + p[1].y_m);
+        to[i] = place(pin, p->x_m, p->y_m, p->strain_per_Nm,
+                      p->strain_per_N + above * p->strain_per_Nm);
+    }
+    return s->n;
+}
+
+/* The strain of eq. 1 and 2 of docs/theory/verdict.md as places along the strip. Where the axis is
+   not drawn the force acts on its largest lever, wherever it points. */
+static fw_status one_section(fw_arena *arena, const fw_mechanism *m, const fw_mechanism_hinge *h,
+                             fw_workspace_section *out) {
+    const fw_device_flexure *f = &m->device->flexure[h->flexure];
+    const fw_flexure_result *c = &h->closed_form;
+    const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
+    double scale = h->scale > 0 ? h->scale : 1;
+    double bending = c->strain_per_rad / (scale * c->stiffness_Nm_per_rad);
+    double area = fw_device_flexure_narrowest_m(f) * m->variant->thickness_m;
+    double axial = 1 / (scale * m->variant->material.youngs.value * area);
+    double kt = fw_flexure_tension_concentration(f->width_m, h->input.fillet_m);
+    bool varies = fw_flexure_input_varies(&h->input);
+    size_t most = h->section.n > INSIDE ? (size_t)h->section.n : INSIDE + 1;
+    fw_workspace_station *to = fw_arena_array(arena, fw_workspace_station, most);
+    FW_NEED(to);
+    out->station = to;
+    out->moment_Nm_per_rad = scale * c->stiffness_Nm_per_rad;
+    bool drawn = isfinite(h->axis_rad);
+    out->axis[0] = drawn ? cos(h->axis_rad) : 1.0, out->axis[1] = drawn ? sin(h->axis_rad) : 0.0;
+    if (!drawn) {
+        double lever = varies ? farthest(&h->section, pin) : lever_of(f, c);
+        to[0] = (fw_workspace_station){{0.0, 0.0}, bending, kt * axial + lever * bending};
+        out->n = 1;
+    } else if (varies) {
+        out->n = varying(&h->section, pin, to);
+    } else if (f->kind == FW_FLEXURE_CSFH) {
+        arc(f, c, pin, bending, kt, axial, to, out);
+        return FW_OK;
+    } else {
+        for (int side = 0; side < 2; side++)
+            to[side] = place(pin, 0.0, (side - 0.5) * f->length_m, bending, kt * axial);
+        out->n = 2;
+    }
+    out->roots = out->n;
+    return FW_OK;
+}
+
+fw_status fw_workspace_sections(fw_arena *arena, const fw_mechanism *m,
+                                fw_workspace_section section[FW_SIX]) {
+    for (int i = 0; i < FW_SIX; i++) {
+        int hinge = m->pin[i].hinge;
+        section[i] = (fw_workspace_section){.spring_Nm_per_rad = m->pin[i].stiffness_Nm_per_rad};
+        if (hinge != FW_NONE) FW_TRY(one_section(arena, m, &m->hinge[hinge], &section[i]));
+    }
+    return FW_OK;
+}
+
+/* ---- at one box ---- */
+
+/* largest size of what lies in the interval, and the least */
+static fw_maths_interval sizes_of(fw_maths_interval a) {
+    double far = fmax(fabs(a.lo), fabs(a.hi));
+    double near = a.lo > 0.0 ? a.lo : a.hi < 0.0 ? -a.hi : 0.0;
+    return (fw_maths_interval){near, far};
+}
+
+/* m + sum g_i s_i within rest, |s_i| <= 1 across the box; of many stations of one hinge, which are
+   sums of four of these */
+typedef struct plane {
+    double m, g[3], rest;
+} plane;
+
+static plane plane_of(const fw_workspace_jet *a, const double half[3]) {
+    plane p = {.m = a->v.m, .rest = a->v.e};
+    for (int i = 0; i < 3; i++) {
+        p.g[i] = half[i] * a->d[i].m;
+        p.rest += half[i] * 0.5 * (a->d[i].e + a->d[i].r);
+    }
+    p.rest = fw_grown(fw_grown(p.rest));
+    if (a->v.r < p.rest) p = (plane){.m = a->v.m, .rest = a->v.r}; /* the box is too large for it */
+    return p;
+}
+
+typedef struct loaded {       /* of one hinge over one box */
+    plane moment, fx, fy;     /* K theta; force in the frame half turned */
+    plane along;              /* n.F, n the force's direction in the middle: |F| <= n.F + beside */
+    double beside, far, near; /* far and near bound |F| in any case */
+    bool slanted;             /* `along` holds */
+} loaded;
+
+static void press(const fw_workspace_jet2 *f, const double half[3], loaded *p) {
+    fw_maths_interval x = sizes_of(fw_jet_range(&f->x, half)),
+                      y = sizes_of(fw_jet_range(&f->y, half));
+    p->far = fw_grown(sqrt(fw_grown(x.hi * x.hi + y.hi * y.hi)));
+    p->near = fmax(fw_down(sqrt(x.lo * x.lo + y.lo * y.lo)) * (1.0 - 1e-15), 0.0);
+    p->slanted = false;
+    double n = hypot(f->x.v.m, f->y.v.m);
+    if (!(n > 0.0) || !isfinite(p->far)) return;
+    double nx = f->x.v.m / n, ny = f->y.v.m / n; /* of length 1 within 2^-51 */
+    fw_workspace_jet along = fw_jet_add(fw_jet_scaled(f->x, nx), fw_jet_scaled(f->y, ny));
+    fw_workspace_jet across = fw_jet_sub(fw_jet_scaled(f->y, nx), fw_jet_scaled(f->x, ny));
+    fw_maths_interval least = fw_jet_range(&along, half),
+                      off = sizes_of(fw_jet_range(&across, half));
+    if (!(least.lo > 0.0)) return;
+    p->along = plane_of(&along, half);
+    p->beside = fw_grown(fw_grown(0.5 * off.hi * off.hi) / least.lo) + 1e-14 * p->far;
+    p->slanted = true;
+}
+
+/* Range of bending |M - lever.F| + axial |F|. The sums of planes are rounded as numbers are: they
+   err by a few units of the sizes that are added. */
+static fw_maths_interval one_station(const fw_workspace_station *at, const loaded *p,
+                                     double slope[3]) {
+    double w = at->bending_per_Nm, x = at->lever_m[0], y = at->lever_m[1], ax = at->axial_per_N;
+    double m = w * (p->moment.m - x * p->fx.m - y * p->fy.m), g[3], reach = 0.0, size;
+    size = w * (fabs(p->moment.m) + fabs(x * p->fx.m) + fabs(y * p->fy.m));
+    double rest = w * (p->moment.rest + fabs(x) * p->fx.rest + fabs(y) * p->fy.rest);
+    for (int i = 0; i < 3; i++) {
+        g[i] = w * (p->moment.g[i] - x * p->fx.g[i] - y * p->fy.g[i]);
+        size += w * (fabs(p->moment.g[i]) + fabs(x * p->fx.g[i]) + fabs(y * p->fy.g[i]));
+        reach += fabs(g[i]);
+    }
+    double sign = m < 0.0 ? -1.0 : 1.0, slack = (size + rest + ax * p->far) * 0x1p-46;
+    double hi = fabs(m) + reach + rest + ax * p->far + slack;
+    double lo = fabs(m) - reach - rest - slack;
+    lo = (lo > 0.0 ? lo : 0.0) + fw_down(ax * p->near);
+    if (p->slanted) {
+        double q = ax * p->along.m, more = ax * (p->along.rest + p->beside), up = 0.0, down = 0.0;
+        for (int i = 0; i < 3; i++) {
+            up += fabs(g[i] + ax * p->along.g[i]);
+            down += fabs(g[i] - ax * p->along.g[i]);
+        }
+        up = m + q + up + rest + more + slack, down = -m + q + down + rest + more + slack;
+        double most = up > down ? up : down;
+        if (most < hi) hi = most;
+    }
+    for (int i = 0; i < 3; i++)
+        slope[i] = sign * g[i] + (p->slanted ? ax * p->along.g[i] : 0.0);
+    return (fw_maths_interval){lo, hi};
+}
+
+fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
+                                           const fw_workspace_pose_load *o, int hinge,
+                                           const fw_workspace_jet2 *force, double slope[3]) {
+    const fw_workspace_section *s = &hold->section[hinge];
+    fw_maths_interval all = {0.0, 0.0};
+    if (s->n == 0) return all;
+    fw_workspace_jet2 t = o->frame[hinge];
+    fw_workspace_jet along = fw_jet_tight(fw_jet2_dot(t, *force), o->half),
+                     across = fw_jet_tight(fw_jet2_cross(t, *force), o->half),
+                     moment = fw_jet_scaled(o->theta[hinge], s->moment_Nm_per_rad);
+    loaded p = {.moment = plane_of(&moment, o->half),
+                .fx = plane_of(&along, o->half),
+                .fy = plane_of(&across, o->half)};
+    press(force, o->half, &p);
+    for (int i = 0; i < s->n; i++) {
+        double now[3];
+        if (i == s->roots && one_station(&s->inside, &p, now).hi <= all.hi) break;
+        fw_maths_interval one = one_station(&s->station[i], &p, now);
+        if (one.lo > all.lo) all.lo = one.lo;
+        for (int k = 0; k < 3 && slope && one.hi > all.hi; k++)
+            slope[k] = now[k];
+        if (!(one.hi <= all.hi) && !isnan(all.hi)) all.hi = one.hi; /* NaN is kept */
+    }
+    return all;
+}
+
+/* ---- over a whole box ---- */
 
 enum { DEPTH = 120, GRID = 9 };
 
@@ -219,4 +439,130 @@ fw_status fw_workspace_sample_strain(fw_arena *arena, const fw_workspace_hold *h
 
 const char *fw_workspace_actuation(const fw_workspace_strain_proof *proof, int hinge) {
     return proof->hold->grip[proof->most[hinge].grip].name;
+}
+
+/* ---- first order: what is known at the worst poses beside the proved strain ---- */
+
+/* Beyond it first order says nothing */
+static const double first_order_most = 0.2;
+
+/* A leg whose hinges are displaced is one whose platform hinge is. It is asked where the axis of a hinge is not known. */
+typedef struct worst {
+    const fw_workspace_hold *hold;
+    const fw_workspace_strain_extreme *at;
+    fw_workspace_response *response;
+    int hinge;
+} worst;
+
+/* strain of the hinge with C and D displaced; 0: out of reach */
+static double displaced(const worst *w, const double shift[4], fw_workspace_pose_load *load,
+                        fw_workspace_jet2 force[FW_SIX]) {
+    const double *p = w->at->pose;
+    const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    const fw_workspace_grip *grip = &w->hold->grip[w->at->grip];
+    bool certain, own[2];
+    if (!fw_workspace_pose_load_over(w->hold, &at, shift, load)) return 0.0;
+    for (int k = 0; k < 3 && !grip->wrench; k++) {
+        int i = grip->actuator[k];
+        fw_workspace_pose_response(w->hold, load, &w->hold->actuator[i], &w->response[i]);
+    }
+    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, own, force))
+        return 0.0;
+    fw_maths_interval s = fw_workspace_pose_strain(w->hold, load, w->hinge, &force[w->hinge], NULL);
+    return 0.5 * (s.lo + s.hi);
+}
+
+/* How far a hinge's drift and give move the end that a stiff leg would have, times how the strain
+   goes with that end. A leg that pushes the platform with R gives by C R the other way: its end has
+   to be held that much further along R. The left leg pushes with R, the right one with -R. give:
+   with its sign; drift: the size of what the drift does. in: N, strain/m; out: strain. */
+static void given(const fw_mechanism *m, const fw_workspace_pose_load *load, int i,
+                  const fw_workspace_jet2 *force, const double slope[2], double *give,
+                  double *drift) {
+    int k = m->pin[i].hinge;
+    if (k == FW_NONE) return;
+    const fw_mechanism_hinge *h = &m->hinge[k];
+    double theta = load->theta[i].v.m, fx = force->x.v.m, fy = force->y.v.m;
+    double sign = i < 3 ? 1.0 : -1.0, steep = hypot(slope[0], slope[1]);
+    fw_flexure_hinge_at at;
+    if (!fw_flexure_hinge_law_holds(&h->law, theta)) {
+        *drift = HUGE_VAL;
+        return;
+    }
+    fw_flexure_hinge_law_at(&h->law, theta, &at);
+    double cx = 1.0 / at.kx_N_per_m.value, cy = 1.0 / at.ky_N_per_m.value;
+    if (!isfinite(h->axis_rad)) { /* C is known within its two ends, whatever its direction */
+        *give += sign * 0.5 * (cx + cy) * (slope[0] * fx + slope[1] * fy);
+        *drift += steep * (0.5 * fabs(cx - cy) * hypot(fx, fy) + fabs(at.drift_m.value));
+        return;
+    }
+    double c = load->frame[i].x.v.m, s = load->frame[i].y.v.m;
+    double along = c * slope[0] + s * slope[1], across = c * slope[1] - s * slope[0];
+    *give += sign * (along * (c * fx + s * fy) * cx + across * (c * fy - s * fx) * cy);
+    *drift += fabs(across * at.drift_m.value);
+}
+
+/* first order, and its square for what that leaves out; far out it says nothing */
+static void give_and_drift(const worst *w, const fw_mechanism *m,
+                           const fw_workspace_pose_load *load, const fw_workspace_jet2 *force,
+                           double strain, fw_workspace_give *out) {
+    fw_workspace_pose_load beside;
+    fw_workspace_jet2 other[FW_SIX];
+    double slope[4], step = 1e-4 * w->hold->length_m, give = 0.0, drift = 0.0;
+    for (int i = 0; i < 4; i++) {
+        double up[4] = {0}, down[4] = {0};
+        up[i] = step, down[i] = -step;
+        slope[i] =
+            (displaced(w, up, &beside, other) - displaced(w, down, &beside, other)) / (2.0 * step);
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        given(m, load, i, &force[i], &slope[i < 3 ? 0 : 2], &give, &drift);
+    give /= strain, drift /= strain;
+    out->give = fmax(give, 0.0) + drift + give * give;
+    out->relief = fmax(-give, 0.0) + drift + give * give;
+    if (!(fmax(out->give, out->relief) < first_order_most)) *out = fw_workspace_nothing_known;
+}
+
+fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
+                               const fw_mechanism *m, const fw_workspace_strain_proof *proof,
+                               int hinge, const fw_workspace_give *give, fw_workspace_load *out) {
+    worst w = {.hold = hold, .at = &proof->most[hinge], .hinge = hinge};
+    *out = (fw_workspace_load){.strain = proof->strain[hinge], .most_N = proof->force_N[hinge]};
+    if (hold->section[hinge].n == 0) return FW_OK;
+    FW_NEED(w.response = fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    fw_workspace_pose_load load;
+    fw_workspace_jet2 force[FW_SIX];
+    const double none[4] = {0};
+    double strain = displaced(&w, none, &load, force);
+    out->known = true;
+    out->error = fmax(out->strain - w.at->strain.lo, 0.0);
+    out->x_m = w.at->pose[0], out->y_m = w.at->pose[1], out->phi_rad = w.at->pose[2];
+    if (!(strain > 0.0)) return FW_OK; /* nothing turns */
+    out->angle_rad = load.theta[hinge].v.m;
+    out->force_N = hypot(force[hinge].x.v.m, force[hinge].y.v.m);
+    out->actuation = hold->grip[w.at->grip].name;
+    if (hold->given_by)
+        FW_NEED(out->actuation =
+                    fw_arena_printf(arena, "%s; against it %s", out->actuation, hold->given_by));
+    int k = m->pin[hinge].hinge;
+    out->over_rotation = strain / (fabs(out->angle_rad) * m->hinge[k].closed_form.strain_per_rad);
+    fw_workspace_give by = *give;
+    if (by.first_order) give_and_drift(&w, m, &load, force, strain, &by);
+    out->give = by.give, out->relief = by.relief, out->added = by.added;
+    return FW_OK;
+}
+
+void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load *b,
+                            fw_workspace_load *out) {
+    double of_a = a->strain * (1.0 + a->added), of_b = b->strain * (1.0 + b->added);
+    fw_workspace_load most = b->strain > a->strain ? *b : *a;
+    most.most_N = fmax(a->most_N, b->most_N);
+    double all = fmax(of_a, of_b);
+    if (all > 0.0) {
+        double least = fmax(of_a * (1.0 - a->relief), of_b * (1.0 - b->relief));
+        most.added = all / most.strain - 1.0;
+        most.give = fmax(of_a * (1.0 + a->give), of_b * (1.0 + b->give)) / all - 1.0;
+        most.relief = 1.0 - least / all;
+    }
+    *out = most;
 }
