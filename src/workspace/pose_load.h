@@ -196,11 +196,8 @@ typedef struct fw_workspace_grip { /* three actuators that hold the pose */
     const char *name; /* "torque on AB, force on CD" */
 } fw_workspace_grip;
 
-/* where everything is at poses that were looked at before; of one loop and one way in which hinges lie */
-typedef struct fw_workspace_poses fw_workspace_poses;
-fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses);
-/* forgets them if they are of another mechanism than this hold, whose sections are set */
-void fw_workspace_poses_are_of(fw_workspace_poses *poses, const fw_workspace_hold *hold);
+typedef struct fw_workspace_poses
+    fw_workspace_poses; /* poses that were looked at before: pose_strain.c */
 
 /* what is held by what: of one flow */
 struct fw_workspace_hold {
@@ -242,8 +239,13 @@ typedef struct fw_workspace_pose_load {
     fw_workspace_response own; /* to the hinges' moments; last: the rest is of the pose alone */
 } fw_workspace_pose_load;
 
-/* false: not every pose of the box is known to be reached. shift: what C and D are displaced by
-   against the rest of the platform (m, four numbers), or NULL */
+/* where everything is: all of it but the forces. false: not every pose of the box is known to be reached. shift: what C
+   and D are displaced by against the rest of the platform (m, four numbers), or NULL */
+bool fw_workspace_pose_places(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                              const double *shift, fw_workspace_pose_load *out);
+/* the response to the hinges' moments there */
+void fw_workspace_pose_own(const fw_workspace_hold *hold, fw_workspace_pose_load *at);
+/* both */
 bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
                                  const double *shift, fw_workspace_pose_load *out);
 void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
@@ -259,6 +261,44 @@ bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_
 fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
                                            const fw_workspace_pose_load *at, int hinge,
                                            const fw_workspace_jet2 *force, double slope[3]);
+
+/* ---- pose_strain.c: boxes that are looked at ---- */
+
+fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses);
+/* What was kept of another mechanism than this hold is not found again; its sections are set, and with `whole` its
+   actuators and grips, too, without which no forces are kept. */
+void fw_workspace_poses_are_of(fw_workspace_poses *poses, const fw_workspace_hold *hold,
+                               bool whole);
+/* fw_workspace_pose_places without a shift, from what is kept where it is known there */
+bool fw_workspace_poses_find(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                             fw_workspace_pose_load *out);
+
+typedef struct fw_workspace_gripped {   /* a box that is held by one grip */
+    bool known, holds, certain, own[2]; /* of fw_workspace_pose_forces */
+    fw_workspace_jet2 force[FW_SIX];
+    long section[FW_SIX]; /* with which `strain` was found; 0: with none */
+    fw_maths_interval strain[FW_SIX];
+    double slope[FW_SIX][3];
+} fw_workspace_gripped;
+
+typedef struct fw_workspace_view { /* a box of poses, of which is found what somebody asks for */
+    const fw_workspace_hold *hold;
+    fw_workspace_pose_load load;     /* its `own` only where `owned` */
+    fw_workspace_response *response; /* (nactuator) */
+    bool owned, *responded;          /* (nactuator) */
+    struct placed *kept;             /* NULL: nowhere */
+    long filled;                     /* of `kept`, as long as that is of this box */
+    fw_workspace_gripped here;       /* what cannot be kept, of this grip */
+    int here_of;
+} fw_workspace_view;
+fw_status fw_workspace_view_new(fw_arena *arena, const fw_workspace_hold *hold,
+                                fw_workspace_view *view);
+/* false: not every pose of the box is known to be reached */
+bool fw_workspace_view_at(fw_workspace_view *view, const fw_workspace_box3 *box);
+/* fw_workspace_pose_forces and fw_workspace_pose_strain; valid until the next grip or box is asked for */
+fw_workspace_gripped *fw_workspace_view_grip(fw_workspace_view *view, int grip);
+fw_maths_interval fw_workspace_view_strain(const fw_workspace_view *view, fw_workspace_gripped *by,
+                                           int hinge, double slope[3]);
 
 /* ---- pose_strain.c: over a whole required box ---- */
 
