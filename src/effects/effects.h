@@ -265,7 +265,6 @@ typedef struct fw_effect_case { /* what an effect is asked about */
     const fw_device_scene *scene;
     const struct fw_effects_envelope *envelope; /* envelope.h: how large the motion can become */
     fw_diags *diags;                            /* NULL: mistakes are not reported, only returned */
-    double enough; /* > 0: a bound above it decides as any larger one, and may be found too small */
 } fw_effect_case;
 
 /* ---- the scene in words, and less of it ---- */

@@ -179,32 +179,23 @@ static double phases(const work *w, int i, int d) {
     return sum;
 }
 
-/* how far both linear motions are from each other */
-static double unlike(const work *w, int i) {
-    const fw_effects_peaks *a = &w->pa, *b = &w->pb;
-    double sum = fabs(a->still[i] - b->still[i]) + a->rapid_rad[i] + b->rapid_rad[i];
-    for (int l = 0; l < w->slow; l++) {
-        double ta = fabs(w->a->turn[l * w->a->npin + i]), tb = fabs(w->b->turn[l * w->b->npin + i]);
-        sum += fabs(ta * a->ring[l] - tb * b->ring[l]);
-    }
-    for (int l = w->slow; l < w->b->modes; l++) /* those that are followed are no part of rapid */
-        sum += fabs(w->b->turn[l * w->b->npin + i]) * b->ring[l];
-    return sum;
-}
-
 static double apart(const work *w, int i) {
-    const fw_effects_peaks *a = &w->pa, *c = &w->pc;
+    const fw_effects_peaks *a = &w->pa, *b = &w->pb, *c = &w->pc;
     double bracket = fmax(a->high[i] - c->low[i], c->high[i] - a->low[i]);
+    double alike = fabs(a->still[i] - b->still[i]) + a->rapid_rad[i] + b->rapid_rad[i];
     double sources = 2 * w->sources.rapid_rad[i], least = (double)INFINITY, open = w->rapid_rad[i];
     for (int l = 0; l < w->slow; l++) {
-        double tb = fabs(w->b->turn[l * w->b->npin + i]);
+        double ta = fabs(w->a->turn[l * w->a->npin + i]), tb = fabs(w->b->turn[l * w->b->npin + i]);
+        alike += fabs(ta * a->ring[l] - tb * b->ring[l]);
         sources += 2 * tb * w->swing[l];
         open += tb * w->ring[l];
         open +=
             tb * w->swing[l] * (w->overshoot[l] - 2) * fmin(1, 0.5 * w->nonlinearity * w->phase[l]);
         least = fmin(least, phases(w, i, l));
     }
-    return bracket + 4 * w->nonlinearity * (unlike(w, i) + sources) + open + least;
+    for (int l = w->slow; l < w->b->modes; l++) /* those that are followed are no part of rapid */
+        alike += fabs(w->b->turn[l * w->b->npin + i]) * b->ring[l];
+    return bracket + 4 * w->nonlinearity * (alike + sources) + open + least;
 }
 
 /* What pin i is deflected by for sure: its linear peak less what stiffness and geometry, wrong by
@@ -241,57 +232,46 @@ static const char *outside(const fw_effect_case *c) {
     return NULL;
 }
 
-static double followed(const work *w) {
-    double most = 0;
-    for (int j = 0; j < w->slow; j++)
-        most = fmax(most, fmax(w->a->omega[j], w->b->omega[j]));
-    return most;
-}
-
-static fw_status linear(work *w, fw_effects_modal_loads *modal_loads, const char **why) {
+static fw_status motions(work *w, fw_effects_modal_loads *modal_loads, const char **why) {
     const fw_effect_case *c = w->c;
     const fw_effects_envelope *e = w->b;
-    FW_NEED(w->phase = fw_arena_array(c->arena, double, (size_t)w->slow));
-    for (int j = 0; j < w->slow; j++) {
-        double zeta = 0.5 * e->modal->damping[j * e->modes + j] / e->omega[j];
-        w->phase[j] = fmin(e->omega[j] * e->duration_s, 1 / (FW_E * fmax(zeta, 1e-12)));
-    }
+    double followed = 0, *ring;
+    for (int j = 0; j < w->slow; j++)
+        followed = fmax(followed, fmax(w->a->omega[j], e->omega[j]));
     FW_TRY(fw_effects_modal_loads_find(c->arena, w->a->modal, modal_loads));
-    FW_TRY(fw_effects_peaks_find(c->arena, w->a->modal, modal_loads, followed(w), w->a->amplitude,
+    FW_TRY(fw_effects_peaks_find(c->arena, w->a->modal, modal_loads, followed, w->a->amplitude,
                                  NULL, &w->pa));
     FW_TRY(fw_effects_modal_loads_find(c->arena, e->modal, modal_loads));
-    FW_TRY(fw_effects_peaks_find(c->arena, e->modal, modal_loads, followed(w), e->amplitude, NULL,
+    FW_TRY(fw_effects_peaks_find(c->arena, e->modal, modal_loads, followed, e->amplitude, NULL,
                                  &w->pb));
     *why = w->pa.why_not ? w->pa.why_not : w->pb.why_not;
-    return FW_OK;
-}
-
-static fw_status with_sources(work *w, fw_effects_modal_loads *modal_loads, const char **why) {
-    const fw_effect_case *c = w->c;
-    const fw_effects_envelope *e = w->b;
-    double *ring;
+    if (*why) return FW_OK;
     FW_NEED(ring = fw_arena_array(c->arena, double, (size_t)e->modes));
     for (int j = 0; j < e->modes; j++)
         ring[j] = fmin(w->pb.ring[j] + w->pb.late[j], e->amplitude[j]);
     FW_TRY(fw_effects_hinge_sources_new(c->arena, e->modal, w->slow, ring, &w->sources));
     const fw_effects_peaks_source source = {fw_effects_hinge_sources_at, &w->sources, w->pb.late};
-    FW_TRY(fw_effects_peaks_find(c->arena, e->modal, modal_loads, followed(w), e->amplitude,
-                                 &source, &w->pc));
+    FW_TRY(fw_effects_peaks_find(c->arena, e->modal, modal_loads, followed, e->amplitude, &source,
+                                 &w->pc));
     *why = w->pc.why_not;
     return FW_OK;
 }
 
-static fw_status compare(work *w, fw_effects_modal_loads *modal_loads, const char **why) {
+static fw_status compare(work *w, const char **why) {
     const fw_effect_case *c = w->c;
     const fw_effects_envelope *e = w->b;
-    FW_TRY(with_sources(w, modal_loads, why));
+    fw_effects_modal_loads modal_loads;
+    FW_TRY(motions(w, &modal_loads, why));
     if (*why) return FW_OK;
     FW_NEED(w->swing = fw_arena_array(c->arena, double, (size_t)w->slow));
     FW_NEED(w->ring = fw_arena_array(c->arena, double, (size_t)w->slow));
     FW_NEED(w->rapid_rad = fw_arena_array(c->arena, double, (size_t)e->npin));
     FW_NEED(w->overshoot = fw_arena_array(c->arena, double, (size_t)w->slow));
-    FW_TRY(overshoots(w, modal_loads));
+    FW_NEED(w->phase = fw_arena_array(c->arena, double, (size_t)w->slow));
+    FW_TRY(overshoots(w, &modal_loads));
     for (int j = 0; j < w->slow; j++) {
+        double zeta = 0.5 * e->modal->damping[j * e->modes + j] / e->omega[j];
+        w->phase[j] = fmin(e->omega[j] * e->duration_s, 1 / (FW_E * fmax(zeta, 1e-12)));
         w->swing[j] = w->sources.force[j] / (e->omega[j] * e->omega[j]);
         w->overshoot[j] = fmax(2, w->overshoot[j]);
     }
@@ -308,18 +288,9 @@ fw_status fw_effects_hinge_give_bound(const fw_effect_case *c, double *value, co
     w.nonlinearity = 0.25 * (fmax(w.a->margin, w.b->margin) - 1);
     fw_mark mark = fw_arena_mark(c->arena);
     double most = 0, floor_rad = e->floor;
-    fw_effects_modal_loads modal_loads;
-    FW_TRY(linear(&w, &modal_loads, why));
+    FW_TRY(compare(&w, why));
     for (int i = 0; i < e->npin && !*why; i++)
         floor_rad = fmax(floor_rad, sure(&w, i));
-    for (int i = 0; i < e->npin && !*why && c->enough > 0; i++)
-        most = fmax(most, 4 * w.nonlinearity * unlike(&w, i)); /* nothing else makes less of it */
-    if (!*why && c->enough > 0 && most > c->enough * floor_rad) {
-        fw_arena_rewind(c->arena, mark);
-        *value = most / floor_rad;
-        return FW_OK;
-    }
-    if (!*why) FW_TRY(compare(&w, &modal_loads, why));
     for (int i = 0; i < e->npin && !*why; i++) {
         double x = apart(&w, i);
         most = isnan(x) ? (double)INFINITY : fmax(most, x);

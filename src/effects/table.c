@@ -128,9 +128,7 @@ static fw_status find_bounds(const fw_effect_case *c, const fw_effect_choice *ch
             entry[i].bound = (double)INFINITY;
             entry[i].reason = "decided without its bound, which nobody reads";
         } else {
-            fw_effect_case alone = *c; /* no other bound grows by one that is taken */
-            if (choice->untold && c->envelope->taken[i]) alone.enough = fw_much_alike * accuracy;
-            FW_TRY(row->bound(&alone, &entry[i].bound, &entry[i].reason));
+            FW_TRY(row->bound(c, &entry[i].bound, &entry[i].reason));
         }
         entry[i].bound = or_infinite(entry[i].bound);
         entry[i].cost = row->cost * (row->count ? row->count(c) : 1);
@@ -317,11 +315,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
                              double accuracy, fw_diags *diags, fw_effect_ledger *ledger,
                              fw_effects_loads *loads) {
     fw_effects_envelope envelope = {.why_not = "no effect asked for it"};
-    const fw_effect_case c = {.arena = arena,
-                              .mechanism = mechanism,
-                              .scene = scene,
-                              .envelope = &envelope,
-                              .diags = diags};
+    const fw_effect_case c = {arena, mechanism, scene, &envelope, diags};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;

@@ -44,7 +44,7 @@ static void lever_new(lever *s, double c) {
 
 /* an envelope of the modes with all that the scene calls for, against `floor`, without a margin */
 static double bound_of(lever *s, const char **reason) {
-    const fw_effect_case c = {.arena = s->arena, .mechanism = &s->m, .scene = &s->scene, .envelope = &s->e, .diags = NULL};
+    const fw_effect_case c = {s->arena, &s->m, &s->scene, &s->e, NULL};
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     assert_int_equal(fw_effects_loads_new(s->arena, &s->m, &s->scene, &s->loads), FW_OK);
