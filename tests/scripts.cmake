@@ -88,6 +88,9 @@ fw_first_part_of(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py
 # required poses held by the judge's beams
 fw_first_part_of(judge.poses COMMAND ${Python3_EXECUTABLE} tests/judge/poses.py --judge $<TARGET_FILE:judge>
                  --program ${FW_PROGRAM} --seed 5 FIRST --count 1 WHOLE --count 12)
+# the same against springs, weight and contacts
+fw_first_part_of(judge.given COMMAND ${Python3_EXECUTABLE} tests/judge/poses.py --judge $<TARGET_FILE:judge>
+                 --program ${FW_PROGRAM} --given --seed 22 FIRST --count 1 WHOLE --count 12)
 # clearances of random devices against GEOS; a longer run is in tests/clearance/README.md
 fw_script_test(clearance.random COMMAND /usr/bin/python3 tests/clearance/compare.py
                $<TARGET_FILE:clearance_outlines> --seed 1 --count 6)

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What poses strain: the strain over a box, and what is known of it
+   at the worst poses. */
 #include "base/text.h"
 #include "workspace/pose_load.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- over a whole required box ---- */
 
 enum { DEPTH = 120, GRID = 9 };
 
@@ -12,25 +16,10 @@ typedef struct bounding {
     double relative, size[3];
     bool sampled; /* nothing is proved */
     fw_workspace_strain_proof *proof;
-    fw_workspace_response *over, *at; /* (nactuator) of a box and of a pose */
+    fw_workspace_view *over, *at; /* of a box and of a pose */
     double found[FW_SIX], bound[FW_SIX];
     double force_N[FW_SIX]; /* at most in the leaves so far; of samples the largest */
 } bounding;
-
-/* statics over the box for the grips from..to; false: a pose may be out of reach */
-static bool look(const bounding *b, const fw_workspace_box3 *box, int from, int to,
-                 fw_workspace_pose_load *load, fw_workspace_response *response) {
-    const fw_workspace_hold *h = b->hold;
-    if (!fw_workspace_pose_load_over(h, box, NULL, load)) return false;
-    for (int i = 0; i < h->nactuator; i++) {
-        bool used = false;
-        for (int g = from; g <= to && !used; g++)
-            for (int k = 0; k < 3 && !h->grip[g].wrench; k++)
-                used = used || h->grip[g].actuator[k] == i;
-        if (used) fw_workspace_pose_response(h, load, &h->actuator[i], &response[i]);
-    }
-    return true;
-}
 
 /* the leg's forces are those of a wrench on the platform, which was looked at before */
 static bool seen(const bounding *b, int grip, int from, bool own) {
@@ -46,19 +35,15 @@ static double size_of(const fw_workspace_jet2 *force, const double half[3]) {
 /* strains at one pose, by the grips from..to that certainly hold it */
 static void try_pose(bounding *b, const double pose[3], int from, int to) {
     const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
-    fw_workspace_pose_load load;
-    if (!look(b, &at, from, to, &load, b->at)) return;
+    if (!fw_workspace_view_at(b->at, &at)) return;
     for (int g = from; g <= to; g++) {
-        fw_workspace_jet2 force[FW_SIX];
-        bool certain, own[2];
-        if (!fw_workspace_pose_forces(b->hold, &load, b->at, &b->hold->grip[g], &certain, own,
-                                      force) ||
-            !certain)
-            continue;
+        fw_workspace_gripped *by = fw_workspace_view_grip(b->at, g);
+        if (!by->holds || !by->certain) continue;
         for (int i = 0; i < FW_SIX; i++) {
-            if (seen(b, g, from, own[i > 2])) continue;
-            fw_maths_interval now = fw_workspace_pose_strain(b->hold, &load, i, &force[i], NULL);
-            if (b->sampled) b->force_N[i] = fmax(b->force_N[i], size_of(&force[i], load.half));
+            if (seen(b, g, from, by->own[i > 2])) continue;
+            fw_maths_interval now = fw_workspace_view_strain(b->at, by, i, NULL);
+            if (b->sampled)
+                b->force_N[i] = fmax(b->force_N[i], size_of(&by->force[i], b->at->load.half));
             if (!(now.lo > b->found[i])) continue;
             b->found[i] = now.lo;
             b->proof->most[i] = (fw_workspace_strain_extreme){
@@ -82,27 +67,24 @@ static bool worth(const bounding *b, const fw_workspace_box3 *box, int hinge, do
 /* one enclosure of the box: does it say all that is wanted? Where a bound is too far the corner to
    which that strain grows is tried. */
 static bool enough(bounding *b, const fw_workspace_box3 *box) {
-    fw_workspace_pose_load load;
-    if (!look(b, box, 0, b->hold->ngrip - 1, &load, b->over)) return false;
+    if (!fw_workspace_view_at(b->over, box)) return false;
     double far[FW_SIX] = {0}, most_N[FW_SIX] = {0};
     for (int g = 0; g < b->hold->ngrip; g++) {
-        fw_workspace_jet2 force[FW_SIX];
-        bool certain, own[2];
-        if (!fw_workspace_pose_forces(b->hold, &load, b->over, &b->hold->grip[g], &certain, own,
-                                      force))
-            continue;
+        if (!fw_workspace_view_grip(b->over, g)->holds) continue;
         for (int i = 0; i < FW_SIX; i++) {
-            if (seen(b, g, 0, own[i > 2])) continue;
-            double slope[3] = {0}, corner[3];
-            double now = fw_workspace_pose_strain(b->hold, &load, i, &force[i], slope).hi;
+            fw_workspace_gripped *by = fw_workspace_view_grip(b->over, g);
+            if (seen(b, g, 0, by->own[i > 2])) continue;
+            double slope[3], corner[3];
+            double now = fw_workspace_view_strain(b->over, by, i, slope).hi;
             if (!close_enough(b, i, now)) {
                 for (int k = 0; k < 3; k++)
                     corner[k] = slope[k] > 0.0 ? box->hi[k] : box->lo[k];
                 if (worth(b, box, i, now)) try_pose(b, corner, g, g);
                 if (!close_enough(b, i, now)) return false;
+                by = fw_workspace_view_grip(b->over, g); /* the pose may have taken its place */
             }
             far[i] = fmax(far[i], now);
-            most_N[i] = fmax(most_N[i], size_of(&force[i], load.half));
+            most_N[i] = fmax(most_N[i], size_of(&by->force[i], b->over->load.half));
         }
     }
     for (int i = 0; i < FW_SIX; i++) {
@@ -154,9 +136,10 @@ static fw_status start(fw_arena *arena, const fw_workspace_hold *hold, const fw_
                        fw_workspace_strain_proof *proof, bounding *b) {
     *proof = (fw_workspace_strain_proof){.hold = hold};
     *b = (bounding){.arena = arena, .hold = hold, .proof = proof};
-    size_t n = (size_t)hold->nactuator + 1;
-    FW_NEED(b->over = fw_arena_array(arena, fw_workspace_response, n));
-    FW_NEED(b->at = fw_arena_array(arena, fw_workspace_response, n));
+    FW_NEED(b->over = fw_arena_alloc(arena, 2, sizeof *b->over));
+    b->at = b->over + 1;
+    FW_TRY(fw_workspace_view_new(arena, hold, b->over));
+    FW_TRY(fw_workspace_view_new(arena, hold, b->at));
     for (int i = 0; i < 3; i++)
         b->size[i] = fmax(box->hi[i] - box->lo[i], 1e-300);
     return FW_OK;
@@ -219,4 +202,130 @@ fw_status fw_workspace_sample_strain(fw_arena *arena, const fw_workspace_hold *h
 
 const char *fw_workspace_actuation(const fw_workspace_strain_proof *proof, int hinge) {
     return proof->hold->grip[proof->most[hinge].grip].name;
+}
+
+/* ---- first order: what is known at the worst poses beside the proved strain ---- */
+
+/* Beyond it first order says nothing */
+static const double first_order_most = 0.2;
+
+/* A leg whose hinges are displaced is one whose platform hinge is. It is asked where the axis of a hinge is not known. */
+typedef struct worst {
+    const fw_workspace_hold *hold;
+    const fw_workspace_strain_extreme *at;
+    fw_workspace_response *response;
+    int hinge;
+} worst;
+
+/* strain of the hinge with C and D displaced; 0: out of reach */
+static double displaced(const worst *w, const double shift[4], fw_workspace_pose_load *load,
+                        fw_workspace_jet2 force[FW_SIX]) {
+    const double *p = w->at->pose;
+    const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    const fw_workspace_grip *grip = &w->hold->grip[w->at->grip];
+    bool certain, own[2];
+    if (!fw_workspace_pose_load_over(w->hold, &at, shift, load)) return 0.0;
+    for (int k = 0; k < 3 && !grip->wrench; k++) {
+        int i = grip->actuator[k];
+        fw_workspace_pose_response(w->hold, load, &w->hold->actuator[i], &w->response[i]);
+    }
+    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, own, force))
+        return 0.0;
+    fw_maths_interval s = fw_workspace_pose_strain(w->hold, load, w->hinge, &force[w->hinge], NULL);
+    return 0.5 * (s.lo + s.hi);
+}
+
+/* How far a hinge's drift and give move the end that a stiff leg would have, times how the strain
+   goes with that end. A leg that pushes the platform with R gives by C R the other way: its end has
+   to be held that much further along R. The left leg pushes with R, the right one with -R. give:
+   with its sign; drift: the size of what the drift does. in: N, strain/m; out: strain. */
+static void given(const fw_mechanism *m, const fw_workspace_pose_load *load, int i,
+                  const fw_workspace_jet2 *force, const double slope[2], double *give,
+                  double *drift) {
+    int k = m->pin[i].hinge;
+    if (k == FW_NONE) return;
+    const fw_mechanism_hinge *h = &m->hinge[k];
+    double theta = load->theta[i].v.m, fx = force->x.v.m, fy = force->y.v.m;
+    double sign = i < 3 ? 1.0 : -1.0, steep = hypot(slope[0], slope[1]);
+    fw_flexure_hinge_at at;
+    if (!fw_flexure_hinge_law_holds(&h->law, theta)) {
+        *drift = HUGE_VAL;
+        return;
+    }
+    fw_flexure_hinge_law_at(&h->law, theta, &at);
+    double cx = 1.0 / at.kx_N_per_m.value, cy = 1.0 / at.ky_N_per_m.value;
+    if (!isfinite(h->axis_rad)) { /* C is known within its two ends, whatever its direction */
+        *give += sign * 0.5 * (cx + cy) * (slope[0] * fx + slope[1] * fy);
+        *drift += steep * (0.5 * fabs(cx - cy) * hypot(fx, fy) + fabs(at.drift_m.value));
+        return;
+    }
+    double c = load->frame[i].x.v.m, s = load->frame[i].y.v.m;
+    double along = c * slope[0] + s * slope[1], across = c * slope[1] - s * slope[0];
+    *give += sign * (along * (c * fx + s * fy) * cx + across * (c * fy - s * fx) * cy);
+    *drift += fabs(across * at.drift_m.value);
+}
+
+/* first order, and its square for what that leaves out; far out it says nothing */
+static void give_and_drift(const worst *w, const fw_mechanism *m,
+                           const fw_workspace_pose_load *load, const fw_workspace_jet2 *force,
+                           double strain, fw_workspace_give *out) {
+    fw_workspace_pose_load beside;
+    fw_workspace_jet2 other[FW_SIX];
+    double slope[4], step = 1e-4 * w->hold->length_m, give = 0.0, drift = 0.0;
+    for (int i = 0; i < 4; i++) {
+        double up[4] = {0}, down[4] = {0};
+        up[i] = step, down[i] = -step;
+        slope[i] =
+            (displaced(w, up, &beside, other) - displaced(w, down, &beside, other)) / (2.0 * step);
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        given(m, load, i, &force[i], &slope[i < 3 ? 0 : 2], &give, &drift);
+    give /= strain, drift /= strain;
+    out->give = fmax(give, 0.0) + drift + give * give;
+    out->relief = fmax(-give, 0.0) + drift + give * give;
+    if (!(fmax(out->give, out->relief) < first_order_most)) *out = fw_workspace_nothing_known;
+}
+
+fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
+                               const fw_mechanism *m, const fw_workspace_strain_proof *proof,
+                               int hinge, const fw_workspace_give *give, fw_workspace_load *out) {
+    worst w = {.hold = hold, .at = &proof->most[hinge], .hinge = hinge};
+    *out = (fw_workspace_load){.strain = proof->strain[hinge], .most_N = proof->force_N[hinge]};
+    if (hold->section[hinge].n == 0) return FW_OK;
+    FW_NEED(w.response = fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    fw_workspace_pose_load load;
+    fw_workspace_jet2 force[FW_SIX];
+    const double none[4] = {0};
+    double strain = displaced(&w, none, &load, force);
+    out->known = true;
+    out->error = fmax(out->strain - w.at->strain.lo, 0.0);
+    out->x_m = w.at->pose[0], out->y_m = w.at->pose[1], out->phi_rad = w.at->pose[2];
+    if (!(strain > 0.0)) return FW_OK; /* nothing turns */
+    out->angle_rad = load.theta[hinge].v.m;
+    out->force_N = hypot(force[hinge].x.v.m, force[hinge].y.v.m);
+    out->actuation = hold->grip[w.at->grip].name;
+    if (hold->given_by)
+        FW_NEED(out->actuation =
+                    fw_arena_printf(arena, "%s; against it %s", out->actuation, hold->given_by));
+    int k = m->pin[hinge].hinge;
+    out->over_rotation = strain / (fabs(out->angle_rad) * m->hinge[k].closed_form.strain_per_rad);
+    fw_workspace_give by = *give;
+    if (by.first_order) give_and_drift(&w, m, &load, force, strain, &by);
+    out->give = by.give, out->relief = by.relief, out->added = by.added;
+    return FW_OK;
+}
+
+void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load *b,
+                            fw_workspace_load *out) {
+    double of_a = a->strain * (1.0 + a->added), of_b = b->strain * (1.0 + b->added);
+    fw_workspace_load most = b->strain > a->strain ? *b : *a;
+    most.most_N = fmax(a->most_N, b->most_N);
+    double all = fmax(of_a, of_b);
+    if (all > 0.0) {
+        double least = fmax(of_a * (1.0 - a->relief), of_b * (1.0 - b->relief));
+        most.added = all / most.strain - 1.0;
+        most.give = fmax(of_a * (1.0 + a->give), of_b * (1.0 + b->give)) / all - 1.0;
+        most.relief = 1.0 - least / all;
+    }
+    *out = most;
 }
