@@ -96,13 +96,11 @@ static fw_geometry_vec2 place(const grid *g, int at) {
 }
 
 static int column(const grid *g, double x) {
-    int i = (int)((x - g->box.x0) / g->cell);
-    return i < 0 ? 0 : i >= g->nx ? g->nx - 1 : i;
+    return (int)fmin(fmax((x - g->box.x0) / g->cell, 0), g->nx - 1);
 }
 
 static int row(const grid *g, double y) {
-    int i = (int)((y - g->box.y0) / g->cell);
-    return i < 0 ? 0 : i >= g->ny ? g->ny - 1 : i;
+    return (int)fmin(fmax((y - g->box.y0) / g->cell, 0), g->ny - 1);
 }
 
 /* Where the lines of one piece cross the middles of rows: into x, from `at` of each row on, which moves along; x NULL:
