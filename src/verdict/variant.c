@@ -253,7 +253,7 @@ size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         FW_REASONS * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
-        11; /* strips; out of reach or badly held, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
+        12; /* strips; out of reach or badly held, held against what is unknown, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncontact;
     return most;
@@ -454,6 +454,20 @@ static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
             fw_number_text(needed, sizeof needed, FW_WORKSPACE_HOLDS_WELL, 2)));
 }
 
+/* what acts on the six-bar besides, by way of what rides on it */
+static fw_status judge_unknown(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    if (!v->workspace.unknown) return FW_OK;
+    return of_workspace(
+        v, 646, FW_INCONCLUSIVE,
+        fw_arena_printf(
+            arena,
+            "required poses have to be held against %s, too, and how strong that is there they do "
+            "not tell: it ends at what rides on the six-bar; let it act on a body of the six-bar "
+            "or "
+            "on the ground, or judge such a pose as a scene",
+            v->workspace.unknown));
+}
+
 /* a required pose that no pose of the legs has: nothing of a hinge can be said there */
 static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_result *w = &v->workspace;
@@ -461,6 +475,7 @@ static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
     if (!w->required) return FW_OK;
     if (w->reachable) {
         FW_TRY(judge_held(arena, v));
+        FW_TRY(judge_unknown(arena, v));
         return judge_give(arena, v);
     }
     return of_workspace(

@@ -69,6 +69,39 @@ static void take_hardest(fw_verdict_bending *b, const fw_mechanism *m,
     b->beside = b->hardest_N2 > 0 ? sqrt(b->peak->value / b->hardest_N2) : 1;
 }
 
+/* of a parabola through three samples, the middle one the largest; over that one */
+static double parabola_over(const double t[3], const double f[3]) {
+    const double a = (f[1] - f[0]) / (t[1] - t[0]), c = (f[2] - f[1]) / (t[2] - t[1]);
+    const double bend = (c - a) / (t[2] - t[0]);
+    if (!(bend < 0) || !(f[1] > 0)) return 1;
+    const double slope = a + bend * (t[1] - t[0]); /* at the middle one */
+    return 1 - 0.25 * slope * slope / (bend * f[1]);
+}
+
+/* Forces of all hinges where a component of one is largest or least so far. What tips a device goes with their signs, and
+   a load that pulls first and pushes later, with less, does not tip it where it is hardest. */
+static void take_extremes(fw_verdict_bending *b, const fw_mechanism *m,
+                          const fw_dynamics_instant *now) {
+    const int n = 2 * m->nhinge;
+    for (int i = 0; i < 2 * n; i++) {
+        const int k = i / 2;
+        const double sign = i % 2 ? -1 : 1,
+                     f = sign * now->reaction_N[2 * m->hinge[k / 2].pin + k % 2];
+        fw_verdict_extreme *to = &b->extreme[i];
+        if (f > to->value_N) {
+            *to = (fw_verdict_extreme){f, now->t_s, 1};
+            for (int l = 0; l < n; l++)
+                b->extreme_N[(size_t)i * (size_t)n + (size_t)l] =
+                    now->reaction_N[2 * m->hinge[l / 2].pin + l % 2];
+        } else if (to->value_N > 0 && to->at_s == b->before_s[1] &&
+                   b->before_s[1] > b->before_s[0] && now->t_s > to->at_s && !now->begins) {
+            const double t[3] = {b->before_s[0], b->before_s[1], now->t_s},
+                         v[3] = {sign * b->before_N[k], to->value_N, f};
+            to->beside = fmax(to->beside, fmin(parabola_over(t, v), 2));
+        }
+    }
+}
+
 /* the last two instants */
 static void remember_forces(fw_verdict_bending *b, const fw_mechanism *m,
                             const fw_dynamics_instant *now) {
@@ -114,6 +147,7 @@ static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
     const double before = b->peak->value;
     fw_verdict_largest_add(b->peak, now->t_s, sum);
     if (b->peak->value > before) take_hardest(b, m, now);
+    if (b->extreme) take_extremes(b, m, now);
     remember_forces(b, m, now);
 }
 
@@ -244,6 +278,8 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->hardest_N[k] = 0;
         for (int k = 0; k <= 6 * m->nhinge; k++)
             b->peak[k] = (fw_verdict_largest){0};
+        for (int k = 0; b->extreme && k < 4 * m->nhinge; k++)
+            b->extreme[k] = (fw_verdict_extreme){0};
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->along_N[k] = 0;
         for (int i = 0; i < m->nbody; i++)
@@ -318,6 +354,11 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->along_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
     FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 6 * (size_t)m->nhinge + 1));
     if (straight) return worst_of(arena, m, arm, &bending->worst);
+    if (m->nhinge <= FW_TIPPING_HINGES) {
+        const size_t n = 2 * (size_t)m->nhinge;
+        FW_NEED(bending->extreme = fw_arena_array(arena, fw_verdict_extreme, 2 * n));
+        FW_NEED(bending->extreme_N = fw_arena_array(arena, double, 2 * n * n));
+    }
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
     if (!(m->device->release_pitch_m > 0)) return FW_OK;

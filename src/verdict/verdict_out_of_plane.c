@@ -220,6 +220,47 @@ static double forces_off(const fw_dynamics_motion *motion) {
     return motion->stats.estimate_margin * fabs(sqrt(loose / tight) - 1);
 }
 
+/* forces that are a share of those that were looked at, the same ones at all hinges, tip no earlier */
+static bool a_share_of(int n, const double *f, const double *of) {
+    double product = 0, size = 0;
+    for (int i = 0; i < n; i++)
+        product += f[i] * of[i], size += of[i] * of[i];
+    const double share = size > 0 ? product / size : 0;
+    if (!(share >= 0) || share > 1) return false;
+    double off = 0;
+    for (int i = 0; i < n; i++)
+        off += (f[i] - share * of[i]) * (f[i] - share * of[i]);
+    return off <= 1e-12 * size;
+}
+
+/* The least factor at the instant of the largest forces, and at those where a component of a hinge's force is largest one
+   way or the other (brief: not these). looked: ((1 + 2 n) x n) */
+static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
+                              const fw_verdict_bending *saw, const double *other, int n, bool brief,
+                              double *looked, double *factor, int *hinge) {
+    int count = 0;
+    *factor = HUGE_VAL, *hinge = FW_NONE;
+    for (int k = -1; k < (saw->extreme && !brief ? 2 * n : 0); k++) {
+        const double *at = k < 0 ? saw->hardest_N : saw->extreme_N + (size_t)k * (size_t)n;
+        const double beside = k < 0 ? saw->beside : saw->extreme[k].beside;
+        double *forces = looked + (size_t)count * (size_t)n;
+        if (k >= 0 && !(saw->extreme[k].value_N > 0)) continue;
+        for (int i = 0; i < n; i++)
+            forces[i] = beside * at[i];
+        bool known = false;
+        for (int j = 0; j < count && !known; j++)
+            known = a_share_of(n, forces, looked + (size_t)j * (size_t)n);
+        if (known) continue;
+        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + n, other};
+        double now;
+        int weak;
+        FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &now, &weak));
+        if (now < *factor) *factor = now, *hinge = weak;
+        count++;
+    }
+    return FW_OK;
+}
+
 static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_scene *s,
                                const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v,
                                fw_verdict_across *to) {
@@ -228,16 +269,14 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
     const int n = m->nhinge;
     if (!saw || !saw->bending.arm || !(saw->bending.hardest_N2 > 0)) return FW_OK;
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
-    const double *hardest = saw->bending.hardest_N;
     int hinge;
-    double *other, *forces = fw_arena_array(arena, double, 2 * (size_t)n);
-    FW_NEED(forces);
-    for (int i = 0; i < 2 * n; i++)
-        forces[i] = saw->bending.beside * hardest[i];
+    const size_t parts = 2 * (size_t)n, most = saw->bending.extreme ? 1 + 2 * parts : 1;
+    double *other, *looked = fw_arena_array(arena, double, most *parts);
+    FW_NEED(looked);
     FW_NEED(other = fw_arena_array(arena, double, (size_t)m->nbody));
     acting(m, s, other);
-    const fw_mechanism_plates_pressed pressed = {forces, hardest + 2 * n, other};
-    FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &to->tips, &hinge));
+    FW_TRY(
+        least_factor(arena, p, &saw->bending, other, 2 * n, v->corner, looked, &to->tips, &hinge));
     to->tips *= 1 - is->rigid.error;
     if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
     to->tips_error = forces_off(motion);

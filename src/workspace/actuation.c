@@ -1,114 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a required pose asks of the six-bar: the sections of its flexures that may be strained, and what holds it. */
+/* What a required pose asks of the six-bar: what holds it, and what acts besides. */
 #include "workspace/pose_load.h"
 #include <math.h>
 #include <string.h>
-
-/* ---- places along a flexure at which its strain is looked at ---- */
-
-enum { INSIDE = 16 }; /* parts of an arc */
-
-static double lever_of(const fw_device_flexure *f, const fw_flexure_result *c) {
-    double a = 0.5 * f->angle_rad, off = hypot(c->offset_m[0], c->offset_m[1]);
-    double arc = hypot(f->radius_m * cos(a) - c->centre_m, f->radius_m * sin(a));
-    return (f->kind == FW_FLEXURE_CSFH ? arc : 0.5 * f->length_m) + off;
-}
-
-/* no section is farther from the pin than this */
-static double farthest(const fw_flexure_path_strain *s, const double pin[2]) {
-    double far = 0;
-    for (int i = 0; i < s->n; i++)
-        far = fmax(far, hypot(s->point[i].x_m - pin[0], s->point[i].y_m - pin[1]));
-    return far;
-}
-
-/* M(P) = M + (y - yW) Fx - (x - xW) Fy, the force on the second body -F: the lever of F is (y - yW,
-   xW - x) */
-static fw_workspace_station place(const double pin[2], double x, double y, double bending,
-                                  double axial) {
-    return (fw_workspace_station){{y - pin[1], pin[0] - x}, bending, axial};
-}
-
-/* Stations of an arc: the roots with their concentration, and inside of it places so close that
-   between two of them |M| is at most r |F| (1 - cos of half their distance) above the larger. All
-   of them are below the moment at the arc's centre and r |F|. */
-static void arc(const fw_device_flexure *f, const fw_flexure_result *c, const double pin[2],
-                double bending, double kt, double axial, fw_workspace_station *to,
-                fw_workspace_section *out) {
-    double r = f->radius_m, a = 0.5 * f->angle_rad, inside = bending * c->fibre / c->concentration;
-    double above = r * (1.0 - cos(a / INSIDE)) * inside;
-    out->roots = 2;
-    out->inside = place(pin, 0.0, 0.0, inside, axial + r * inside);
-    for (int side = -1; side <= 1; side += 2)
-        to[out->n++] = place(pin, r * cos(a), side * r * sin(a), bending, kt * axial);
-    for (int i = 1; i < INSIDE; i++) {
-        double b = a * (2.0 * i / INSIDE - 1.0);
-        to[out->n++] = place(pin, r * cos(b), r * sin(b), inside, axial + above);
-    }
-}
-
-/* of a flexure that varies: between two sections the moment may rise by an eighth of its second
-   difference */
-static int varying(const fw_flexure_path_strain *s, const double pin[2], fw_workspace_station *to) {
-    for (int i = 0; i < s->n; i++) {
-        const fw_flexure_path_point *p = &s->point[i];
-        double above = 0.0;
-        if (i > 0 && i + 1 < s->n)
-            above =
-                0.125 * hypot(p[-1].x_m - 2 * p->x_m + p[1].x_m, p[-1].y_m - 2 * p->y_m + p[1].y_m);
-        to[i] = place(pin, p->x_m, p->y_m, p->strain_per_Nm,
-                      p->strain_per_N + above * p->strain_per_Nm);
-    }
-    return s->n;
-}
-
-/* The strain of eq. 1 and 2 of docs/theory/verdict.md as places along the strip. Where the axis is
-   not drawn the force acts on its largest lever, wherever it points. */
-static fw_status one_section(fw_arena *arena, const fw_mechanism *m, const fw_mechanism_hinge *h,
-                             fw_workspace_section *out) {
-    const fw_device_flexure *f = &m->device->flexure[h->flexure];
-    const fw_flexure_result *c = &h->closed_form;
-    const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
-    double scale = h->scale > 0 ? h->scale : 1;
-    double bending = c->strain_per_rad / (scale * c->stiffness_Nm_per_rad);
-    double area = fw_device_flexure_narrowest_m(f) * m->variant->thickness_m;
-    double axial = 1 / (scale * m->variant->material.youngs.value * area);
-    double kt = fw_flexure_tension_concentration(f->width_m, h->input.fillet_m);
-    bool varies = fw_flexure_input_varies(&h->input);
-    size_t most = h->section.n > INSIDE ? (size_t)h->section.n : INSIDE + 1;
-    fw_workspace_station *to = fw_arena_array(arena, fw_workspace_station, most);
-    FW_NEED(to);
-    out->station = to;
-    out->moment_Nm_per_rad = scale * c->stiffness_Nm_per_rad;
-    bool drawn = isfinite(h->axis_rad);
-    out->axis[0] = drawn ? cos(h->axis_rad) : 1.0, out->axis[1] = drawn ? sin(h->axis_rad) : 0.0;
-    if (!drawn) {
-        double lever = varies ? farthest(&h->section, pin) : lever_of(f, c);
-        to[0] = (fw_workspace_station){{0.0, 0.0}, bending, kt * axial + lever * bending};
-        out->n = 1;
-    } else if (varies) {
-        out->n = varying(&h->section, pin, to);
-    } else if (f->kind == FW_FLEXURE_CSFH) {
-        arc(f, c, pin, bending, kt, axial, to, out);
-        return FW_OK;
-    } else {
-        for (int side = 0; side < 2; side++)
-            to[side] = place(pin, 0.0, (side - 0.5) * f->length_m, bending, kt * axial);
-        out->n = 2;
-    }
-    out->roots = out->n;
-    return FW_OK;
-}
-
-static fw_status sections(fw_arena *arena, const fw_mechanism *m,
-                          fw_workspace_section section[FW_SIX]) {
-    for (int i = 0; i < FW_SIX; i++) {
-        int hinge = m->pin[i].hinge;
-        section[i] = (fw_workspace_section){.spring_Nm_per_rad = m->pin[i].stiffness_Nm_per_rad};
-        if (hinge != FW_NONE) FW_TRY(one_section(arena, m, &m->hinge[hinge], &section[i]));
-    }
-    return FW_OK;
-}
 
 /* ---- what holds a pose ---- */
 
@@ -246,6 +140,156 @@ static fw_status of_scene(gathering *g, const fw_device_scene *s) {
         FW_TRY(one_tendon(g, &s->tendon[i]));
     for (int i = 0; i < s->ncomb; i++)
         FW_TRY(one_comb(g, &s->comb[i]));
+    return FW_OK;
+}
+
+/* ---- what is given ---- */
+
+/* bodies of the loop and what rides on them: of which body of the loop; FW_NONE: on none */
+static fw_status carriers(fw_arena *arena, const fw_mechanism *m, int **on) {
+    FW_NEED(*on = fw_arena_array(arena, int, (size_t)m->nbody));
+    for (int i = 0; i < m->nbody; i++)
+        (*on)[i] = i < 5 ? i : FW_NONE;
+    for (bool more = true; more;) {
+        more = false;
+        for (int i = 0; i < m->npin + m->njoint; i++) {
+            bool pin = i < m->npin;
+            int a = pin ? m->pin[i].body_a : m->joint[i - m->npin].body_a;
+            int b = pin ? m->pin[i].body_b : m->joint[i - m->npin].body_b;
+            if (a == FW_GROUND || b == FW_GROUND || ((*on)[a] == FW_NONE) == ((*on)[b] == FW_NONE))
+                continue;
+            more = true;
+            (*on)[(*on)[a] == FW_NONE ? a : b] = (*on)[(*on)[a] == FW_NONE ? b : a];
+        }
+    }
+    return FW_OK;
+}
+
+typedef struct giving {
+    gathering in;
+    const int *on; /* (nbody) carriers */
+    fw_workspace_given *to;
+    int n;
+    const char *by, *unknown;
+} giving;
+
+/* between a point of each body; `face`: along that normal of body a, from its point to the other's */
+static fw_status between(giving *g, const fw_workspace_body_point ends[2], const double *face,
+                         fw_workspace_given as) {
+    fw_workspace_body_point *p;
+    FW_NEED(p = fw_arena_array(g->in.arena, fw_workspace_body_point, 2));
+    memcpy(p, ends, 2 * sizeof *p);
+    as.by.kind = face ? FW_ACTUATOR_ELECTRODES : FW_ACTUATOR_TENDON;
+    as.by.point = face ? p + 1 : p, as.by.npoint = face ? 1 : 2;
+    as.by.body = face ? p[1].body : FW_GROUND, as.by.against = face ? p[0].body : FW_GROUND;
+    if (face) {
+        /* pushes along the normal by what the way along it is too short */
+        as.from = p[0];
+        as.by.direction[0] = face[0], as.by.direction[1] = face[1];
+        as.stiffness_N_per_m = -as.stiffness_N_per_m, as.sense = FW_WHERE_LONGER;
+    }
+    g->to[g->n++] = as;
+    return FW_OK;
+}
+
+static fw_status named(giving *g, const char *what) {
+    FW_NEED(what);
+    if (!g->by)
+        g->by = what;
+    else
+        FW_NEED(g->by = fw_arena_printf(g->in.arena, "%s, %s", g->by, what));
+    return FW_OK;
+}
+
+static fw_status one_spring(giving *g, const fw_device_spring *s) {
+    const int a = s->body_a, b = s->body_b;
+    const int on_a = a == FW_GROUND ? FW_NONE : g->on[a],
+              on_b = b == FW_GROUND ? FW_NONE : g->on[b];
+    if (!(s->stiffness_N_per_m > 0) || (on_a == FW_NONE && on_b == FW_NONE)) return FW_OK;
+    const char *what =
+        fw_arena_printf(g->in.arena, "%s%s", FW_NAMED("spring", s->id ? s->id : "?"));
+    FW_NEED(what);
+    if (!of_the_loop(a) || !of_the_loop(b)) {
+        g->unknown = what;
+        return FW_OK;
+    }
+    FW_TRY(named(g, what));
+    const fw_workspace_body_point ends[2] = {point_of(&g->in, a, s->ax_m, s->ay_m),
+                                             point_of(&g->in, b, s->bx_m, s->by_m)};
+    return between(g, ends, NULL,
+                   (fw_workspace_given){.stiffness_N_per_m = s->stiffness_N_per_m,
+                                        .length_m = s->length_m,
+                                        .sense = s->cable ? FW_WHERE_LONGER : FW_BOTH_WAYS});
+}
+
+static bool touches_loop(const fw_device_contact_use *c) {
+    return c->joint == FW_NONE && of_the_loop(c->body_a) && of_the_loop(c->body_b) &&
+           c->body_a != c->body_b;
+}
+
+static fw_status one_contact(giving *g, const fw_device_contact_use *c) {
+    if (!touches_loop(c)) return FW_OK;
+    FW_TRY(
+        named(g, fw_arena_printf(g->in.arena, "%s%s", FW_NAMED("contact", c->id ? c->id : "?"))));
+    const double turned = c->body_a == FW_GROUND ? 0 : g->in.m->body[c->body_a].phi_rad;
+    const double face[2] = {cos(c->face_rad + turned), sin(c->face_rad + turned)};
+    const fw_workspace_body_point ends[2] = {point_of(&g->in, c->body_a, c->ax_m, c->ay_m),
+                                             point_of(&g->in, c->body_b, c->bx_m, c->by_m)};
+    return between(g, ends, c->face ? face : NULL,
+                   (fw_workspace_given){.stiffness_N_per_m = c->stiffness_N_per_m,
+                                        .length_m = c->distance_m,
+                                        .sense = c->side == FW_CONTACT_INSIDE ? FW_WHERE_LONGER
+                                                                              : FW_WHERE_SHORTER});
+}
+
+/* What rides on a body is in equilibrium there, so that its weight acts on that body at its own place, as drawn. */
+static fw_status weights(giving *g, const fw_device_scene *s) {
+    const fw_mechanism *m = g->in.m;
+    const double field = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
+    FW_TRY(named(g, fw_arena_printf(g->in.arena, "the weight in scene %s", s->name)));
+    for (int i = 0; i < m->nbody; i++) {
+        fw_workspace_body_point *p;
+        if (g->on[i] == FW_NONE) continue;
+        FW_NEED(p = fw_arena_one(g->in.arena, fw_workspace_body_point));
+        *p = point_of(&g->in, i, 0, 0), p->body = g->on[i];
+        g->to[g->n++] = (fw_workspace_given){
+            .by = {.kind = FW_ACTUATOR_FORCE,
+                   .body = p->body,
+                   .against = FW_GROUND,
+                   .direction = {s->gx_m_per_s2 / field, s->gy_m_per_s2 / field},
+                   .point = p,
+                   .npoint = 1},
+            .size_N = m->body[i].mass_kg * field};
+    }
+    return FW_OK;
+}
+
+static bool heavy(const fw_device_scene *s) {
+    return s->gravity && (s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0);
+}
+
+bool fw_workspace_scene_gives(const fw_device_scene *s) {
+    bool any = heavy(s);
+    for (int i = 0; i < s->ncontact && !any; i++)
+        any = touches_loop(&s->contact[i]);
+    return any;
+}
+
+fw_status fw_workspace_hold_given(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_device_scene *scene, fw_workspace_hold *hold) {
+    if (m->nspring == 0 && !scene) return FW_OK;
+    giving g = {.in = {.arena = arena, .m = m}};
+    int *on;
+    size_t most = (size_t)m->nspring + (size_t)m->nbody + (size_t)(scene ? scene->ncontact : 0);
+    FW_NEED(g.to = fw_arena_array(arena, fw_workspace_given, most));
+    FW_TRY(carriers(arena, m, &on));
+    g.on = on;
+    for (int i = 0; i < m->nspring; i++)
+        FW_TRY(one_spring(&g, &m->spring[i]));
+    if (scene && heavy(scene)) FW_TRY(weights(&g, scene));
+    for (int i = 0; scene && i < scene->ncontact; i++)
+        FW_TRY(one_contact(&g, &scene->contact[i]));
+    hold->given = g.to, hold->ngiven = g.n, hold->given_by = g.by, hold->unknown = g.unknown;
     return FW_OK;
 }
 
@@ -473,7 +517,7 @@ fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *m,
                                const fw_workspace_loop *loop, const fw_workspace_box3 *box,
                                fw_workspace_poses *poses, fw_workspace_hold *hold) {
     *hold = (fw_workspace_hold){.loop = loop, .poses = poses};
-    FW_TRY(sections(arena, m, hold->section));
+    FW_TRY(fw_workspace_sections(arena, m, hold->section));
     if (poses) fw_workspace_poses_are_of(poses, hold, false);
     fw_geometry_vec2 p[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)

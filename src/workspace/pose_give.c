@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is known of the hinges at their worst poses beside the proved strain: where it is, and what
-   drift and give of all hinges add to it or take away.
+/* What drift and give of all hinges add to the proved strain or take away. Corners and worst poses are
+   solved with hinges that give: the platform stands still, the four links have three unknowns each,
+   three actuators have their sizes, P is what is given (springs, weight, contacts),
 
-   First order: a leg whose hinges are displaced is one whose platform hinge is. It is asked where
-   the axis of a hinge is not known. Else corners and worst poses are solved with hinges that give: the
-   platform stands still, the four links have three unknowns each, three actuators have their sizes,
-
-     sum of the hinges' forces on body k + sum s_j G_j(k) = 0,   k = 1..5
+     sum of the hinges' forces on body k + sum s_j G_j(k) + P(k) = 0,   k = 1..5
 
    by Newton's method from the pose with pins, else along the way to it from the drawn one. Hinges
    have the law of finite_force.c, its own frame half turned, strains are those of strip_strain.c.
@@ -29,87 +26,8 @@ enum {
     STANCES = 128
 };
 
-/* relative: of the strain by the hinges' law; beyond the other first order says nothing */
-static const double law_error = 0.01, first_order_most = 0.2;
-static const fw_workspace_give nothing_known = {.give = HUGE_VAL, .relief = 1.0};
-
-/* ---- first order ---- */
-
-typedef struct worst {
-    const fw_workspace_hold *hold;
-    const fw_workspace_strain_extreme *at;
-    fw_workspace_response *response;
-    int hinge;
-} worst;
-
-/* strain of the hinge with C and D displaced; 0: out of reach */
-static double displaced(const worst *w, const double shift[4], fw_workspace_pose_load *load,
-                        fw_workspace_jet2 force[FW_SIX]) {
-    const double *p = w->at->pose;
-    const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
-    const fw_workspace_grip *grip = &w->hold->grip[w->at->grip];
-    bool certain, own[2];
-    if (!fw_workspace_pose_load_over(w->hold, &at, shift, load)) return 0.0;
-    for (int k = 0; k < 3 && !grip->wrench; k++) {
-        int i = grip->actuator[k];
-        fw_workspace_pose_response(w->hold, load, &w->hold->actuator[i], &w->response[i]);
-    }
-    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, own, force))
-        return 0.0;
-    fw_maths_interval s = fw_workspace_pose_strain(w->hold, load, w->hinge, &force[w->hinge], NULL);
-    return 0.5 * (s.lo + s.hi);
-}
-
-/* How far a hinge's drift and give move the end that a stiff leg would have, times how the strain
-   goes with that end. A leg that pushes the platform with R gives by C R the other way: its end has
-   to be held that much further along R. The left leg pushes with R, the right one with -R. give:
-   with its sign; drift: the size of what the drift does. in: N, strain/m; out: strain. */
-static void given(const fw_mechanism *m, const fw_workspace_pose_load *load, int i,
-                  const fw_workspace_jet2 *force, const double slope[2], double *give,
-                  double *drift) {
-    int k = m->pin[i].hinge;
-    if (k == FW_NONE) return;
-    const fw_mechanism_hinge *h = &m->hinge[k];
-    double theta = load->theta[i].v.m, fx = force->x.v.m, fy = force->y.v.m;
-    double sign = i < 3 ? 1.0 : -1.0, steep = hypot(slope[0], slope[1]);
-    fw_flexure_hinge_at at;
-    if (!fw_flexure_hinge_law_holds(&h->law, theta)) {
-        *drift = HUGE_VAL;
-        return;
-    }
-    fw_flexure_hinge_law_at(&h->law, theta, &at);
-    double cx = 1.0 / at.kx_N_per_m.value, cy = 1.0 / at.ky_N_per_m.value;
-    if (!isfinite(h->axis_rad)) { /* C is known within its two ends, whatever its direction */
-        *give += sign * 0.5 * (cx + cy) * (slope[0] * fx + slope[1] * fy);
-        *drift += steep * (0.5 * fabs(cx - cy) * hypot(fx, fy) + fabs(at.drift_m.value));
-        return;
-    }
-    double c = load->frame[i].x.v.m, s = load->frame[i].y.v.m;
-    double along = c * slope[0] + s * slope[1], across = c * slope[1] - s * slope[0];
-    *give += sign * (along * (c * fx + s * fy) * cx + across * (c * fy - s * fx) * cy);
-    *drift += fabs(across * at.drift_m.value);
-}
-
-/* first order, and its square for what that leaves out; far out it says nothing */
-static void give_and_drift(const worst *w, const fw_mechanism *m,
-                           const fw_workspace_pose_load *load, const fw_workspace_jet2 *force,
-                           double strain, fw_workspace_give *out) {
-    fw_workspace_pose_load beside;
-    fw_workspace_jet2 other[FW_SIX];
-    double slope[4], step = 1e-4 * w->hold->length_m, give = 0.0, drift = 0.0;
-    for (int i = 0; i < 4; i++) {
-        double up[4] = {0}, down[4] = {0};
-        up[i] = step, down[i] = -step;
-        slope[i] =
-            (displaced(w, up, &beside, other) - displaced(w, down, &beside, other)) / (2.0 * step);
-    }
-    for (int i = 0; i < FW_SIX; i++)
-        given(m, load, i, &force[i], &slope[i < 3 ? 0 : 2], &give, &drift);
-    give /= strain, drift /= strain;
-    out->give = fmax(give, 0.0) + drift + give * give;
-    out->relief = fmax(-give, 0.0) + drift + give * give;
-    if (!(fmax(out->give, out->relief) < first_order_most)) *out = nothing_known;
-}
+/* relative: of the strain by the hinges' law */
+static const double law_error = 0.01;
 
 /* ---- hinges that give ---- */
 
@@ -316,11 +234,47 @@ static void actuator_slopes(const limber *l, const standing *s, const fw_workspa
     }
 }
 
+static void of_given(const limber *l, const standing *s, loads *to) {
+    for (int k = 0; k < l->hold->ngiven; k++) {
+        const fw_workspace_given *g = &l->hold->given[k];
+        const fw_workspace_actuator *by = &g->by;
+        double way = 0;
+        if (by->kind == FW_ACTUATOR_TENDON) {
+            fw_geometry_vec2 p = point(l, s, &by->point[0]), q = point(l, s, &by->point[1]);
+            way = hypot(q.x - p.x, q.y - p.y);
+        } else if (by->kind == FW_ACTUATOR_ELECTRODES) {
+            fw_geometry_vec2 p = point(l, s, &g->from), q = point(l, s, by->point);
+            double c = cos(turn(s, by->against)), n = sin(turn(s, by->against));
+            way = (c * by->direction[0] - n * by->direction[1]) * (q.x - p.x) +
+                  (n * by->direction[0] + c * by->direction[1]) * (q.y - p.y);
+        }
+        of_actuator(l, s, by, fw_workspace_given_size(g, way), to);
+    }
+}
+
+/* and how it goes with the places of the links, by differences */
+static void given_slopes(const limber *l, const standing *s, const loads *near, double *a) {
+    const double step = 1e-7;
+    for (int k = 0; k < 12; k++) {
+        standing moved = *s;
+        loads far = {0};
+        double by = step * (k % 3 == 2 ? 1.0 : l->hold->length_m);
+        moved.body[body_of(k)][k % 3] += by;
+        of_given(l, &moved, &far);
+        for (int i = 0; i < UNKNOWN; i++)
+            a[UNKNOWN * i + k] += (far.on[i / 3][i % 3] - near->on[i / 3][i % 3]) / by;
+    }
+}
+
 /* loads on the bodies and their slopes by the unknowns, in units of rows and columns */
 static void all(const limber *l, const standing *s, const fw_workspace_grip *grip, double *r,
                 double *a) {
     loads sum = {0};
     memset(a, 0, UNKNOWN * UNKNOWN * sizeof *a);
+    if (l->hold->ngiven > 0) {
+        of_given(l, s, &sum);
+        given_slopes(l, s, &sum, a);
+    }
     for (int i = 0; i < FW_SIX; i++)
         of_hinge(l, s, i, &sum, a);
     for (int j = 0; j < 3; j++) {
@@ -539,7 +493,7 @@ fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, con
     }
     for (int i = 0; i < FW_SIX; i++) {
         if (!(to.pins[i] > 0.0) || !(to.gives[i] > 0.0)) continue;
-        give[i] = nothing_known;
+        give[i] = fw_workspace_nothing_known;
         if (!isfinite(to.gives[i])) continue;
         double is = to.gives[i] / proof->strain[i];
         double most = is * fmax(proof->strain[i] / to.pins[i], 1.0); /* elsewhere, too */
@@ -548,45 +502,4 @@ fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, con
         give[i].relief = 1.0 - is * (1.0 - law_error) / most;
     }
     return FW_OK;
-}
-
-fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
-                               const fw_mechanism *m, const fw_workspace_strain_proof *proof,
-                               int hinge, const fw_workspace_give *give, fw_workspace_load *out) {
-    worst w = {.hold = hold, .at = &proof->most[hinge], .hinge = hinge};
-    *out = (fw_workspace_load){.strain = proof->strain[hinge], .most_N = proof->force_N[hinge]};
-    if (hold->section[hinge].n == 0) return FW_OK;
-    FW_NEED(w.response = fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
-    fw_workspace_pose_load load;
-    fw_workspace_jet2 force[FW_SIX];
-    const double none[4] = {0};
-    double strain = displaced(&w, none, &load, force);
-    out->known = true;
-    out->error = fmax(out->strain - w.at->strain.lo, 0.0);
-    out->x_m = w.at->pose[0], out->y_m = w.at->pose[1], out->phi_rad = w.at->pose[2];
-    if (!(strain > 0.0)) return FW_OK; /* nothing turns */
-    out->angle_rad = load.theta[hinge].v.m;
-    out->force_N = hypot(force[hinge].x.v.m, force[hinge].y.v.m);
-    out->actuation = hold->grip[w.at->grip].name;
-    int k = m->pin[hinge].hinge;
-    out->over_rotation = strain / (fabs(out->angle_rad) * m->hinge[k].closed_form.strain_per_rad);
-    fw_workspace_give by = *give;
-    if (by.first_order) give_and_drift(&w, m, &load, force, strain, &by);
-    out->give = by.give, out->relief = by.relief, out->added = by.added;
-    return FW_OK;
-}
-
-void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load *b,
-                            fw_workspace_load *out) {
-    double of_a = a->strain * (1.0 + a->added), of_b = b->strain * (1.0 + b->added);
-    fw_workspace_load most = b->strain > a->strain ? *b : *a;
-    most.most_N = fmax(a->most_N, b->most_N);
-    double all = fmax(of_a, of_b);
-    if (all > 0.0) {
-        double least = fmax(of_a * (1.0 - a->relief), of_b * (1.0 - b->relief));
-        most.added = all / most.strain - 1.0;
-        most.give = fmax(of_a * (1.0 + a->give), of_b * (1.0 + b->give)) / all - 1.0;
-        most.relief = 1.0 - least / all;
-    }
-    *out = most;
 }

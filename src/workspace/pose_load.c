@@ -12,7 +12,7 @@
      R_E = R_F - f_EF,   R_D = R_E - f_DE.
 
    Linear in the moments and in the actuators' sizes; the three equations of the platform give
-   these sizes (Cramer). in: box m, rad; out: N. Error: proved by maths_interval.h. Cost about 10 us
+   these sizes (Cramer). What is given (springs, weight, contacts) counts with the moments. in: box m, rad; out: N. Error: proved by maths_interval.h. Cost about 10 us
    and 3 us a grip. Source: docs/theory/workspace.md. Test: test_pose_strain.c. */
 #include "workspace/pose_load.h"
 #include <math.h>
@@ -130,7 +130,7 @@ static bool acts_on(const outer *by, int side) {
     return any;
 }
 
-/* own: the hinges' moments; by: outer forces; one of them is NULL */
+/* theta: to the hinges' moments; by: to outer forces; one of them may be NULL */
 static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
                     const fw_workspace_jet *theta, const outer *by, fw_workspace_response *out) {
     fw_workspace_jet along[2][2], zero = fw_jet_exact(0.0); /* a x R, b x R of both legs */
@@ -144,14 +144,17 @@ static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load 
         along[0][0] = fw_jet_sub(m[1], m[0]), along[0][1] = fw_jet_sub(m[2], m[1]);
         along[1][0] = fw_jet_sub(m[4], m[5]), along[1][1] = fw_jet_sub(m[3], m[4]);
         turn = fw_jet_sub(m[3], m[2]);
-    } else {
+    }
+    if (by) {
         fw_workspace_jet2 left = fw_jet2_add(by->force[0], by->force[1]),
                           right = fw_jet2_add(by->force[3], by->force[4]);
-        along[0][0] = by->moment[0];
-        along[0][1] = fw_jet_sub(by->moment[1], fw_jet2_cross(o->b[0], left));
-        along[1][0] = fw_jet_negated(by->moment[4]);
-        along[1][1] = fw_jet_sub(fw_jet2_cross(o->b[1], right), by->moment[3]);
-        turn = by->moment[2];
+        along[0][0] = fw_jet_add(along[0][0], by->moment[0]);
+        along[0][1] =
+            fw_jet_add(along[0][1], fw_jet_sub(by->moment[1], fw_jet2_cross(o->b[0], left)));
+        along[1][0] = fw_jet_sub(along[1][0], by->moment[4]);
+        along[1][1] =
+            fw_jet_add(along[1][1], fw_jet_sub(fw_jet2_cross(o->b[1], right), by->moment[3]));
+        turn = fw_jet_add(turn, by->moment[2]);
     }
     fw_workspace_jet2 ground[2];
     for (int side = 0; side < 2; side++) {
@@ -210,17 +213,6 @@ bool fw_workspace_pose_places(const fw_workspace_hold *hold, const fw_workspace_
     return frames(hold, o);
 }
 
-void fw_workspace_pose_own(const fw_workspace_hold *hold, fw_workspace_pose_load *o) {
-    respond(hold, o, o->theta, NULL, &o->own);
-}
-
-bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
-                                 const double *shift, fw_workspace_pose_load *o) {
-    if (!fw_workspace_pose_places(hold, box, shift, o)) return false;
-    fw_workspace_pose_own(hold, o);
-    return true;
-}
-
 /* ---- actuators ---- */
 
 static fw_workspace_jet2 turn_of(const fw_workspace_pose_load *o, int body) {
@@ -267,9 +259,45 @@ static void pull_along(const fw_workspace_hold *hold, const fw_workspace_pose_lo
     }
 }
 
+static outer nothing(void) {
+    outer on;
+    for (int i = 0; i < 5; i++)
+        on.force[i] = fw_jet2_exact(0.0, 0.0), on.moment[i] = fw_jet_exact(0.0);
+    return on;
+}
+
+/* of size 1 */
+static void act(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                const fw_workspace_actuator *by, outer *on) {
+    switch (by->kind) {
+    case FW_ACTUATOR_TORQUE:
+        on->moment[by->body] = fw_jet_exact(hold->length_m);
+        break;
+    case FW_ACTUATOR_FORCE:
+        push(on, by->point->body, arm_of(hold, o, by->point),
+             fw_jet2_exact(by->direction[0], by->direction[1]));
+        break;
+    case FW_ACTUATOR_TENDON:
+        pull_along(hold, o, by, on);
+        break;
+    case FW_ACTUATOR_ELECTRODES: {
+        fw_workspace_jet2 f =
+            fw_jet2_turned(turn_of(o, by->against), by->direction[0], by->direction[1]);
+        push(on, by->point->body, arm_of(hold, o, by->point), f);
+        if (by->against == FW_GROUND) break;
+        fw_geometry_vec2 at = hold->at[by->against];
+        const fw_workspace_body_point pivot = {by->against, at.x, at.y};
+        fw_workspace_jet2 arm =
+            fw_jet2_sub(place_of(hold, o, by->point), place_of(hold, o, &pivot));
+        push(on, by->against, arm, (fw_workspace_jet2){fw_jet_negated(f.x), fw_jet_negated(f.y)});
+        break;
+    }
+    }
+}
+
 void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
                                 const fw_workspace_actuator *by, fw_workspace_response *out) {
-    outer on;
+    outer on = nothing();
     *out = (fw_workspace_response){0};
     if (by->platform) { /* nothing of it reaches a joint by itself */
         if (by->kind == FW_ACTUATOR_TORQUE)
@@ -279,33 +307,98 @@ void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspac
             out->wrench[1] = fw_jet_exact(by->direction[1]);
         return;
     }
-    for (int i = 0; i < 5; i++)
-        on.force[i] = fw_jet2_exact(0.0, 0.0), on.moment[i] = fw_jet_exact(0.0);
-    switch (by->kind) {
-    case FW_ACTUATOR_TORQUE:
-        on.moment[by->body] = fw_jet_exact(hold->length_m);
-        break;
-    case FW_ACTUATOR_FORCE:
-        push(&on, by->point->body, arm_of(hold, o, by->point),
-             fw_jet2_exact(by->direction[0], by->direction[1]));
-        break;
-    case FW_ACTUATOR_TENDON:
-        pull_along(hold, o, by, &on);
-        break;
-    case FW_ACTUATOR_ELECTRODES: {
-        fw_workspace_jet2 f =
-            fw_jet2_turned(turn_of(o, by->against), by->direction[0], by->direction[1]);
-        push(&on, by->point->body, arm_of(hold, o, by->point), f);
-        if (by->against == FW_GROUND) break;
-        fw_geometry_vec2 at = hold->at[by->against];
-        const fw_workspace_body_point pivot = {by->against, at.x, at.y};
-        fw_workspace_jet2 arm =
-            fw_jet2_sub(place_of(hold, o, by->point), place_of(hold, o, &pivot));
-        push(&on, by->against, arm, (fw_workspace_jet2){fw_jet_negated(f.x), fw_jet_negated(f.y)});
-        break;
-    }
-    }
+    act(hold, o, by, &on);
     respond(hold, o, NULL, &on, out);
+}
+
+/* ---- what is given ---- */
+
+/* 0 where it is not above: nowhere steeper than it was, and somewhere in between of any slope from 0 to that */
+static fw_workspace_jet above(fw_workspace_jet a) {
+    if (a.v.m - a.v.r >= 0.0) return a;
+    if (a.v.m + a.v.r <= 0.0) return fw_jet_exact(0.0);
+    a.v.m = fmax(a.v.m, 0.0);
+    for (int i = 0; i < 3; i++) {
+        double most = fw_grown(fabs(a.d[i].m) + a.d[i].r);
+        a.d[i] = (fw_maths_centred){0.5 * a.d[i].m, most, most};
+    }
+    return a;
+}
+
+/* fw_workspace_given_size over the box */
+static fw_workspace_jet size_given(const fw_workspace_given *g, fw_workspace_jet l) {
+    fw_workspace_jet size =
+        fw_jet_scaled(fw_jet_sub(l, fw_jet_exact(g->length_m)), g->stiffness_N_per_m);
+    if (g->sense == FW_WHERE_LONGER) return above(size);
+    if (g->sense == FW_WHERE_SHORTER) return fw_jet_negated(above(fw_jet_negated(size)));
+    return size;
+}
+
+/* the way between the two points of what is given */
+static fw_workspace_jet2 way_of(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                                const fw_workspace_given *g) {
+    const bool cable = g->by.kind == FW_ACTUATOR_TENDON;
+    return fw_jet2_sub(place_of(hold, o, cable ? &g->by.point[1] : g->by.point),
+                       place_of(hold, o, cable ? &g->by.point[0] : &g->from));
+}
+
+static fw_workspace_jet how_much(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                                 const fw_workspace_given *g) {
+    if (g->by.kind == FW_ACTUATOR_FORCE) return fw_jet_exact(g->size_N);
+    fw_workspace_jet2 way = way_of(hold, o, g);
+    if (g->by.kind == FW_ACTUATOR_TENDON) {
+        fw_workspace_jet n2 = fw_jet_tight(fw_jet2_dot(way, way), o->half);
+        /* what hangs slack may lie on itself, without a direction */
+        double far = fw_grown(sqrt(fmax(fw_jet_range(&n2, o->half).hi, 0.0)));
+        if (g->sense == FW_WHERE_LONGER && far < g->length_m) return fw_jet_exact(0.0);
+        return size_given(g, fw_jet_tight(fw_jet_sqrt(n2), o->half));
+    }
+    fw_workspace_jet2 n =
+        fw_jet2_turned(turn_of(o, g->by.against), g->by.direction[0], g->by.direction[1]);
+    return size_given(g, fw_jet_tight(fw_jet2_dot(n, way), o->half));
+}
+
+/* A spring without length at rest pulls with k times the way, also where that is 0. */
+static void pull_to_nothing(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                            const fw_workspace_given *g, outer *on) {
+    fw_workspace_jet2 f = way_of(hold, o, g);
+    f.x = fw_jet_scaled(f.x, g->stiffness_N_per_m), f.y = fw_jet_scaled(f.y, g->stiffness_N_per_m);
+    const fw_workspace_body_point *p = &g->by.point[0], *q = &g->by.point[1];
+    push(on, p->body, arm_of(hold, o, p), f);
+    push(on, q->body, arm_of(hold, o, q),
+         (fw_workspace_jet2){fw_jet_negated(f.x), fw_jet_negated(f.y)});
+}
+
+static void add_given(const fw_workspace_hold *hold, const fw_workspace_pose_load *o, outer *on) {
+    for (int k = 0; k < hold->ngiven; k++) {
+        const fw_workspace_given *g = &hold->given[k];
+        if (g->by.kind == FW_ACTUATOR_TENDON && g->length_m == 0.0 &&
+            g->sense != FW_WHERE_SHORTER) {
+            pull_to_nothing(hold, o, g, on);
+            continue;
+        }
+        outer one = nothing();
+        fw_workspace_jet size = how_much(hold, o, g);
+        if (is_zero(&size)) continue;
+        act(hold, o, &g->by, &one);
+        for (int i = 0; i < 5; i++) {
+            on->force[i] = fw_jet2_add(on->force[i], fw_jet2_times(one.force[i], size));
+            on->moment[i] = fw_jet_add(on->moment[i], fw_jet_mul(one.moment[i], size));
+        }
+    }
+}
+
+void fw_workspace_pose_own(const fw_workspace_hold *hold, fw_workspace_pose_load *o) {
+    outer on = nothing();
+    add_given(hold, o, &on);
+    respond(hold, o, o->theta, hold->ngiven > 0 ? &on : NULL, &o->own);
+}
+
+bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                                 const double *shift, fw_workspace_pose_load *o) {
+    if (!fw_workspace_pose_places(hold, box, shift, o)) return false;
+    fw_workspace_pose_own(hold, o);
+    return true;
 }
 
 /* ---- a grip ---- */
@@ -353,114 +446,4 @@ bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_
             own[side] = own[side] && !r[j]->on_leg[side];
     }
     return true;
-}
-
-/* ---- strain ---- */
-
-/* largest size of what lies in the interval, and the least */
-static fw_maths_interval size_of(fw_maths_interval a) {
-    double far = fmax(fabs(a.lo), fabs(a.hi));
-    double near = a.lo > 0.0 ? a.lo : a.hi < 0.0 ? -a.hi : 0.0;
-    return (fw_maths_interval){near, far};
-}
-
-/* m + sum g_i s_i within rest, |s_i| <= 1 across the box; of many stations of one hinge, which are
-   sums of four of these */
-typedef struct plane {
-    double m, g[3], rest;
-} plane;
-
-static plane plane_of(const fw_workspace_jet *a, const double half[3]) {
-    plane p = {.m = a->v.m, .rest = a->v.e};
-    for (int i = 0; i < 3; i++) {
-        p.g[i] = half[i] * a->d[i].m;
-        p.rest += half[i] * 0.5 * (a->d[i].e + a->d[i].r);
-    }
-    p.rest = fw_grown(fw_grown(p.rest));
-    if (a->v.r < p.rest) p = (plane){.m = a->v.m, .rest = a->v.r}; /* the box is too large for it */
-    return p;
-}
-
-typedef struct loaded {       /* of one hinge over one box */
-    plane moment, fx, fy;     /* K theta; force in the frame half turned */
-    plane along;              /* n.F, n the force's direction in the middle: |F| <= n.F + beside */
-    double beside, far, near; /* far and near bound |F| in any case */
-    bool slanted;             /* `along` holds */
-} loaded;
-
-static void press(const fw_workspace_jet2 *f, const double half[3], loaded *p) {
-    fw_maths_interval x = size_of(fw_jet_range(&f->x, half)),
-                      y = size_of(fw_jet_range(&f->y, half));
-    p->far = fw_grown(sqrt(fw_grown(x.hi * x.hi + y.hi * y.hi)));
-    p->near = fmax(fw_down(sqrt(x.lo * x.lo + y.lo * y.lo)) * (1.0 - 1e-15), 0.0);
-    p->slanted = false;
-    double n = hypot(f->x.v.m, f->y.v.m);
-    if (!(n > 0.0) || !isfinite(p->far)) return;
-    double nx = f->x.v.m / n, ny = f->y.v.m / n; /* of length 1 within 2^-51 */
-    fw_workspace_jet along = fw_jet_add(fw_jet_scaled(f->x, nx), fw_jet_scaled(f->y, ny));
-    fw_workspace_jet across = fw_jet_sub(fw_jet_scaled(f->y, nx), fw_jet_scaled(f->x, ny));
-    fw_maths_interval least = fw_jet_range(&along, half),
-                      off = size_of(fw_jet_range(&across, half));
-    if (!(least.lo > 0.0)) return;
-    p->along = plane_of(&along, half);
-    p->beside = fw_grown(fw_grown(0.5 * off.hi * off.hi) / least.lo) + 1e-14 * p->far;
-    p->slanted = true;
-}
-
-/* Range of bending |M - lever.F| + axial |F|. The sums of planes are rounded as numbers are: they
-   err by a few units of the sizes that are added. */
-static fw_maths_interval one_station(const fw_workspace_station *at, const loaded *p,
-                                     double slope[3]) {
-    double w = at->bending_per_Nm, x = at->lever_m[0], y = at->lever_m[1], ax = at->axial_per_N;
-    double m = w * (p->moment.m - x * p->fx.m - y * p->fy.m), g[3], reach = 0.0, size;
-    size = w * (fabs(p->moment.m) + fabs(x * p->fx.m) + fabs(y * p->fy.m));
-    double rest = w * (p->moment.rest + fabs(x) * p->fx.rest + fabs(y) * p->fy.rest);
-    for (int i = 0; i < 3; i++) {
-        g[i] = w * (p->moment.g[i] - x * p->fx.g[i] - y * p->fy.g[i]);
-        size += w * (fabs(p->moment.g[i]) + fabs(x * p->fx.g[i]) + fabs(y * p->fy.g[i]));
-        reach += fabs(g[i]);
-    }
-    double sign = m < 0.0 ? -1.0 : 1.0, slack = (size + rest + ax * p->far) * 0x1p-46;
-    double hi = fabs(m) + reach + rest + ax * p->far + slack;
-    double lo = fabs(m) - reach - rest - slack;
-    lo = (lo > 0.0 ? lo : 0.0) + fw_down(ax * p->near);
-    if (p->slanted) {
-        double q = ax * p->along.m, more = ax * (p->along.rest + p->beside), up = 0.0, down = 0.0;
-        for (int i = 0; i < 3; i++) {
-            up += fabs(g[i] + ax * p->along.g[i]);
-            down += fabs(g[i] - ax * p->along.g[i]);
-        }
-        up = m + q + up + rest + more + slack, down = -m + q + down + rest + more + slack;
-        double most = up > down ? up : down;
-        if (most < hi) hi = most;
-    }
-    for (int i = 0; i < 3; i++)
-        slope[i] = sign * g[i] + (p->slanted ? ax * p->along.g[i] : 0.0);
-    return (fw_maths_interval){lo, hi};
-}
-
-fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
-                                           const fw_workspace_pose_load *o, int hinge,
-                                           const fw_workspace_jet2 *force, double slope[3]) {
-    const fw_workspace_section *s = &hold->section[hinge];
-    fw_maths_interval all = {0.0, 0.0};
-    if (s->n == 0) return all;
-    fw_workspace_jet2 t = o->frame[hinge];
-    fw_workspace_jet along = fw_jet_tight(fw_jet2_dot(t, *force), o->half),
-                     across = fw_jet_tight(fw_jet2_cross(t, *force), o->half),
-                     moment = fw_jet_scaled(o->theta[hinge], s->moment_Nm_per_rad);
-    loaded p = {.moment = plane_of(&moment, o->half),
-                .fx = plane_of(&along, o->half),
-                .fy = plane_of(&across, o->half)};
-    press(force, o->half, &p);
-    for (int i = 0; i < s->n; i++) {
-        double now[3];
-        if (i == s->roots && one_station(&s->inside, &p, now).hi <= all.hi) break;
-        fw_maths_interval one = one_station(&s->station[i], &p, now);
-        if (one.lo > all.lo) all.lo = one.lo;
-        for (int k = 0; k < 3 && slope && one.hi > all.hi; k++)
-            slope[k] = now[k];
-        if (!(one.hi <= all.hi) && !isnan(all.hi)) all.hi = one.hi; /* NaN is kept */
-    }
-    return all;
 }

@@ -145,7 +145,7 @@ static inline fw_workspace_jet2 fw_jet2_both(fw_workspace_jet2 a, fw_workspace_j
                                fw_jet_add(fw_jet_mul(a.x, b.y), fw_jet_mul(a.y, b.x))};
 }
 
-/* ---- actuation.c: places along a flexure at which its strain is looked at ---- */
+/* ---- pose_view.c: places along a flexure at which its strain is looked at ---- */
 
 /* strain = bending |K theta - lever.F| + axial |F|, F the joint's force on its second body in the
    frame half turned; N m, N */
@@ -162,6 +162,9 @@ typedef struct fw_workspace_section {    /* of one of the six hinges */
     int roots;                           /* the first ones; all others are below `inside` */
     fw_workspace_station inside;         /* not looked at where all stations are roots */
 } fw_workspace_section;
+
+fw_status fw_workspace_sections(fw_arena *arena, const fw_mechanism *mechanism,
+                                fw_workspace_section section[FW_SIX]);
 
 /* ---- actuation.c: what holds a pose ---- */
 
@@ -196,8 +199,31 @@ typedef struct fw_workspace_grip { /* three actuators that hold the pose */
     const char *name; /* "torque on AB, force on CD" */
 } fw_workspace_grip;
 
+/* What acts at a pose whatever holds it, a spring, a weight, what is touched: k (l - length), of the kind of an
+   actuator. l is the distance of a tendon's two points; of electrodes the way from `from` to their point along their
+   direction; a force has a size of its own. */
+typedef enum fw_workspace_sense {
+    FW_BOTH_WAYS,
+    FW_WHERE_LONGER,
+    FW_WHERE_SHORTER
+} fw_workspace_sense;
+typedef struct fw_workspace_given {
+    fw_workspace_actuator by;
+    fw_workspace_body_point from;
+    double size_N, stiffness_N_per_m, length_m;
+    fw_workspace_sense sense; /* 0 where it is not so */
+} fw_workspace_given;
+
+static inline double fw_workspace_given_size(const fw_workspace_given *g, double l) {
+    double size = g->stiffness_N_per_m * (l - g->length_m);
+    if (g->by.kind == FW_ACTUATOR_FORCE) return g->size_N;
+    return g->sense == FW_BOTH_WAYS      ? size
+           : g->sense == FW_WHERE_LONGER ? fmax(size, 0)
+                                         : fmin(size, 0);
+}
+
 typedef struct fw_workspace_poses
-    fw_workspace_poses; /* poses that were looked at before: pose_strain.c */
+    fw_workspace_poses; /* poses that were looked at before: pose_view.c */
 
 /* what is held by what: of one flow */
 struct fw_workspace_hold {
@@ -213,6 +239,11 @@ struct fw_workspace_hold {
     /* the three of the scenes' actuators that hold the box best where none does well, and their least volume; NULL */
     const char *badly_by;
     double badly;
+    const fw_workspace_given *given; /* (ngiven) */
+    int ngiven;
+    const char *given_by; /* all of it, to be read; NULL: nothing is given */
+    const char
+        *unknown; /* acts, too, with a force that the pose does not tell; NULL: nothing does */
 };
 
 /* which grips there are over a box: triples that hold all of it */
@@ -220,12 +251,19 @@ fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_workspace_loop *loop, const fw_workspace_box3 *box,
                                fw_workspace_poses *poses, fw_workspace_hold *hold);
 
+/* adds what is given: springs, and weight and contacts of that scene, or of none (NULL) */
+fw_status fw_workspace_hold_given(fw_arena *arena, const fw_mechanism *mechanism,
+                                  const fw_device_scene *scene, fw_workspace_hold *hold);
+/* a scene of the mechanism that has something to give */
+bool fw_workspace_scene_gives(const fw_device_scene *scene);
+
 /* ---- pose_load.c: statics over a box ---- */
 
-typedef struct fw_workspace_response { /* to one actuator, or to the hinges' own moments */
-    fw_workspace_jet2 force[FW_SIX];   /* of hinge i on its second body, N */
-    fw_workspace_jet wrench[3];        /* that the platform lacks: N, N, N (times length_m) */
-    bool on_leg[2];                    /* left, right: force is not 0 there */
+typedef struct
+    fw_workspace_response { /* to one actuator, or to the hinges' own moments and what is given */
+    fw_workspace_jet2 force[FW_SIX]; /* of hinge i on its second body, N */
+    fw_workspace_jet wrench[3];      /* that the platform lacks: N, N, N (times length_m) */
+    bool on_leg[2];                  /* left, right: force is not 0 there */
 } fw_workspace_response;
 
 typedef struct fw_workspace_pose_load {
@@ -236,14 +274,15 @@ typedef struct fw_workspace_pose_load {
     fw_workspace_jet gain[2];        /* 1/(a x b) */
     fw_workspace_jet theta[FW_SIX];  /* joint angles */
     fw_workspace_jet2 frame[FW_SIX]; /* (cos, sin) of every hinge's axis, half turned */
-    fw_workspace_response own; /* to the hinges' moments; last: the rest is of the pose alone */
+    fw_workspace_response
+        own; /* to the hinges' moments and what is given; last: the rest is of the pose alone */
 } fw_workspace_pose_load;
 
 /* where everything is: all of it but the forces. false: not every pose of the box is known to be reached. shift: what C
    and D are displaced by against the rest of the platform (m, four numbers), or NULL */
 bool fw_workspace_pose_places(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
                               const double *shift, fw_workspace_pose_load *out);
-/* the response to the hinges' moments there */
+/* the response to the hinges' moments and what is given there */
 void fw_workspace_pose_own(const fw_workspace_hold *hold, fw_workspace_pose_load *at);
 /* both */
 bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
@@ -256,13 +295,15 @@ void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspac
 bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
                               const fw_workspace_response *response, const fw_workspace_grip *grip,
                               bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX]);
+/* ---- pose_view.c: what that strains ---- */
+
 /* range that holds the largest strain of a hinge at every pose of the box, and where in the box it
    grows to (signs of its slope; may be NULL) */
 fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
                                            const fw_workspace_pose_load *at, int hinge,
                                            const fw_workspace_jet2 *force, double slope[3]);
 
-/* ---- pose_strain.c: boxes that are looked at ---- */
+/* ---- pose_view.c: boxes that are looked at ---- */
 
 fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses);
 /* What was kept of another mechanism than this hold is not found again; its sections are set, and with `whole` its
@@ -319,6 +360,7 @@ typedef struct fw_workspace_give {
     bool first_order;           /* not known yet: by first order at the hinge's own worst pose */
     double added, give, relief; /* of fw_workspace_load */
 } fw_workspace_give;
+static const fw_workspace_give fw_workspace_nothing_known = {.give = HUGE_VAL, .relief = 1.0};
 fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold,
                              const fw_mechanism *mechanism, const fw_workspace_box3 *box,
                              const fw_workspace_strain_proof *proof,

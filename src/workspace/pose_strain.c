@@ -1,237 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What poses strain: the strain over a box, and what is known of it
+   at the worst poses. */
 #include "base/text.h"
 #include "workspace/pose_load.h"
 #include <math.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
-
-/* ---- boxes that were looked at before ----
-   Of the devices of a study much is the same to the last bit: where everything is, unless a pin moves; forces, unless a
-   spring, a grip or the platform does; the strain of a hinge, unless it is another one. What is kept carries the number
-   of what it was found with, and is found again with the same alone. Test: test_pose_strain.c what_devices_have_in_common */
-
-enum {
-    POSES = 1024, /* a power of 2: one place for each box */
-    GRIPS = 8,    /* the first ones of a hold, of which forces are kept */
-    BOXES = 256,  /* that have room for them: 3 MB */
-    KINDS = 4,    /* flows take turns */
-    WORDS = 320
-};
-
-typedef struct kind { /* what something was found with, as numbers */
-    long is;          /* 0: there is none */
-    int n;
-    double word[WORDS];
-} kind;
-
-typedef struct kinds {
-    kind item[KINDS];
-    int next; /* to be replaced */
-} kinds;
-
-typedef struct placed {
-    fw_workspace_box3 box;
-    long of; /* 0: of none */
-    bool reached;
-    char at[offsetof(fw_workspace_pose_load, own)];
-    long filled, forces;        /* counted; forces of `grip` */
-    fw_workspace_gripped *grip; /* (GRIPS) or NULL */
-} placed;
-
-struct fw_workspace_poses {
-    fw_arena *arena;
-    long of, filled, kind; /* counted: mechanisms, boxes, kinds */
-    fw_workspace_loop loop;
-    double axis[FW_SIX][2];        /* 0, 0: no section */
-    placed *item;                  /* (POSES) */
-    int roomy;                     /* boxes that have room for forces */
-    const fw_workspace_hold *hold; /* that is looked at now */
-    long forces, section[FW_SIX];  /* its numbers; 0: forces are not kept */
-    kinds of_forces, of_section[FW_SIX];
-};
-
-fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses) {
-    FW_NEED(*poses = fw_arena_one(arena, fw_workspace_poses));
-    (*poses)->arena = arena;
-    FW_NEED((*poses)->item = fw_arena_array(arena, placed, POSES));
-    return FW_OK;
-}
-
-static void say(kind *k, double word) {
-    if (k->n < WORDS) k->word[k->n] = word;
-    k->n++;
-}
-
-/* its number, that of an equal one where there is one; 0: it is too long to be known again */
-static long number_of(fw_workspace_poses *p, kinds *all, const kind *now) {
-    if (now->n > WORDS) return 0;
-    for (int i = 0; i < KINDS; i++) {
-        const kind *was = &all->item[i];
-        if (was->is > 0 && was->n == now->n &&
-            memcmp(was->word, now->word, (size_t)now->n * sizeof *now->word) == 0)
-            return was->is;
-    }
-    kind *to = &all->item[all->next];
-    all->next = (all->next + 1) % KINDS;
-    *to = *now;
-    return to->is = ++p->kind;
-}
-
-static void say_actuator(kind *k, const fw_workspace_actuator *a) {
-    say(k, a->kind), say(k, a->body), say(k, a->against), say(k, a->pulls), say(k, a->platform);
-    say(k, a->direction[0]), say(k, a->direction[1]), say(k, a->npoint);
-    for (int i = 0; i < a->npoint; i++)
-        say(k, a->point[i].body), say(k, a->point[i].x_m), say(k, a->point[i].y_m);
-}
-
-static void say_station(kind *k, const fw_workspace_station *s) {
-    say(k, s->lever_m[0]), say(k, s->lever_m[1]), say(k, s->bending_per_Nm), say(k, s->axial_per_N);
-}
-
-static void keep_forces_of(fw_workspace_poses *p, const fw_workspace_hold *h) {
-    kind all = {.n = 0};
-    say(&all, h->length_m);
-    for (int i = 0; i < 5; i++)
-        say(&all, h->at[i].x), say(&all, h->at[i].y);
-    for (int i = 0; i < h->nactuator; i++)
-        say_actuator(&all, &h->actuator[i]);
-    for (int i = 0; i < h->ngrip && i < GRIPS; i++)
-        for (int j = 0; j < 3; j++)
-            say(&all, h->grip[i].actuator[j]), say(&all, h->grip[i].wrench);
-    for (int i = 0; i < FW_SIX; i++) {
-        const fw_workspace_section *s = &h->section[i];
-        kind one = {.n = 0};
-        say(&all, s->spring_Nm_per_rad);
-        say(&one, s->moment_Nm_per_rad), say(&one, s->n), say(&one, s->roots);
-        say_station(&one, &s->inside);
-        for (int j = 0; j < s->n; j++)
-            say_station(&one, &s->station[j]);
-        p->section[i] = number_of(p, &p->of_section[i], &one);
-    }
-    p->forces = number_of(p, &p->of_forces, &all);
-}
-
-void fw_workspace_poses_are_of(fw_workspace_poses *p, const fw_workspace_hold *hold, bool whole) {
-    double axis[FW_SIX][2] = {{0}};
-    p->hold = hold, p->forces = 0;
-    if (whole) keep_forces_of(p, hold);
-    for (int i = 0; i < FW_SIX; i++)
-        if (hold->section[i].n > 0) memcpy(axis[i], hold->section[i].axis, sizeof axis[i]);
-    if (p->of > 0 && memcmp(&p->loop, hold->loop, sizeof p->loop) == 0 &&
-        memcmp(p->axis, axis, sizeof axis) == 0)
-        return;
-    p->of++;
-    p->loop = *hold->loop;
-    memcpy(p->axis, axis, sizeof axis);
-}
-
-static placed *place_in(const fw_workspace_poses *p, const fw_workspace_box3 *box) {
-    uint64_t word[sizeof *box / sizeof(uint64_t)], sum = 0;
-    memcpy(word, box, sizeof word);
-    for (size_t i = 0; i < sizeof word / sizeof word[0]; i++)
-        sum = (sum ^ word[i] ^ sum >> 29) * UINT64_C(0x9e3779b97f4a7c15);
-    return &p->item[sum >> 32 & (POSES - 1)];
-}
-
-/* *kept: where it stands now; NULL: nowhere */
-static bool places(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
-                   fw_workspace_pose_load *o, placed **kept) {
-    fw_workspace_poses *p = hold->poses;
-    *kept = NULL;
-    if (!p || p->hold != hold) return fw_workspace_pose_places(hold, box, NULL, o);
-    placed *was = *kept = place_in(p, box);
-    if (was->of == p->of && memcmp(&was->box, box, sizeof *box) == 0) {
-        memcpy(o, was->at, sizeof was->at);
-        return was->reached;
-    }
-    was->reached = fw_workspace_pose_places(hold, box, NULL, o);
-    was->of = p->of, was->box = *box;
-    was->filled = ++p->filled, was->forces = 0;
-    memcpy(was->at, o, sizeof was->at);
-    return was->reached;
-}
-
-bool fw_workspace_poses_find(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
-                             fw_workspace_pose_load *o) {
-    placed *unused;
-    return places(hold, box, o, &unused);
-}
-
-fw_status fw_workspace_view_new(fw_arena *arena, const fw_workspace_hold *hold,
-                                fw_workspace_view *view) {
-    const size_t n = (size_t)hold->nactuator + 1;
-    *view = (fw_workspace_view){.hold = hold};
-    FW_NEED(view->response = fw_arena_array(arena, fw_workspace_response, n));
-    FW_NEED(view->responded = fw_arena_array(arena, bool, n));
-    return FW_OK;
-}
-
-bool fw_workspace_view_at(fw_workspace_view *v, const fw_workspace_box3 *box) {
-    v->owned = false, v->here_of = FW_NONE;
-    memset(v->responded, 0, (size_t)v->hold->nactuator * sizeof *v->responded);
-    const bool reached = places(v->hold, box, &v->load, &v->kept);
-    v->filled = v->kept ? v->kept->filled : 0;
-    return reached;
-}
-
-/* where forces of the first grips are kept; NULL: nowhere, or another box has taken the place meanwhile */
-static fw_workspace_gripped *kept_grips(const fw_workspace_view *v) {
-    fw_workspace_poses *p = v->hold->poses;
-    placed *k = v->kept;
-    if (!k || p->hold != v->hold || p->forces == 0 || k->filled != v->filled) return NULL;
-    if (!k->grip && p->roomy < BOXES) {
-        k->grip = fw_arena_array(p->arena, fw_workspace_gripped, GRIPS);
-        p->roomy += k->grip != NULL;
-    }
-    if (k->grip && k->forces != p->forces)
-        for (int i = 0; i < GRIPS; i++)
-            k->grip[i].known = false;
-    k->forces = p->forces;
-    return k->grip;
-}
-
-static fw_workspace_gripped *room_of(fw_workspace_view *v, int grip) {
-    fw_workspace_gripped *kept = grip < GRIPS ? kept_grips(v) : NULL;
-    if (kept) return &kept[grip];
-    if (v->here_of != grip) v->here.known = false;
-    v->here_of = grip;
-    return &v->here;
-}
-
-fw_workspace_gripped *fw_workspace_view_grip(fw_workspace_view *v, int grip) {
-    const fw_workspace_hold *h = v->hold;
-    const fw_workspace_grip *by = &h->grip[grip];
-    fw_workspace_gripped *to = room_of(v, grip);
-    if (to->known) return to;
-    if (!v->owned) fw_workspace_pose_own(h, &v->load);
-    v->owned = true;
-    for (int k = 0; k < 3 && !by->wrench; k++) {
-        const int i = by->actuator[k];
-        if (!v->responded[i])
-            fw_workspace_pose_response(h, &v->load, &h->actuator[i], &v->response[i]);
-        v->responded[i] = true;
-    }
-    to->holds =
-        fw_workspace_pose_forces(h, &v->load, v->response, by, &to->certain, to->own, to->force);
-    memset(to->section, 0, sizeof to->section);
-    to->known = true;
-    return to;
-}
-
-fw_maths_interval fw_workspace_view_strain(const fw_workspace_view *v, fw_workspace_gripped *by,
-                                           int hinge, double slope[3]) {
-    const fw_workspace_poses *p = v->hold->poses;
-    const long section = by == &v->here ? 0 : p->section[hinge];
-    if (section == 0 || by->section[hinge] != section) {
-        memset(by->slope[hinge], 0, sizeof by->slope[hinge]);
-        by->strain[hinge] =
-            fw_workspace_pose_strain(v->hold, &v->load, hinge, &by->force[hinge], by->slope[hinge]);
-        by->section[hinge] = section;
-    }
-    if (slope) memcpy(slope, by->slope[hinge], sizeof by->slope[hinge]);
-    return by->strain[hinge];
-}
 
 /* ---- over a whole required box ---- */
 
@@ -429,4 +202,130 @@ fw_status fw_workspace_sample_strain(fw_arena *arena, const fw_workspace_hold *h
 
 const char *fw_workspace_actuation(const fw_workspace_strain_proof *proof, int hinge) {
     return proof->hold->grip[proof->most[hinge].grip].name;
+}
+
+/* ---- first order: what is known at the worst poses beside the proved strain ---- */
+
+/* Beyond it first order says nothing */
+static const double first_order_most = 0.2;
+
+/* A leg whose hinges are displaced is one whose platform hinge is. It is asked where the axis of a hinge is not known. */
+typedef struct worst {
+    const fw_workspace_hold *hold;
+    const fw_workspace_strain_extreme *at;
+    fw_workspace_response *response;
+    int hinge;
+} worst;
+
+/* strain of the hinge with C and D displaced; 0: out of reach */
+static double displaced(const worst *w, const double shift[4], fw_workspace_pose_load *load,
+                        fw_workspace_jet2 force[FW_SIX]) {
+    const double *p = w->at->pose;
+    const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    const fw_workspace_grip *grip = &w->hold->grip[w->at->grip];
+    bool certain, own[2];
+    if (!fw_workspace_pose_load_over(w->hold, &at, shift, load)) return 0.0;
+    for (int k = 0; k < 3 && !grip->wrench; k++) {
+        int i = grip->actuator[k];
+        fw_workspace_pose_response(w->hold, load, &w->hold->actuator[i], &w->response[i]);
+    }
+    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, own, force))
+        return 0.0;
+    fw_maths_interval s = fw_workspace_pose_strain(w->hold, load, w->hinge, &force[w->hinge], NULL);
+    return 0.5 * (s.lo + s.hi);
+}
+
+/* How far a hinge's drift and give move the end that a stiff leg would have, times how the strain
+   goes with that end. A leg that pushes the platform with R gives by C R the other way: its end has
+   to be held that much further along R. The left leg pushes with R, the right one with -R. give:
+   with its sign; drift: the size of what the drift does. in: N, strain/m; out: strain. */
+static void given(const fw_mechanism *m, const fw_workspace_pose_load *load, int i,
+                  const fw_workspace_jet2 *force, const double slope[2], double *give,
+                  double *drift) {
+    int k = m->pin[i].hinge;
+    if (k == FW_NONE) return;
+    const fw_mechanism_hinge *h = &m->hinge[k];
+    double theta = load->theta[i].v.m, fx = force->x.v.m, fy = force->y.v.m;
+    double sign = i < 3 ? 1.0 : -1.0, steep = hypot(slope[0], slope[1]);
+    fw_flexure_hinge_at at;
+    if (!fw_flexure_hinge_law_holds(&h->law, theta)) {
+        *drift = HUGE_VAL;
+        return;
+    }
+    fw_flexure_hinge_law_at(&h->law, theta, &at);
+    double cx = 1.0 / at.kx_N_per_m.value, cy = 1.0 / at.ky_N_per_m.value;
+    if (!isfinite(h->axis_rad)) { /* C is known within its two ends, whatever its direction */
+        *give += sign * 0.5 * (cx + cy) * (slope[0] * fx + slope[1] * fy);
+        *drift += steep * (0.5 * fabs(cx - cy) * hypot(fx, fy) + fabs(at.drift_m.value));
+        return;
+    }
+    double c = load->frame[i].x.v.m, s = load->frame[i].y.v.m;
+    double along = c * slope[0] + s * slope[1], across = c * slope[1] - s * slope[0];
+    *give += sign * (along * (c * fx + s * fy) * cx + across * (c * fy - s * fx) * cy);
+    *drift += fabs(across * at.drift_m.value);
+}
+
+/* first order, and its square for what that leaves out; far out it says nothing */
+static void give_and_drift(const worst *w, const fw_mechanism *m,
+                           const fw_workspace_pose_load *load, const fw_workspace_jet2 *force,
+                           double strain, fw_workspace_give *out) {
+    fw_workspace_pose_load beside;
+    fw_workspace_jet2 other[FW_SIX];
+    double slope[4], step = 1e-4 * w->hold->length_m, give = 0.0, drift = 0.0;
+    for (int i = 0; i < 4; i++) {
+        double up[4] = {0}, down[4] = {0};
+        up[i] = step, down[i] = -step;
+        slope[i] =
+            (displaced(w, up, &beside, other) - displaced(w, down, &beside, other)) / (2.0 * step);
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        given(m, load, i, &force[i], &slope[i < 3 ? 0 : 2], &give, &drift);
+    give /= strain, drift /= strain;
+    out->give = fmax(give, 0.0) + drift + give * give;
+    out->relief = fmax(-give, 0.0) + drift + give * give;
+    if (!(fmax(out->give, out->relief) < first_order_most)) *out = fw_workspace_nothing_known;
+}
+
+fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
+                               const fw_mechanism *m, const fw_workspace_strain_proof *proof,
+                               int hinge, const fw_workspace_give *give, fw_workspace_load *out) {
+    worst w = {.hold = hold, .at = &proof->most[hinge], .hinge = hinge};
+    *out = (fw_workspace_load){.strain = proof->strain[hinge], .most_N = proof->force_N[hinge]};
+    if (hold->section[hinge].n == 0) return FW_OK;
+    FW_NEED(w.response = fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    fw_workspace_pose_load load;
+    fw_workspace_jet2 force[FW_SIX];
+    const double none[4] = {0};
+    double strain = displaced(&w, none, &load, force);
+    out->known = true;
+    out->error = fmax(out->strain - w.at->strain.lo, 0.0);
+    out->x_m = w.at->pose[0], out->y_m = w.at->pose[1], out->phi_rad = w.at->pose[2];
+    if (!(strain > 0.0)) return FW_OK; /* nothing turns */
+    out->angle_rad = load.theta[hinge].v.m;
+    out->force_N = hypot(force[hinge].x.v.m, force[hinge].y.v.m);
+    out->actuation = hold->grip[w.at->grip].name;
+    if (hold->given_by)
+        FW_NEED(out->actuation =
+                    fw_arena_printf(arena, "%s; against it %s", out->actuation, hold->given_by));
+    int k = m->pin[hinge].hinge;
+    out->over_rotation = strain / (fabs(out->angle_rad) * m->hinge[k].closed_form.strain_per_rad);
+    fw_workspace_give by = *give;
+    if (by.first_order) give_and_drift(&w, m, &load, force, strain, &by);
+    out->give = by.give, out->relief = by.relief, out->added = by.added;
+    return FW_OK;
+}
+
+void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load *b,
+                            fw_workspace_load *out) {
+    double of_a = a->strain * (1.0 + a->added), of_b = b->strain * (1.0 + b->added);
+    fw_workspace_load most = b->strain > a->strain ? *b : *a;
+    most.most_N = fmax(a->most_N, b->most_N);
+    double all = fmax(of_a, of_b);
+    if (all > 0.0) {
+        double least = fmax(of_a * (1.0 - a->relief), of_b * (1.0 - b->relief));
+        most.added = all / most.strain - 1.0;
+        most.give = fmax(of_a * (1.0 + a->give), of_b * (1.0 + b->give)) / all - 1.0;
+        most.relief = 1.0 - least / all;
+    }
+    *out = most;
 }

@@ -319,14 +319,27 @@ static fw_status certify(fw_arena *arena, const fw_workspace_loop *loop, fw_work
     return FW_OK;
 }
 
-/* strains over one box, and the worst pose so far of every hinge */
+/* of one box and what is given in two scenes: the worse one of every hinge */
+static void both(const fw_workspace_strain_proof *now, fw_workspace_strain_proof *all) {
+    all->proved = all->proved && now->proved;
+    for (int i = 0; i < FW_SIX; i++) {
+        all->force_N[i] = fmax(all->force_N[i], now->force_N[i]);
+        if (now->strain[i] > all->strain[i])
+            all->strain[i] = now->strain[i], all->most[i] = now->most[i];
+    }
+}
+
+/* Strains over one box, and the worst pose so far of every hinge. scene: whose weight and contacts are given; NULL: none */
 static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_workspace_loop *loop,
                             fw_workspace_kept *kept, const fw_workspace_box3 *box,
-                            fw_workspace_strain_proof *proof, fw_workspace_result *result) {
+                            const fw_device_scene *scene, fw_workspace_strain_proof *proof,
+                            fw_workspace_result *result) {
     fw_workspace_hold *hold = fw_arena_one(arena, fw_workspace_hold);
     fw_workspace_proof_end end;
     FW_NEED(hold);
     FW_TRY(fw_workspace_hold_of(arena, m, loop, box, kept ? kept->poses : NULL, hold));
+    FW_TRY(fw_workspace_hold_given(arena, m, scene, hold));
+    if (hold->unknown) result->unknown = hold->unknown;
     if (hold->badly_by && (!result->badly_by || hold->badly < result->badly))
         result->badly_by = hold->badly_by, result->badly = hold->badly;
     FW_TRY(
@@ -344,6 +357,29 @@ static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_wor
         bool worse = !was.known || now.strain > was.strain;
         result->load[i] = worse ? now : was;
         if (was.known) fw_workspace_load_both(&was, &now, &result->load[i]);
+    }
+    return FW_OK;
+}
+
+/* By what each scene of the flow gives, as it may be in any of them */
+static fw_status all_strains(fw_arena *arena, const fw_mechanism *m, const fw_workspace_loop *loop,
+                             fw_workspace_kept *kept, const fw_workspace_box3 *box,
+                             fw_workspace_strain_proof *proof, fw_workspace_result *result) {
+    bool plain = true, first = true, any = false;
+    for (int i = 0; i < m->device->nscene; i++) {
+        const fw_device_scene *s = &m->device->scene[i];
+        if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
+        plain = (any && plain) || !fw_workspace_scene_gives(s);
+        any = true;
+    }
+    for (int i = plain ? -1 : 0; i < m->device->nscene; i++) {
+        const fw_device_scene *s = i < 0 ? NULL : &m->device->scene[i];
+        fw_workspace_strain_proof now;
+        if (s && (!fw_device_in_flow(s->flow, m->variant->flow) || !fw_workspace_scene_gives(s)))
+            continue;
+        FW_TRY(one_strain(arena, m, loop, kept, box, s, first ? proof : &now, result));
+        if (!first) both(&now, proof);
+        first = false;
     }
     return FW_OK;
 }
@@ -419,7 +455,7 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_works
         if (whole[i] && provable && m->nhinge > 0) {
             const fw_workspace_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
                                            {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
-            FW_TRY(one_strain(arena, m, loop, kept, &box, &strain[i], result));
+            FW_TRY(all_strains(arena, m, loop, kept, &box, &strain[i], result));
         }
         if (!whole[i] && result->reachable) {
             result->reachable = false;

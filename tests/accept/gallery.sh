@@ -44,6 +44,11 @@ if [ -n "${FW_TEST_ALL:-}" ]; then
     exit
 fi
 for gds in "$work"/cut/masks/*.gds; do
-    tests/accept/kl_nowarn.sh "$gds"
-    QT_QPA_PLATFORM=offscreen LC_ALL=C klayout -b -r tests/accept/kl_xor.py -rd "a=$gds" -rd "b=$work/one/masks/${gds##*/}"
+    printf '%s\t' "${gds##*/}, strict reading without warnings" kl_nowarn.sh >>"$work/jobs"
+    printf 'f=%s\n' "$gds" >>"$work/jobs"
+    printf '%s\t' "${gds##*/}, the same polygons" kl_xor.py "a=$gds" >>"$work/jobs"
+    printf 'b=%s\n' "$work/one/masks/${gds##*/}" >>"$work/jobs"
 done
+/usr/bin/python3 tests/accept/kl_asked.py "$work/jobs" "$work/answers"
+cat "$work/answers"
+! grep -q ^FAIL "$work/answers"

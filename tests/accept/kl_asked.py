@@ -32,6 +32,29 @@ def ask(jobs):
     return [(a["status"] == 0 and not noise, a["output"]) for a, noise in zip(answers, loud)], ""
 
 
+class Open:
+    """One KLayout that answers as long as it is asked: run(text of a script, directory, variables)."""
+
+    def __init__(self):
+        answers, to = os.pipe()
+        self.asked = subprocess.Popen(["klayout", "-b", "-r", HERE / "kl_batch.py", "-rd", "jobs=/dev/stdin", "-rd", "result=/dev/fd/%d" % to],
+                                      stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, pass_fds=[to], text=True,
+                                      env=dict(os.environ, QT_QPA_PLATFORM="offscreen", LC_ALL="C"))
+        os.close(to)
+        self.answers = os.fdopen(answers, encoding="utf-8")
+
+    def run(self, text, where, variables):
+        self.asked.stdin.write(json.dumps([{"script": "script.py", "text": text, "where": str(where), "vars": variables}]) + "\n")
+        self.asked.stdin.flush()
+        answer = json.loads(self.answers.readline() or '[{"status": 1, "output": "KLayout has ended"}]')[0]
+        assert answer["status"] == 0, answer["output"]
+
+    def close(self):
+        self.asked.stdin.close()
+        self.answers.close()
+        assert self.asked.wait() == 0
+
+
 def main(jobs, answers):
     rows = [line.split("\t") for line in pathlib.Path(jobs).read_text(encoding="utf-8").splitlines()]
     found, why = ask([{"script": str(HERE / script), "vars": dict(v.split("=", 1) for v in more)} for _, script, *more in rows])

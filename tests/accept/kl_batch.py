@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # kl_batch.py: klayout -b -r kl_batch.py -rd jobs=JOBS.json -rd result=RESULT.json
-# Runs many of the kl_*.py checks in one KLayout, whose start takes longer than most of them. JOBS: a list of
-# {"script": FILE, "vars": {NAME: VALUE}}; of a shell script the Python between <<'PY' and PY is taken. Each runs as it would
-# alone: with the variables of -rd, its own `pya`, in which leaving the application only ends the script.
-# RESULT: a list of {"status": N, "output": TEXT}; the output holds KLayout's own warnings too.
+# Runs many of the kl_*.py checks in one KLayout, whose start takes longer than most of them. JOBS: in each line a list of
+# {"script": FILE, "vars": {NAME: VALUE}}; "text", if there is one, is run in place of what stands in the file, and "where" is the
+# directory to run in. Of a shell script the Python between <<'PY' and PY is taken. Each runs as it would alone: with the
+# variables of -rd, its own `pya`, in which leaving the application only ends the script.
+# RESULT: for each line one with a list of {"status": N, "output": TEXT}; the output holds KLayout's own warnings too.
+# Both may be pipes: KLayout stays until that of the jobs is closed (kl_asked.Open).
 import json as _json, os as _os, sys as _sys, tempfile as _tempfile, traceback as _traceback, types as _types
 import pya as _pya
 
@@ -27,7 +29,9 @@ _module.__dict__.update({k: v for k, v in _pya.__dict__.items() if not k.startsw
 _module.Application = _Application
 
 
-def _code(path, known={}):
+def _code(path, text=None, known={}):
+    if text is not None:
+        return compile(text, path, "exec")
     if path not in known:
         with open(path, encoding="utf-8") as file:
             text = file.read()
@@ -47,7 +51,9 @@ def _run(job, out):
     _sys.modules["pya"] = _module
     status = 0
     try:
-        exec(_code(job["script"]), dict(job["vars"], __name__="__main__"))
+        if "where" in job:
+            _os.chdir(job["where"])
+        exec(_code(job["script"], job.get("text")), dict(job["vars"], __name__="__main__"))
     except _Left as left:
         status = left.args[0]
     except BaseException:
@@ -62,14 +68,13 @@ def _run(job, out):
     return status
 
 
-_results = []
-with open(jobs, encoding="utf-8") as _file:
-    _list = _json.load(_file)
-for _job in _list:
-    with _tempfile.TemporaryFile() as _out:
-        _status = _run(_job, _out)
-        _out.seek(0)
-        _results.append({"status": _status, "output": _out.read().decode("utf-8", "replace")})
-with open(result, "w", encoding="utf-8") as _file:
-    _json.dump(_results, _file)
+with open(jobs, encoding="utf-8") as _asked, open(result, "w", encoding="utf-8") as _answers:
+    for _line in _asked:
+        _results = []
+        for _job in _json.loads(_line):
+            with _tempfile.TemporaryFile() as _out:
+                _status = _run(_job, _out)
+                _out.seek(0)
+                _results.append({"status": _status, "output": _out.read().decode("utf-8", "replace")})
+        print(_json.dumps(_results), file=_answers, flush=True)
 _pya.Application.instance().exit(0)

@@ -11,6 +11,8 @@ import subprocess
 import sys
 import tempfile
 
+import kl_asked
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PROGRAM = sys.argv[1]
@@ -38,7 +40,7 @@ def main():
     if not shutil.which("klayout"):
         return 77
     source = (ROOT / "docs/gallery/comb-stage/device.xml").read_text()
-    lot, edges, bad, made = random.Random(20261123), 0, 0, 0
+    lot, edges, bad, made, jobs, names = random.Random(20261123), 0, 0, 0, [], []
     with tempfile.TemporaryDirectory() as work:
         for k in range(CASES):
             flow = FLOWS[k % len(FLOWS)]
@@ -54,10 +56,15 @@ def main():
             made += 1
             certificate = stem.with_suffix(".json")
             edges += '"contact": "edge"' in certificate.read_text()
-            traced = subprocess.run(["klayout", "-b", "-r", str(HERE / "kl_nets.py"), "-rd", f"f={stem}.gds", "-rd",
-                                     f"certificate={certificate}", "-rd", "layer=1/0"], capture_output=True, text=True, check=False)
-            if traced.returncode:
-                print(f"case {k}, {flow}:\n{traced.stdout}{traced.stderr}")
+            jobs.append({"script": str(HERE / "kl_nets.py"), "vars": {"f": f"{stem}.gds", "certificate": str(certificate), "layer": "1/0"}})
+            names.append(f"case {k}, {flow}")
+        traced, why = kl_asked.ask(jobs)
+        if traced is None:
+            print(why)
+            return 1
+        for name, (passed, output) in zip(names, traced):
+            if not passed:
+                print(f"{name}:\n{output}")
                 bad += 1
     print(f"{made} masks, {edges} with tracks, {bad} wrong")
     return 1 if bad or not edges or edges == made else 0

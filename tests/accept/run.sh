@@ -30,6 +30,10 @@ judge() { # judge NAME COMMAND...
         failed=1
     fi
 }
+klayout_judges() { # klayout_judges NAME SCRIPT [NAME=VALUE]...: all are asked of one KLayout at the end
+    local IFS=$'\t'
+    echo "$*" >>"$work/jobs"
+}
 if ! ${CC:-cc} -O2 "$here/geos_check.c" -lgeos_c -lm -o "$work/geos_check" 2>"$work/log"; then
     echo "FAIL  geos_check does not compile (Debian: apt-get install libgeos-dev)"
     cat "$work/log"
@@ -41,7 +45,7 @@ for gds in "$1"/*.gds; do
     count=$((count + 1))
     flow=$(basename "$gds" .gds) stem=${gds%.gds}
     judge "$flow: all that the certificate says" /usr/bin/python3 "$here/check_mask.py" "$stem.json"
-    judge "$flow: strict reading without warnings" "$here/kl_nowarn.sh" "$gds"
+    klayout_judges "$flow: strict reading without warnings" kl_nowarn.sh "f=$gds"
     /usr/bin/python3 "$here/layers.py" "$gds" "$tables/${flow%-coupons}.xml" "$stem.json" >"$work/layers"
     [ -s "$work/layers" ] || { echo "FAIL  $flow: no polygons"; failed=1; }
     areas=()
@@ -49,9 +53,8 @@ for gds in "$1"/*.gds; do
         rules=("$width $space")
         [ "$width $space" = "4.0 4.0" ] || rules+=("4.0 4.0")
         for rule in "${rules[@]}"; do
-            judge "$flow $layer: width ${rule% *} um, space ${rule#* } um, angles, overlaps" \
-                klayout -b -r "$here/kl_drc.py" -rd "f=$gds" -rd "layer=$layer" \
-                -rd "width=${rule% *}" -rd "space=${rule#* }"
+            klayout_judges "$flow $layer: width ${rule% *} um, space ${rule#* } um, angles, overlaps" \
+                kl_drc.py "f=$gds" "layer=$layer" "width=${rule% *}" "space=${rule#* }"
         done
         judge "$flow $layer: valid polygons, clearance above 20 nm" \
             "$work/geos_check" "$gds" "${layer%/*}" "${layer#*/}" 0.020
@@ -60,27 +63,27 @@ for gds in "$1"/*.gds; do
     judge "$flow: gdspy reads it, ${#areas[@]} areas" \
         /usr/bin/python3 "$here/gdspy_read.py" "$gds" "${areas[@]}"
     lyp=()
-    [ -f "$stem.lyp" ] && lyp=(-rd "lyp=$stem.lyp")
-    judge "$flow: picture${lyp:+ with its layer properties}" \
-        klayout -b -r "$here/kl_png.py" -rd "f=$gds" "${lyp[@]}" -rd "png=$work/$flow.png" \
-        -rd w=400 -rd h=400
+    [ -f "$stem.lyp" ] && lyp=("lyp=$stem.lyp")
+    klayout_judges "$flow: picture${lyp:+ with its layer properties}" kl_png.py "f=$gds" "${lyp[@]}" "png=$work/$flow.png" w=400 h=400
     if [ -f "$stem.oas" ]; then
-        judge "$flow: OASIS, strict reading without warnings" "$here/kl_nowarn.sh" "$stem.oas"
-        judge "$flow: OASIS equal to GDSII" \
-            klayout -b -r "$here/kl_xor.py" -rd "a=$gds" -rd "b=$stem.oas"
+        klayout_judges "$flow: OASIS, strict reading without warnings" kl_nowarn.sh "f=$stem.oas"
+        klayout_judges "$flow: OASIS equal to GDSII" kl_xor.py "a=$gds" "b=$stem.oas"
     fi
     if [ -f "$stem.dxf" ]; then
-        judge "$flow: DXF with its technology file, arcs against GDSII" \
-            klayout -b -r "$here/kl_dxf.py" -rd "gds=$gds" -rd "dxf=$stem.dxf" -rd "lyt=$stem.lyt"
+        klayout_judges "$flow: DXF with its technology file, arcs against GDSII" \
+            kl_dxf.py "gds=$gds" "dxf=$stem.dxf" "lyt=$stem.lyt"
     fi
     if [ -n "$2" ]; then
-        judge "$flow: equal to the reference" \
-            klayout -b -r "$here/kl_xor.py" -rd "a=$gds" -rd "b=$2/$flow.gds"
+        klayout_judges "$flow: equal to the reference" kl_xor.py "a=$gds" "b=$2/$flow.gds"
     fi
 done
 if [ "$count" -eq 0 ]; then
     echo "FAIL  no .gds file in $1"
     failed=1
+else
+    judge "KLayout was asked" /usr/bin/python3 "$here/kl_asked.py" "$work/jobs" "$work/answers"
+    cat "$work/answers"
+    ! grep -q ^FAIL "$work/answers" || failed=1
 fi
 [ "$failed" -eq 0 ] && echo "ACCEPT PASS ($count files)" || echo "ACCEPT FAIL"
 exit "$failed"

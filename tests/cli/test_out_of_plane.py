@@ -3,6 +3,7 @@
 """The device out of its plane through the program: sag against its carrier, shocks, stress gradients, modes, and required
 frequencies that count both kinds."""
 import json
+import math
 import pathlib
 import re
 import tempfile
@@ -59,6 +60,40 @@ class OutOfPlane(unittest.TestCase):
         for found in (said, cell):
             for text, value in zip(found.groups(), (scene["tips_at"], 100 * error, sure)):
                 self.assertAlmostEqual(float(text) / value, 1, delta=6e-3)
+
+    def test_tips_where_it_is_pressed_though_it_was_pulled_harder(self):
+        """a plate at the end of a thin leaf: a force that stays along x buckles it at EI q^2, q L tan(q L) = L/a, a from the leaf
+        to the force. Pulled by 200 uN before, it is pressed by less than that."""
+        length, a, width, depth, modulus = 300e-6, 450e-6, 12e-6, 5e-6, 150e9
+        low, high = 0.0, 1.5
+        for _ in range(60):
+            q = (low + high) / 2
+            low, high = (q, high) if q * math.tan(q) < length / a else (low, q)
+        buckles = modulus * width * depth ** 3 / 12 * (low / length) ** 2
+        self.assertAlmostEqual(buckles, 113e-6, delta=1e-6)
+
+        def sure(table):
+            self.file.write_text(f'''<device xmlns="urn:flexwright:device:1" name="plate">
+  <material ref="silicon-100" youngs-modulus="150 GPa" poisson="0.25" thickness="5 um" strength="3 GPa"/>
+  <flexure id="leaf" kind="leaf" length="300 um" width="12 um" fillet="6 um" gap="10 um"/>
+  <mechanism>
+    <body id="plate" x="0.6 mm" y="0 mm" plate-width="0.7 mm" plate-height="0.6 mm"/>
+    <revolute id="A" a="ground" b="plate" b-x="-0.6 mm" hinge="leaf" axis="90 deg"/>
+  </mechanism>
+  <scene name="push" duration="100 ms"><force on="plate" fx="1 uN" fy="0 N" law="table" table="{table}"/></scene></device>''')
+            whole = json.loads(run("check", self.file, "--json", *QUICK).stdout)
+            scene = whole["out_of_plane"][0]["scenes"][0]
+            codes = [r["code"] for r in whole["reasons"]]
+            return scene["tips_at"] / (1 + scene["tips_error"]), "FW-D582" in codes
+
+        pressed, tips = sure("0 ms: 0; 100 ms: -60")
+        self.assertFalse(tips)
+        self.assertLess(pressed * 60e-6, buckles)
+        for most in (60, 100, 150, 190):  # less than the pull in all of them
+            both, tips = sure(f"0 ms: 0; 20 ms: 200; 50 ms: 0; 100 ms: -{most}")
+            self.assertLess(both * most * 1e-6, buckles, most)
+            self.assertEqual(tips, both < 1)
+        self.assertTrue(tips)
 
     def test_electrodes_lift(self):
         """at the middle of a stage whose stiffness there is known: both drives over a silicon carrier, none over glass"""
@@ -144,6 +179,26 @@ class OutOfPlane(unittest.TestCase):
         self.assertEqual(much[0]["verdict"], "reject")
         self.assertTrue(any("bends across the plane" in r["text"] for r in much[0]["reasons"]))
         self.assertEqual(little[0]["verdict"], "accept")
+
+    def test_what_is_used_in_the_plane_is_added(self):
+        """a shock uses as much of a hinge beside a push as without one, with all that the push may use: of a scene that does not govern the
+        hinge its own use, widened by the band of what does"""
+        shock = '<base-motion az="0.2 km/s^2" law="half-sine" rise="0.5 ms"/>'
+        def of(*scenes):
+            self.file.write_text((STAGE % ("50 um", "", "", "")).split("<scene")[0] + "".join(
+                f'<scene name="s{i}" duration="20 ms"><force on="stage" fx="{push} uN"/>{more}</scene>'
+                for i, (push, more) in enumerate(scenes)) + "</device>")
+            whole = json.loads(run("check", self.file, "--json", *QUICK).stdout)
+            self.assertEqual(whole["verdict"], "accept", whole["reasons"])
+            return whole["hinges"], [s.get("strained") for s in whole["out_of_plane"][0]["scenes"]]
+        _, (alone,) = of((0, shock))
+        strong, (both,) = of((40, shock))
+        self.assertAlmostEqual(both, alone + max(h["utilisation_band"][1] for h in strong), 5)
+        weak, _ = of((15, ""))
+        two, (first, second) = of((40, shock), (15, shock))
+        self.assertAlmostEqual(first, both, 9)
+        self.assertAlmostEqual(second, alone + max(w["utilisation"] * h["utilisation_band"][1] / h["utilisation"] for w, h in zip(weak, two)), 5)
+        self.assertGreater(first - second, 0.1)
 
     def test_repeated_shocks(self):
         """a shock that hinges bear once is not accepted ten million times, and one that is a tenth of it is"""

@@ -175,6 +175,45 @@ class Judged(InTemporary):
             self.assertEqual(verdict["verdict"], "accept" if held else "inconclusive", (third, y, verdict["reasons"]))
 
 
+    def test_springs_weight_and_contacts(self):
+        """a pose is held against them: what is accepted without is not with them, whichever way they are stated"""
+        device = self.here / "against.xml"
+        text = scaled(1, 1)
+        torques = "".join(f'<torque on="{body}" value="1 nN mm"/>' for body in ("AB", "EF", "CD"))
+
+        def judged(mechanism="", scene=""):
+            device.write_text(text.replace("</six-bar>", f"</six-bar>{mechanism}").replace(
+                "<workspace", f'<scene name="held" duration="1 us">{torques}{scene}</scene><workspace'))
+            verdict = json.loads(run("check", device, "--json", "--advice", "none", "--corners", "none").stdout)
+            return verdict, max(h["utilisation"] for h in verdict["hinges"])
+
+        def spring(stiffness, more=""):
+            return (f'<mechanism><spring id="S" a="ground" a-x="1.5 mm" a-y="6 mm" b="CD" stiffness="{stiffness} N/m" '
+                    f'length="3.125 mm"{more}/></mechanism>')
+
+        verdict, plain = judged()
+        self.assertEqual(verdict["verdict"], "accept")
+        for cable in ("", ' cable="yes"'):
+            verdict, _ = judged(spring(3000, cable))
+            self.assertNotEqual(verdict["verdict"], "accept")
+            self.assertTrue(any("; against it spring S" in a["actuation"] for a in verdict["workspace"]["actuation"]))
+        self.assertAlmostEqual(judged(spring(1e-6))[1], plain, delta=1e-6)
+        touched = '<contact id="k" a="ground" a-x="1.5 mm" a-y="6 mm" b="CD" side="outside" distance="{} mm" stiffness="3000 N/m"/>'
+        self.assertNotEqual(judged(scene=touched.format(3.125))[0]["verdict"], "accept")
+        self.assertAlmostEqual(judged(scene=touched.format(2.9))[1], plain, delta=1e-6)  # never touched
+        self.assertAlmostEqual(judged(scene='<gravity gy="-9.81 m/s^2"/>')[1], plain, delta=0.002)
+        self.assertGreater(max(judged(scene=f'<gravity gy="{g} m/s^2"/>')[1] for g in (-98100, 98100)), 1.2 * plain)
+
+    def test_a_spring_at_what_rides_on_it(self):
+        device = self.here / "rides.xml"
+        rider = ('<mechanism><body id="R" x="1.5 mm" y="3.5 mm" mass="1 ug" inertia="1 ug mm^2"/><revolute id="r" a="CD" a-y="0.325 mm" '
+                 'b="R" b-y="-0.3 mm"/>{}</mechanism>')
+        for spring, known in (("", True), ('<spring id="S" a="ground" b="R" stiffness="1 N/m"/>', False)):
+            device.write_text(scaled(1, 1).replace("</six-bar>", "</six-bar>" + rider.format(spring)))
+            verdict = json.loads(run("check", device, "--json", "--advice", "none", "--corners", "none").stdout)
+            self.assertEqual(any(r["code"] == "FW-D646" for r in verdict["reasons"]), not known, verdict["reasons"])
+
+
 class Certificate(InTemporary):
     def test_accepted(self):
         changed = copy.deepcopy(self.certificate)

@@ -66,7 +66,9 @@ CASES = {
     "Shares of joints that repeat": (LEVER, ("<spring id", '<revolute id="again" a="ground" b="bar" b-y="-0.5 mm"/><spring id'),
                                      "assemble", "redundant here, because other joints already impose it: again"),
     "Certified workspace of anything": (COMB, None, "workspace", "FW-D217"),
-    "What else holds": (SIX, None, "check", "the pose is held by: "),
+    "What else holds": (SIX, ("</six-bar>", '</six-bar><mechanism><body id="R" x="1.5 mm" y="3.5 mm" mass="1 ug" inertia="1 ug mm^2"/>'
+                        '<revolute id="r" a="CD" a-y="0.325 mm" b="R" b-y="-0.3 mm"/><spring id="S" a="ground" b="R" stiffness="1 N/m"/></mechanism>'),
+                        "check --corners none --advice none", "FW-D646"),
     "Proof at stretched": (SIX, REACH, "workspace --flow al-masked-rie", "NOT PROVED.*FW-D218|FW-D218.*NOT PROVED"),
     "Scatter of lives": (LEAF, None, "check", r"limit by fracture.*typical: DelRio"),
     "Ranges that a pack does not know": (LEAF, None, "check", "0.99 to 1 is assumed, and the verdict holds there only"),

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""poses.py [--judge PROGRAM] [--program FLEXWRIGHT] [--seed N] [--count N] [--keep DIR]
+"""poses.py [--judge PROGRAM] [--program FLEXWRIGHT] [--seed N] [--count N] [--given] [--keep DIR]
 
 Random six-bars with a required workspace, their links scaled to 1, 0.6, 0.45 or 0.35 of the reference's: the judge's own
 exact beams hold the platform in 26 poses of the box, by the wrench on the platform, by torques, or by torques
-and a force, and find the most strained hinge; its limit is set so that this is at 0.9 to 1.1 of it. Exit 1 on a false
-accept or reject, or where a hinge's truth is outside its band. README.md says what truth is."""
+and a force, and find the most strained hinge; its limit is set so that this is at 0.9 to 1.1 of it. --given: a spring or
+a cable between the ground and the platform, a strong field of weight, or something round or flat that the platform runs
+against besides. Exit 1 on a false accept or reject, or where a hinge's truth is outside its band. README.md says what truth
+is."""
 import argparse
 import itertools
 import json
@@ -52,7 +54,7 @@ def solved(rows, right):
 
 
 class SixBar:
-    def __init__(self, seed):
+    def __init__(self, seed, given=False):
         self.seed, self.source = seed, random.Random(seed)
         self.scale, self.h = self.source.choice(SCALES), self.between(20, 60)
         self.material = strip.Isotropic(self.between(70e3, 170e3), self.between(0.2, 0.3))
@@ -70,6 +72,7 @@ class SixBar:
         angle = self.between(-math.pi, math.pi)
         self.force = (self.between(-200, 200) * self.scale, self.between(-80, 80) * self.scale, math.cos(angle), math.sin(angle))
         self.target = self.between(0.9, 1.1)
+        self.given = Given(self) if given else None
 
     def between(self, low, high):
         return low + (high - low) * self.source.random()
@@ -134,25 +137,81 @@ class SixBar:
         out += ['    <link id="%s" mass="0.02 mg" inertia="0.003 mg mm^2"/>\n' % k for k in ENDS.values()]
         out.append('    <platform id="CD" x="%s" y="%s" mass="0.06 mg" inertia="0.01 mg mm^2"/>\n  </six-bar>\n'
                    % (um(self.centre[0]), um(self.centre[1])))
+        if self.given:
+            out.append(self.given.mechanism())
         if self.held != "none":
             on = ["AB", "EF"] + ["CD"] * (self.held == "torques")
             acts = ['    <torque on="%s" value="0.1 nN mm"/>\n' % k for k in on]
             if self.held == "mixed":
                 x, y, fx, fy = self.force
                 acts.append('    <force on="CD" x="%s" y="%s" fx="%.12g nN" fy="%.12g nN"/>\n' % (um(x), um(y), fx, fy))
-            out.append('  <scene name="s" duration="1 ms">\n' + "".join(acts) + "  </scene>\n")
+            acts.append(self.given.scene() if self.given else "")
+            duration = "1 us" if self.given else "1 ms"  # nothing moves in it
+            out.append('  <scene name="s" duration="%s">\n' % duration + "".join(acts) + "  </scene>\n")
         x, y, phi = self.box
         out.append('  <workspace x-min="%s" x-max="%s" y-min="%s" y-max="%s" phi-min="%.12g rad" phi-max="%.12g rad"/>\n</device>\n'
                    % (um(-x), um(x), um(-y), um(y), -phi, phi))
         return "".join(out)
 
 
+class Given:
+    """what acts on the platform, or on all bodies, whatever holds them"""
+
+    def __init__(self, device):
+        draw, (cx, cy) = device.between, device.centre
+        self.kind = device.source.choice(("spring", "cable", "weight", "round", "flat"))
+        self.held = device.held if device.held != "none" else "torques"
+        device.held = self.held  # a wrench on the platform holds what acts on it by itself
+        self.on = even(draw(-200, 200) * device.scale), even(draw(-100, 100) * device.scale)
+        angle, away = draw(-math.pi, math.pi), draw(300, 900)
+        self.normal = math.cos(angle), math.sin(angle)
+        self.ground = tuple(even(c + p + away * n) for c, p, n in zip(device.centre, self.on, self.normal))
+        drawn = math.dist(self.ground, (cx + self.on[0], cy + self.on[1]))
+        self.stiffness = draw(1, 40) / device.scale ** 2
+        self.length = drawn * (1 if self.kind != "spring" else draw(0.97, 1.03))
+        if self.kind in ("round", "flat"):  # touched where the platform has come nearer by a micrometre
+            self.length = even(drawn - 1)
+            if self.kind == "flat":
+                self.length = even(sum((c + p - g) * -n for c, p, g, n in zip(device.centre, self.on, self.ground, self.normal)) - 1)
+        self.field = tuple(draw(2e3, 2e4) / device.scale ** 2 * n for n in self.normal)
+
+    def loads(self, pose):
+        """of the beams, uN and um"""
+        if self.kind == "weight":
+            return "".join("force %d 0 0 %.15g %.15g\n" % (k, *(mass * g for g in self.field))
+                           for k, mass in ((1, 0.02), (2, 0.02), (3, 0.06), (4, 0.02), (5, 0.02)))
+        c, s, (px, py) = math.cos(pose[2]), math.sin(pose[2]), self.on
+        way = [p - g for p, g in zip((self.at[0] + pose[0] + c * px - s * py, self.at[1] + pose[1] + s * px + c * py), self.ground)]
+        if self.kind == "flat":
+            size = -self.stiffness * min(-sum(w * n for w, n in zip(way, self.normal)) - self.length, 0)
+            return "force 3 %.15g %.15g %.15g %.15g\n" % (px, py, *(-size * n for n in self.normal))
+        long = self.stiffness * (math.hypot(*way) - self.length)
+        pull = {"spring": long, "cable": max(long, 0), "round": min(long, 0)}[self.kind]
+        return "force 3 %.15g %.15g %.15g %.15g\n" % (px, py, *(-pull * w / math.hypot(*way) for w in way))
+
+    def mechanism(self):
+        if self.kind not in ("spring", "cable"):
+            return ""
+        return '  <mechanism><spring id="G" a="ground" a-x="%s" a-y="%s" b="CD" b-x="%s" b-y="%s" stiffness="%.12g N/m" length="%s"%s/></mechanism>\n' % (
+            *map(um, self.ground + self.on), self.stiffness, um(self.length), ' cable="yes"' if self.kind == "cable" else "")
+
+    def scene(self):
+        if self.kind == "weight":
+            return '    <gravity gx="%.12g m/s^2" gy="%.12g m/s^2"/>\n' % self.field
+        if self.kind in ("spring", "cable"):
+            return ""
+        face = ' a-face="%.12g rad"' % math.atan2(-self.normal[1], -self.normal[0]) if self.kind == "flat" else ""
+        return '    <contact id="G" a="ground" a-x="%s" a-y="%s"%s b="CD" b-x="%s" b-y="%s" side="outside" distance="%s" stiffness="%.12g N/m"/>\n' % (
+            *map(um, self.ground), face, *map(um, self.on), um(self.length), self.stiffness)
+
+
 class Beams:
     def __init__(self, program, device, path):
         self.program, self.device, self.path, self.base = program, device, path, device.model()
+        self.given = ""
 
     def ask(self, more):
-        self.path.write_text(self.base + more, encoding="utf-8")
+        self.path.write_text(self.base + self.given + more, encoding="utf-8")
         done = subprocess.run([self.program, "at", self.path, "1"], capture_output=True, text=True, check=False)
         return json.loads(done.stdout) if done.returncode == 0 else None
 
@@ -208,6 +267,9 @@ class Beams:
                 if not any(step) or (0 in step and self.device.held == "none" and way):
                     continue
                 pose = [a * b for a, b in zip(step, self.device.box)]
+                if self.device.given:
+                    self.device.given.at = self.device.centre
+                    self.given = self.device.given.loads(pose)
                 found = self.by_three(pose, way) if way else self.by_wrench(pose)
                 lost += not found
                 for k, flexure in zip("ABCDEF", found["flexures"] if found else ()):
@@ -217,7 +279,7 @@ class Beams:
 
 def judged(options, seed, where):
     """(text, wrong)"""
-    device = SixBar(seed)
+    device = SixBar(seed, options.given)
     try:
         stress, lost = Beams(options.judge, device, where / ("%d.model" % seed)).stresses()
     except ValueError:
@@ -231,6 +293,8 @@ def judged(options, seed, where):
     done = subprocess.run([options.program, "check", path, "--json", "--corners", "none", "--advice", "none", "--no-progress"],
                           capture_output=True, text=True, check=False)
     said = json.loads(done.stdout)
+    if device.given and lost:
+        return "%d poses cannot be held: not judged" % lost, False
     if device.held != "none" and any("on the platform along" in a["actuation"] for a in said["workspace"]["actuation"]):
         return "held badly: the platform's wrench supplies the rest", False
     hinges, out = {h["id"]: h for h in said["hinges"]}, []
@@ -241,8 +305,9 @@ def judged(options, seed, where):
     truth, hinge = device.target, hinges[worst]
     if (said["verdict"] == "accept" and truth > 1) or (hinge["verdict"] == "reject" and truth <= 1):
         out.append("FALSE " + said["verdict"])
+    held = device.held + (" " + device.given.kind if device.given else "")
     return "scale %g, %s, %d lost: truth %.4f %s, %s %.4f %.4f..%s%s" % (
-        device.scale, device.held, lost, truth, worst, said["verdict"], hinge["utilisation"], *hinge["utilisation_band"],
+        device.scale, held, lost, truth, worst, said["verdict"], hinge["utilisation"], *hinge["utilisation_band"],
         "".join(", WRONG " + o for o in out)), bool(out)
 
 
@@ -252,6 +317,7 @@ def main():
     parser.add_argument("--program", default="build/flexwright")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=10)
+    parser.add_argument("--given", action="store_true")
     parser.add_argument("--keep", default="")
     options = parser.parse_args()
     wrong = 0

@@ -17,6 +17,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "accept"))
+import kl_asked  # noqa: E402
+
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIX = ROOT / "docs/gallery/reference-six-bar/device.xml"
@@ -65,16 +68,14 @@ pya.Application.instance().exit(0)
 
 
 def klayout(script, where, **variables):
-    path = pathlib.Path(where, "script.py")
-    path.write_text(script)
-    given = [w for k, v in variables.items() for w in ("-rd", "%s=%s" % (k, v))]
-    subprocess.run(["klayout", "-zz", "-r", path.name, *given], cwd=where, check=True, capture_output=True, timeout=240)
+    Cells.klayout.run(script, where, variables)
 
 
 class Cells(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.where = pathlib.Path(tempfile.mkdtemp())
+        cls.klayout = kl_asked.Open()
         klayout(DRAW, cls.where)
         cls.own("plain", "")
         for ending in ("gds", "dxf"):
@@ -82,6 +83,7 @@ class Cells(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
+        cls.klayout.close()
         shutil.rmtree(cls.where)
 
     @classmethod
