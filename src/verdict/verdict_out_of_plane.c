@@ -251,7 +251,7 @@ static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
         for (int j = 0; j < count && !known; j++)
             known = a_share_of(n, forces, looked + (size_t)j * (size_t)n);
         if (known) continue;
-        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + n, other};
+        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + n, other, 0};
         double now;
         int weak;
         FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &now, &weak));
@@ -484,7 +484,8 @@ static fw_status required_factor(fw_arena *arena, const both *is,
         forces[2 * n + 2 * (size_t)k + 1] =
             m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad);
     }
-    const fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far};
+    const fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far,
+                                                 1 / (1 - is->rigid.error)};
     *factor = HUGE_VAL;
     for (int i = 0; i < m->device->nworkspace; i++) {
         const fw_device_workspace_box *box = &m->device->workspace[i];
