@@ -177,6 +177,7 @@ fw_first_part_of(live.designs COMMAND live designs FIRST 30 WHOLE 1000)
 # files and descriptions that are mostly right, by seed; tests/build/fuzz.sh has the same with coverage, under the sanitizers
 fw_first_part_of(fuzz.files COMMAND fuzzed_files FIRST 2000 WHOLE 100000)
 fw_first_part_of(fuzz.judge COMMAND fuzzed_judge FIRST 40 WHOLE 500)
+fw_first_part_of(fuzz.bodies COMMAND fuzzed_bodies FIRST 300 WHOLE 20000)
 
 add_executable(fault_memory faults/memory.c faults/sites.c)
 target_include_directories(fault_memory PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -202,6 +203,7 @@ fw_script_test(fault.instead COMMAND ${Python3_EXECUTABLE} tests/faults/instead.
 fw_script_test(hostile.documents COMMAND ${Python3_EXECUTABLE} tests/hostile/hostile.py ${FW_PROGRAM} TIMEOUT 600)
 fw_first_part_of(fault.limits COMMAND ${Python3_EXECUTABLE} tests/faults/limits.py ${FW_PROGRAM} FIRST --count 8 WHOLE --count 200)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
+fw_script_test(golden.said COMMAND ${Python3_EXECUTABLE} tests/golden/said.py ${FW_PROGRAM})
 fw_script_test(accept.wafer COMMAND tests/accept/wafer.sh ${FW_PROGRAM} TIMEOUT 600)
 set_tests_properties(accept.masks accept.wafer accept.nets accept.random accept.selftest accept.written
                      PROPERTIES SKIP_RETURN_CODE 77)

@@ -300,10 +300,11 @@ static int next_body(const fw_assembly_tree *t, const fw_multibody_model *m, con
         if (place[b] >= 0) continue;
         joints = joints_to_placed(t, m, place, b, &latest);
         joints = joints > 2 ? 2 : joints;
-        bool better = joints != best_joints   ? joints > best_joints
+        bool better = best < 0                ? true
+                      : joints != best_joints ? joints > best_joints
                       : latest != best_latest ? latest > best_latest
                                               : joints == 0 && m->mass[b] > m->mass[best];
-        if (best < 0 || better) best = b, best_joints = joints, best_latest = latest;
+        if (better) best = b, best_joints = joints, best_latest = latest;
     }
     return best;
 }

@@ -214,6 +214,8 @@ fw_status fw_clearance_strip_of(fw_arena *arena, const fw_layout *layout,
 /* at the elastic limit with its safety factor; turn_rad is left 0 */
 fw_clearance_bend fw_clearance_bend_of(const fw_mechanism *mechanism,
                                        const fw_mechanism_hinge *hinge);
+/* A strip that keeps off its bodies when it bends like a does when it bends like b: no bound of b is larger. */
+bool fw_clearance_bend_covers(const fw_clearance_bend *a, const fw_clearance_bend *b);
 /* what a point s_m from a root goes by against the body there, at most */
 double fw_clearance_bend_at(const fw_clearance_bend *bend, double s_m);
 /* radius about the hinge point within which it stays */

@@ -123,6 +123,11 @@ double fw_clearance_bend_at(const fw_clearance_bend *b, double s_m) {
     return b->curvature_per_m * s_m * (s_m + b->width_m) / 2 + 2 * b->strain * s_m;
 }
 
+bool fw_clearance_bend_covers(const fw_clearance_bend *a, const fw_clearance_bend *b) {
+    return isfinite(a->curvature_per_m) && a->turn_rad >= b->turn_rad && a->strain >= b->strain &&
+           a->curvature_per_m >= b->curvature_per_m && a->forced_per_m >= b->forced_per_m;
+}
+
 /* least distance about a point that holds all of a part: of a chord the ends are the farthest, an arc
    leaves it by at most length^2/(8 r) */
 static double farthest(const fw_geometry_segment *s, fw_geometry_vec2 from) {

@@ -105,6 +105,14 @@ static const fw_effect_entry *acts_by_far(const fw_effect_choice *choice, int i,
     return e->active && isfinite(e->bound) && e->bound > fw_much_alike * accuracy ? e : NULL;
 }
 
+/* Whether hinges give was asked for, whatever their bound is. No other bound grows by it where the envelope has
+   taken it in. */
+static bool decides_nothing(const fw_effect_case *c, const fw_effect_choice *choice, int i) {
+    bool in;
+    return choice->untold && c->envelope->taken[i] &&
+           fw_effects_hinge_forced(rows[i]->id, choice->hinge, &in);
+}
+
 static fw_status find_bounds(const fw_effect_case *c, const fw_effect_choice *choice,
                              double accuracy, fw_effect_entry *entry) {
     for (int i = 0; i < ROWS; i++) {
@@ -116,6 +124,9 @@ static fw_status find_bounds(const fw_effect_case *c, const fw_effect_choice *ch
         if (like && !row->kept) {
             entry[i].bound = like->bound;
             entry[i].reason = "as in a device much like this one";
+        } else if (decides_nothing(c, choice, i)) {
+            entry[i].bound = (double)INFINITY;
+            entry[i].reason = "decided without its bound, which nobody reads";
         } else {
             FW_TRY(row->bound(c, &entry[i].bound, &entry[i].reason));
         }

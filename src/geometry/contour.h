@@ -239,7 +239,7 @@ void fw_geometry_strip_widths(const fw_geometry_strip_shape *shape, double *leas
 /* do two pieces' edges meet other than at a joint of neighbours? *i < *j: which */
 bool fw_geometry_strip_crosses(const fw_geometry_strip_piece *piece, int n, int *i, int *j);
 
-/* ---- as commands of an SVG path: lines and true arcs (geometry_svg.c) ----
+/* ---- as commands of an SVG path: lines and true arcs (contour.c) ----
    The y axis of SVG points down, so y is turned round here and not by a transform that importers may lose. */
 
 typedef struct fw_geometry_sheet { /* from the plane to the picture */

@@ -17,6 +17,18 @@ fw_geometry_vec2 fw_mechanism_body_point(const fw_mechanism_mass *body, fw_geome
                               body->y_m + s * local.x + c * local.y};
 }
 
+fw_geometry_vec2 fw_mechanism_pin_opened(const fw_mechanism_pin *p, const double *q) {
+    const int body[2] = {p->body_a, p->body_b};
+    fw_geometry_vec2 at[2] = {{p->ax_m, p->ay_m}, {p->bx_m, p->by_m}};
+    for (int i = 0; i < 2; i++) {
+        if (body[i] == FW_GROUND) continue;
+        const double *pose = q + 3 * body[i];
+        at[i] = fw_mechanism_body_point(
+            &(fw_mechanism_mass){.x_m = pose[0], .y_m = pose[1], .phi_rad = pose[2]}, at[i]);
+    }
+    return (fw_geometry_vec2){at[1].x - at[0].x, at[1].y - at[0].y};
+}
+
 const fw_device_scene *fw_mechanism_scene(const fw_mechanism *m, const fw_device *device,
                                           const fw_device_scene *scene) {
     for (int i = 0; i < device->nscene; i++)

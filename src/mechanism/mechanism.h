@@ -160,7 +160,10 @@ void fw_mechanism_frame_acceleration(const fw_mechanism_mass *body, double phi_r
 fw_geometry_vec2 fw_mechanism_pin_place(const fw_mechanism *mechanism, const fw_mechanism_pin *pin,
                                         int side);
 
-/* the same of any local point (ground: world) */
+/* in the pose q (3 nbody), from its image on body a to that on body b: what a flexure there is displaced by */
+fw_geometry_vec2 fw_mechanism_pin_opened(const fw_mechanism_pin *pin, const double *q);
+
+/* fw_mechanism_pin_place of any local point (ground: world) */
 fw_geometry_vec2 fw_mechanism_local_place(const fw_mechanism *mechanism, int body, double x_m,
                                           double y_m);
 

@@ -4,6 +4,7 @@
 #ifndef FW_SERVE_CHILD_H
 #define FW_SERVE_CHILD_H
 #include "base/diag.h"
+#include "plan/live.h"
 #include <poll.h>
 #include <stdint.h>
 #include <sys/types.h>
@@ -94,7 +95,10 @@ void fw_serve_pool_forget(fw_serve_pool *pool, struct fw_serve_request *request)
 size_t fw_serve_pool_poll(const fw_serve_pool *pool, struct pollfd *poll, size_t most);
 void fw_serve_pool_run(fw_serve_pool *pool);
 
-/* the other side: serves descriptor 3 until it is closed */
+/* the other side: what it answers a question with; without a text where it does not know what is asked */
+fw_plan_live_answer fw_serve_worker_answer(fw_plan_live *live, fw_serve_compute what,
+                                           const char *request, size_t n);
+/* serves descriptor 3 until it is closed */
 int fw_serve_worker_main(const char *data_directory);
 
 #endif

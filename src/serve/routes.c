@@ -366,6 +366,10 @@ static bool fits(const char *row, const char *path) {
                              : strcmp(row, path) == 0;
 }
 
+const fw_serve_route *fw_serve_route_at(size_t i) {
+    return i < sizeof table / sizeof table[0] ? &table[i] : NULL;
+}
+
 const fw_serve_route *fw_serve_route_find(const char *method, const char *path, bool *known_path) {
     *known_path = false;
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {

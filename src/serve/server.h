@@ -34,6 +34,8 @@ typedef struct fw_serve_route {
     fw_serve_compute compute; /* of rows that a worker answers */
 } fw_serve_route;
 const fw_serve_route *fw_serve_route_find(const char *method, const char *path, bool *known_path);
+/* the i-th row of what can be asked for, without the page's files; NULL: there are not so many */
+const fw_serve_route *fw_serve_route_at(size_t i);
 /* the request that exchanges the one-time token for the cookie; no row leads here */
 void fw_serve_route_entry(fw_serve_request *request);
 

@@ -341,25 +341,25 @@ static unsigned http_status(fw_status status) {
     return 500;
 }
 
-static bool compute(fw_plan_live *live, uint32_t what, const char *request, size_t n) {
-    fw_plan_live_answer a = {0};
-    switch ((fw_serve_compute)what) {
+fw_plan_live_answer fw_serve_worker_answer(fw_plan_live *live, fw_serve_compute what,
+                                           const char *request, size_t n) {
+    switch (what) {
     case FW_COMPUTE_TABLE:
-        a = fw_plan_live_table(live);
-        break;
+        return fw_plan_live_table(live);
     case FW_COMPUTE_PREVIEW:
-        a = fw_plan_live_preview(live, request, n);
-        break;
+        return fw_plan_live_preview(live, request, n);
     case FW_COMPUTE_POSE:
-        a = fw_plan_live_pose(live, request, n);
-        break;
+        return fw_plan_live_pose(live, request, n);
     case FW_COMPUTE_EDIT:
-        a = fw_plan_live_edit(live, request, n);
-        break;
+        return fw_plan_live_edit(live, request, n);
     case FW_COMPUTE_EXPLORE:
-        a = fw_study_explore(live, request, n);
-        break;
+        return fw_study_explore(live, request, n);
     }
+    return (fw_plan_live_answer){0};
+}
+
+static bool compute(fw_plan_live *live, uint32_t what, const char *request, size_t n) {
+    const fw_plan_live_answer a = fw_serve_worker_answer(live, (fw_serve_compute)what, request, n);
     if (!a.text) return false; /* the parent asks for what this child does not know */
     return answer(http_status(a.status), a.text, a.length);
 }

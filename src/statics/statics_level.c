@@ -79,24 +79,8 @@ static fw_status read_state(const fw_statics_equilibrium *w, fw_statics_level_st
     return FW_OK;
 }
 
-/* from the image of a pin's point on its first body to that on its second: what a flexure is displaced by */
-static fw_geometry_vec2 opened(const fw_mechanism_pin *pin, const double *q) {
-    const int body[2] = {pin->body_a, pin->body_b};
-    const double local[2][2] = {{pin->ax_m, pin->ay_m}, {pin->bx_m, pin->by_m}};
-    double x[2], y[2];
-    for (int i = 0; i < 2; i++) {
-        x[i] = local[i][0], y[i] = local[i][1];
-        if (body[i] == FW_GROUND) continue;
-        const double *at = q + 3 * body[i];
-        double c = cos(at[2]), s = sin(at[2]);
-        x[i] = at[0] + c * local[i][0] - s * local[i][1];
-        y[i] = at[1] + s * local[i][0] + c * local[i][1];
-    }
-    return (fw_geometry_vec2){x[1] - x[0], y[1] - y[0]};
-}
-
 static double opening(const fw_mechanism_pin *pin, const double *q) {
-    const fw_geometry_vec2 by = opened(pin, q);
+    const fw_geometry_vec2 by = fw_mechanism_pin_opened(pin, q);
     return hypot(by.x, by.y);
 }
 
@@ -373,7 +357,7 @@ static fw_status forces_of(fw_statics_equilibrium *low, fw_statics_equilibrium *
     if (!*found) return FW_OK;
     FW_TRY(read_state(high, &up));
     for (int i = 0; i < m->npin; i++) {
-        const fw_geometry_vec2 by = opened(&m->pin[i], up.q);
+        const fw_geometry_vec2 by = fw_mechanism_pin_opened(&m->pin[i], up.q);
         out[4 * i] = at.reaction_N[2 * i], out[4 * i + 1] = at.reaction_N[2 * i + 1];
         out[4 * i + 2] = by.x, out[4 * i + 3] = by.y;
     }

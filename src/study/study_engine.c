@@ -85,6 +85,18 @@ static bool may_be_bounded(const engine *e) {
     return plan->options.verdict.corners == FW_CORNERS_NONE && asks_for_no_clearance(e->study);
 }
 
+/* could a response be a bound of an effect? They stand in the verdict's JSON and in those of motions and equilibria */
+static bool asks_for_bounds(const fw_study *study) {
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *r = &study->response[k];
+        const unsigned stages = fw_study_documents[r->document].stages;
+        if (stages & (FW_STUDY_STAGE_SIMULATE | FW_STUDY_STAGE_STATICS | FW_STUDY_STAGE_MODES))
+            return true;
+        if (strncmp(r->path, "effects", strlen("effects")) == 0) return true;
+    }
+    return false;
+}
+
 /* of the verdict's JSON the members that responses begin with, and of these what any of their words names */
 static fw_status wanted_of(engine *e, fw_json_wanted *out) {
     const fw_study *study = e->study;
@@ -133,6 +145,7 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
     }
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     options->verdict.motion.late_rows = true;
+    options->verdict.motion.effects.untold = !asks_for_bounds(study);
     FW_TRY(fw_dynamics_tapes_new(e->arena, &e->tapes));
     options->verdict.motion.tapes = e->tapes;
     FW_TRY(fw_workspace_kept_new(e->arena, &options->verdict.kept));

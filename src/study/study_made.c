@@ -49,6 +49,7 @@ static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, con
     options.corners = FW_CORNERS_NONE;
     options.with_advice = false;
     options.at_a_glance = true;
+    options.motion.effects.untold = true;
     if (status == FW_OK)
         status = fw_verdict_run(arena, device, &options, &diags, &verdict, &layout);
     if (status == FW_OK)

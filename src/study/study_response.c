@@ -80,6 +80,22 @@ static bool well_formed(const char *path) {
     return true;
 }
 
+/* n: bytes of the name that was asked for */
+static fw_status no_document(fw_arena *arena, const fw_device_respond *asked, size_t n,
+                             fw_diags *diags) {
+    fw_text names = fw_text_new(arena);
+    for (int i = 0; i < fw_study_document_count; i++)
+        fw_text_printf(&names, "%s%s",
+                       i == 0                            ? ""
+                       : i + 1 < fw_study_document_count ? ", "
+                                                         : " and ",
+                       fw_study_documents[i].name);
+    FW_TRY(fw_text_end(&names));
+    return fw_diag_error(diags, 492, asked->place,
+                         "response '%s': there is no document '%.*s'; there are %s", asked->name,
+                         (int)n, asked->value, names.data);
+}
+
 fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *asked, fw_diags *diags,
                                   fw_study_response *response) {
     const char *key, *colon = strchr(asked->value, ':'), *bracket = strchr(asked->value, '[');
@@ -94,11 +110,7 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
             if (strlen(fw_study_documents[i].name) == n &&
                 memcmp(fw_study_documents[i].name, asked->value, n) == 0)
                 response->document = i;
-        if (response->document < 0)
-            return fw_diag_error(diags, 492, asked->place,
-                                 "response '%s': there is no document '%.*s'; there are verdict, "
-                                 "simulate, statics, modes, workspace, masks and recipes",
-                                 asked->name, (int)n, asked->value);
+        if (response->document < 0) return no_document(arena, asked, n, diags);
     }
     if (!well_formed(response->path))
         return fw_diag_error(diags, 492, asked->place,

@@ -134,13 +134,6 @@ static fw_status modes_about(fw_arena *arena, const fw_mechanism *m, const fw_de
 
 /* ---- how far each mode swings, and bends what ---- */
 
-/* pin's place on body b of the pose q (ground: as it is) */
-static fw_geometry_vec2 place_of(const double *q, int b, double x, double y) {
-    if (b == FW_GROUND) return (fw_geometry_vec2){x, y};
-    return vec_add((fw_geometry_vec2){q[3 * b], q[3 * b + 1]},
-                   fw_geometry_vec_rotate((fw_geometry_vec2){x, y}, q[3 * b + 2]));
-}
-
 /* how a hinge is bent: its turn, and what its ends are displaced by over its length, which strains it by 3/2 of the
    same turn */
 static double bend_of(const fw_mechanism_hinge *h, double turn, double x_m, double y_m) {
@@ -174,14 +167,9 @@ static double bent_between(const fw_mechanism *m, const fw_mechanism_hinge *h, c
     double turn = 0;
     if (p->body_a != FW_GROUND) turn -= to[3 * p->body_a + 2] - from[3 * p->body_a + 2];
     if (p->body_b != FW_GROUND) turn += to[3 * p->body_b + 2] - from[3 * p->body_b + 2];
-    fw_geometry_vec2 gap[2];
-    const double *pose[2] = {from, to};
-    for (int i = 0; i < 2; i++) {
-        const fw_geometry_vec2 a = place_of(pose[i], p->body_a, p->ax_m, p->ay_m),
-                               b = place_of(pose[i], p->body_b, p->bx_m, p->by_m);
-        gap[i] = (fw_geometry_vec2){b.x - a.x, b.y - a.y};
-    }
-    return bend_of(h, turn, gap[1].x - gap[0].x, gap[1].y - gap[0].y);
+    const fw_geometry_vec2 before = fw_mechanism_pin_opened(p, from),
+                           after = fw_mechanism_pin_opened(p, to);
+    return bend_of(h, turn, after.x - before.x, after.y - before.y);
 }
 
 static double moved_by(const double *u, int b, double unit_m) {

@@ -270,6 +270,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
     motion.most_beams = fw_most_beams;
     motion.sparing = options->coarse_first;
+    motion.effects.untold = motion.effects.untold || options->decision_only || v->corner;
     motion.hopeless_rhs = is_brief(options, v) || options->at_a_glance || v->corner
                               ? fw_hopeless_trial_rhs
                               : fw_hopeless_rhs;

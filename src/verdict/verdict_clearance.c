@@ -569,18 +569,16 @@ static fw_status say(fw_arena *arena, const fw_layout_piece *piece, const fw_cle
 }
 
 static fw_status look_at(fw_arena *arena, const fw_layout *layout, const fw_layout_piece *piece,
-                         int k, const seen *most, fw_verdict_variant_verdict *v) {
-    const fw_clearance_bend bend = bend_of(v, k, most);
-    const fw_clearance_edge *met;
+                         const fw_clearance_bend *bend, fw_verdict_variant_verdict *v,
+                         const fw_clearance_edge **met) {
     fw_clearance_strip strip;
-    if (!(bend.curvature_per_m > 0) || !isfinite(bend.curvature_per_m)) return FW_OK;
+    if (!(bend->curvature_per_m > 0) || !isfinite(bend->curvature_per_m)) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
     FW_TRY(fw_clearance_strip_of(arena, layout, piece, &strip));
-    if (!strip.known) return FW_OK;
     const double wall = 2 * (layout->edge_m + fw_made_m) + fabs(layout->flare_m);
-    FW_TRY(fw_clearance_strip_meets(arena, v->things, &strip, &bend, wall, &met));
+    if (strip.known) FW_TRY(fw_clearance_strip_meets(arena, v->things, &strip, bend, wall, met));
     fw_arena_rewind(arena, mark);
-    return met ? say(arena, piece, met, bend.turn_rad, v) : FW_OK;
+    return *met ? say(arena, piece, *met, bend->turn_rad, v) : FW_OK;
 }
 
 fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
@@ -589,12 +587,13 @@ fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
     if (!v->things || v->corner) return FW_OK; /* allowed for */
     for (int k = 0; k < m->nhinge; k++) {
         const fw_layout_piece *piece = piece_of(layout, m->hinge[k].pin);
+        if (!piece || !layout->hinge[m->hinge[k].pin].drawn || v->hinge[k].decision != FW_ACCEPT)
+            continue; /* where it is not accepted it bends too far in any case */
         const seen most[2] = {most_of_scenes(v, k), most_of_boxes(v, k)};
-        const int before = v->nreason;
-        if (v->hinge[k].decision != FW_ACCEPT) continue; /* it bends too far in any case */
-        if (!piece || !layout->hinge[m->hinge[k].pin].drawn) continue;
-        for (int i = 0; i < 2 && v->nreason == before; i++)
-            FW_TRY(look_at(arena, layout, piece, k, &most[i], v));
+        const fw_clearance_bend bend[2] = {bend_of(v, k, &most[0]), bend_of(v, k, &most[1])};
+        const fw_clearance_edge *met = NULL;
+        for (int i = fw_clearance_bend_covers(&bend[1], &bend[0]); i < 2 && !met; i++)
+            FW_TRY(look_at(arena, layout, piece, &bend[i], v, &met));
     }
     return FW_OK;
 }

@@ -397,7 +397,7 @@ static fw_status respond_on_grid(fw_arena *arena, choosing *c, const fw_workspac
         for (int k = 0; k < 3; k++)
             at.lo[k] = at.hi[k] =
                 step[k] == 2 ? box->hi[k] : box->lo[k] + 0.5 * step[k] * (box->hi[k] - box->lo[k]);
-        if (!fw_workspace_pose_load_over(c->hold, &at, NULL, &load)) continue;
+        if (!fw_workspace_poses_find(c->hold, &at, &load)) continue;
         for (int k = 0; k < n; k++)
             fw_workspace_pose_response(c->hold, &load, &c->hold->actuator[k],
                                        &c->response[c->poses * n + k]);
@@ -518,7 +518,7 @@ fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *m,
                                fw_workspace_poses *poses, fw_workspace_hold *hold) {
     *hold = (fw_workspace_hold){.loop = loop, .poses = poses};
     FW_TRY(fw_workspace_sections(arena, m, hold->section));
-    if (poses) fw_workspace_poses_are_of(poses, hold);
+    if (poses) fw_workspace_poses_are_of(poses, hold, false);
     fw_geometry_vec2 p[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
         p[i] = fw_mechanism_pin_place(m, &m->pin[i], 0);
@@ -535,5 +535,6 @@ fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *m,
     FW_TRY(choose(arena, &g, &c, box));
     hold->nactuator = g.n;
     hold->grip = c.grip, hold->ngrip = c.ngrip;
+    if (poses) fw_workspace_poses_are_of(poses, hold, true);
     return FW_OK;
 }

@@ -343,7 +343,7 @@ static bool stand(const limber *l, const fw_workspace_grip *grip, const double p
         const double way[3] = {part * pose[0], part * pose[1], part * pose[2]};
         const fw_workspace_box3 at = {{way[0], way[1], way[2]}, {way[0], way[1], way[2]}};
         fw_workspace_pose_load o;
-        if (!fw_workspace_pose_load_over(l->hold, &at, NULL, &o)) return false;
+        if (!fw_workspace_poses_find(l->hold, &at, &o)) return false;
         stiff(l, way, &o, &now);
         for (int k = 0; k < LINKS; k++)
             for (int j = 0; j < 3; j++)
@@ -403,7 +403,7 @@ typedef struct stance { /* at a pose by a grip */
 } stance;
 
 typedef struct looked {
-    fw_workspace_response *response;
+    fw_workspace_view *view;
     double pins[FW_SIX], gives[FW_SIX]; /* largest strains */
     double apart;                       /* largest |gives/pins - 1| of large strains at one pose */
     fw_workspace_strain_extreme done[FW_SIX]; /* poses and grips that were looked at first */
@@ -430,22 +430,21 @@ static bool stood(const limber *l, int g, const double pose[3], const fw_workspa
 
 /* A pose by one grip, unless its strains with pins are far below the largest. `always`: of the first ones,
    which say how far strains with hinges that give may be from those with pins. */
-static void look(const limber *l, const double pose[3], const fw_workspace_pose_load *load, int g,
-                 bool always, looked *to) {
+static void look(const limber *l, const double pose[3], int g, bool always, looked *to) {
     const fw_workspace_grip *grip = &l->hold->grip[g];
-    fw_workspace_jet2 force[FW_SIX];
-    bool certain, own[2], any = always, matters[FW_SIX];
+    fw_workspace_gripped *by = fw_workspace_view_grip(to->view, g);
+    bool any = always, matters[FW_SIX];
     double pins[FW_SIX];
     standing s;
-    if (!fw_workspace_pose_forces(l->hold, load, to->response, grip, &certain, own, force)) return;
+    if (!by->holds) return;
     for (int i = 0; i < FW_SIX; i++) {
-        pins[i] = fw_workspace_pose_strain(l->hold, load, i, &force[i], NULL).lo;
+        pins[i] = fw_workspace_view_strain(to->view, by, i, NULL).lo;
         to->pins[i] = fmax(to->pins[i], pins[i]);
         matters[i] = pins[i] * (1.05 + 2.0 * to->apart) > to->gives[i];
         any = any || matters[i];
     }
     if (!any) return;
-    bool stands = stood(l, g, pose, load, to, &s);
+    bool stands = stood(l, g, pose, &to->view->load, to, &s);
     if (stands && !holds(l, grip, &s)) return;
     for (int i = 0; i < FW_SIX; i++) {
         if (!matters[i]) continue;
@@ -459,15 +458,12 @@ static void look(const limber *l, const double pose[3], const fw_workspace_pose_
 static void look_at(const limber *l, const double pose[3], int only, looked *to) {
     const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
     const fw_workspace_hold *h = l->hold;
-    fw_workspace_pose_load load;
-    if (!fw_workspace_pose_load_over(h, &at, NULL, &load)) return;
-    for (int i = 0; i < h->nactuator; i++)
-        fw_workspace_pose_response(h, &load, &h->actuator[i], &to->response[i]);
+    if (!fw_workspace_view_at(to->view, &at)) return;
     for (int g = 0; g < h->ngrip && g < MOST_GRIPS; g++) {
         bool done = only != FW_NONE && only != g;
         for (int k = 0; k < to->ndone && !done; k++)
             done = to->done[k].grip == g && !memcmp(to->done[k].pose, pose, 3 * sizeof *pose);
-        if (!done) look(l, pose, &load, g, only == g, to);
+        if (!done) look(l, pose, g, only == g, to);
     }
 }
 
@@ -479,8 +475,8 @@ fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, con
     for (int i = 0; i < FW_SIX; i++)
         give[i] = (fw_workspace_give){.first_order = true};
     if (!limber_of(hold, m, &l)) return FW_OK;
-    FW_NEED(to.response =
-                fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
+    FW_NEED(to.view = fw_arena_one(arena, fw_workspace_view));
+    FW_TRY(fw_workspace_view_new(arena, hold, to.view));
     FW_NEED(to.stance = fw_arena_array(arena, stance, STANCES));
     for (int i = 0; i < FW_SIX; i++) {
         const fw_workspace_strain_extreme *most = &proof->most[i];

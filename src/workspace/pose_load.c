@@ -16,8 +16,6 @@
    and 3 us a grip. Source: docs/theory/workspace.md. Test: test_pose_strain.c. */
 #include "workspace/pose_load.h"
 #include <math.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
 /* ---- where everything is ---- */
@@ -185,9 +183,8 @@ static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load 
         out->on_leg[side] = theta || acts_on(by, side);
 }
 
-/* where everything is: all of it but the forces */
-static bool places(const fw_workspace_hold *hold, const fw_workspace_box3 *box, const double *shift,
-                   fw_workspace_pose_load *o) {
+bool fw_workspace_pose_places(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                              const double *shift, fw_workspace_pose_load *o) {
     const fw_workspace_loop *k = hold->loop;
     fw_workspace_jet axis[3], s, c;
     for (int i = 0; i < 3; i++) {
@@ -214,64 +211,6 @@ static bool places(const fw_workspace_hold *hold, const fw_workspace_box3 *box, 
     for (int i = 0; i < FW_SIX; i++)
         o->theta[i] = fw_jet_add(o->theta[i], fw_jet_exact(k->start_rad[i]));
     return frames(hold, o);
-}
-
-/* ---- poses that were looked at before ---- */
-
-enum { POSES = 1024 }; /* a power of 2: one place for each box */
-
-typedef struct placed {
-    fw_workspace_box3 box;
-    long of; /* 0: of none */
-    bool reached;
-    char at[offsetof(fw_workspace_pose_load, own)];
-} placed;
-
-struct fw_workspace_poses {
-    long of; /* counts the mechanisms */
-    fw_workspace_loop loop;
-    double axis[FW_SIX][2]; /* 0, 0: no section */
-    placed *item;           /* (POSES) */
-};
-
-fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses) {
-    FW_NEED(*poses = fw_arena_one(arena, fw_workspace_poses));
-    FW_NEED((*poses)->item = fw_arena_array(arena, placed, POSES));
-    return FW_OK;
-}
-
-void fw_workspace_poses_are_of(fw_workspace_poses *p, const fw_workspace_hold *hold) {
-    double axis[FW_SIX][2] = {{0}};
-    for (int i = 0; i < FW_SIX; i++)
-        if (hold->section[i].n > 0) memcpy(axis[i], hold->section[i].axis, sizeof axis[i]);
-    if (p->of > 0 && memcmp(&p->loop, hold->loop, sizeof p->loop) == 0 &&
-        memcmp(p->axis, axis, sizeof axis) == 0)
-        return;
-    p->of++;
-    p->loop = *hold->loop;
-    memcpy(p->axis, axis, sizeof axis);
-}
-
-static placed *place_in(const fw_workspace_poses *p, const fw_workspace_box3 *box) {
-    uint64_t word[sizeof *box / sizeof(uint64_t)], sum = 0;
-    memcpy(word, box, sizeof word);
-    for (size_t i = 0; i < sizeof word / sizeof word[0]; i++)
-        sum = (sum ^ word[i] ^ sum >> 29) * UINT64_C(0x9e3779b97f4a7c15);
-    return &p->item[sum >> 32 & (POSES - 1)];
-}
-
-static bool places_again(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
-                         fw_workspace_pose_load *o) {
-    const fw_workspace_poses *p = hold->poses;
-    placed *was = place_in(p, box);
-    if (was->of == p->of && memcmp(&was->box, box, sizeof *box) == 0) {
-        memcpy(o, was->at, sizeof was->at);
-        return was->reached;
-    }
-    was->reached = places(hold, box, NULL, o);
-    was->of = p->of, was->box = *box;
-    memcpy(was->at, o, sizeof was->at);
-    return was->reached;
 }
 
 /* ---- actuators ---- */
@@ -449,13 +388,16 @@ static void add_given(const fw_workspace_hold *hold, const fw_workspace_pose_loa
     }
 }
 
-bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
-                                 const double *shift, fw_workspace_pose_load *o) {
-    bool reached = hold->poses && !shift ? places_again(hold, box, o) : places(hold, box, shift, o);
-    if (!reached) return false;
+void fw_workspace_pose_own(const fw_workspace_hold *hold, fw_workspace_pose_load *o) {
     outer on = nothing();
     add_given(hold, o, &on);
     respond(hold, o, o->theta, hold->ngiven > 0 ? &on : NULL, &o->own);
+}
+
+bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                                 const double *shift, fw_workspace_pose_load *o) {
+    if (!fw_workspace_pose_places(hold, box, shift, o)) return false;
+    fw_workspace_pose_own(hold, o);
     return true;
 }
 

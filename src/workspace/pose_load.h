@@ -145,7 +145,7 @@ static inline fw_workspace_jet2 fw_jet2_both(fw_workspace_jet2 a, fw_workspace_j
                                fw_jet_add(fw_jet_mul(a.x, b.y), fw_jet_mul(a.y, b.x))};
 }
 
-/* ---- pose_strain.c: places along a flexure at which its strain is looked at ---- */
+/* ---- pose_view.c: places along a flexure at which its strain is looked at ---- */
 
 /* strain = bending |K theta - lever.F| + axial |F|, F the joint's force on its second body in the
    frame half turned; N m, N */
@@ -222,11 +222,8 @@ static inline double fw_workspace_given_size(const fw_workspace_given *g, double
                                          : fmin(size, 0);
 }
 
-/* where everything is at poses that were looked at before; of one loop and one way in which hinges lie */
-typedef struct fw_workspace_poses fw_workspace_poses;
-fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses);
-/* forgets them if they are of another mechanism than this hold, whose sections are set */
-void fw_workspace_poses_are_of(fw_workspace_poses *poses, const fw_workspace_hold *hold);
+typedef struct fw_workspace_poses
+    fw_workspace_poses; /* poses that were looked at before: pose_view.c */
 
 /* what is held by what: of one flow */
 struct fw_workspace_hold {
@@ -281,8 +278,13 @@ typedef struct fw_workspace_pose_load {
         own; /* to the hinges' moments and what is given; last: the rest is of the pose alone */
 } fw_workspace_pose_load;
 
-/* false: not every pose of the box is known to be reached. shift: what C and D are displaced by
-   against the rest of the platform (m, four numbers), or NULL */
+/* where everything is: all of it but the forces. false: not every pose of the box is known to be reached. shift: what C
+   and D are displaced by against the rest of the platform (m, four numbers), or NULL */
+bool fw_workspace_pose_places(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                              const double *shift, fw_workspace_pose_load *out);
+/* the response to the hinges' moments and what is given there */
+void fw_workspace_pose_own(const fw_workspace_hold *hold, fw_workspace_pose_load *at);
+/* both */
 bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
                                  const double *shift, fw_workspace_pose_load *out);
 void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
@@ -293,7 +295,7 @@ void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspac
 bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
                               const fw_workspace_response *response, const fw_workspace_grip *grip,
                               bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX]);
-/* ---- pose_strain.c: what that strains ---- */
+/* ---- pose_view.c: what that strains ---- */
 
 /* range that holds the largest strain of a hinge at every pose of the box, and where in the box it
    grows to (signs of its slope; may be NULL) */
@@ -301,7 +303,45 @@ fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
                                            const fw_workspace_pose_load *at, int hinge,
                                            const fw_workspace_jet2 *force, double slope[3]);
 
-/* over a whole required box */
+/* ---- pose_view.c: boxes that are looked at ---- */
+
+fw_status fw_workspace_poses_new(fw_arena *arena, fw_workspace_poses **poses);
+/* What was kept of another mechanism than this hold is not found again; its sections are set, and with `whole` its
+   actuators and grips, too, without which no forces are kept. */
+void fw_workspace_poses_are_of(fw_workspace_poses *poses, const fw_workspace_hold *hold,
+                               bool whole);
+/* fw_workspace_pose_places without a shift, from what is kept where it is known there */
+bool fw_workspace_poses_find(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                             fw_workspace_pose_load *out);
+
+typedef struct fw_workspace_gripped {   /* a box that is held by one grip */
+    bool known, holds, certain, own[2]; /* of fw_workspace_pose_forces */
+    fw_workspace_jet2 force[FW_SIX];
+    long section[FW_SIX]; /* with which `strain` was found; 0: with none */
+    fw_maths_interval strain[FW_SIX];
+    double slope[FW_SIX][3];
+} fw_workspace_gripped;
+
+typedef struct fw_workspace_view { /* a box of poses, of which is found what somebody asks for */
+    const fw_workspace_hold *hold;
+    fw_workspace_pose_load load;     /* its `own` only where `owned` */
+    fw_workspace_response *response; /* (nactuator) */
+    bool owned, *responded;          /* (nactuator) */
+    struct placed *kept;             /* NULL: nowhere */
+    long filled;                     /* of `kept`, as long as that is of this box */
+    fw_workspace_gripped here;       /* what cannot be kept, of this grip */
+    int here_of;
+} fw_workspace_view;
+fw_status fw_workspace_view_new(fw_arena *arena, const fw_workspace_hold *hold,
+                                fw_workspace_view *view);
+/* false: not every pose of the box is known to be reached */
+bool fw_workspace_view_at(fw_workspace_view *view, const fw_workspace_box3 *box);
+/* fw_workspace_pose_forces and fw_workspace_pose_strain; valid until the next grip or box is asked for */
+fw_workspace_gripped *fw_workspace_view_grip(fw_workspace_view *view, int grip);
+fw_maths_interval fw_workspace_view_strain(const fw_workspace_view *view, fw_workspace_gripped *by,
+                                           int hinge, double slope[3]);
+
+/* ---- pose_strain.c: over a whole required box ---- */
 
 /* Bounds of all strains by branch and bound, within `relative` of the truth; FW_UNDECIDED: more
    than `most` boxes. */

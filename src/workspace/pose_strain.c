@@ -1,227 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What poses strain: the sections that may be strained, the strain over a box, what is known at the worst poses */
+/* What poses strain: the strain over a box, and what is known of it at the worst poses. */
 #include "base/text.h"
 #include "workspace/pose_load.h"
 #include <math.h>
 #include <string.h>
 
-/* ---- places along a flexure at which its strain is looked at ---- */
-
-enum { INSIDE = 16 }; /* parts of an arc */
-
-static double lever_of(const fw_device_flexure *f, const fw_flexure_result *c) {
-    double a = 0.5 * f->angle_rad, off = hypot(c->offset_m[0], c->offset_m[1]);
-    double arc = hypot(f->radius_m * cos(a) - c->centre_m, f->radius_m * sin(a));
-    return (f->kind == FW_FLEXURE_CSFH ? arc : 0.5 * f->length_m) + off;
-}
-
-/* no section is farther from the pin than this */
-static double farthest(const fw_flexure_path_strain *s, const double pin[2]) {
-    double far = 0;
-    for (int i = 0; i < s->n; i++)
-        far = fmax(far, hypot(s->point[i].x_m - pin[0], s->point[i].y_m - pin[1]));
-    return far;
-}
-
-/* M(P) = M + (y - yW) Fx - (x - xW) Fy, the force on the second body -F: the lever of F is (y - yW,
-   xW - x) */
-static fw_workspace_station place(const double pin[2], double x, double y, double bending,
-                                  double axial) {
-    return (fw_workspace_station){{y - pin[1], pin[0] - x}, bending, axial};
-}
-
-/* Stations of an arc: the roots with their concentration, and inside of it places so close that
-   between two of them |M| is at most r |F| (1 - cos of half their distance) above the larger. All
-   of them are below the moment at the arc's centre and r |F|. */
-static void arc(const fw_device_flexure *f, const fw_flexure_result *c, const double pin[2],
-                double bending, double kt, double axial, fw_workspace_station *to,
-                fw_workspace_section *out) {
-    double r = f->radius_m, a = 0.5 * f->angle_rad, inside = bending * c->fibre / c->concentration;
-    double above = r * (1.0 - cos(a / INSIDE)) * inside;
-    out->roots = 2;
-    out->inside = place(pin, 0.0, 0.0, inside, axial + r * inside);
-    for (int side = -1; side <= 1; side += 2)
-        to[out->n++] = place(pin, r * cos(a), side * r * sin(a), bending, kt * axial);
-    for (int i = 1; i < INSIDE; i++) {
-        double b = a * (2.0 * i / INSIDE - 1.0);
-        to[out->n++] = place(pin, r * cos(b), r * sin(b), inside, axial + above);
-    }
-}
-
-/* of a flexure that varies: between two sections the moment may rise by an eighth of its second
-   difference */
-static int varying(const fw_flexure_path_strain *s, const double pin[2], fw_workspace_station *to) {
-    for (int i = 0; i < s->n; i++) {
-        const fw_flexure_path_point *p = &s->point[i];
-        double above = 0.0;
-        if (i > 0 && i + 1 < s->n)
-            above =
-                0.125 * hypot(p[-1].x_m - 2 * p->x_m + p[1].x_m, p[-1].y_m - 2 * p->y_m + p[1].y_m);
-        to[i] = place(pin, p->x_m, p->y_m, p->strain_per_Nm,
-                      p->strain_per_N + above * p->strain_per_Nm);
-    }
-    return s->n;
-}
-
-/* The strain of eq. 1 and 2 of docs/theory/verdict.md as places along the strip. Where the axis is
-   not drawn the force acts on its largest lever, wherever it points. */
-static fw_status one_section(fw_arena *arena, const fw_mechanism *m, const fw_mechanism_hinge *h,
-                             fw_workspace_section *out) {
-    const fw_device_flexure *f = &m->device->flexure[h->flexure];
-    const fw_flexure_result *c = &h->closed_form;
-    const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
-    double scale = h->scale > 0 ? h->scale : 1;
-    double bending = c->strain_per_rad / (scale * c->stiffness_Nm_per_rad);
-    double area = fw_device_flexure_narrowest_m(f) * m->variant->thickness_m;
-    double axial = 1 / (scale * m->variant->material.youngs.value * area);
-    double kt = fw_flexure_tension_concentration(f->width_m, h->input.fillet_m);
-    bool varies = fw_flexure_input_varies(&h->input);
-    size_t most = h->section.n > INSIDE ? (size_t)h->section.n : INSIDE + 1;
-    fw_workspace_station *to = fw_arena_array(arena, fw_workspace_station, most);
-    FW_NEED(to);
-    out->station = to;
-    out->moment_Nm_per_rad = scale * c->stiffness_Nm_per_rad;
-    bool drawn = isfinite(h->axis_rad);
-    out->axis[0] = drawn ? cos(h->axis_rad) : 1.0, out->axis[1] = drawn ? sin(h->axis_rad) : 0.0;
-    if (!drawn) {
-        double lever = varies ? farthest(&h->section, pin) : lever_of(f, c);
-        to[0] = (fw_workspace_station){{0.0, 0.0}, bending, kt * axial + lever * bending};
-        out->n = 1;
-    } else if (varies) {
-        out->n = varying(&h->section, pin, to);
-    } else if (f->kind == FW_FLEXURE_CSFH) {
-        arc(f, c, pin, bending, kt, axial, to, out);
-        return FW_OK;
-    } else {
-        for (int side = 0; side < 2; side++)
-            to[side] = place(pin, 0.0, (side - 0.5) * f->length_m, bending, kt * axial);
-        out->n = 2;
-    }
-    out->roots = out->n;
-    return FW_OK;
-}
-
-fw_status fw_workspace_sections(fw_arena *arena, const fw_mechanism *m,
-                                fw_workspace_section section[FW_SIX]) {
-    for (int i = 0; i < FW_SIX; i++) {
-        int hinge = m->pin[i].hinge;
-        section[i] = (fw_workspace_section){.spring_Nm_per_rad = m->pin[i].stiffness_Nm_per_rad};
-        if (hinge != FW_NONE) FW_TRY(one_section(arena, m, &m->hinge[hinge], &section[i]));
-    }
-    return FW_OK;
-}
-
-/* ---- at one box ---- */
-
-/* largest size of what lies in the interval, and the least */
-static fw_maths_interval sizes_of(fw_maths_interval a) {
-    double far = fmax(fabs(a.lo), fabs(a.hi));
-    double near = a.lo > 0.0 ? a.lo : a.hi < 0.0 ? -a.hi : 0.0;
-    return (fw_maths_interval){near, far};
-}
-
-/* m + sum g_i s_i within rest, |s_i| <= 1 across the box; of many stations of one hinge, which are
-   sums of four of these */
-typedef struct plane {
-    double m, g[3], rest;
-} plane;
-
-static plane plane_of(const fw_workspace_jet *a, const double half[3]) {
-    plane p = {.m = a->v.m, .rest = a->v.e};
-    for (int i = 0; i < 3; i++) {
-        p.g[i] = half[i] * a->d[i].m;
-        p.rest += half[i] * 0.5 * (a->d[i].e + a->d[i].r);
-    }
-    p.rest = fw_grown(fw_grown(p.rest));
-    if (a->v.r < p.rest) p = (plane){.m = a->v.m, .rest = a->v.r}; /* the box is too large for it */
-    return p;
-}
-
-typedef struct loaded {       /* of one hinge over one box */
-    plane moment, fx, fy;     /* K theta; force in the frame half turned */
-    plane along;              /* n.F, n the force's direction in the middle: |F| <= n.F + beside */
-    double beside, far, near; /* far and near bound |F| in any case */
-    bool slanted;             /* `along` holds */
-} loaded;
-
-static void press(const fw_workspace_jet2 *f, const double half[3], loaded *p) {
-    fw_maths_interval x = sizes_of(fw_jet_range(&f->x, half)),
-                      y = sizes_of(fw_jet_range(&f->y, half));
-    p->far = fw_grown(sqrt(fw_grown(x.hi * x.hi + y.hi * y.hi)));
-    p->near = fmax(fw_down(sqrt(x.lo * x.lo + y.lo * y.lo)) * (1.0 - 1e-15), 0.0);
-    p->slanted = false;
-    double n = hypot(f->x.v.m, f->y.v.m);
-    if (!(n > 0.0) || !isfinite(p->far)) return;
-    double nx = f->x.v.m / n, ny = f->y.v.m / n; /* of length 1 within 2^-51 */
-    fw_workspace_jet along = fw_jet_add(fw_jet_scaled(f->x, nx), fw_jet_scaled(f->y, ny));
-    fw_workspace_jet across = fw_jet_sub(fw_jet_scaled(f->y, nx), fw_jet_scaled(f->x, ny));
-    fw_maths_interval least = fw_jet_range(&along, half),
-                      off = sizes_of(fw_jet_range(&across, half));
-    if (!(least.lo > 0.0)) return;
-    p->along = plane_of(&along, half);
-    p->beside = fw_grown(fw_grown(0.5 * off.hi * off.hi) / least.lo) + 1e-14 * p->far;
-    p->slanted = true;
-}
-
-/* Range of bending |M - lever.F| + axial |F|. The sums of planes are rounded as numbers are: they
-   err by a few units of the sizes that are added. */
-static fw_maths_interval one_station(const fw_workspace_station *at, const loaded *p,
-                                     double slope[3]) {
-    double w = at->bending_per_Nm, x = at->lever_m[0], y = at->lever_m[1], ax = at->axial_per_N;
-    double m = w * (p->moment.m - x * p->fx.m - y * p->fy.m), g[3], reach = 0.0, size;
-    size = w * (fabs(p->moment.m) + fabs(x * p->fx.m) + fabs(y * p->fy.m));
-    double rest = w * (p->moment.rest + fabs(x) * p->fx.rest + fabs(y) * p->fy.rest);
-    for (int i = 0; i < 3; i++) {
-        g[i] = w * (p->moment.g[i] - x * p->fx.g[i] - y * p->fy.g[i]);
-        size += w * (fabs(p->moment.g[i]) + fabs(x * p->fx.g[i]) + fabs(y * p->fy.g[i]));
-        reach += fabs(g[i]);
-    }
-    double sign = m < 0.0 ? -1.0 : 1.0, slack = (size + rest + ax * p->far) * 0x1p-46;
-    double hi = fabs(m) + reach + rest + ax * p->far + slack;
-    double lo = fabs(m) - reach - rest - slack;
-    lo = (lo > 0.0 ? lo : 0.0) + fw_down(ax * p->near);
-    if (p->slanted) {
-        double q = ax * p->along.m, more = ax * (p->along.rest + p->beside), up = 0.0, down = 0.0;
-        for (int i = 0; i < 3; i++) {
-            up += fabs(g[i] + ax * p->along.g[i]);
-            down += fabs(g[i] - ax * p->along.g[i]);
-        }
-        up = m + q + up + rest + more + slack, down = -m + q + down + rest + more + slack;
-        double most = up > down ? up : down;
-        if (most < hi) hi = most;
-    }
-    for (int i = 0; i < 3; i++)
-        slope[i] = sign * g[i] + (p->slanted ? ax * p->along.g[i] : 0.0);
-    return (fw_maths_interval){lo, hi};
-}
-
-fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
-                                           const fw_workspace_pose_load *o, int hinge,
-                                           const fw_workspace_jet2 *force, double slope[3]) {
-    const fw_workspace_section *s = &hold->section[hinge];
-    fw_maths_interval all = {0.0, 0.0};
-    if (s->n == 0) return all;
-    fw_workspace_jet2 t = o->frame[hinge];
-    fw_workspace_jet along = fw_jet_tight(fw_jet2_dot(t, *force), o->half),
-                     across = fw_jet_tight(fw_jet2_cross(t, *force), o->half),
-                     moment = fw_jet_scaled(o->theta[hinge], s->moment_Nm_per_rad);
-    loaded p = {.moment = plane_of(&moment, o->half),
-                .fx = plane_of(&along, o->half),
-                .fy = plane_of(&across, o->half)};
-    press(force, o->half, &p);
-    for (int i = 0; i < s->n; i++) {
-        double now[3];
-        if (i == s->roots && one_station(&s->inside, &p, now).hi <= all.hi) break;
-        fw_maths_interval one = one_station(&s->station[i], &p, now);
-        if (one.lo > all.lo) all.lo = one.lo;
-        for (int k = 0; k < 3 && slope && one.hi > all.hi; k++)
-            slope[k] = now[k];
-        if (!(one.hi <= all.hi) && !isnan(all.hi)) all.hi = one.hi; /* NaN is kept */
-    }
-    return all;
-}
-
-/* ---- over a whole box ---- */
+/* ---- over a whole required box ---- */
 
 enum { DEPTH = 120, GRID = 9 };
 
@@ -231,25 +15,10 @@ typedef struct bounding {
     double relative, size[3];
     bool sampled; /* nothing is proved */
     fw_workspace_strain_proof *proof;
-    fw_workspace_response *over, *at; /* (nactuator) of a box and of a pose */
+    fw_workspace_view *over, *at; /* of a box and of a pose */
     double found[FW_SIX], bound[FW_SIX];
     double force_N[FW_SIX]; /* at most in the leaves so far; of samples the largest */
 } bounding;
-
-/* statics over the box for the grips from..to; false: a pose may be out of reach */
-static bool look(const bounding *b, const fw_workspace_box3 *box, int from, int to,
-                 fw_workspace_pose_load *load, fw_workspace_response *response) {
-    const fw_workspace_hold *h = b->hold;
-    if (!fw_workspace_pose_load_over(h, box, NULL, load)) return false;
-    for (int i = 0; i < h->nactuator; i++) {
-        bool used = false;
-        for (int g = from; g <= to && !used; g++)
-            for (int k = 0; k < 3 && !h->grip[g].wrench; k++)
-                used = used || h->grip[g].actuator[k] == i;
-        if (used) fw_workspace_pose_response(h, load, &h->actuator[i], &response[i]);
-    }
-    return true;
-}
 
 /* the leg's forces are those of a wrench on the platform, which was looked at before */
 static bool seen(const bounding *b, int grip, int from, bool own) {
@@ -265,19 +34,15 @@ static double size_of(const fw_workspace_jet2 *force, const double half[3]) {
 /* strains at one pose, by the grips from..to that certainly hold it */
 static void try_pose(bounding *b, const double pose[3], int from, int to) {
     const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
-    fw_workspace_pose_load load;
-    if (!look(b, &at, from, to, &load, b->at)) return;
+    if (!fw_workspace_view_at(b->at, &at)) return;
     for (int g = from; g <= to; g++) {
-        fw_workspace_jet2 force[FW_SIX];
-        bool certain, own[2];
-        if (!fw_workspace_pose_forces(b->hold, &load, b->at, &b->hold->grip[g], &certain, own,
-                                      force) ||
-            !certain)
-            continue;
+        fw_workspace_gripped *by = fw_workspace_view_grip(b->at, g);
+        if (!by->holds || !by->certain) continue;
         for (int i = 0; i < FW_SIX; i++) {
-            if (seen(b, g, from, own[i > 2])) continue;
-            fw_maths_interval now = fw_workspace_pose_strain(b->hold, &load, i, &force[i], NULL);
-            if (b->sampled) b->force_N[i] = fmax(b->force_N[i], size_of(&force[i], load.half));
+            if (seen(b, g, from, by->own[i > 2])) continue;
+            fw_maths_interval now = fw_workspace_view_strain(b->at, by, i, NULL);
+            if (b->sampled)
+                b->force_N[i] = fmax(b->force_N[i], size_of(&by->force[i], b->at->load.half));
             if (!(now.lo > b->found[i])) continue;
             b->found[i] = now.lo;
             b->proof->most[i] = (fw_workspace_strain_extreme){
@@ -301,27 +66,24 @@ static bool worth(const bounding *b, const fw_workspace_box3 *box, int hinge, do
 /* one enclosure of the box: does it say all that is wanted? Where a bound is too far the corner to
    which that strain grows is tried. */
 static bool enough(bounding *b, const fw_workspace_box3 *box) {
-    fw_workspace_pose_load load;
-    if (!look(b, box, 0, b->hold->ngrip - 1, &load, b->over)) return false;
+    if (!fw_workspace_view_at(b->over, box)) return false;
     double far[FW_SIX] = {0}, most_N[FW_SIX] = {0};
     for (int g = 0; g < b->hold->ngrip; g++) {
-        fw_workspace_jet2 force[FW_SIX];
-        bool certain, own[2];
-        if (!fw_workspace_pose_forces(b->hold, &load, b->over, &b->hold->grip[g], &certain, own,
-                                      force))
-            continue;
+        if (!fw_workspace_view_grip(b->over, g)->holds) continue;
         for (int i = 0; i < FW_SIX; i++) {
-            if (seen(b, g, 0, own[i > 2])) continue;
-            double slope[3] = {0}, corner[3];
-            double now = fw_workspace_pose_strain(b->hold, &load, i, &force[i], slope).hi;
+            fw_workspace_gripped *by = fw_workspace_view_grip(b->over, g);
+            if (seen(b, g, 0, by->own[i > 2])) continue;
+            double slope[3], corner[3];
+            double now = fw_workspace_view_strain(b->over, by, i, slope).hi;
             if (!close_enough(b, i, now)) {
                 for (int k = 0; k < 3; k++)
                     corner[k] = slope[k] > 0.0 ? box->hi[k] : box->lo[k];
                 if (worth(b, box, i, now)) try_pose(b, corner, g, g);
                 if (!close_enough(b, i, now)) return false;
+                by = fw_workspace_view_grip(b->over, g); /* the pose may have taken its place */
             }
             far[i] = fmax(far[i], now);
-            most_N[i] = fmax(most_N[i], size_of(&force[i], load.half));
+            most_N[i] = fmax(most_N[i], size_of(&by->force[i], b->over->load.half));
         }
     }
     for (int i = 0; i < FW_SIX; i++) {
@@ -373,9 +135,10 @@ static fw_status start(fw_arena *arena, const fw_workspace_hold *hold, const fw_
                        fw_workspace_strain_proof *proof, bounding *b) {
     *proof = (fw_workspace_strain_proof){.hold = hold};
     *b = (bounding){.arena = arena, .hold = hold, .proof = proof};
-    size_t n = (size_t)hold->nactuator + 1;
-    FW_NEED(b->over = fw_arena_array(arena, fw_workspace_response, n));
-    FW_NEED(b->at = fw_arena_array(arena, fw_workspace_response, n));
+    FW_NEED(b->over = fw_arena_alloc(arena, 2, sizeof *b->over));
+    b->at = b->over + 1;
+    FW_TRY(fw_workspace_view_new(arena, hold, b->over));
+    FW_TRY(fw_workspace_view_new(arena, hold, b->at));
     for (int i = 0; i < 3; i++)
         b->size[i] = fmax(box->hi[i] - box->lo[i], 1e-300);
     return FW_OK;

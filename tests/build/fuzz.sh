@@ -4,7 +4,7 @@
 # RUNS=1000000 tests/build/fuzz.sh for a long one; 40000 runs, with FW_TEST_ALL=1 (./test --all) 100000. LIVE_RUNS=3000: the functions behind the page, too, whose
 # harness needs all rooms; test_live_hostile has a short run of the same. FILES_RUNS=1000000: every file that is read, by the
 # tables of its rows, and JUDGE_RUNS=10000: through judging, masks and recipes; fuzz.files and fuzz.judge have short runs of these
-# without the sanitizers. tests/build/coverage.py --run says what each reaches.
+# without the sanitizers. BODIES_RUNS=100000: what a page sends to each row of the server's table; fuzz.bodies has a short run. tests/build/coverage.py --run says what each reaches.
 set -eu
 cd "$(dirname "$0")/../.."
 . tools/setup.sh
@@ -44,6 +44,12 @@ run() { # HARNESS RUNS
 }
 run device "${RUNS:-$([ -n "${FW_TEST_ALL:-}" ] && echo 100000 || echo 40000)}"
 [ -z "${LIVE_RUNS:-}" ] || run live "$LIVE_RUNS"
+if [ -n "${BODIES_RUNS:-}" ]; then
+    sanitized_build fuzz_bodies
+    mkdir "$corpus/bodies"
+    cp tests/fuzz/seeds/body-* "$corpus/bodies"
+    run bodies "$BODIES_RUNS"
+fi
 [ -n "${FILES_RUNS:-}${JUDGE_RUNS:-}" ] || exit 0
 mkdir "$corpus/files" "$corpus/judge"
 build-asan/tests/fuzz/fuzzed_files corpus "$corpus/files"

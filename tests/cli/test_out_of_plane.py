@@ -180,6 +180,26 @@ class OutOfPlane(unittest.TestCase):
         self.assertTrue(any("bends across the plane" in r["text"] for r in much[0]["reasons"]))
         self.assertEqual(little[0]["verdict"], "accept")
 
+    def test_what_is_used_in_the_plane_is_added(self):
+        """a shock uses as much of a hinge beside a push as without one, with all that the push may use: of a scene that does not govern the
+        hinge its own use, widened by the band of what does"""
+        shock = '<base-motion az="0.2 km/s^2" law="half-sine" rise="0.5 ms"/>'
+        def of(*scenes):
+            self.file.write_text((STAGE % ("50 um", "", "", "")).split("<scene")[0] + "".join(
+                f'<scene name="s{i}" duration="20 ms"><force on="stage" fx="{push} uN"/>{more}</scene>'
+                for i, (push, more) in enumerate(scenes)) + "</device>")
+            whole = json.loads(run("check", self.file, "--json", *QUICK).stdout)
+            self.assertEqual(whole["verdict"], "accept", whole["reasons"])
+            return whole["hinges"], [s.get("strained") for s in whole["out_of_plane"][0]["scenes"]]
+        _, (alone,) = of((0, shock))
+        strong, (both,) = of((40, shock))
+        self.assertAlmostEqual(both, alone + max(h["utilisation_band"][1] for h in strong), 5)
+        weak, _ = of((15, ""))
+        two, (first, second) = of((40, shock), (15, shock))
+        self.assertAlmostEqual(first, both, 9)
+        self.assertAlmostEqual(second, alone + max(w["utilisation"] * h["utilisation_band"][1] / h["utilisation"] for w, h in zip(weak, two)), 5)
+        self.assertGreater(first - second, 0.1)
+
     def test_repeated_shocks(self):
         """a shock that hinges bear once is not accepted ten million times, and one that is a tenth of it is"""
         shock = '</scene><scene name="drop" duration="5 ms"><base-motion az="%s km/s^2" law="half-sine" rise="0.5 ms"/>'

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Probes and requirements through the program: values against closed forms and against the poses of the same file, bands
 against much tighter runs, frames, mistakes at their places, decisions, advice."""
+import collections
 import csv
 import json
 import math
@@ -417,6 +418,19 @@ class Probe(unittest.TestCase):
                                  r"above ([\d.]+) um\)", said).groups()
         self.near(float(worst) * 1e-6, made["band"][1], 1e-3)
         self.near(float(reach) * 1e-6, made["all_corners_band"][1], 1e-3)
+        def least(bound, status):
+            return self.answer(text.replace('measure="parasitic" max="1.66 um"', f'measure="parasitic" min="{bound!r} m"'),
+                               "check", "--advice", "none", statuses=(status,))
+        made = next(r for r in least(1e-9, 0)["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        self.assertLess(made["all_corners_band"][0], made["band"][0])
+        low = 0.5 * (made["band"][0] + made["value"])
+        verdict = least(low, 4)
+        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
+        worst, reach, asked = re.search(r"\(([\d.]+) nm to [\d.]+ nm; no corner of the flow is below ([\d.]+) nm\), and at least ([\d.]+) nm", said).groups()
+        self.near(float(worst) * 1e-9, made["band"][0], 1e-3)
+        self.near(float(reach) * 1e-9, made["all_corners_band"][0], 1e-3)
+        self.near(float(asked) * 1e-9, low, 1e-3)
 
     def test_links_that_bend_are_told_and_in_the_bands(self):
         """the same leaves between links of 120 and of 26 um: the second give, which every band and a warning say"""
@@ -536,6 +550,92 @@ class Probe(unittest.TestCase):
         self.assertTrue(found["parasitic"]["band"][0] <= aside <= found["parasitic"]["band"][1])
         self.assertEqual(found["settling-time"]["unit"], "s")
 
+    ASKED = [("tip", m) for m in ("peak", "peak-to-peak", "final", "minimum", "maximum", "parasitic")] + \
+        [("opening", "minimum"), ("opening", "maximum"), ("opening", "final"), ("swing", "minimum"), ("swing", "peak"), ("stiffness", None)]
+
+    def required(self, bounds):
+        """what is said of [((probe, measure), min, max)], and the whole verdict"""
+        text = self.GRIPPER.read_text(encoding="utf-8")
+        rows = ""
+        for (probe, measure), least, most in bounds:
+            rows += f'<require probe="{probe}"' + (f' measure="{measure}" scene="close"' if measure else "")
+            unit = {"swing": "rad", "stiffness": "N/m"}.get(probe, "m")
+            rows += "".join(f' {name}="{value!r} {unit}"' for name, value in (("min", least), ("max", most)) if value is not None) + "/>"
+        verdict = self.answer(text[:text.index("<require")] + rows + "</device>", "check", "--corners", "none", "--advice", "none")
+        self.assertEqual(len(verdict["requirements"]), len(bounds))
+        return verdict["requirements"], verdict
+
+    def test_a_band_is_what_motion_and_model_are_off_by(self):
+        """value, error and how far a probe goes are those of the motion; the model is off by one share of how far it goes, of all measures"""
+        asked, verdict = self.required([(a, -1e3, None) for a in self.ASKED])
+        motion = {p["id"]: p for p in verdict["probes"] if p["scene"] == "close"}
+        shares = collections.defaultdict(list)
+        for (probe, measure), r in zip(self.ASKED, asked):
+            if measure is None:
+                continue
+            p = motion[probe]
+            begins = p["maximum"] if probe == "opening" else 0  # the jaws stand open at first
+            value, error, goes = {
+                "peak": (abs(p["peak"]), p["error"], p["peak"] - begins),
+                "peak-to-peak": (p["maximum"] - p["minimum"], 2 * p["error"], p["maximum"] - p["minimum"]),
+                "final": (p["final"], p["final_error"], p["final"] - begins),
+                "minimum": (p["minimum"], p["error"], p["minimum"] - begins),
+                "maximum": (p["maximum"], p["error"], p["maximum"] - begins),
+                "parasitic": (p["across"], 0, p["across"])}[measure]
+            self.near(r["value"], value, 1e-12)
+            self.near(r["band"][1] - value, value - r["band"][0], 1e-6)
+            off = r["band"][1] - value - error
+            if measure == "parasitic":  # its own error is not printed
+                self.assertTrue(0 < off < 0.05 * value)
+            elif abs(goes) > 1e-6:
+                shares[probe].append(off / abs(goes))
+            else:
+                self.assertLess(abs(off), 1e-12)
+        for probe, found in shares.items():
+            self.assertGreater(len(found), 1)
+            self.assertGreater(min(found), 1e-3)
+            self.assertLess(max(found) - min(found), 1e-6 * max(found), (probe, found))
+
+    def test_what_is_required_decides_at_either_end_of_a_band(self):
+        """each kind of value, with bounds just within, in and just beyond its band: decision, margin, share and what the reason says"""
+        first, _ = self.required([(a, -1e3, None) for a in self.ASKED])
+        bounds, expected = [], []
+        for a, r in zip(self.ASKED, first):
+            low, high = r["band"]
+            little = 1e-3 * (high - low)
+            for least, most, decision in (
+                    (low - little, None, "accept"), (low + little, None, "inconclusive"), (high + little, None, "reject"),
+                    (None, high + little, "accept"), (None, high - little, "inconclusive"), (None, low - little, "reject"),
+                    (low - little, high + little, "accept"), (low - little, high - little, "inconclusive"), (low + little, high + little, "inconclusive"),
+                    (low + little, low + 2 * (r["value"] - low) - 2 * little, "inconclusive"), (low - 9 * little, low - little, "reject"),
+                    (high + little, high + 9 * little, "reject")):
+                bounds.append((a, least, most))
+                expected.append(decision)
+        found, verdict = self.required(bounds)
+        self.assertEqual([r["verdict"] for r in found], expected)
+        motion = {p["id"]: p for p in verdict["probes"] if p["scene"] == "close"}
+        said = [r["text"] for r in verdict["reasons"] if r["code"] == "FW-D330"]
+        self.assertEqual(len(said), sum(d != "accept" for d in expected))
+        for ((probe, measure), least, most), r in zip(bounds, found):
+            value, (low, high) = r["value"], r["band"]
+            self.near(r["margin"], min(value - b if b is least else b - value for b in (least, most) if b is not None), 1e-9)
+            begins = motion[probe]["maximum"] if probe == "opening" and measure in ("minimum", "maximum", "final") else 0
+            shares = []
+            for bound, sign in ((least, 1), (most, -1)):
+                if bound is None:
+                    continue
+                about = 0 if bound > 0 else begins
+                b, x = sign * (bound - about), sign * (value - about)
+                if b > 0:
+                    shares.append(b / x if x > 0 else 1e9)
+                elif b < 0:
+                    shares.append(max(-x, 0) / -b)
+            if shares and max(shares) < 1e5:
+                self.near(r["utilisation"], max(shares), 1e-9)
+            if r["verdict"] != "accept":
+                under = least is not None and low < least and (most is None or high <= most or value - least < most - value)
+                self.assertTrue(any(t.startswith(f"{probe} ({measure or 'stiffness'}) is ") and t.endswith("is required") and
+                                    f"and at {'least' if under else 'most'} " in t for t in said), (probe, measure, least, most))
 
 if __name__ == "__main__":
     unittest.main()

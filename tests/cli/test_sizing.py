@@ -98,8 +98,8 @@ PROBLEMS = [
     ("leaf", LEAF, "minimise", USED, ()),
     ("leaf", LEAF, "maximise", F0, ((USED, None, 0.6),)),
     ("stage", LEG, "maximise", F0, ()),
-    ("stage", (("pull", "40 uN", "180 uN"),), "maximise", "governing.peak_angle_rad", ()),
-    ("stage", LEG + (("pull", "40 uN", "180 uN"),), "maximise", "governing.peak_strain", ()),
+    ("stage", (("pull", "40 uN", "180 uN"),), "maximise", hinge("D", "peak_angle_rad"), ()),
+    ("stage", LEG + (("pull", "40 uN", "180 uN"),), "maximise", hinge("A", "peak_strain"), ()),
 ]
 
 

@@ -250,7 +250,7 @@ class Study(unittest.TestCase):
             ("sweep", vary + respond.replace("utilisation", "utilization"), "FW-D492", "utilisation_band"),
             ("sweep", vary + respond.replace("governing", "hinges[Q]"), "FW-D492", "it has A B C D E F"),
             ("sweep", vary + respond.replace("governing.", "hinges[*]."), "FW-D492", "take="),
-            ("sweep", vary + respond.replace("governing", "masses:x"), "FW-D492", "no document 'masses'"),
+            ("sweep", vary + respond.replace("governing", "masses:x"), "FW-D492", "no document 'masses'; there are verdict, simulate, statics, modes, workspace, masks and recipes"),
             ("sweep", vary + respond.replace("governing.", "mask."), "FW-D492", "masks: recipes:"),
             ("sweep\" as=\"hinges", vary + respond.replace("governing.utilisation", "clearances[0].clearance_m"), "FW-D576",
              "about something else"),

@@ -163,11 +163,56 @@ static void the_narrowest_bends_most(void **state) {
     }
 }
 
+/* what bends less in every respect keeps off whatever the other keeps off; in one respect more is another matter */
+static void what_bends_less_keeps_off(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    uint64_t seed = 29;
+    int clear = 0, covered = 0;
+    leaf l;
+    leaf_of(&l);
+    for (int round = 0; round < 600; round++) {
+        const double x = chance(&seed, 5e-6, 200e-6) * (round % 2 ? 1 : -1);
+        fw_clearance_edge wall = {.segment = {.kind = FW_LINE,
+                                              .a = {x, chance(&seed, -0.4, 0.5) * LENGTH},
+                                              .b = {x + chance(&seed, -20e-6, 20e-6), 0.5 * LENGTH}},
+                                  .label = "wall"};
+        fw_clearance_solid solid[3] = {{.edge = &wall, .count = 1}, {.count = 0}, {.count = 0}};
+        const fw_clearance_things things = {.solid = solid, .nbody = 2};
+        fw_clearance_bend bend[2];
+        const fw_clearance_edge *found[2];
+        for (int i = 0; i < 2; i++) {
+            const double turn = chance(&seed, 0.02, 1), force = chance(&seed, 0, 0.2) * turn / LENGTH;
+            bend[i] = (fw_clearance_bend){.known = true,
+                                          .strain = chance(&seed, 0, 2e-4),
+                                          .width_m = WIDTH,
+                                          .curvature_per_m = turn / LENGTH + force,
+                                          .forced_per_m = i ? HUGE_VAL : force,
+                                          .turn_rad = turn,
+                                          .straight = true};
+            assert_int_equal(
+                fw_clearance_strip_meets(arena, &things, &l.strip, &bend[i], 0, &found[i]), FW_OK);
+        }
+        const bool less = bend[1].turn_rad >= bend[0].turn_rad &&
+                          bend[1].strain >= bend[0].strain &&
+                          bend[1].curvature_per_m >= bend[0].curvature_per_m;
+        assert_int_equal(fw_clearance_bend_covers(&bend[1], &bend[0]), less);
+        assert_false(fw_clearance_bend_covers(&bend[0], &bend[1]));
+        covered += less;
+        if (!less || found[1]) continue;
+        assert_null(found[0]);
+        clear++;
+    }
+    assert_true(clear > 20 && covered > clear + 20);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_stay_within_the_bound),
         cmocka_unit_test(a_wall_beside_the_strip),
         cmocka_unit_test(the_narrowest_bends_most),
+        cmocka_unit_test(what_bends_less_keeps_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

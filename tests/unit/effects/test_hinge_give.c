@@ -228,8 +228,47 @@ static void like_another(void **state) {
     trio_free(&t);
 }
 
+/* Where nobody reads bounds, that of hinges whose model was asked for is not found, and nothing else is another: what
+   acts, all other bounds, and what they add up to. Where it decides it is found all the same. */
+static void what_nobody_reads(void **state) {
+    (void)state;
+    double load[RIG_N] = {0, 1e-6, 0};
+    trio t;
+    trio_new(&t, false, 1, 1e-3);
+    rig *r = &t.real;
+    put_on(r, load);
+    for (int model = FW_HINGE_AUTO; model <= FW_HINGE_COMPLIANCE; model++) {
+        fw_effect_ledger ledger[2];
+        fw_effects_loads loads[2];
+        fw_diags diags = fw_diags_new(r->arena);
+        for (int untold = 0; untold < 2; untold++) {
+            const fw_effect_choice choice = {.hinge = (fw_effects_hinge_model)model,
+                                             .untold = untold};
+            assert_int_equal(fw_effects_compile(r->arena, &r->m, &r->scene, &choice, 1e-3, &diags,
+                                                &ledger[untold], &loads[untold]),
+                             FW_OK);
+        }
+        assert_int_equal(loads[0].nelement, loads[1].nelement);
+        assert_int_equal(loads[0].nreleased, loads[1].nreleased);
+        assert_true(ledger[0].left_out == ledger[1].left_out);
+        assert_true(ledger[0].beside == ledger[1].beside);
+        assert_int_equal(ledger[0].hinge.used, ledger[1].hinge.used);
+        for (int i = 0; i < ledger[0].count; i++) {
+            const fw_effect_entry *told = &ledger[0].item[i], *untold = &ledger[1].item[i];
+            assert_int_equal(told->active, untold->active);
+            assert_true(told->cost == untold->cost);
+            if (strcmp(told->id, "nonlinear-hinge") == 0 && model != FW_HINGE_AUTO)
+                assert_true(isfinite(told->bound) && isinf(untold->bound));
+            else
+                assert_true(told->bound == untold->bound);
+        }
+    }
+    trio_free(&t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_nobody_reads),
         cmocka_unit_test(motions),
         cmocka_unit_test(nothing_promised),
         cmocka_unit_test(like_another),

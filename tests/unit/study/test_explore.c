@@ -68,6 +68,20 @@ static void a_point_is_what_check_says(void **state) {
     fw_plan_live_free(live);
 }
 
+/* bounds of effects are found where somebody asks for them, though pins were asked for and they decide nothing */
+static void a_bound_that_is_read_is_found(void **state) {
+    (void)state;
+    fw_plan_live *live = live_new();
+    json_t *a = explore(live, "\"inputs\":[\"flexure[C]/@width\"],"
+                              "\"values\":[\"effects[nonlinear-hinge,gentle-step].bound\"],"
+                              "\"options\":{\"detail\":\"quick\"},\"points\":[[\"8 um\"]]");
+    const json_t *point = json_array_get(json_object_get(a, "points"), 0);
+    const double bound = json_real_value(json_array_get(json_object_get(point, "values"), 0));
+    assert_true(bound > 1e-4 && bound < 1);
+    json_decref(a);
+    fw_plan_live_free(live);
+}
+
 /* its hinges hold, but no mask shows a line as narrow: check says no, whatever is asked for */
 static void what_has_no_mask_is_rejected(void **state) {
     (void)state;
@@ -205,6 +219,7 @@ static void a_request_that_was_stopped_leaves_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_bound_that_is_read_is_found),
         cmocka_unit_test(a_point_is_what_check_says),
         cmocka_unit_test(what_has_no_mask_is_rejected),
         cmocka_unit_test(what_was_asked_before_does_not_matter),

@@ -562,6 +562,44 @@ static void kept_from_device_to_device(void **state) {
     fw_arena_free(keeps);
 }
 
+/* One device and others that differ from it in one respect, by turns and over the same poses: what is kept of the one is
+   found again by the others only where it is theirs as well. Of both a flow and its device are looked at twice. */
+static void what_devices_have_in_common(void **state) {
+    (void)state;
+    enum { NOTHING, HINGE, OTHER_HINGE, SPRING, PLACE, BODY, WAY, RESPECTS };
+    fw_arena *keeps = fw_arena_new(0);
+    fw_workspace_kept *kept;
+    assert_int_equal(fw_workspace_kept_new(keeps, &kept), FW_OK);
+    for (int n = 0; n < 4 * RESPECTS; n++) {
+        const int respect = n / 2 % 2 ? n / 4 : NOTHING;
+        loaded_six_bar d = {0};
+        seed = 1;
+        make(&d, 1, false, ELECTRODES); /* hinges without a strip of their own */
+        if (respect == HINGE) d.hinge[1].closed_form.strain_per_rad *= 1.3;
+        if (respect == OTHER_HINGE) d.hinge[4].closed_form.strain_per_rad *= 1.2;
+        if (respect == SPRING) d.f.pin[2].stiffness_Nm_per_rad *= 1.4;
+        if (respect == PLACE) d.force[1].x_m = -2e-4;
+        if (respect == BODY) d.torque[0].body = 1;
+        if (respect == WAY) d.comb.direction_rad = 1.1;
+        d.f.box = (fw_device_workspace_box){.x_min_m = -40e-6,
+                                            .x_max_m = 40e-6,
+                                            .y_min_m = -20e-6,
+                                            .y_max_m = 20e-6,
+                                            .phi_min_rad = -0.02,
+                                            .phi_max_rad = 0.02};
+        d.f.device.nworkspace = 1;
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        fw_workspace_result alone, with;
+        assert_int_equal(fw_workspace_required(arena, &d.f.mechanism, NULL, &diags, &alone), FW_OK);
+        assert_int_equal(fw_workspace_required(arena, &d.f.mechanism, kept, &diags, &with), FW_OK);
+        assert_true(alone.strain->proved);
+        same_result(&alone, &with);
+        fw_arena_free(arena);
+    }
+    fw_arena_free(keeps);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_sharp),
@@ -570,6 +608,7 @@ int main(void) {
         cmocka_unit_test(force_nearly_along_an_axis),
         cmocka_unit_test(samples_agree_with_the_proof),
         cmocka_unit_test(kept_from_device_to_device),
+        cmocka_unit_test(what_devices_have_in_common),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

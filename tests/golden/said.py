@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What commands say and draw, beside the gallery's: the terminal's text, the words of every page and picture, and of every
+picture what is drawn where. Each case is a small device and a command; what it said is in tests/golden/said/CASE.txt. A change that
+is wanted: FW_UPDATE=1 tests/golden/said.py PROGRAM, and look at the difference.
+
+    said.py PROGRAM [Said.test_CASE ...]
+
+Pictures are kept as how many elements of each kind they have, their words, and a hash of what is drawn, to a tenth of a
+pixel; numbers of documents are not kept here: their tests compute them again."""
+import hashlib
+import html
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import Counter
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KEPT = ROOT / "tests/golden/said"
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+QUICK = "--corners none --advice none --measurements none"
+PADDLE = "tests/data/probes/gripper.xml"
+CASES = {
+    "statics_leaves": "statics docs/gallery/leaf-four-bar/device.xml -o OUT",
+    "statics_gripper": f"statics {PADDLE} --scene close -o OUT",
+    "statics_comb": "statics tests/data/effects/comb.xml -o OUT",
+    "statics_crank": "statics docs/mechanisms/slider-crank.xml -o OUT",
+    "statics_path": "statics docs/gallery/comb-stage/device.xml --path -o OUT",
+    "modes_leaves": "modes docs/gallery/leaf-four-bar/device.xml -o OUT",
+    "modes_crank": "modes docs/mechanisms/slider-crank.xml -o OUT",
+    "assemble_toggle": "assemble docs/mechanisms/toggle.xml -o OUT",
+    "assemble_squeezer": "assemble docs/mechanisms/squeezer.xml -o OUT",
+    "assemble_hub": "assemble tests/data/figures/hub.xml -o OUT",
+    "hinge_leaves": "hinge docs/gallery/leaf-four-bar/device.xml -o OUT",
+    "hinge_paths": "hinge docs/gallery/free-form-four-bar/device.xml -o OUT",
+    "simulate_gripper": f"simulate {PADDLE} --samples 201 -o OUT",
+    "simulate_comb": "simulate tests/data/effects/comb.xml --samples 201 -o OUT",
+    "simulate_tendons": "simulate tests/data/effects/tendons.xml --samples 201 -o OUT",
+    "simulate_film": "simulate tests/data/effects/closing-film.xml --samples 201 -o OUT",
+    "check_gripper": f"check {PADDLE} --corners none --verbose",
+    "check_stage": f"check docs/gallery/straight-stage/device.xml {QUICK} --verbose",
+    "study_sweep": "study tests/data/said/sweep.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_line": "study tests/data/said/line.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_worst": "study tests/data/said/worst.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_survive": "study tests/data/said/survive.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "plan_gripper": f"plan {PADDLE} {QUICK} -o OUT",
+    "plan_stage": f"plan docs/gallery/straight-stage/device.xml {QUICK} -o OUT",
+    "plan_combs": f"plan docs/gallery/comb-stage/device.xml {QUICK} -o OUT",
+    "plan_nodder": f"plan docs/gallery/copper-nodder/device.xml {QUICK} -o OUT",
+}
+NUMBER = re.compile(r"-?\d+\.\d+(?:[eE][-+]?\d+)?")
+BLOCK = re.compile(r"</?(?:p|h\d|tr|table|div|li|ul|section|figure|title|pre|summary|details|dt|dd|text|figcaption|caption)\b[^>]*>")
+
+
+def rounded(match):
+    text = f"{float(match.group()):.1f}"
+    return "0.0" if text == "-0.0" else text
+
+
+def words(markup):
+    """lines of text, as a reader has them"""
+    text = re.sub(r"<(script|style)\b.*?</\1>", "", markup, flags=re.S)
+    text = html.unescape(re.sub(r"<[^>]*>", " ", BLOCK.sub("\n", text)))
+    return [line for line in (" ".join(part.split()) for part in text.splitlines()) if line]
+
+
+def drawn(picture):
+    """kinds of elements, and what is drawn where"""
+    kinds = Counter(re.findall(r"<([a-zA-Z]+)\b", picture))
+    digest = hashlib.sha256(NUMBER.sub(rounded, picture).encode()).hexdigest()[:16]
+    return f"picture {digest}: " + ", ".join(f"{n} {kind}" for kind, n in sorted(kinds.items()))
+
+
+def reduced(path):
+    text = path.read_text(encoding="utf-8")
+    found, pictures = [], re.findall(r"<svg\b.*?</svg>(?!\s*<svg)", text, re.S) if path.suffix == ".html" else [text]
+    rest = text
+    for picture in pictures:
+        found.append(drawn(picture))
+        if path.suffix == ".html":
+            rest = rest.replace(picture, "")
+            found += ["  " + w for w in words(picture)[:400]]
+    return found + words(rest)
+
+
+def said(command):
+    """all of it, without what the machine or the version is"""
+    with tempfile.TemporaryDirectory() as place:
+        out = pathlib.Path(place) / "out"
+        argv = [str(PROGRAM), *command.replace("OUT", str(out)).split(), "--color=never"]
+        done = subprocess.run(argv, cwd=ROOT, capture_output=True, text=True, check=False, timeout=600)
+        lines = [f"$ flexwright {command}", f"exit {done.returncode}", *done.stderr.splitlines(), *done.stdout.splitlines()]
+        version = subprocess.run([str(PROGRAM), "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+        for path in sorted(out.rglob("*")):
+            if path.suffix in (".svg", ".html") and "masks" not in path.parts and "recipes" not in path.parts:
+                lines += [f"== {path.relative_to(out)}", *reduced(path)]
+            elif path.suffix == ".png":
+                lines += [f"== {path.relative_to(out)}"]
+    text = "\n".join(line.rstrip() for line in lines) + "\n"
+    text = re.sub(r"[\d.]+ [mun]?s of CPU", "TIME of CPU", text.replace(str(out), "OUT").replace(version, "VERSION"))
+    return re.sub(r" [\d.]+e-\d+(?=\n)", " TIME", text) if command.startswith("hinge") else text
+
+
+class Said(unittest.TestCase):
+    maxDiff = 4000
+
+    def keeps(self, case):
+        now, kept = said(CASES[case]), KEPT / f"{case}.txt"
+        if os.environ.get("FW_UPDATE"):
+            kept.write_text(now, encoding="utf-8")
+        self.assertEqual(now, kept.read_text(encoding="utf-8"), f"{kept.relative_to(ROOT)}: if that is wanted, FW_UPDATE=1 tests/golden/said.py PROGRAM")
+
+    def test_statics_leaves(self):
+        self.keeps("statics_leaves")
+
+    def test_statics_gripper(self):
+        self.keeps("statics_gripper")
+
+    def test_statics_comb(self):
+        self.keeps("statics_comb")
+
+    def test_statics_crank(self):
+        self.keeps("statics_crank")
+
+    def test_statics_path(self):
+        self.keeps("statics_path")
+
+    def test_modes_leaves(self):
+        self.keeps("modes_leaves")
+
+    def test_modes_crank(self):
+        self.keeps("modes_crank")
+
+    def test_assemble_toggle(self):
+        self.keeps("assemble_toggle")
+
+    def test_assemble_squeezer(self):
+        self.keeps("assemble_squeezer")
+
+    def test_assemble_hub(self):
+        self.keeps("assemble_hub")
+
+    def test_hinge_leaves(self):
+        self.keeps("hinge_leaves")
+
+    def test_hinge_paths(self):
+        self.keeps("hinge_paths")
+
+    def test_simulate_gripper(self):
+        self.keeps("simulate_gripper")
+
+    def test_simulate_comb(self):
+        self.keeps("simulate_comb")
+
+    def test_simulate_tendons(self):
+        self.keeps("simulate_tendons")
+
+    def test_simulate_film(self):
+        self.keeps("simulate_film")
+
+    def test_check_gripper(self):
+        self.keeps("check_gripper")
+
+    def test_check_stage(self):
+        self.keeps("check_stage")
+
+    def test_plan_gripper(self):
+        self.keeps("plan_gripper")
+
+    def test_plan_stage(self):
+        self.keeps("plan_stage")
+
+    def test_plan_combs(self):
+        self.keeps("plan_combs")
+
+    def test_plan_nodder(self):
+        self.keeps("plan_nodder")
+
+    def test_study_sweep(self):
+        self.keeps("study_sweep")
+
+    def test_study_line(self):
+        self.keeps("study_line")
+
+    def test_study_worst(self):
+        self.keeps("study_worst")
+
+    def test_study_survive(self):
+        self.keeps("study_survive")
+
+    def test_every_case_is_kept(self):
+        """and nothing else is"""
+        self.assertEqual({p.stem for p in KEPT.glob("*.txt")}, set(CASES))
+        self.assertEqual({n.removeprefix("test_") for n in dir(self) if n.startswith("test_")} - {"every_case_is_kept"}, set(CASES))
+
+
+if __name__ == "__main__":
+    unittest.main()
