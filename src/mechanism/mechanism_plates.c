@@ -522,9 +522,10 @@ static double hinge_alone(const fw_mechanism_plate_hinge *h, double force_N, dou
     return force_N * l * l / h->bend_Nm2 + M * l / sqrt(h->bend_Nm2 * h->twist_Nm2);
 }
 
-/* largest eigenvalue of lost x = (1/factor) K x, in the modes' coordinates. lost, a (n x n) and part (n) are used up */
+/* Largest eigenvalue of lost x = (1/factor) K x, in the modes' coordinates; where Frobenius' norm is below `little`
+   that norm, which is no less. lost, a (n x n) and part (n) are used up */
 static fw_status tilts_alone(fw_arena *arena, const fw_mechanism_plates *p, const double *lost,
-                             double *a, double *part, double *largest) {
+                             double little, double *a, double *part, double *largest) {
     const size_t n = (size_t)p->n;
     fw_maths_lapack_space space;
     for (size_t k = 0; k < n; k++) {
@@ -540,6 +541,11 @@ static fw_status tilts_alone(fw_arena *arena, const fw_mechanism_plates *p, cons
             a[k * n + l] = sum / sqrt(p->per_s2[k] * p->per_s2[l]);
         }
     }
+    double squares = 0;
+    for (size_t i = 0; i < n * n; i++)
+        squares += a[i] * a[i];
+    *largest = sqrt(squares);
+    if (*largest < little) return FW_OK;
     FW_TRY(fw_maths_eigen_space(arena, p->n, &space));
     if (!fw_maths_eigen(p->n, a, part, &space)) return FW_SOLVER;
     *largest = fmax(part[n - 1], 0);
@@ -564,18 +570,19 @@ fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plate
     FW_NEED(rest = fw_arena_array(arena, double, 2 * nbody + 1));
     for (size_t b = 0; b < nbody; b++)
         known = known && !isnan(by->else_Nm[b]);
+    *hinge = FW_NONE;
+    for (int k = 0; k < p->mechanism->nhinge; k++) {
+        double alone = hinge_alone(&p->hinge[k], sqrt(by->most[2 * k]), by->most[2 * k + 1]);
+        if (alone > worst) worst = alone, *hinge = k;
+    }
     for (size_t i = 0; i < (known ? 1 : sizeof share / sizeof *share); i++) {
         double largest;
         memset(lost, 0, n * n * sizeof *lost);
         memset(rest, 0, (2 * nbody + 1) * sizeof *rest);
         add_tipping(p, by, lost, rest, share[i]);
-        FW_TRY(tilts_alone(arena, p, lost, a, part, &largest));
+        FW_TRY(tilts_alone(arena, p, lost, by->enough > 0 ? 1 / by->enough - worst : 0, a, part,
+                           &largest));
         least = fmin(least, largest);
-    }
-    *hinge = FW_NONE;
-    for (int k = 0; k < p->mechanism->nhinge; k++) {
-        double alone = hinge_alone(&p->hinge[k], sqrt(by->most[2 * k]), by->most[2 * k + 1]);
-        if (alone > worst) worst = alone, *hinge = k;
     }
     double all = least + worst;
     *factor = all > 0 ? 1 / all : HUGE_VAL;

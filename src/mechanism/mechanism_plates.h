@@ -105,6 +105,7 @@ typedef struct fw_mechanism_plates_pressed {
     /* (nbody) sum of |F| times the distance from the centre of mass of all else that acts on a body but its inertia;
        NaN: not known, and what the joints leave over is taken to act at its farthest corner */
     const double *else_Nm;
+    double enough; /* from this factor on a lesser one that is no less than it will do; 0: never */
 } fw_mechanism_plates_pressed;
 fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plates *plates,
                                        const fw_mechanism_plates_pressed *by, double *factor,

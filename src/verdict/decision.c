@@ -141,3 +141,15 @@ fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device
                                                   .text = text};
     return FW_OK;
 }
+
+fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
+                                      fw_verdict_decision decision, const char *text) {
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = decision,
+                                                  .keep = 0.5,
+                                                  .text = text};
+    return FW_OK;
+}

@@ -253,7 +253,7 @@ size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         FW_REASONS * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
-        12; /* strips; out of reach or badly held, held against what is unknown, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
+        13; /* strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncontact;
     return most;
@@ -407,18 +407,6 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
     return FW_OK;
 }
 
-static fw_status of_workspace(fw_verdict_variant_verdict *v, int number,
-                              fw_verdict_decision decision, const char *text) {
-    FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = decision,
-                                                  .keep = 0.5,
-                                                  .text = text};
-    return FW_OK;
-}
-
 /* required poses in which nothing bounds what drift and give of the hinges add */
 static fw_status judge_give(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_load *worst = NULL;
@@ -426,7 +414,7 @@ static fw_status judge_give(fw_arena *arena, fw_verdict_variant_verdict *v) {
         if (v->workspace.load[i].known && isinf(v->workspace.load[i].give))
             worst = &v->workspace.load[i];
     if (!worst) return FW_OK;
-    return of_workspace(
+    return fw_verdict_workspace_reason(
         v, 535, FW_INCONCLUSIVE,
         fw_arena_printf(
             arena,
@@ -441,7 +429,7 @@ static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_result *w = &v->workspace;
     char volume[32], needed[32];
     if (!w->badly_by) return FW_OK;
-    return of_workspace(
+    return fw_verdict_workspace_reason(
         v, 536, FW_INCONCLUSIVE,
         fw_arena_printf(
             arena,
@@ -457,7 +445,7 @@ static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
 /* what acts on the six-bar besides, by way of what rides on it */
 static fw_status judge_unknown(fw_arena *arena, fw_verdict_variant_verdict *v) {
     if (!v->workspace.unknown) return FW_OK;
-    return of_workspace(
+    return fw_verdict_workspace_reason(
         v, 646, FW_INCONCLUSIVE,
         fw_arena_printf(
             arena,
@@ -478,7 +466,7 @@ static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
         FW_TRY(judge_unknown(arena, v));
         return judge_give(arena, v);
     }
-    return of_workspace(
+    return fw_verdict_workspace_reason(
         v, 201, FW_REJECT,
         fw_arena_printf(
             arena,

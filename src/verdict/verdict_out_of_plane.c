@@ -251,7 +251,7 @@ static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
         for (int j = 0; j < count && !known; j++)
             known = a_share_of(n, forces, looked + (size_t)j * (size_t)n);
         if (known) continue;
-        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + n, other};
+        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + n, other, 0};
         double now;
         int weak;
         FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &now, &weak));
@@ -459,6 +459,71 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
     return tell_lasted(arena, s, lasts, tires, v, to);
 }
 
+/* ---- required poses ---- */
+
+/* The least factor over the corners of the required boxes by every grip and over the worst poses. Between them forces go
+   nearly in proportion to the pose, and what tips is convex in them; a tenth is left for what does not. */
+static fw_status required_factor(fw_arena *arena, const both *is,
+                                 const fw_verdict_variant_verdict *v, double *factor) {
+    const fw_mechanism *m = v->mechanism;
+    const size_t n = (size_t)m->nhinge, bodies = (size_t)m->nbody;
+    double tips, *far, *forces, *force_N;
+    int hinge, count;
+    FW_NEED(forces = fw_arena_array(arena, double, 4 * n));
+    FW_NEED(far = fw_arena_array(arena, double, 2 * bodies));
+    for (int i = 0; i < m->device->nscene;
+         i++) { /* what acts beside the mass centre may act anywhere */
+        acting(m, &m->device->scene[i], far + bodies);
+        for (size_t b = 0; b < bodies; b++)
+            if (far[bodies + b] != 0) far[b] = (double)NAN;
+    }
+    for (int k = 0; k < m->nhinge; k++) {
+        const int j = m->hinge[k].pin;
+        if (j >= FW_SIX) continue;
+        forces[2 * n + 2 * (size_t)k] = pow(v->workspace.load[j].most_N, 2);
+        forces[2 * n + 2 * (size_t)k + 1] =
+            m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad);
+    }
+    const fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far,
+                                                 1 / (1 - is->rigid.error)};
+    *factor = HUGE_VAL;
+    for (int i = 0; i < m->device->nworkspace; i++) {
+        const fw_device_workspace_box *box = &m->device->workspace[i];
+        const double low[3] = {box->x_min_m, box->y_min_m, box->phi_min_rad},
+                     high[3] = {box->x_max_m, box->y_max_m, box->phi_max_rad};
+        if (!v->workspace.asked[i] || !v->workspace.strain[i].hold) continue;
+        FW_TRY(fw_workspace_forces(arena, &v->workspace.strain[i], low, high, &force_N, &count));
+        for (int c = 0; c < count; c++) {
+            for (int k = 0; k < 2 * m->nhinge; k++)
+                forces[k] = m->hinge[k / 2].pin < FW_SIX
+                                ? 1.1 * force_N[12 * c + 2 * m->hinge[k / 2].pin + k % 2]
+                                : 0;
+            FW_TRY(fw_mechanism_plates_buckling(arena, is->soft.why ? &is->rigid : &is->soft,
+                                                &pressed, &tips, &hinge));
+            *factor = fmin(*factor, tips);
+        }
+    }
+    *factor *= 1 - is->rigid.error;
+    return FW_OK;
+}
+
+static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v) {
+    double sure;
+    char by[32];
+    if (!v->workspace.required || !v->workspace.reachable || v->corner) return FW_OK;
+    FW_TRY(required_factor(arena, is, v, &sure));
+    if (!(sure < 1)) return FW_OK;
+    return fw_verdict_workspace_reason(
+        v, 647, FW_INCONCLUSIVE,
+        fw_arena_printf(arena,
+                        "what holds the required poses may tip the device out of its plane: that "
+                        "it does not is "
+                        "sure up to %s times that; a thicker layer, wider or shorter flexures, or "
+                        "a smaller box "
+                        "keep it flat",
+                        fw_number_text(by, sizeof by, sure, 2)));
+}
+
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
     for (int i = 0; o && !o->why && i < o->nscene; i++) {
@@ -466,6 +531,7 @@ fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_ver
         if (!fw_mechanism_plates_asked(s)) continue;
         FW_TRY(judge_strain(arena, o->plates, v, &o->scene[i]));
     }
+    if (o && !o->why) return judge_required(arena, o->plates, v);
     return FW_OK;
 }
 

@@ -63,6 +63,10 @@ fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_
 
 /* ---- verdict_out_of_plane.c: plates on flexures ---- */
 
+/* decision.c: one more reason, of the required poses; text NULL: FW_NOMEM */
+fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
+                                      fw_verdict_decision decision, const char *text);
+
 /* a scene acts across the plane, or a mode there is asked for */
 bool fw_verdict_out_of_plane_asked(const fw_mechanism *mechanism);
 /* after the scenes were run: v->out_of_plane, and reasons of v. brief: only where something asks for it */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What poses strain: the strain over a box, and what is known of it
-   at the worst poses. */
+/* What poses strain: the strain over a box, and what is known of it at the worst poses. */
 #include "base/text.h"
 #include "workspace/pose_load.h"
 #include <math.h>
@@ -206,8 +205,7 @@ const char *fw_workspace_actuation(const fw_workspace_strain_proof *proof, int h
 
 /* ---- first order: what is known at the worst poses beside the proved strain ---- */
 
-/* Beyond it first order says nothing */
-static const double first_order_most = 0.2;
+static const double first_order_most = 0.2; /* beyond, first order says nothing */
 
 /* A leg whose hinges are displaced is one whose platform hinge is. It is asked where the axis of a hinge is not known. */
 typedef struct worst {
@@ -217,19 +215,25 @@ typedef struct worst {
     int hinge;
 } worst;
 
+/* joint forces at a pose by a grip, C and D displaced; false: out of reach, or it does not hold there */
+static bool held_at(const fw_workspace_hold *h, const double p[3], const double *shift,
+                    const fw_workspace_grip *grip, fw_workspace_response *response,
+                    fw_workspace_pose_load *load, fw_workspace_jet2 force[FW_SIX]) {
+    const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    bool certain, own[2];
+    if (!fw_workspace_pose_load_over(h, &at, shift, load)) return false;
+    for (int k = 0; k < 3 && !grip->wrench; k++) {
+        int i = grip->actuator[k];
+        fw_workspace_pose_response(h, load, &h->actuator[i], &response[i]);
+    }
+    return fw_workspace_pose_forces(h, load, response, grip, &certain, own, force);
+}
+
 /* strain of the hinge with C and D displaced; 0: out of reach */
 static double displaced(const worst *w, const double shift[4], fw_workspace_pose_load *load,
                         fw_workspace_jet2 force[FW_SIX]) {
-    const double *p = w->at->pose;
-    const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
-    const fw_workspace_grip *grip = &w->hold->grip[w->at->grip];
-    bool certain, own[2];
-    if (!fw_workspace_pose_load_over(w->hold, &at, shift, load)) return 0.0;
-    for (int k = 0; k < 3 && !grip->wrench; k++) {
-        int i = grip->actuator[k];
-        fw_workspace_pose_response(w->hold, load, &w->hold->actuator[i], &w->response[i]);
-    }
-    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, own, force))
+    if (!held_at(w->hold, w->at->pose, shift, &w->hold->grip[w->at->grip], w->response, load,
+                 force))
         return 0.0;
     fw_maths_interval s = fw_workspace_pose_strain(w->hold, load, w->hinge, &force[w->hinge], NULL);
     return 0.5 * (s.lo + s.hi);
@@ -328,4 +332,32 @@ void fw_workspace_load_both(const fw_workspace_load *a, const fw_workspace_load 
         most.relief = 1.0 - least / all;
     }
     *out = most;
+}
+
+static bool forces_at(const fw_workspace_hold *h, fw_workspace_response *response,
+                      const double pose[3], int grip, double *force_N) {
+    fw_workspace_pose_load load;
+    fw_workspace_jet2 force[FW_SIX];
+    if (!held_at(h, pose, NULL, &h->grip[grip], response, &load, force)) return false;
+    for (int i = 0; i < FW_SIX; i++)
+        force_N[2 * i] = force[i].x.v.m, force_N[2 * i + 1] = force[i].y.v.m;
+    return true;
+}
+
+fw_status fw_workspace_forces(fw_arena *arena, const fw_workspace_strain_proof *proof,
+                              const double low[3], const double high[3], double **force_N, int *n) {
+    const fw_workspace_hold *h = proof->hold;
+    fw_workspace_response *response;
+    FW_NEED(response = fw_arena_array(arena, fw_workspace_response, (size_t)h->nactuator + 1));
+    FW_NEED(*force_N = fw_arena_array(arena, double, 12 * (8 * (size_t)h->ngrip + FW_SIX)));
+    *n = 0;
+    for (int k = 0; k < 8 * h->ngrip; k++) {
+        const int c = k / h->ngrip;
+        const double pose[3] = {(c & 1 ? high : low)[0], (c & 2 ? high : low)[1],
+                                (c & 4 ? high : low)[2]};
+        *n += forces_at(h, response, pose, k % h->ngrip, *force_N + 12 * *n);
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        *n += forces_at(h, response, proof->most[i].pose, proof->most[i].grip, *force_N + 12 * *n);
+    return FW_OK;
 }

@@ -63,6 +63,10 @@ typedef struct fw_workspace_strain_proof {
     int leaves;
 } fw_workspace_strain_proof;
 
+/* Joint forces on second bodies, N, world, (n x 6 x 2): in the corners of the box by every grip, and at the worst pose of
+   every hinge by its own */
+fw_status fw_workspace_forces(fw_arena *arena, const fw_workspace_strain_proof *proof,
+                              const double low[3], const double high[3], double **force_N, int *n);
 /* what holds the pose that strains the hinge most */
 const char *fw_workspace_actuation(const fw_workspace_strain_proof *proof, int hinge);
 

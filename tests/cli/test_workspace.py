@@ -204,6 +204,18 @@ class Judged(InTemporary):
         self.assertAlmostEqual(judged(scene='<gravity gy="-9.81 m/s^2"/>')[1], plain, delta=0.002)
         self.assertGreater(max(judged(scene=f'<gravity gy="{g} m/s^2"/>')[1] for g in (-98100, 98100)), 1.2 * plain)
 
+    def test_thin_layers_may_tip(self):
+        """the same strain at any thickness, but forces across go with its cube and those in the plane with it"""
+        device = self.here / "thin.xml"
+        text = (ROOT / GALLERY).read_text()
+        head = text[:text.index('  <scene name="step-load"')].replace('  <flow ref="al-masked-rie"/>\n', "")
+        for thickness, flat in (("9 um", True), ("4 um", False), ("2 um", False)):
+            device.write_text(head.replace('thickness="9 um"', f'thickness="{thickness}"') + """
+  <workspace x-min="-20 um" x-max="20 um" y-min="-8 um" y-max="8 um" phi-min="-0.3 deg" phi-max="0.3 deg"/></device>""")
+            verdict = json.loads(run("check", device, "--json", "--advice", "none", "--corners", "none").stdout)
+            self.assertEqual(any(r["code"] == "FW-D647" for r in verdict["reasons"]), not flat, verdict["reasons"])
+            self.assertAlmostEqual(max(h["utilisation"] for h in verdict["hinges"]), 0.47, delta=0.01)
+
     def test_a_spring_at_what_rides_on_it(self):
         device = self.here / "rides.xml"
         rider = ('<mechanism><body id="R" x="1.5 mm" y="3.5 mm" mass="1 ug" inertia="1 ug mm^2"/><revolute id="r" a="CD" a-y="0.325 mm" '

@@ -213,11 +213,16 @@ static void pressed(void **state) {
     double factor, alone = P * l * l / EI() + 0.5 * P * L * l / sqrt(EI() * GJ);
     int hinge;
     const double none = 0, off = 1e-7;
-    const fw_mechanism_plates_pressed by = {force, most, &none};
+    const fw_mechanism_plates_pressed by = {force, most, &none, 0};
     assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &by, &factor, &hinge), FW_OK);
     assert_relative(1 / factor, 2 * P * lever / tilt + alone, 1e-8);
+    /* where any factor from `enough` on will do: no less than that, and no more than what it is */
+    const fw_mechanism_plates_pressed easy = {force, most, &none, 0.3 * factor};
+    double bound;
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &easy, &bound, &hinge), FW_OK);
+    assert_true(bound >= 0.3 * factor && bound <= factor * (1 + 1e-9));
     const double pulled[4] = {-P, 0, -P, 0};
-    const fw_mechanism_plates_pressed pull = {pulled, most, &none}, besides = {force, most, &off};
+    const fw_mechanism_plates_pressed pull = {pulled, most, &none, 0}, besides = {force, most, &off, 0};
     double more;
     assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &besides, &more, &hinge), FW_OK);
     assert_relative(1 / more,

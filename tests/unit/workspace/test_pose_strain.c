@@ -341,6 +341,28 @@ static void give(loaded_six_bar *d, double scale, int kind) {
     d->scene.contact = d->contact, d->scene.ncontact = kind == 3 ? 2 : 0;
 }
 
+/* forces in the corners are those of this statics, and none is above its bound */
+static void corners(fw_arena *arena, const loaded_six_bar *d, const fw_workspace_hold *hold,
+                    const fw_workspace_box3 *box, const fw_workspace_strain_proof *proof) {
+    double *force_N, own[12];
+    int n, k = 0;
+    assert_int_equal(fw_workspace_forces(arena, proof, box->lo, box->hi, &force_N, &n), FW_OK);
+    for (int c = 0; c < 8; c++)
+        for (int g = 0; g < hold->ngrip; g++) {
+            const double pose[3] = {(c & 1 ? box->hi : box->lo)[0], (c & 2 ? box->hi : box->lo)[1],
+                                    (c & 4 ? box->hi : box->lo)[2]};
+            still_pose s;
+            assert_true(stand(d, pose, &s));
+            if (!hold_still(d, hold, &hold->grip[g], &s, own)) continue;
+            for (int i = 0; i < 12; i++)
+                assert_true(fabs(force_N[12 * k + i] - own[i]) <= 1e-8 * fabs(own[i]) + 1e-10);
+            k++;
+        }
+    assert_true(k <= n && n <= k + 6);
+    for (int i = 0; i < 12 * n; i += 2)
+        assert_true(hypot(force_N[i], force_N[i + 1]) <= proof->force_N[i / 2 % 6] * (1 + 1e-9));
+}
+
 /* the bound is above all samples, and within 1 % of the largest; 2 % where something begins to pull or to push */
 static void bound(bool given) {
     seed = 11;
@@ -371,6 +393,7 @@ static void bound(bool given) {
             double most[6] = {0}, most_N[6] = {0};
             proved++;
             sample(&d, &hold, &box, &proof, most, most_N);
+            corners(arena, &d, &hold, &box, &proof);
             for (int i = 0; i < 6; i++)
                 if (!(most[i] <= proof.strain[i]) || !(most[i] >= (given ? 0.98 : 0.99) * proof.strain[i]))
                     fail_msg("case %d hinge %d: %.9g sampled, %.9g proved", n, i, most[i],
