@@ -305,6 +305,7 @@ typedef struct fw_statics_level_step {
         up;              /* at the level used and at the next; not filled where `why_not` */
     double angle_rad;    /* largest difference of a hinge's angle */
     double relative;     /* that over the largest hinge angle at the instant; NaN: not computed */
+    double blows;        /* share of the limit that contacts may have left ringing along flexures */
     const char *why_not; /* NULL: computed */
     bool unknown;        /* not computed, and nothing else bounds what the level used is off by */
 } fw_statics_level_step;

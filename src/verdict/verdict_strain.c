@@ -486,7 +486,8 @@ double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
 /* Largest difference of strain and of angle between the level used and the next at the motion's
    peak, over the largest of either, and what both have in common. In a motion with inertia pins
    are judged by the reference cases where these are worse: frequencies that shift are not in the
-   step. Exact beams have no next level: what is left is what they have in common with solids. Where the
+   step. Exact beams have no next level: what is left is what they have in common with solids, and what contacts leave ringing
+   along them, whose phases a percent of stiffness changes (quasi_static.c). Where the
    step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
    equilibrium, the utilisation may be off by half: a verdict is then neither. Nor is it where no motion has what
    matters and nothing bounds it (FW-D607): that may take as much away as it adds, and a rejection is no surer than an
@@ -499,7 +500,7 @@ double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_mo
            off = 0, largest = 0;
     if (x->ledger.undecided)
         return fmin(1, fmax(fw_verdict_model_not_known, 2 * x->ledger.undecided_share));
-    if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
+    if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common) + (s ? s->blows : 0);
     if (s && s->unknown) return fw_verdict_model_not_known;
     if (!s || s->why_not || m->nhinge == 0) return usual;
     for (int k = 0; k < m->nhinge; k++) {
