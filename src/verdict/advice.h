@@ -17,6 +17,7 @@ typedef struct fw_verdict_trial_hinge { /* what a change needs to know of a hing
     const char *scene; /* of the device, or "workspace" */
     const char *flow;
     bool not_by_loads, not_by_width; /* less load, or wider flexures, are no help */
+    bool either_way;                 /* fw_verdict_reason */
 } fw_verdict_trial_hinge;
 
 /* how closely a trial is judged */

@@ -37,6 +37,7 @@ static bool may_be_accepted(const fw_verdict_trial *trial) {
 }
 
 typedef bool change_one(fw_verdict_trial *, const fw_verdict_trial_hinge *, double extra);
+static change_one lighten;
 
 /* `change` on every hinge (and reason against a scene) that is not accepted; *worst: their largest
    utilisation; false: it is not possible, or there is none */
@@ -45,7 +46,7 @@ static bool change_each(fw_verdict_trial *trial, change_one *change, double extr
     *worst = 0.0;
     for (int k = 0; k < trial->nhinge; k++) {
         const fw_verdict_trial_hinge *h = &trial->hinge[k];
-        if (h->decision == FW_ACCEPT) continue;
+        if (h->decision == FW_ACCEPT || (h->either_way && change != lighten)) continue;
         if (h->joint != FW_NONE) *worst = fmax(*worst, excess(h));
         if (!change(trial, h, extra)) return false;
         any = true;

@@ -178,8 +178,8 @@ void fw_verdict_largest_add(fw_verdict_largest *largest, double t_s, double valu
 /* ---- verdict_bending.c: what bodies that are taken as rigid would store ---- */
 
 enum { FW_TIPPING_HINGES = 24 }; /* of more hinges only the hardest instant is looked at */
-typedef struct
-    fw_verdict_extreme { /* where one component of one hinge's force is largest one way */
+/* where one component of one hinge's force is largest one way */
+typedef struct fw_verdict_extreme {
     double value_N, at_s;
     double beside; /* by how much it is larger between the instants */
 } fw_verdict_extreme;
@@ -198,8 +198,8 @@ typedef struct fw_verdict_bending {
     double hardest_N2; /* of hardest_N, the sum of all squared */
     double beside;     /* by how much they are larger where that sum was the largest so far */
     double before_s[2], *before_N; /* the last two instants, and (2 x 2 nhinge) their forces */
-    fw_verdict_extreme *
-        extreme; /* (4 nhinge) of each component the largest and the least; NULL: too many hinges */
+    /* (4 nhinge) of each component the largest and the least; NULL: too many hinges */
+    fw_verdict_extreme *extreme;
     double *extreme_N; /* (4 nhinge x 2 nhinge) all forces there */
     fw_verdict_largest
         *peak; /* (1 + 6 nhinge) of that sum, of each force squared and moment, and as `along_N` */

@@ -275,6 +275,7 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
                                          .likely = 1 / r->keep,
                                          .not_by_loads = r->not_by_loads,
                                          .not_by_width = r->not_by_width,
+                                         .either_way = r->either_way,
                                          .scene = r->scene,
                                          .flow = r->flow};
         }

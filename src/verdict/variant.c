@@ -449,10 +449,9 @@ static fw_status judge_unknown(fw_arena *arena, fw_verdict_variant_verdict *v) {
         v, 646, FW_INCONCLUSIVE,
         fw_arena_printf(
             arena,
-            "required poses have to be held against %s, too, and how strong that is there they do "
-            "not tell: it ends at what rides on the six-bar; let it act on a body of the six-bar "
-            "or "
-            "on the ground, or judge such a pose as a scene",
+            "required poses have to be held against %s, too, and do not tell how strong that is: "
+            "it ends at what rides on the six-bar; let it act on a body of the six-bar or on the "
+            "ground, or judge such a pose as a scene",
             v->workspace.unknown));
 }
 

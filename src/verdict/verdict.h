@@ -162,7 +162,9 @@ typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the ba
     fw_verdict_decision decision;
     double keep; /* share of its loads that may be accepted: where advice starts to look */
     bool not_by_loads, not_by_width; /* less load, or wider flexures, are no help */
-    const char *text;                /* a sentence */
+    bool
+        either_way; /* other flexures may help or harm: no change of theirs is for it, or is kept back by it */
+    const char *text; /* a sentence */
 } fw_verdict_reason;
 
 /* one requirement in one scene, or about one equilibrium: verdict_requirement.c. All in SI of the

@@ -471,8 +471,8 @@ static fw_status required_factor(fw_arena *arena, const both *is,
     int hinge, count;
     FW_NEED(forces = fw_arena_array(arena, double, 4 * n));
     FW_NEED(far = fw_arena_array(arena, double, 2 * bodies));
-    for (int i = 0; i < m->device->nscene;
-         i++) { /* what acts beside the mass centre may act anywhere */
+    /* what acts beside the mass centre may act anywhere */
+    for (int i = 0; i < m->device->nscene; i++) {
         acting(m, &m->device->scene[i], far + bodies);
         for (size_t b = 0; b < bodies; b++)
             if (far[bodies + b] != 0) far[b] = (double)NAN;
@@ -513,15 +513,16 @@ static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_vari
     if (!v->workspace.required || !v->workspace.reachable || v->corner) return FW_OK;
     FW_TRY(required_factor(arena, is, v, &sure));
     if (!(sure < 1)) return FW_OK;
-    return fw_verdict_workspace_reason(
+    FW_TRY(fw_verdict_workspace_reason(
         v, 647, FW_INCONCLUSIVE,
         fw_arena_printf(arena,
-                        "what holds the required poses may tip the device out of its plane: that "
-                        "it does not is "
-                        "sure up to %s times that; a thicker layer, wider or shorter flexures, or "
-                        "a smaller box "
+                        "what holds the required poses may tip the device out of its plane: it is "
+                        "sure to stay flat up to %s times that; a thicker layer or a smaller box "
                         "keep it flat",
-                        fw_number_text(by, sizeof by, sure, 2)));
+                        fw_number_text(by, sizeof by, sure, 2))));
+    v->reason[v->nreason - 1].keep = fmin(fmax(sure, 1e-3), 0.99);
+    v->reason[v->nreason - 1].either_way = true;
+    return FW_OK;
 }
 
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v) {

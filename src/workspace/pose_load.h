@@ -222,8 +222,8 @@ static inline double fw_workspace_given_size(const fw_workspace_given *g, double
                                          : fmin(size, 0);
 }
 
-typedef struct fw_workspace_poses
-    fw_workspace_poses; /* poses that were looked at before: pose_view.c */
+/* poses that were looked at before: pose_view.c */
+typedef struct fw_workspace_poses fw_workspace_poses;
 
 /* what is held by what: of one flow */
 struct fw_workspace_hold {
@@ -242,8 +242,7 @@ struct fw_workspace_hold {
     const fw_workspace_given *given; /* (ngiven) */
     int ngiven;
     const char *given_by; /* all of it, to be read; NULL: nothing is given */
-    const char
-        *unknown; /* acts, too, with a force that the pose does not tell; NULL: nothing does */
+    const char *unknown;  /* acts, too, with a force that the pose does not tell; NULL: nothing */
 };
 
 /* which grips there are over a box: triples that hold all of it */
@@ -259,8 +258,8 @@ bool fw_workspace_scene_gives(const fw_device_scene *scene);
 
 /* ---- pose_load.c: statics over a box ---- */
 
-typedef struct
-    fw_workspace_response { /* to one actuator, or to the hinges' own moments and what is given */
+/* to one actuator, or to the hinges' own moments and what is given */
+typedef struct fw_workspace_response {
     fw_workspace_jet2 force[FW_SIX]; /* of hinge i on its second body, N */
     fw_workspace_jet wrench[3];      /* that the platform lacks: N, N, N (times length_m) */
     bool on_leg[2];                  /* left, right: force is not 0 there */
@@ -274,8 +273,8 @@ typedef struct fw_workspace_pose_load {
     fw_workspace_jet gain[2];        /* 1/(a x b) */
     fw_workspace_jet theta[FW_SIX];  /* joint angles */
     fw_workspace_jet2 frame[FW_SIX]; /* (cos, sin) of every hinge's axis, half turned */
-    fw_workspace_response
-        own; /* to the hinges' moments and what is given; last: the rest is of the pose alone */
+    /* to the hinges' moments and what is given; last: the rest is of the pose alone */
+    fw_workspace_response own;
 } fw_workspace_pose_load;
 
 /* where everything is: all of it but the forces. false: not every pose of the box is known to be reached. shift: what C
