@@ -413,12 +413,11 @@ static double pull_of(const fw_mechanism *m, const fw_mechanism_hinge *h,
     return cos(axis) * f[0] + sin(axis) * f[1];
 }
 
-static fw_status thrown_back(const fw_mechanism *m, const fw_device_scene *scene,
-                             const fw_dynamics_motion *x, double *share) {
+static double thrown_back(const fw_mechanism *m, const fw_device_scene *scene,
+                          const fw_dynamics_motion *x) {
     const double matters = 0.01;
-    *share = 0;
-    if (!scene || scene->ncontact == 0 || x->stats.events == 0 || x->loads->quasi_static)
-        return FW_OK;
+    double share = 0;
+    if (!scene || scene->ncontact == 0 || x->stats.events == 0 || x->loads->quasi_static) return 0;
     for (int i = 0; x->late && i < x->nsample; i++)
         fw_dynamics_motion_rows_at(x, x->t_s[i]);
     for (int k = 0; k < m->nhinge; k++) {
@@ -432,19 +431,18 @@ static fw_status thrown_back(const fw_mechanism *m, const fw_device_scene *scene
             const double f = pull_of(m, h, x, i);
             most[f < 0] = fmax(most[f < 0], fabs(f));
         }
-        *share = fmax(*share, fmin(most[0], most[1]) / bears);
+        share = fmax(share, fmin(most[0], most[1]) / bears);
     }
-    if (*share < matters) *share = 0;
-    return FW_OK;
+    return share < matters ? 0 : share;
 }
 
 /* the step of a motion to the next level, with what an instant does not show: what rings along paths, and what contacts throw back */
 static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
                           const fw_dynamics_motion *x, const fw_statics_level_step **out) {
-    double coupled = 0, blows;
+    double coupled = 0;
     FW_TRY(fw_statics_level_of_motion(arena, m, scene, x, out));
     if (!*out) return FW_OK;
-    FW_TRY(thrown_back(m, scene, x, &blows));
+    const double blows = thrown_back(m, scene, x);
     if (!(*out)->why_not && (*out)->used == FW_HINGE_COMPLIANCE)
         FW_TRY(uncoupled(arena, m, scene, x, (*out)->relative, &coupled));
     const double relative = fmax(coupled, blows);

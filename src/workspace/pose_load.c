@@ -12,8 +12,8 @@
      R_E = R_F - f_EF,   R_D = R_E - f_DE.
 
    Linear in the moments and in the actuators' sizes; the three equations of the platform give
-   these sizes (Cramer). What is given (springs, weight, contacts) counts with the moments. in: box m, rad; out: N. Error: proved by maths_interval.h. Cost about 10 us
-   and 3 us a grip. Source: docs/theory/workspace.md. Test: test_pose_strain.c. */
+   these sizes (Cramer). What is given (springs, weight, contacts) counts with the moments.
+   in: box m, rad; out: N. Error: proved by maths_interval.h. Cost about 10 us and 3 us a grip. Source: docs/theory/workspace.md. Test: test_pose_strain.c. */
 #include "workspace/pose_load.h"
 #include <math.h>
 #include <string.h>

@@ -365,14 +365,14 @@ static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_wor
 static fw_status all_strains(fw_arena *arena, const fw_mechanism *m, const fw_workspace_loop *loop,
                              fw_workspace_kept *kept, const fw_workspace_box3 *box,
                              fw_workspace_strain_proof *proof, fw_workspace_result *result) {
-    bool plain = true, first = true, any = false;
+    bool any = false, all_give = true, first = true;
     for (int i = 0; i < m->device->nscene; i++) {
         const fw_device_scene *s = &m->device->scene[i];
         if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
-        plain = (any && plain) || !fw_workspace_scene_gives(s);
         any = true;
+        all_give = all_give && fw_workspace_scene_gives(s);
     }
-    for (int i = plain ? -1 : 0; i < m->device->nscene; i++) {
+    for (int i = any && all_give ? 0 : -1; i < m->device->nscene; i++) {
         const fw_device_scene *s = i < 0 ? NULL : &m->device->scene[i];
         fw_workspace_strain_proof now;
         if (s && (!fw_device_in_flow(s->flow, m->variant->flow) || !fw_workspace_scene_gives(s)))

@@ -99,8 +99,8 @@ typedef struct fw_workspace_result {
        unit wrenches at worst; NULL: others hold it */
     const char *badly_by;
     double badly;
-    const char
-        *unknown; /* acts on the six-bar with a force that poses do not tell; NULL: nothing does */
+    /* acts on the six-bar with a force that poses do not tell; NULL: nothing does */
+    const char *unknown;
     fw_workspace_load load[FW_SIX];
     fw_workspace_peak peak[FW_SIX];
 } fw_workspace_result;

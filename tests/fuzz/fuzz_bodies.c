@@ -379,7 +379,7 @@ static json_t *odd_value(void) {
                                       "{}",
                                       "[[[]]]",
                                       "\"-\"",
-                                      "\"--output=/tmp/x\"",
+                                      "\"--output=/x/y\"",
                                       "\"../../x\"",
                                       "\"a\\u0000b\"",
                                       "\"\\u009b31m\"",

@@ -22,6 +22,7 @@ from collections import Counter
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KEPT = ROOT / "tests/golden/said"
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+VERSION = subprocess.run([str(PROGRAM), "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
 QUICK = "--corners none --advice none --measurements none"
 PADDLE = "tests/data/probes/gripper.xml"
 CASES = {
@@ -94,14 +95,13 @@ def said(command):
         argv = [str(PROGRAM), *command.replace("OUT", str(out)).split(), "--color=never"]
         done = subprocess.run(argv, cwd=ROOT, capture_output=True, text=True, check=False, timeout=600)
         lines = [f"$ flexwright {command}", f"exit {done.returncode}", *done.stderr.splitlines(), *done.stdout.splitlines()]
-        version = subprocess.run([str(PROGRAM), "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
         for path in sorted(out.rglob("*")):
             if path.suffix in (".svg", ".html") and "masks" not in path.parts and "recipes" not in path.parts:
                 lines += [f"== {path.relative_to(out)}", *reduced(path)]
             elif path.suffix == ".png":
                 lines += [f"== {path.relative_to(out)}"]
     text = "\n".join(line.rstrip() for line in lines) + "\n"
-    text = re.sub(r"[\d.]+ [mun]?s of CPU", "TIME of CPU", text.replace(str(out), "OUT").replace(version, "VERSION"))
+    text = re.sub(r"[\d.]+ [mun]?s of CPU", "TIME of CPU", text.replace(str(out), "OUT").replace(VERSION, "VERSION"))
     return re.sub(r" [\d.]+e-\d+(?=\n)", " TIME", text) if command.startswith("hinge") else text
 
 

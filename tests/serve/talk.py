@@ -229,7 +229,7 @@ class Talk(unittest.TestCase):
 
     def test_jobs_that_are_wrong(self):
         self.assertIn("plan, check", self.fails(400, "POST", "/api/jobs", {"kind": "rm", "text": TEXT}))
-        for body in ({"kind": "plan"}, {"kind": "plan", "text": TEXT, "options": {"output": "/tmp/x"}}, {"kind": "plan", "text": TEXT, "set": [1]},
+        for body in ({"kind": "plan"}, {"kind": "plan", "text": TEXT, "options": {"output": "/x/y"}}, {"kind": "plan", "text": TEXT, "set": [1]},
                      {"kind": "plan", "text": TEXT, "set": {"a=b": "1"}}, {"kind": "plan", "text": TEXT, "options": {"lab": "/etc/passwd"}},
                      {"kind": "plan", "text": TEXT, "files": {"../a.xml": "x"}}, {"kind": "plan", "text": TEXT, "files": {"device.xml": 3}},
                      {"kind": "log", "text": TEXT, "options": {"run": "../x.log"}}, {"kind": "study", "text": TEXT, "resume": 12345},
