@@ -29,6 +29,15 @@ fw_geometry_vec2 fw_mechanism_pin_opened(const fw_mechanism_pin *p, const double
     return (fw_geometry_vec2){at[1].x - at[0].x, at[1].y - at[0].y};
 }
 
+static double turned(const fw_mechanism *m, const double *q, int body) {
+    return body == FW_GROUND ? 0 : q[3 * body + 2] - m->body[body].phi_rad;
+}
+
+double fw_mechanism_pin_half_turned(const fw_mechanism *m, const fw_mechanism_pin *p,
+                                    const double *q) {
+    return 0.5 * (turned(m, q, p->body_a) + turned(m, q, p->body_b));
+}
+
 const fw_device_scene *fw_mechanism_scene(const fw_mechanism *m, const fw_device *device,
                                           const fw_device_scene *scene) {
     for (int i = 0; i < device->nscene; i++)

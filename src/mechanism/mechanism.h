@@ -163,6 +163,10 @@ fw_geometry_vec2 fw_mechanism_pin_place(const fw_mechanism *mechanism, const fw_
 /* in the pose q (3 nbody), from its image on body a to that on body b: what a flexure there is displaced by */
 fw_geometry_vec2 fw_mechanism_pin_opened(const fw_mechanism_pin *pin, const double *q);
 
+/* in the pose q, half of what both of its bodies have turned together from where they are described */
+double fw_mechanism_pin_half_turned(const fw_mechanism *mechanism, const fw_mechanism_pin *pin,
+                                    const double *q);
+
 /* fw_mechanism_pin_place of any local point (ground: world) */
 fw_geometry_vec2 fw_mechanism_local_place(const fw_mechanism *mechanism, int body, double x_m,
                                           double y_m);

@@ -403,13 +403,11 @@ static fw_status uncoupled(fw_arena *arena, const fw_mechanism *m, const fw_devi
 /* the force along the strip, pulling, in a row: its axis is half turned */
 static double pull_of(const fw_mechanism *m, const fw_mechanism_hinge *h,
                       const fw_dynamics_motion *x, int row) {
-    const fw_mechanism_pin *p = &m->pin[h->pin];
     const double *q = x->q + (size_t)row * 3 * (size_t)m->nbody,
                  *f = x->reaction_N + 2 * ((size_t)row * (size_t)m->npin + (size_t)h->pin);
-    const int body[2] = {p->body_a, p->body_b};
-    double axis = h->axis_rad + FW_PI / 2; /* of the flexure's symmetry; the strip lies across it */
-    for (int i = 0; i < 2; i++)
-        if (body[i] != FW_GROUND) axis += 0.5 * (q[3 * body[i] + 2] - x->q[3 * body[i] + 2]);
+    /* of the flexure's symmetry; the strip lies across it */
+    const double axis =
+        h->axis_rad + fw_mechanism_pin_half_turned(m, &m->pin[h->pin], q) + FW_PI / 2;
     return cos(axis) * f[0] + sin(axis) * f[1];
 }
 

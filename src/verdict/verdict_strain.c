@@ -370,10 +370,6 @@ void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *b
 
 /* ---- strains on two neighbouring levels of hinges, and what of it is in the band ---- */
 
-static double turned(const fw_mechanism *m, const double *q, int body) {
-    return body == FW_GROUND ? 0 : q[3 * body + 2] - m->body[body].phi_rad;
-}
-
 /* where a pin is now: bodies and ground that have become longer carry it along (fw_mechanism_strained,
    fw_effects_stretch) */
 static fw_geometry_vec2 pin_on(const fw_mechanism *m, const fw_dynamics_instant *now, int body,
@@ -398,13 +394,12 @@ fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *m, int k,
                                                const fw_dynamics_instant *now) {
     const int n = m->hinge[k].pin;
     const fw_mechanism_pin *pin = &m->pin[n];
-    fw_verdict_hinge_load load = {
-        .angle_rad = now->angle_rad[n],
-        .fx_N = now->reaction_N[2 * n],
-        .fy_N = now->reaction_N[2 * n + 1],
-        .frame_rad = 0.5 * (turned(m, now->q, pin->body_a) + turned(m, now->q, pin->body_b)),
-        .pinned = now->hinge == FW_HINGE_REVOLUTE,
-        .apart_m = {(double)NAN, (double)NAN}};
+    fw_verdict_hinge_load load = {.angle_rad = now->angle_rad[n],
+                                  .fx_N = now->reaction_N[2 * n],
+                                  .fy_N = now->reaction_N[2 * n + 1],
+                                  .frame_rad = fw_mechanism_pin_half_turned(m, pin, now->q),
+                                  .pinned = now->hinge == FW_HINGE_REVOLUTE,
+                                  .apart_m = {(double)NAN, (double)NAN}};
     if (load.pinned) return load; /* a pin holds both at one place */
     const fw_geometry_vec2 a = pin_on(m, now, pin->body_a, (fw_geometry_vec2){pin->ax_m, pin->ay_m},
                                       pin->root_a_m),
