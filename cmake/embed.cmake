@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Run at build time: cmake -D FROM=<directory> -D TO=<file.c> -P embed.cmake
 # The files below FROM as one table of C (src/serve/server.h): path, type, bytes, and the SHA-256 as the
-# strong entity tag. "index.html" is "/". Sorted by path, so that the same files give the same bytes.
+# strong entity tag. "index.html" is "/". Sorted by path, so that the same files give the same bytes. The assembler
+# takes the bytes from the files: as numbers of C they take ten seconds to write and to compile. Where a file
+# changes, its hash does, and by that this table.
 cmake_minimum_required(VERSION 3.22)
-string(REPEAT "." 120 line) # 24 bytes
 set(type_html "text/html; charset=utf-8")
 set(type_js "text/javascript; charset=utf-8")
 set(type_css "text/css; charset=utf-8")
@@ -26,18 +27,22 @@ foreach(file ${files})
     if(NOT DEFINED type_${ending})
         continue() # maps of sources and the like are not served
     endif()
-    file(READ ${FROM}/${file} hex HEX)
     file(SHA256 ${FROM}/${file} hash)
-    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hex "${hex}")
-    string(REGEX REPLACE "(${line})" "\\1\n" hex "${hex}")
+    file(SIZE ${FROM}/${file} size)
     set(path "/${file}")
     if(file STREQUAL "index.html")
         set(path "/")
     endif()
-    string(APPEND bytes "static const unsigned char file_${count}[] = {\n${hex}0};\n")
-    string(APPEND rows "    {\"${path}\", \"${type_${ending}}\", \"\\\"${hash}\\\"\", file_${count}, sizeof file_${count} - 1},\n")
+    string(APPEND bytes "BYTES(fw_serve_page_bytes_${count}, \"${FROM}/${file}\")\n")
+    string(APPEND rows "    {\"${path}\", \"${type_${ending}}\", \"\\\"${hash}\\\"\", fw_serve_page_bytes_${count}, ${size}},\n")
     math(EXPR count "${count} + 1")
 endforeach()
-file(WRITE ${TO}.new "/* made by cmake/embed.cmake */\n#include \"serve/server.h\"\n${bytes}const fw_serve_page_file fw_serve_page_files[] = {\n${rows}};\nconst size_t fw_serve_page_count = ${count};\n")
+set(macro [[
+#define BYTES(name, path)                                                                       \
+    extern const unsigned char name[] __attribute__((visibility("hidden")));                    \
+    __asm__(".pushsection .rodata\n.globl " #name "\n.hidden " #name "\n" #name ":\n"           \
+            ".incbin \"" path "\"\n.byte 0\n.popsection");
+]])
+file(WRITE ${TO}.new "/* made by cmake/embed.cmake */\n#include \"serve/server.h\"\n${macro}${bytes}const fw_serve_page_file fw_serve_page_files[] = {\n${rows}};\nconst size_t fw_serve_page_count = ${count};\n")
 file(COPY_FILE ${TO}.new ${TO} ONLY_IF_DIFFERENT)
 file(REMOVE ${TO}.new)
