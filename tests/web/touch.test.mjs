@@ -54,6 +54,11 @@ describe("on a phone", () => {
         await page.waitForSelector("#busy:visible");
         const out = await page.evaluate(() => [...document.querySelectorAll("#top button, #busy, #busy button")].filter((e) => e.offsetParent !== null || e.id === "busy").map((e) => [e.id || e.textContent, e.getBoundingClientRect()]).filter(([, r]) => r.width && (r.left < 0 || r.right > innerWidth)).map(([id]) => id));
         assert.deepEqual(out, []);
+        const [words, sign] = await page.evaluate(() => {
+            scrollTo(0, document.documentElement.scrollHeight);
+            return [Math.max(...[...document.querySelectorAll("#main > *, #right > *")].map((e) => e.getBoundingClientRect().bottom)), document.querySelector("#busy").getBoundingClientRect().top];
+        });
+        assert.ok(words <= sign, `the end of the page, ${words}, is behind the sign, ${sign}`);
         await page.click("#busy-cancel");
         await page.unroute("**/api/explore");
         await view(page, "motion");
