@@ -11,21 +11,28 @@
 
 /* ---- what is known ---- */
 
-/* NULL: every joint is a flexure whose direction is known, every body is drawn */
-static fw_status missing(fw_arena *arena, const fw_mechanism *m, const char **why) {
+static bool is_drawn(const fw_mechanism *m, int body) {
+    return m->shape && m->shape[body].area_m2 > 0;
+}
+
+/* NULL: every joint is a flexure whose direction is known, every body is drawn. *stiff: all but the drawing of bodies is
+   there, so that stiffnesses are known and masses are not */
+static fw_status missing(fw_arena *arena, const fw_mechanism *m, const char **why, bool *stiff) {
     *why = NULL;
     if (m->nbody > FW_MECHANISM_PLATES_MOST)
         *why = "there are more than 100 bodies";
     else if (m->nhinge == 0)
         *why = "no joint is a flexure";
+    *stiff = !*why && m->njoint == 0;
     for (int i = 0; i < m->nbody && !*why; i++)
-        if (!(m->shape && m->shape[i].area_m2 > 0))
+        if (!is_drawn(m, i))
             FW_NEED(*why = fw_arena_printf(arena, "nothing is drawn of %s%s",
                                            FW_NAMED("body", fw_text_name(m->body[i].id))));
-    for (int j = 0; j < m->npin && !*why; j++) {
+    for (int j = 0; j < m->npin; j++) {
         const fw_mechanism_pin *pin = &m->pin[j];
         bool known = pin->hinge != FW_NONE && isfinite(m->hinge[pin->hinge].axis_rad);
-        if (!known)
+        *stiff = *stiff && known;
+        if (!known && !*why)
             FW_NEED(*why = fw_arena_printf(arena, "%s%s is no flexure that is drawn",
                                            FW_NAMED("joint", fw_text_name(pin->id))));
     }
@@ -38,10 +45,12 @@ static fw_status missing(fw_arena *arena, const fw_mechanism *m, const char **wh
 /* ---- masses ---- */
 
 /* Of a plate of even thickness about its centre of mass: m; rho h int y^2 dA + m h^2/12 about x, and so on. A stated
-   mass, or one that is not at the centroid, has the drawing's shape: its in-plane inertia says how large. */
+   mass, or one that is not at the centroid, has the drawing's shape: its in-plane inertia says how large. A body of which
+   nothing is drawn is as wide one way as the other, for coordinates in which stiffnesses are of one size. */
 static void put_mass(const fw_mechanism *m, int body, double *to) {
     const fw_mechanism_mass *b = &m->body[body];
-    const fw_mechanism_shape *s = &m->shape[body];
+    const fw_mechanism_shape even = {.polar_m4 = 1},
+                             *s = is_drawn(m, body) ? &m->shape[body] : &even;
     double h = m->variant->thickness_m, own = b->mass_kg * h * h / 12;
     double share = b->inertia_kg_m2 / s->polar_m4;
     double xx = 0.5 * share * (s->polar_m4 + s->spread_m4.x),
@@ -184,10 +193,10 @@ static fw_status find_modes(fw_arena *arena, fw_mechanism_plates *p) {
 
 fw_status fw_mechanism_plates_new(fw_arena *arena, const fw_mechanism *m, const double *give,
                                   fw_mechanism_plates *p) {
-    bool fine = true;
+    bool fine = true, stiff;
     *p = (fw_mechanism_plates){.mechanism = m};
-    FW_TRY(missing(arena, m, &p->why));
-    if (p->why) return FW_OK;
+    FW_TRY(missing(arena, m, &p->why, &stiff));
+    if (!stiff) return FW_OK;
     size_t n = 3 * (size_t)m->nbody;
     FW_NEED(p->mass = fw_arena_array(arena, double, 3 * n));
     FW_NEED(p->stiffness = fw_arena_array(arena, double, n *n));
@@ -204,31 +213,9 @@ fw_status fw_mechanism_plates_new(fw_arena *arena, const fw_mechanism *m, const 
     fw_status status = fine ? find_modes(arena, p) : FW_SOLVER;
     if (status == FW_NOMEM) return status;
     if (status == FW_OK && p->per_s2[0] > 1e-12 * p->per_s2[n - 1]) return FW_OK;
-    *p = (fw_mechanism_plates){.mechanism = m, .why = "not all bodies are held by flexures"};
+    *p = (fw_mechanism_plates){.mechanism = m,
+                               .why = p->why ? p->why : "not all bodies are held by flexures"};
     return FW_OK;
-}
-
-static double listed(fw_mechanism_frequencies of, int i) {
-    double f;
-    memcpy(&f, (const char *)of.f_Hz + (size_t)i * of.step, sizeof f);
-    return f;
-}
-
-int fw_mechanism_plates_nth(int n, fw_device_plane plane, fw_mechanism_frequencies in,
-                            fw_mechanism_frequencies out, bool *across) {
-    int i = 0, j = 0; /* how many of each are below */
-    *across = plane == FW_PLANE_ACROSS;
-    for (int k = 0; k < n; k++) {
-        bool more_in = plane != FW_PLANE_ACROSS && i < in.count,
-             more_out = plane != FW_PLANE_IN && j < out.count;
-        if (!more_in && !more_out) return -1;
-        *across = !more_in || (more_out && listed(out, j) < listed(in, i));
-        if (*across)
-            j++;
-        else
-            i++;
-    }
-    return *across ? j - 1 : i - 1;
 }
 
 int fw_mechanism_plates_mover(const fw_mechanism_plates *p, int mode, bool *tilts) {
@@ -422,46 +409,54 @@ fw_status fw_mechanism_plates_in_plane(const fw_mechanism_plates *p, const doubl
     return FW_OK;
 }
 
-fw_status fw_mechanism_plates_stiffness(fw_arena *arena, const fw_mechanism_plates *p,
-                                        fw_mechanism_plates_stiff *out) {
-    size_t n = (size_t)p->n;
-    double *a, *x, most = 0, c[2][2];
-    int *pivot;
-    fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(a = fw_arena_array(arena, double, n *n));
-    FW_NEED(x = fw_arena_array(arena, double, n));
-    FW_NEED(pivot = fw_arena_array(arena, int, n));
-    *out = (fw_mechanism_plates_stiff){.in_N_per_m = (double)NAN};
-    for (int b = 0; b < p->n / 3; b++) {
-        double give = 0; /* sum over the modes */
-        for (size_t k = 0; k < n; k++)
-            give +=
-                p->shape[k * n + 3 * (size_t)b] * p->shape[k * n + 3 * (size_t)b] / p->per_s2[k];
-        if (give > most) most = give, out->body = b;
-    }
-    out->across_N_per_m = 1 / most;
-    const fw_mechanism_mass *of = &p->mechanism->body[out->body];
-    fw_status status =
-        fw_mechanism_plates_in_plane(p, NULL, sqrt(of->inertia_kg_m2 / of->mass_kg), a);
-    if (status == FW_OK && fw_maths_lu_factor(p->n, a, pivot)) {
-        for (int k = 0; k < 2; k++) {
-            memset(x, 0, n * sizeof *x);
-            x[3 * out->body + k] = 1;
-            fw_maths_lu_solve(p->n, a, pivot, x);
-            c[k][0] = x[3 * out->body], c[k][1] = x[3 * out->body + 1];
-        }
-        double mean = 0.5 * (c[0][0] + c[1][1]), apart = 0.5 * (c[0][0] - c[1][1]);
-        out->in_N_per_m = 1 / (mean + hypot(apart, c[0][1]));
-    }
-    fw_arena_rewind(arena, mark);
-    return FW_OK;
-}
-
 /* ---- loads in the plane that tip it ---- */
 
-/* from a body's centre of mass to the corner of the boxes of what is drawn of it */
-static double farthest(const fw_mechanism *m, int body) {
+/* from a body's centre of mass to what acts on it by the scenes, where nothing is drawn of it */
+static double farthest_load(const fw_mechanism *m, int body) {
     double far = 0;
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_device_spring *s = &m->spring[i];
+        if (s->body_a == body) far = fmax(far, hypot(s->ax_m, s->ay_m));
+        if (s->body_b == body) far = fmax(far, hypot(s->bx_m, s->by_m));
+    }
+    for (int i = 0; i < m->device->nscene; i++) {
+        const fw_device_scene *s = &m->device->scene[i];
+        for (int k = 0; k < s->nforce; k++)
+            if (s->force[k].body == body) far = fmax(far, hypot(s->force[k].x_m, s->force[k].y_m));
+        for (int k = 0; k < s->ntendon; k++)
+            for (int l = 0; l < s->tendon[k].neyelet; l++) {
+                const fw_device_eyelet *e = &s->tendon[k].eyelet[l];
+                if (e->body == body) far = fmax(far, hypot(e->x_m, e->y_m));
+            }
+        for (int k = 0; k < s->ncomb; k++) {
+            const fw_device_comb *c = &s->comb[k];
+            const double half = isnan(c->length_m) ? c->overlap_m : 0.5 * c->length_m,
+                         wide = 2 * c->fingers * (c->gap_m + fw_device_comb_width_m(c));
+            const fw_geometry_vec2 at = fw_mechanism_local_place(m, c->body_b, c->bx_m, c->by_m);
+            if (c->body_a != body && c->body_b != body) continue;
+            far = fmax(far, half + wide + c->gap_m +
+                                hypot(at.x - m->drawn[body].x_m, at.y - m->drawn[body].y_m));
+        }
+        for (int k = 0; k < s->ncontact; k++) {
+            const fw_device_contact_use *c = &s->contact[k];
+            const double round = isnan(c->distance_m) ? 0 : c->distance_m;
+            if (c->joint != FW_NONE) continue;
+            if (c->body_a == body && !c->face) far = fmax(far, round + hypot(c->ax_m, c->ay_m));
+            if (c->body_b == body) far = fmax(far, round + hypot(c->bx_m, c->by_m));
+        }
+    }
+    return far;
+}
+
+/* From a body's centre of mass to the corner of the boxes of what is drawn of it; where nothing is, to its flexures and
+   to what acts on it */
+static double farthest(const fw_mechanism *m, int body) {
+    double far = is_drawn(m, body) ? 0 : farthest_load(m, body);
+    for (int j = 0; !is_drawn(m, body) && j < m->npin; j++) {
+        const fw_mechanism_pin *pin = &m->pin[j];
+        if (pin->body_a == body) far = fmax(far, hypot(pin->ax_m, pin->ay_m));
+        if (pin->body_b == body) far = fmax(far, hypot(pin->bx_m, pin->by_m));
+    }
     for (int i = 0; m->layout && i < m->layout->npiece; i++) {
         const fw_layout_piece *piece = &m->layout->piece[i];
         if (piece->body != body || !fw_layout_is_wall(piece)) continue;
@@ -514,12 +509,12 @@ static void add_tipping(const fw_mechanism_plates *p, const fw_mechanism_plates_
     }
 }
 
-/* Each flexure alone: 1/factor is at most  |N| (2 L/pi)^2/EI + |M| (2 L/pi)/sqrt(EI GJ), by Wirtinger's inequality
-   on the developed strip, clamped at one end: Euler's and Prandtl's loads of a cantilever, added. The moment is
-   that of its rotation and of the force over its length */
-static double hinge_alone(const fw_mechanism_plate_hinge *h, double force_N, double moment_Nm) {
-    double l = 2 * h->length_m / FW_PI, M = moment_Nm + 0.5 * force_N * h->length_m;
-    return force_N * l * l / h->bend_Nm2 + M * l / sqrt(h->bend_Nm2 * h->twist_Nm2);
+/* Each flexure alone: 1/factor is at most  N (2 L/pi)^2/EI + M (2 L/pi)/sqrt(EI GJ), by Wirtinger's inequality on the
+   developed strip, clamped at one end: Euler's and Prandtl's loads of a cantilever, added. N is what presses it, since what
+   pulls a straight strip keeps it flat; the moment is that of its rotation and of the force across over its length */
+static double hinge_alone(const fw_mechanism_plate_hinge *h, const double most[3]) {
+    double l = 2 * h->length_m / FW_PI, M = most[1] + 0.5 * sqrt(most[2]) * h->length_m;
+    return sqrt(most[0]) * l * l / h->bend_Nm2 + M * l / sqrt(h->bend_Nm2 * h->twist_Nm2);
 }
 
 /* Largest eigenvalue of lost x = (1/factor) K x, in the modes' coordinates; where Frobenius' norm is below `little`
@@ -572,7 +567,7 @@ fw_status fw_mechanism_plates_buckling(fw_arena *arena, const fw_mechanism_plate
         known = known && !isnan(by->else_Nm[b]);
     *hinge = FW_NONE;
     for (int k = 0; k < p->mechanism->nhinge; k++) {
-        double alone = hinge_alone(&p->hinge[k], sqrt(by->most[2 * k]), by->most[2 * k + 1]);
+        double alone = hinge_alone(&p->hinge[k], by->most + 3 * k);
         if (alone > worst) worst = alone, *hinge = k;
     }
     for (size_t i = 0; i < (known ? 1 : sizeof share / sizeof *share); i++) {

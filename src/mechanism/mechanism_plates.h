@@ -19,9 +19,9 @@ typedef struct fw_mechanism_plate_hinge {
 
 typedef struct fw_mechanism_plates {
     const fw_mechanism *mechanism;
-    const char *
-        why; /* a clause: what is missing so that nothing is known; then all else is 0. NULL: known */
-    int n;   /* 3 nbody */
+    const char
+        *why; /* a clause: what is missing so that modes and answers are not known. NULL: known */
+    int n; /* 3 nbody; 0: nothing is known. With a `why` it is only what tips the device, which needs no masses */
     double *mass;                    /* (9 nbody) of each body, row-major: kg, kg m, kg m2 */
     double *stiffness;               /* (n x n) */
     fw_mechanism_plate_hinge *hinge; /* (nhinge) */
@@ -101,7 +101,9 @@ fw_status fw_mechanism_plates_stiffness(fw_arena *arena, const fw_mechanism_plat
    flexure that tips most easily by itself, or FW_NONE */
 typedef struct fw_mechanism_plates_pressed {
     const double *force_N; /* (2 nhinge) of each flexure on body b, world axes */
-    const double *most;    /* (2 nhinge) of each flexure the largest force, squared, and moment */
+    /* (3 nhinge) of each flexure the largest force that presses it, squared, moment, and force across it, squared; of
+       one that is not straight both forces are the whole one */
+    const double *most;
     /* (nbody) sum of |F| times the distance from the centre of mass of all else that acts on a body but its inertia;
        NaN: not known, and what the joints leave over is taken to act at its farthest corner */
     const double *else_Nm;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Liquid between faces across a gap: the tension at which what they hang on gives way. Theory: docs/theory/stiction.md. */
+/* Compliances of plates, and liquid between faces across a gap: the tension at which what they hang on gives way. Theory: docs/theory/stiction.md. */
 #include "maths/dense.h"
 #include "mechanism/mechanism_plates.h"
 #include <math.h>
@@ -43,6 +43,66 @@ fw_status fw_mechanism_plates_beside(fw_arena *arena, const fw_mechanism_plates 
         *known = c[k * n + k] > 0;
     }
     return FW_OK;
+}
+
+fw_status fw_mechanism_plates_stiffness(fw_arena *arena, const fw_mechanism_plates *p,
+                                        fw_mechanism_plates_stiff *out) {
+    size_t n = (size_t)p->n;
+    double *a, *x, most = 0, c[2][2];
+    int *pivot;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(a = fw_arena_array(arena, double, n *n));
+    FW_NEED(x = fw_arena_array(arena, double, n));
+    FW_NEED(pivot = fw_arena_array(arena, int, n));
+    *out = (fw_mechanism_plates_stiff){.in_N_per_m = (double)NAN};
+    for (int b = 0; b < p->n / 3; b++) {
+        double give = 0; /* sum over the modes */
+        for (size_t k = 0; k < n; k++)
+            give +=
+                p->shape[k * n + 3 * (size_t)b] * p->shape[k * n + 3 * (size_t)b] / p->per_s2[k];
+        if (give > most) most = give, out->body = b;
+    }
+    out->across_N_per_m = 1 / most;
+    const fw_mechanism_mass *of = &p->mechanism->body[out->body];
+    fw_status status =
+        fw_mechanism_plates_in_plane(p, NULL, sqrt(of->inertia_kg_m2 / of->mass_kg), a);
+    if (status == FW_OK && fw_maths_lu_factor(p->n, a, pivot)) {
+        for (int k = 0; k < 2; k++) {
+            memset(x, 0, n * sizeof *x);
+            x[3 * out->body + k] = 1;
+            fw_maths_lu_solve(p->n, a, pivot, x);
+            c[k][0] = x[3 * out->body], c[k][1] = x[3 * out->body + 1];
+        }
+        double mean = 0.5 * (c[0][0] + c[1][1]), apart = 0.5 * (c[0][0] - c[1][1]);
+        out->in_N_per_m = 1 / (mean + hypot(apart, c[0][1]));
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* ---- modes in the plane and across it ---- */
+
+static double listed(fw_mechanism_frequencies of, int i) {
+    double f;
+    memcpy(&f, (const char *)of.f_Hz + (size_t)i * of.step, sizeof f);
+    return f;
+}
+
+int fw_mechanism_plates_nth(int n, fw_device_plane plane, fw_mechanism_frequencies in,
+                            fw_mechanism_frequencies out, bool *across) {
+    int i = 0, j = 0; /* how many of each are below */
+    *across = plane == FW_PLANE_ACROSS;
+    for (int k = 0; k < n; k++) {
+        bool more_in = plane != FW_PLANE_ACROSS && i < in.count,
+             more_out = plane != FW_PLANE_IN && j < out.count;
+        if (!more_in && !more_out) return -1;
+        *across = !more_in || (more_out && listed(out, j) < listed(in, i));
+        if (*across)
+            j++;
+        else
+            i++;
+    }
+    return *across ? j - 1 : i - 1;
 }
 
 /* ---- the tension at which an equilibrium is lost ---- */

@@ -185,8 +185,9 @@ typedef struct fw_verdict_extreme {
 } fw_verdict_extreme;
 
 typedef struct fw_verdict_bending {
-    const fw_verdict_arm *arm; /* (2 nhinge); NULL: nobody asks */
-    double stiff_N;            /* Young's modulus times thickness */
+    const fw_verdict_arm
+        *arm;       /* (2 nhinge); NULL: nothing is drawn, forces of hinges alone are seen */
+    double stiff_N; /* Young's modulus times thickness */
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
     double moving_J; /* and of the hinges' rotations and the bending of their strips alone */
     double
@@ -201,11 +202,11 @@ typedef struct fw_verdict_bending {
     /* (4 nhinge) of each component the largest and the least; NULL: too many hinges */
     fw_verdict_extreme *extreme;
     double *extreme_N; /* (4 nhinge x 2 nhinge) all forces there */
-    fw_verdict_largest
-        *peak; /* (1 + 6 nhinge) of that sum, of each force squared and moment, and as `along_N` */
+    fw_verdict_largest *
+        peak; /* (1 + 8 nhinge) of that sum, of each force squared and moment, as `along_N`, and what presses it */
     double *
-        hardest_N; /* (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
-                                  force squared, and moment */
+        hardest_N; /* NULL: nobody asks. (2 nhinge) the forces on body b, world, then (2 nhinge) of each flexure its largest
+                                  force squared, and moment, then (3 nhinge) what tips it, as fw_mechanism_plates_pressed */
     double *
         along_N; /* (4 nhinge) the largest force of each flexure on body a, on body b, along x and y as that is drawn */
     double *
@@ -218,7 +219,7 @@ typedef struct fw_verdict_bending {
     double *
         put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
 } fw_verdict_bending;
-/* arm NULL: nobody asks; straight: of straight ways, and only whether bodies are to be counted */
+/* arm NULL: forces of hinges alone; straight: of straight ways, and only whether bodies are to be counted */
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_verdict_arm *arm, bool straight,
                                    fw_verdict_bending *bending);

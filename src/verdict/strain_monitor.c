@@ -128,7 +128,7 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
     if (w->probe) fw_probe_monitor_record(w->probe, now);
     if (now && now->hinge == FW_HINGE_ELASTICA && !w->beam && !w->no_memory)
         w->no_memory = make_beams(w) != FW_OK;
-    if (w->bending.arm) fw_verdict_bending_record(&w->bending, w->mechanism, now);
+    if (w->bending.hardest_N) fw_verdict_bending_record(&w->bending, w->mechanism, now);
     for (int k = 0; k < w->mechanism->nhinge; k++) {
         if (!now) {
             w->hinge[k] = (fw_verdict_hinge_peak){0};
@@ -184,7 +184,7 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
             take(w, k, third[i].t_s, third[i].angle_rad[w->mechanism->hinge[k].pin], &strain[k][i]);
             if (w->root) count(w, k, &strain[k][i], &third[i]);
         }
-    for (int i = 0; w->bending.arm && i < FW_THIRDS; i++)
+    for (int i = 0; w->bending.hardest_N && i < FW_THIRDS; i++)
         fw_verdict_bending_record(&w->bending, w->mechanism, &third[i]);
     return true;
 }

@@ -112,25 +112,45 @@ static void remember_forces(fw_verdict_bending *b, const fw_mechanism *m,
     b->before_s[0] = b->before_s[1], b->before_s[1] = now->t_s;
 }
 
+/* What presses a straight flexure, and what acts across it, as its bodies have turned; of any other both are all of it */
+static void pressed_by(const fw_verdict_bending *b, const fw_mechanism *m, int k,
+                       const double force[2], double pressed[2]) {
+    const fw_mechanism_hinge *h = &m->hinge[k];
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    pressed[0] = pressed[1] = hypot(force[0], force[1]);
+    if (h->input.kind != FW_FLEXURE_LEAF || !isfinite(h->axis_rad)) return;
+    const double to = h->axis_rad + 0.5 * (turned(b, pin->body_a) + turned(b, pin->body_b)),
+                 way = h->first_is_a ? 1 : -1; /* from body a to body b */
+    pressed[0] = fmax(way * (cos(to) * force[1] - sin(to) * force[0]), 0);
+    pressed[1] = fabs(cos(to) * force[0] + sin(to) * force[1]);
+}
+
 /* What may tip the device out of its plane (verdict_out_of_plane.c), and strain rims. Largest between instants, too: by
    the parabola through three of them. */
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
                           const fw_dynamics_instant *now) {
-    double sum = 0, *most = b->hardest_N + 2 * m->nhinge;
-    fw_verdict_largest *peak = b->peak + 1, *along = peak + 2 * m->nhinge;
+    double sum = 0, *most = b->hardest_N + 2 * m->nhinge, *tips = most + 2 * m->nhinge;
+    fw_verdict_largest *peak = b->peak + 1, *along = peak + 2 * m->nhinge,
+                       *press = along + 4 * m->nhinge;
     if (now->begins) /* no parabola across a jump */
-        for (int i = 0; i <= 6 * m->nhinge; i++)
+        for (int i = 0; i <= 8 * m->nhinge; i++)
             b->peak[i].samples = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const int j = m->hinge[k].pin;
         const double *force = now->reaction_N + 2 * j,
                      squared = force[0] * force[0] + force[1] * force[1],
                      moment = fabs(m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j]);
+        double pressed[2];
         sum += squared;
+        pressed_by(b, m, k, force, pressed);
         fw_verdict_largest_add(&peak[2 * k], now->t_s, squared);
         fw_verdict_largest_add(&peak[2 * k + 1], now->t_s, moment);
         most[2 * k] = peak[2 * k].value;
-        most[2 * k + 1] = peak[2 * k + 1].value;
+        most[2 * k + 1] = tips[3 * k + 1] = peak[2 * k + 1].value;
+        for (int i = 0; i < 2; i++) {
+            fw_verdict_largest_add(&press[2 * k + i], now->t_s, pressed[i] * pressed[i]);
+            tips[3 * k + 2 * i] = press[2 * k + i].value;
+        }
         for (int side = 0; side < 2; side++) {
             const int body = side ? m->pin[j].body_b : m->pin[j].body_a;
             if (body == FW_GROUND) continue;
@@ -274,9 +294,9 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     }
     if (!now) { /* the run starts over */
         b->hinges_J = b->bodies_J = b->moving_J = b->gone = b->hardest_N2 = 0;
-        for (int k = 0; k < 4 * m->nhinge; k++)
+        for (int k = 0; k < 7 * m->nhinge; k++)
             b->hardest_N[k] = 0;
-        for (int k = 0; k <= 6 * m->nhinge; k++)
+        for (int k = 0; k <= 8 * m->nhinge; k++)
             b->peak[k] = (fw_verdict_largest){0};
         for (int k = 0; b->extreme && k < 4 * m->nhinge; k++)
             b->extreme[k] = (fw_verdict_extreme){0};
@@ -296,6 +316,10 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     for (int i = 0; i < m->nbody; i++) {
         each[i] = 0;
         b->turn[i] = turn_of(m, now, i);
+    }
+    if (!b->arm) {
+        record_forces(b, m, now);
+        return;
     }
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *h = &m->hinge[k];
@@ -344,21 +368,22 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
                                    const fw_verdict_arm *arm, bool straight,
                                    fw_verdict_bending *bending) {
     const fw_mechanism_variant *of = m->variant;
-    if (!arm) return FW_OK;
     *bending =
         (fw_verdict_bending){.arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m};
+    if (!arm && !m->layout) return FW_OK;
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
-    FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 8 * (size_t)m->nhinge));
-    bending->before_N = bending->hardest_N + 4 * m->nhinge;
+    FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 11 * (size_t)m->nhinge));
+    bending->before_N = bending->hardest_N + 7 * m->nhinge;
     FW_NEED(bending->along_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
-    FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 6 * (size_t)m->nhinge + 1));
+    FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 8 * (size_t)m->nhinge + 1));
     if (straight) return worst_of(arena, m, arm, &bending->worst);
     if (m->nhinge <= FW_TIPPING_HINGES) {
         const size_t n = 2 * (size_t)m->nhinge;
         FW_NEED(bending->extreme = fw_arena_array(arena, fw_verdict_extreme, 2 * n));
         FW_NEED(bending->extreme_N = fw_arena_array(arena, double, 2 * n * n));
     }
+    if (!arm) return FW_OK; /* nothing is drawn: what tips is found by forces alone */
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
     if (!(m->device->release_pitch_m > 0)) return FW_OK;

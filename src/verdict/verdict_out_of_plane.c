@@ -215,7 +215,7 @@ static void acting(const fw_mechanism *m, const fw_device_scene *s, double *else
 /* Joints that only stiff axes hold ring in a motion by forces that its accuracy, which is one of angles, says nothing of */
 static double forces_off(const fw_dynamics_motion *motion) {
     const fw_verdict_strain_monitor *saw = motion->observed, *other = motion->compared;
-    if (!other || !other->bending.arm || !(other->bending.hardest_N2 > 0)) return 0;
+    if (!other || !other->bending.hardest_N || !(other->bending.hardest_N2 > 0)) return 0;
     const double loose = other->bending.peak->value, tight = saw->bending.peak->value;
     return motion->stats.estimate_margin * fabs(sqrt(loose / tight) - 1);
 }
@@ -251,7 +251,7 @@ static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
         for (int j = 0; j < count && !known; j++)
             known = a_share_of(n, forces, looked + (size_t)j * (size_t)n);
         if (known) continue;
-        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + n, other, 0};
+        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + 2 * n, other, 0};
         double now;
         int weak;
         FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &now, &weak));
@@ -267,7 +267,7 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
     const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
     const fw_mechanism *m = v->mechanism;
     const int n = m->nhinge;
-    if (!saw || !saw->bending.arm || !(saw->bending.hardest_N2 > 0)) return FW_OK;
+    if (!saw || !saw->bending.hardest_N || !(saw->bending.hardest_N2 > 0)) return FW_OK;
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
     int hinge;
     const size_t parts = 2 * (size_t)n, most = saw->bending.extreme ? 1 + 2 * parts : 1;
@@ -301,6 +301,7 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
 static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                          both *to) {
     FW_TRY(fw_mechanism_plates_new(arena, m, NULL, &to->rigid));
+    to->soft.why = to->rigid.why;
     if (to->rigid.why) return FW_OK;
     size_t n = (size_t)to->rigid.n;
     FW_TRY(fw_verdict_soft_plates(arena, m, arm, &to->soft));
@@ -469,7 +470,7 @@ static fw_status required_factor(fw_arena *arena, const both *is,
     const size_t n = (size_t)m->nhinge, bodies = (size_t)m->nbody;
     double tips, *far, *forces, *force_N;
     int hinge, count;
-    FW_NEED(forces = fw_arena_array(arena, double, 4 * n));
+    FW_NEED(forces = fw_arena_array(arena, double, 5 * n));
     FW_NEED(far = fw_arena_array(arena, double, 2 * bodies));
     /* what acts beside the mass centre may act anywhere */
     for (int i = 0; i < m->device->nscene; i++) {
@@ -480,9 +481,9 @@ static fw_status required_factor(fw_arena *arena, const both *is,
     for (int k = 0; k < m->nhinge; k++) {
         const int j = m->hinge[k].pin;
         if (j >= FW_SIX) continue;
-        forces[2 * n + 2 * (size_t)k] = pow(v->workspace.load[j].most_N, 2);
-        forces[2 * n + 2 * (size_t)k + 1] =
-            m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad);
+        double *most = forces + 2 * n + 3 * (size_t)k; /* whichever way it acts */
+        most[0] = most[2] = pow(v->workspace.load[j].most_N, 2);
+        most[1] = m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad);
     }
     const fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far,
                                                  1 / (1 - is->rigid.error)};
@@ -532,7 +533,7 @@ fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_ver
         if (!fw_mechanism_plates_asked(s)) continue;
         FW_TRY(judge_strain(arena, o->plates, v, &o->scene[i]));
     }
-    if (o && !o->why) return judge_required(arena, o->plates, v);
+    if (o && o->plates->rigid.n > 0) return judge_required(arena, o->plates, v);
     return FW_OK;
 }
 
@@ -583,9 +584,9 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                 "%s%s acts across the plane, and what the device does out of "
                                 "its plane is not known: %s",
                                 FW_NAMED("scene", s->name), out->why)));
+        if (!brief && is->rigid.n > 0) FW_TRY(judge_tipping(arena, is, s, v->motion[i], v, to));
         if (out->why) continue;
         if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, is, s, v, to));
-        if (!brief) FW_TRY(judge_tipping(arena, is, s, v->motion[i], v, to));
         if (!brief && s->ncomb > 0 && fw_effects_levitation_may_be(m))
             FW_TRY(warn_of_lift(is, s, diags, v, to));
     }

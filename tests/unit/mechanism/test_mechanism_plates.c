@@ -209,7 +209,7 @@ static void pressed(void **state) {
     const double tilt = 2 * (EI() / L + k * lever * lever), GJ = p.hinge[0].twist_Nm2,
                  l = 2 * L / FW_PI;
     /* on body b: of the left leaf the link, pushed to the right; of the right one the ground */
-    const double force[4] = {P, 0, P, 0}, most[4] = {P * P, 0, P * P, 0};
+    const double force[4] = {P, 0, P, 0}, most[6] = {P * P, 0, P * P, P * P, 0, P * P};
     double factor, alone = P * l * l / EI() + 0.5 * P * L * l / sqrt(EI() * GJ);
     int hinge;
     const double none = 0, off = 1e-7;
@@ -230,6 +230,10 @@ static void pressed(void **state) {
     assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &pull, &factor, &hinge), FW_OK);
     assert_relative(1 / factor, alone,
                     1e-8); /* tension holds the plate; of the leaves only sizes are known */
+    const double nothing[6] = {0}; /* and with what presses them known, nothing tips */
+    const fw_mechanism_plates_pressed held = {pulled, nothing, &none, 0};
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &p, &held, &factor, &hinge), FW_OK);
+    assert_true(factor == HUGE_VAL);
     assert_true(1 / alone < FW_PI * FW_PI * EI() / (4 * L * L * P)); /* below Euler's load */
     fw_arena_free(r.arena);
 }
@@ -244,6 +248,30 @@ static void not_known(void **state) {
     assert_string_equal(plates_of(&r).why, "not all bodies are held by flexures");
     r.shape[1].area_m2 = (double)NAN;
     assert_string_equal(plates_of(&r).why, "nothing is drawn of body B");
+    fw_arena_free(r.arena);
+}
+
+/* what tips a body needs no drawing of it: the same factor, and no modes */
+static void tips_undrawn(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    const double a = 400e-6, P = 1e-3;
+    add_body(&r, 0, 0, a, 100e-6, 2e-9);
+    add_leaf(&r, -0.5 * (a + L), 0, FW_GROUND, 0);
+    add_leaf(&r, 0.5 * (a + L), 0, 0, FW_GROUND);
+    const double force[4] = {P, 0, P, 0}, most[6] = {P * P, 0, 0, P * P, 0, 0}, none = 0;
+    const fw_mechanism_plates_pressed by = {force, most, &none, 0};
+    const fw_mechanism_plates drawn = plates_of(&r);
+    double factor[2];
+    int hinge;
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &drawn, &by, &factor[0], &hinge), FW_OK);
+    r.shape[0].area_m2 = (double)NAN;
+    const fw_mechanism_plates bare = plates_of(&r);
+    assert_string_equal(bare.why, "nothing is drawn of body B");
+    assert_int_equal(bare.n, 3);
+    assert_int_equal(fw_mechanism_plates_buckling(r.arena, &bare, &by, &factor[1], &hinge), FW_OK);
+    assert_relative(factor[1], factor[0], 1e-8);
     fw_arena_free(r.arena);
 }
 
@@ -283,7 +311,7 @@ int main(void) {
         cmocka_unit_test(of_equal_movers_the_first),
         cmocka_unit_test(tip_mass), cmocka_unit_test(between_two), cmocka_unit_test(curls),
         cmocka_unit_test(as_far_as_its_middle),
-        cmocka_unit_test(pressed),  cmocka_unit_test(not_known),   cmocka_unit_test(counted),
+        cmocka_unit_test(pressed),  cmocka_unit_test(not_known), cmocka_unit_test(tips_undrawn),   cmocka_unit_test(counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
