@@ -55,7 +55,7 @@ bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, boo
 /* Logarithms of all checks of one run, in the order of fw_verdict_search: the utilisation of each
    hinge in each scene and in the workspace, then for each scene the pull-in margin that is needed
    over the one that there is, the utilisation of each requirement, and the share of each clearance that
-   is used, which are 1 at their limits. Logarithms, because the estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses
+   is used, and what tips and strains it across the plane, which are 1 at their limits. Logarithms, because the estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses
    less than 1e-9 of its limit, which no corner brings near it. */
 static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                         double *ln) {
@@ -71,6 +71,7 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
         if (c->box == FW_NONE || s->nearest)
             clearance[at] = log(fw_verdict_search_used(c, s->nearest));
     }
+    fw_verdict_across_checks(now, scenes, clearance + scenes + s->device->nworkspace);
     for (int r = 0; r < hinges; r++)
         ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
     for (int i = 0; i < scenes; i++) {
@@ -109,7 +110,7 @@ static bool refinement_may_decide(const fw_verdict_variant_verdict *now) {
     fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
     if (refinement == FW_REFINE_NOTHING)
         refinement = fw_verdict_requirements_refinement(now->requirement, now->nrequirement);
-    return refinement == FW_REFINE_NUMBERS;
+    return refinement == FW_REFINE_NUMBERS || fw_verdict_across_open(now);
 }
 
 /* a hinge's verdict with everything that it points to */
@@ -216,8 +217,11 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
     if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_accuracy);
     int looks = 0;
     do {
-        *now = (fw_verdict_variant_verdict){
-            .variant = &device->variant, .like = like, .corner = true, .arm = s->v->arm};
+        *now = (fw_verdict_variant_verdict){.variant = &device->variant,
+                                            .like = like,
+                                            .corner = true,
+                                            .tipping = s->tipping,
+                                            .arm = s->v->arm};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
     } while (++looks != s->most_looks && refine(s, now, &options));

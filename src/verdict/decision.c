@@ -153,3 +153,45 @@ fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
                                                   .text = text};
     return FW_OK;
 }
+
+/* ---- across the plane, as what a flow makes has it ---- */
+
+/* Forces that tip a device are borne by stiffnesses that go with the third power of the thickness and with Young's modulus:
+   what a flow makes of a device that tips above so many times its forces is not looked at */
+static const double far_from_tipping = 10;
+static const double strained_most =
+    10; /* a hinge without a bound across the plane counts as this */
+
+static double surely_flat(const fw_verdict_across *a) {
+    return a->tips / (1 + a->tips_error);
+}
+
+bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    for (int i = 0; o && i < o->nscene; i++)
+        if (surely_flat(&o->scene[i]) < far_from_tipping) return true;
+    return o && o->required_tips < far_from_tipping; /* NaN: no */
+}
+
+bool fw_verdict_across_open(const fw_verdict_variant_verdict *v) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    for (int i = 0; o && i < o->nscene; i++)
+        if (o->scene[i].tips > 1 && !(surely_flat(&o->scene[i]) >= 1)) return true;
+    return false;
+}
+
+static double check_of(double used) {
+    return used > 1e-9 ? log(fmin(used, strained_most)) : (double)NAN;
+}
+
+void fw_verdict_across_checks(const fw_verdict_variant_verdict *v, int nscene, double *ln) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    for (int i = 0; i < 2 * nscene + 1; i++)
+        ln[i] = (double)NAN;
+    for (int i = 0; o && i < o->nscene; i++) {
+        const fw_verdict_across *a = &o->scene[i];
+        ln[a->scene_index] = check_of(1 / a->tips);
+        ln[nscene + a->scene_index] = check_of(a->strained);
+    }
+    if (o) ln[2 * nscene] = check_of(1 / o->required_tips);
+}

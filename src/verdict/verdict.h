@@ -114,6 +114,8 @@ typedef struct fw_verdict_out_of_plane {
     struct fw_verdict_plates *plates; /* what it was computed with (verdict_out_of_plane.c) */
     fw_verdict_across *scene;         /* (nscene) of this flow, those that were run */
     int nscene;
+    double
+        required_tips; /* factor on what holds required poses below which nothing tips; NaN: not looked at */
 } fw_verdict_out_of_plane;
 
 /* Whether a liquid pulls it to its carrier, or one wall to another, as it dries, and whether it then lets go
@@ -268,6 +270,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_dynamics_motion *const *like;
     /* of what the flow makes: bent strips were looked at as drawn, with an allowance */
     bool corner;
+    bool
+        tipping; /* of a corner: what tips it out of its plane is looked at, and poses are held against it */
     /* NULL: not asked for, or the drawn device is not accepted */
     fw_verdict_fabricated_verdict *fabricated;
     fw_verdict_decision drawn; /* decision of the drawn geometry alone */
@@ -286,11 +290,11 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     int nreason;
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */
     const struct fw_verdict_arm *arm;
-    bool straight;                               /* those of straight ways alone */
-    const fw_verdict_out_of_plane *out_of_plane; /* NULL: nobody asked, as of a trial */
-    const fw_verdict_stiction *stiction;         /* NULL: no flow dries it, or nobody asked */
-    const fw_clearance_things *things;           /* NULL: nothing is drawn */
-    fw_verdict_clearance *clearance;             /* (nclearance) none of what is not drawn */
+    bool straight;                         /* those of straight ways alone */
+    fw_verdict_out_of_plane *out_of_plane; /* NULL: nobody asked, as of a trial */
+    const fw_verdict_stiction *stiction;   /* NULL: no flow dries it, or nobody asked */
+    const fw_clearance_things *things;     /* NULL: nothing is drawn */
+    fw_verdict_clearance *clearance;       /* (nclearance) none of what is not drawn */
     int nclearance;
     fw_wiring_moved *stator; /* (nstator) every stator in every scene, as drawn; none at a corner */
     int nstator;

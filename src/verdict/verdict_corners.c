@@ -8,6 +8,9 @@
 
 /* a first-order estimate that was off by more than this proves nothing: every corner is run */
 static const double fw_trusted = 0.3;
+/* checks below this share of their limits are of no account to estimates; so are those across the plane, of which nothing
+   is told but whether they are beyond */
+static const double far_below = 0.1, flat_below = 0.5;
 /* below this an input does not decide which corner is the worst one */
 static const double fw_of_no_account = 2e-3;
 
@@ -89,15 +92,16 @@ static unsigned choose(const fw_verdict_search *s, int check, bool up) {
     return end_corner(s, check, up, 0);
 }
 
-/* how far off the estimates of checks that may matter were at a corner that was run */
-static double estimate_error(const fw_verdict_search *s, int point) {
+/* how far off the estimates of checks from..to that may matter were at a corner that was run: those that used `least` */
+static double estimate_error(const fw_verdict_search *s, int point, int from, int to,
+                             double least) {
     double error = 0.0;
-    for (int r = 0; r < s->ncheck; r++) {
+    for (int r = from; r < to; r++) {
         double got = s->ln[(size_t)point * (size_t)s->ncheck + (size_t)r];
         double want = estimate(s, r, s->bits[point]);
         if (isnan(want) && isnan(got)) continue;        /* neither here nor there */
         if (isnan(want) || isnan(got)) return HUGE_VAL; /* gone, or new */
-        if (fmax(got, want) < log(0.1)) continue;       /* far below every limit */
+        if (fmax(got, want) < log(least)) continue;     /* far below every limit */
         error = fmax(error, fabs(got - want));
     }
     return error;
@@ -106,7 +110,7 @@ static double estimate_error(const fw_verdict_search *s, int point) {
 static double largest_run(const fw_verdict_search *s) {
     double most = -HUGE_VAL;
     for (int p = 0; p < s->fabricated->ncorner; p++)
-        for (int r = 0; r < s->ncheck; r++)
+        for (int r = 0; r < s->nplane; r++)
             most = fmax(most, s->ln[(size_t)p * (size_t)s->ncheck + (size_t)r]); /* NaN is passed */
     return most;
 }
@@ -179,16 +183,17 @@ static unsigned not_yet_below(const fw_verdict_search *s) {
 }
 
 /* runs the corner of the check whose estimate, with the error seen so far, is highest and either
-   above everything that was run or near a limit; false: there is none left */
+   above everything that was run or near a limit, across the plane near a limit; false: there is none left */
 static fw_status run_next(fw_verdict_search *s, bool *ran) {
     double largest = largest_run(s), highest = -HUGE_VAL;
     unsigned next = FW_NO_CORNER;
     for (int r = 0; r < s->ncheck; r++) {
         if (isnan(s->ln[r])) continue;
+        const bool across = r >= s->nplane;
         unsigned bits = choose(s, r, true);
-        double upper = estimate(s, r, bits) + s->fabricated->error;
-        double bar = fmin(largest, log(near_limit(s, r)));
-        bool first = s->fabricated->ncorner == s->first; /* one is run in any case */
+        double upper = estimate(s, r, bits) + (across ? s->across_error : s->fabricated->error);
+        double bar = fmin(across ? HUGE_VAL : largest, log(near_limit(s, r)));
+        bool first = !across && s->fabricated->ncorner == s->first; /* one is run in any case */
         if (!first && (fw_verdict_search_find(s, bits) != FW_NONE || !(upper > bar))) continue;
         if (upper > highest) highest = upper, next = bits;
     }
@@ -199,14 +204,17 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
     double x[FW_FABRICATION_INPUTS];
     fw_verdict_search_corner_point(s, next, x);
     FW_TRY(fw_verdict_search_run(s, x, next));
+    const int at = s->fabricated->ncorner - 1;
     s->fabricated->error =
-        fmax(s->fabricated->error, estimate_error(s, s->fabricated->ncorner - 1));
-    fw_verdict_ends_compare(s, s->fabricated->ncorner - 1);
+        fmax(s->fabricated->error, estimate_error(s, at, 0, s->nplane, far_below));
+    s->across_error =
+        fmax(s->across_error, estimate_error(s, at, s->nplane, s->ncheck, flat_below));
+    fw_verdict_ends_compare(s, at);
     return FW_OK;
 }
 
 static bool no_slope(const fw_verdict_search *s) {
-    for (int r = 0; r < s->ncheck; r++)
+    for (int r = 0; r < s->nplane; r++)
         for (int i = 0; !isnan(s->ln[r]) && i < s->v->ninput; i++)
             if (isnan(s->slope[r * s->v->ninput + i])) return true;
     return false;
@@ -231,9 +239,9 @@ fw_status fw_verdict_search_corners(fw_verdict_search *s) {
     if (s->fabricated->corner[0].decision == FW_REJECT) return FW_OK;
     FW_TRY(slopes(s));
     if (no_slope(s) || fw_verdict_ends_unknown(s)) return run_all(s);
-    for (bool ran = true; ran && s->fabricated->error <= fw_trusted;)
+    for (bool ran = true; ran && fmax(s->fabricated->error, s->across_error) <= fw_trusted;)
         FW_TRY(run_next(s, &ran));
-    return s->fabricated->error > fw_trusted ? run_all(s) : FW_OK;
+    return fmax(s->fabricated->error, s->across_error) > fw_trusted ? run_all(s) : FW_OK;
 }
 
 fw_status fw_verdict_search_ends(fw_verdict_search *s, int check) {
@@ -330,7 +338,7 @@ static fw_status run_pattern(fw_verdict_search *s, apart *a, int check, bool *ra
     FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
     const double got =
         s->ln[(size_t)(s->fabricated->ncorner - 1) * (size_t)s->ncheck + (size_t)check];
-    if (!isnan(got)) a->error = fmax(a->error, fabs(got - a->most[check]));
+    if (!isnan(got) && check < s->nplane) a->error = fmax(a->error, fabs(got - a->most[check]));
     return FW_OK;
 }
 
@@ -345,7 +353,8 @@ static fw_status run_patterns(fw_verdict_search *s, apart *a) {
                 next = r;
         if (next == FW_NONE) return FW_OK;
         done[next] = true;
-        if (any && !(a->most[next] + a->error > log(near_limit(s, next)))) continue;
+        if ((any || next >= s->nplane) && !(a->most[next] + a->error > log(near_limit(s, next))))
+            continue;
         FW_TRY(run_pattern(s, a, next, &ran));
         any = any || ran;
     }
@@ -363,7 +372,9 @@ static fw_status hinges_apart(fw_verdict_search *s, double *most) {
     FW_NEED(a.most = fw_arena_array(s->arena, double, (size_t)s->ncheck));
     size_t highest = 0, cells = (size_t)a.points * (size_t)s->ncheck;
     for (size_t i = 0; i < cells; i++)
-        if (!(s->ln[i] <= s->ln[highest]) && !isnan(s->ln[i])) highest = i;
+        if ((int)(i % (size_t)s->ncheck) < s->nplane && !(s->ln[i] <= s->ln[highest]) &&
+            !isnan(s->ln[i]))
+            highest = i;
     FW_TRY(change_each(s, &a, (int)(highest / (size_t)s->ncheck)));
     for (int r = 0; r < s->ncheck; r++) {
         const int at = worst_point(s, r, a.points);
@@ -418,31 +429,6 @@ static void first_order(fw_verdict_search *s, int k) {
     h->sigma = sqrt(sum);
 }
 
-/* the worst of everything that was run, and the hinge that makes it so */
-void fw_verdict_search_govern(fw_verdict_search *s) {
-    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
-    double most = -1.0;
-    fabricated->governing = FW_NONE;
-    fabricated->at = 0;
-    fw_verdict_decision worst = FW_ACCEPT;
-    for (int c = 0; c < fabricated->ncorner; c++) {
-        const fw_verdict_fabricated_corner *corner = &fabricated->corner[c];
-        if (fw_verdict_is_worse(worst, corner->decision)) continue;
-        if (corner->decision != worst) most = -1.0, worst = corner->decision;
-        if (corner->why && most < 0.0)
-            fabricated->at = c, fabricated->governing = FW_NONE, most = 0.0;
-        for (int k = 0; k < s->v->nhinge; k++)
-            if (corner->hinge[k].scene && !fw_verdict_is_worse(worst, corner->hinge[k].decision) &&
-                fw_above_rounding(corner->hinge[k].utilisation, most)) {
-                most = corner->hinge[k].utilisation;
-                fabricated->at = c, fabricated->governing = k;
-            }
-    }
-    fabricated->decision = worst == FW_ACCEPT                            ? FW_ACCEPT
-                           : fabricated->corner[0].decision == FW_REJECT ? FW_REJECT
-                                                                         : FW_INCONCLUSIVE;
-}
-
 static fw_status explain(fw_verdict_search *s) {
     fw_verdict_fabricated_verdict *fabricated = s->fabricated;
     const fw_verdict_fabricated_corner *c = &fabricated->corner[fabricated->at];
@@ -491,13 +477,16 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s) {
     size_t n = (size_t)v->ninput, h = (size_t)v->nhinge;
+    const int nplane = v->nhinge * (device->nscene + 1) + 2 * device->nscene + v->nrequirement +
+                       device->nworkspace;
     *s = (fw_verdict_search){.arena = arena,
                              .device = device,
                              .layout = layout,
                              .options = *options,
                              .v = v,
-                             .ncheck = v->nhinge * (device->nscene + 1) + device->nscene +
-                                       v->nrequirement + device->nscene + device->nworkspace,
+                             .nplane = nplane,
+                             .ncheck = nplane + 2 * device->nscene + 1,
+                             .tipping = fw_verdict_across_counts(v),
                              .clearances = fw_verdict_search_clearances_count(v, false),
                              .nearest = fw_verdict_search_clearances_count(v, true)};
     s->options.motion.samples = 65; /* stability is looked at between them */
@@ -586,15 +575,4 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     if (s.fabricated->decision == FW_INCONCLUSIVE) FW_TRY(fw_verdict_fabrication_control(&s));
     v->decision = fw_verdict_worse(v->decision, s.fabricated->decision);
     return add_reason(&s, v);
-}
-
-int fw_verdict_most_used(const fw_verdict_variant_verdict *v) {
-    int worst = FW_NONE;
-    double most = -1.0;
-    for (int k = 0; k < v->nhinge; k++) {
-        const fw_verdict_hinge_verdict *h =
-            &v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k];
-        if (h->scene && h->utilisation > most) most = h->utilisation, worst = k;
-    }
-    return worst;
 }

@@ -234,13 +234,13 @@ static bool a_share_of(int n, const double *f, const double *of) {
 }
 
 /* The least factor at the instant of the largest forces, and at those where a component of a hinge's force is largest one
-   way or the other (brief: not these). looked: ((1 + 2 n) x n) */
+   way or the other. looked: ((1 + 2 n) x n) */
 static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
-                              const fw_verdict_bending *saw, const double *other, int n, bool brief,
+                              const fw_verdict_bending *saw, const double *other, int n,
                               double *looked, double *factor, int *hinge) {
     int count = 0;
     *factor = HUGE_VAL, *hinge = FW_NONE;
-    for (int k = -1; k < (saw->extreme && !brief ? 2 * n : 0); k++) {
+    for (int k = -1; k < (saw->extreme ? 2 * n : 0); k++) {
         const double *at = k < 0 ? saw->hardest_N : saw->extreme_N + (size_t)k * (size_t)n;
         const double beside = k < 0 ? saw->beside : saw->extreme[k].beside;
         double *forces = looked + (size_t)count * (size_t)n;
@@ -275,13 +275,12 @@ static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_
     FW_NEED(looked);
     FW_NEED(other = fw_arena_array(arena, double, (size_t)m->nbody));
     acting(m, s, other);
-    FW_TRY(
-        least_factor(arena, p, &saw->bending, other, 2 * n, v->corner, looked, &to->tips, &hinge));
+    FW_TRY(least_factor(arena, p, &saw->bending, other, 2 * n, looked, &to->tips, &hinge));
     to->tips *= 1 - is->rigid.error;
     if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
     to->tips_error = forces_off(motion);
     const double sure = to->tips / (1 + to->tips_error);
-    if (!(sure < 1) || v->corner) return FW_OK;
+    if (!(sure < 1)) return FW_OK;
     char by[32];
     to->decision = FW_INCONCLUSIVE;
     return fw_verdict_scene_reason(
@@ -508,11 +507,14 @@ static fw_status required_factor(fw_arena *arena, const both *is,
     return FW_OK;
 }
 
-static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v) {
+static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v,
+                                double *tips) {
     double sure;
     char by[32];
-    if (!v->workspace.required || !v->workspace.reachable || v->corner) return FW_OK;
+    if (!v->workspace.required || !v->workspace.reachable || (v->corner && !v->tipping))
+        return FW_OK;
     FW_TRY(required_factor(arena, is, v, &sure));
+    *tips = sure;
     if (!(sure < 1)) return FW_OK;
     FW_TRY(fw_verdict_workspace_reason(
         v, 647, FW_INCONCLUSIVE,
@@ -527,13 +529,13 @@ static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_vari
 }
 
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    fw_verdict_out_of_plane *o = v->out_of_plane;
     for (int i = 0; o && !o->why && i < o->nscene; i++) {
         const fw_device_scene *s = &v->mechanism->device->scene[o->scene[i].scene_index];
         if (!fw_mechanism_plates_asked(s)) continue;
         FW_TRY(judge_strain(arena, o->plates, v, &o->scene[i]));
     }
-    if (o && o->plates->rigid.n > 0) return judge_required(arena, o->plates, v);
+    if (o && o->plates->rigid.n > 0) return judge_required(arena, o->plates, v, &o->required_tips);
     return FW_OK;
 }
 
@@ -555,9 +557,11 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     const fw_device *d = m->device;
     both *is;
     fw_verdict_out_of_plane *out;
+    const bool tips = !brief || v->tipping;
     v->out_of_plane = NULL;
-    if (!d || !m->layout || (brief && !fw_verdict_out_of_plane_asked(m))) return FW_OK;
+    if (!d || !m->layout || (!tips && !fw_verdict_out_of_plane_asked(m))) return FW_OK;
     FW_NEED(out = fw_arena_one(arena, fw_verdict_out_of_plane));
+    out->required_tips = (double)NAN;
     v->out_of_plane = out;
     FW_NEED(out->plates = is = fw_arena_one(arena, both));
     FW_TRY(prepare(arena, m, v->arm, is));
@@ -584,7 +588,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                 "%s%s acts across the plane, and what the device does out of "
                                 "its plane is not known: %s",
                                 FW_NAMED("scene", s->name), out->why)));
-        if (!brief && is->rigid.n > 0) FW_TRY(judge_tipping(arena, is, s, v->motion[i], v, to));
+        if (tips && is->rigid.n > 0) FW_TRY(judge_tipping(arena, is, s, v->motion[i], v, to));
         if (out->why) continue;
         if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, is, s, v, to));
         if (!brief && s->ncomb > 0 && fw_effects_levitation_may_be(m))

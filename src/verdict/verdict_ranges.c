@@ -24,6 +24,33 @@ static fw_status take_known(fw_arena *arena, const fw_verdict_variant_verdict *v
     return FW_OK;
 }
 
+/* ---- which point governs ---- */
+
+/* the worst of everything that was run, and the hinge that makes it so */
+void fw_verdict_search_govern(fw_verdict_search *s) {
+    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    double most = -1.0;
+    fabricated->governing = FW_NONE;
+    fabricated->at = 0;
+    fw_verdict_decision worst = FW_ACCEPT;
+    for (int c = 0; c < fabricated->ncorner; c++) {
+        const fw_verdict_fabricated_corner *corner = &fabricated->corner[c];
+        if (fw_verdict_is_worse(worst, corner->decision)) continue;
+        if (corner->decision != worst) most = -1.0, worst = corner->decision;
+        if (corner->why && most < 0.0)
+            fabricated->at = c, fabricated->governing = FW_NONE, most = 0.0;
+        for (int k = 0; k < s->v->nhinge; k++)
+            if (corner->hinge[k].scene && !fw_verdict_is_worse(worst, corner->hinge[k].decision) &&
+                fw_above_rounding(corner->hinge[k].utilisation, most)) {
+                most = corner->hinge[k].utilisation;
+                fabricated->at = c, fabricated->governing = k;
+            }
+    }
+    fabricated->decision = worst == FW_ACCEPT                            ? FW_ACCEPT
+                           : fabricated->corner[0].decision == FW_REJECT ? FW_REJECT
+                                                                         : FW_INCONCLUSIVE;
+}
+
 /* ---- bands of what was run ---- */
 
 static void widen(fw_verdict_band *b, double used) {
@@ -190,6 +217,17 @@ fw_status fw_verdict_made_at(fw_arena *arena, const fw_device *device, const fw_
 
 /* ---- which check ----
    Of all flows, as each makes the device, or as it is drawn. */
+
+int fw_verdict_most_used(const fw_verdict_variant_verdict *v) {
+    int worst = FW_NONE;
+    double most = -1.0;
+    for (int k = 0; k < v->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h =
+            &v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k];
+        if (h->scene && h->utilisation > most) most = h->utilisation, worst = k;
+    }
+    return worst;
+}
 
 static const char *limit_of(const fw_verdict_hinge_verdict *h) {
     bool tires = h->limit && strcmp(h->limit->criterion, "fatigue") == 0;

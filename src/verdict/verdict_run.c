@@ -217,7 +217,7 @@ static bool goes_further(fw_verdict_refinement refinement, fw_verdict_refinement
     return false;
 }
 
-/* of hinges and requirements, whichever goes further */
+/* of hinges, requirements and what tips, whichever goes further */
 static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
     fw_verdict_refinement most = fw_verdict_refinement_of(verdict->hinge, verdict->nhinge);
     for (int i = 0; i < verdict->nvariant; i++) {
@@ -225,6 +225,7 @@ static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
         const fw_verdict_refinement also =
             fw_verdict_requirements_refinement(v->requirement, v->nrequirement);
         if (goes_further(also, most)) most = also;
+        if (most == FW_REFINE_NOTHING && fw_verdict_across_open(v)) most = FW_REFINE_NUMBERS;
     }
     return most;
 }

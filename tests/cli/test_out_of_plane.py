@@ -124,6 +124,38 @@ class OutOfPlane(unittest.TestCase):
             self.assertEqual(tips, both < 1)
         self.assertTrue(tips)
 
+    def test_what_a_flow_makes_tips(self):
+        """a device that surely stays flat as drawn, and does not where the flow makes it thinner and softer: neither as made
+        nor in a yield does it count as one that holds"""
+        copper = STAGE.replace("silicon-100", "copper-plated").replace('width="6 um"', 'width="12 um"') % ("3 um", '<flow ref="copper-on-porous-silicon"/>', "", "")
+
+        def judged(load, *more, thickness="3 um", modulus=None):
+            text = copper.replace('fx="1 uN"', f'fx="{load:.4g} uN"').replace('"3 um"', f'"{thickness}"')
+            self.file.write_text(text)
+            sets = () if modulus is None else ("--set", f"material/@youngs-modulus={modulus}")
+            done = run("check", self.file, "--json", "--advice", "none", *sets, *more)
+            return json.loads(done.stdout)
+
+        alone = judged(1, "--corners", "none")["out_of_plane"][0]["scenes"][0]["tips_at"]
+        near = alone / 1.15  # uN: forces go with the load
+        drawn = judged(near, "--corners", "none")
+        self.assertEqual(drawn["verdict"], "accept")
+        self.assertAlmostEqual(drawn["out_of_plane"][0]["scenes"][0]["tips_at"], 1.15, delta=0.05)
+        made = judged(near)
+        self.assertEqual(made["verdict"], "inconclusive")
+        self.assertIn("may tip the device out of its plane", json.dumps(made["reasons"]))
+        # a corner that is drawn says the same
+        self.assertEqual(judged(near, "--corners", "none", thickness="2.7 um", modulus="85 GPa")["verdict"], "inconclusive")
+        # what is farther from it than any corner can take away is accepted
+        self.assertEqual(judged(alone / 8)["verdict"], "accept")
+        judged(near, "--corners", "none")
+        study = self.file.with_name("study.xml")
+        study.write_text('<study xmlns="urn:flexwright:study:1" name="s" kind="yield" samples="200" device="device.xml"/>')
+        done = run("study", study, "-o", self.file.with_name("out"), "--no-progress")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        flow = json.loads(self.file.with_name("out").joinpath("study.json").read_text())["yields"][0]
+        self.assertLess(flow["yield"], 0.95, flow)
+
     def test_electrodes_lift(self):
         """at the middle of a stage whose stiffness there is known: both drives over a silicon carrier, none over glass"""
         drives = "".join(f'<comb-drive id="{side}" kind="comb" on="stage" x="{x} mm" y="0 mm" direction="{turn} deg" fingers="20" '
