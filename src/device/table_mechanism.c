@@ -114,7 +114,9 @@ static const fw_xml_attribute_row revolute_rows[] = {
      .sentence =
          "The flexure that it is; stiffness, damping and limit then come from its geometry."},
     {"axis", TURN, .fallback = "chosen by the layout",
-     .sentence = "Direction of the flexure's bulge, from the x axis."},
+     .sentence =
+         "Direction of the flexure's bulge, from the x axis. Where nothing is drawn a is at "
+         "its end on the right of that direction, and b at the one on the left."},
     {"stop-min", TURNS, .fallback = "no stop",
      .sentence = "Below this angle of the joint a stop pushes back; needs stop-stiffness."},
     {"stop-max", TURNS, .fallback = "no stop",

@@ -188,6 +188,33 @@ bool fw_mechanism_said_already(const fw_diags *diags, int number, fw_place place
     return false;
 }
 
+/* Nothing is drawn of a hinge, and by its axis the flexure begins in each of its bodies beyond where it ends, seen from that
+   body: more than its chord on the other side of the pin from the mass centre */
+void fw_mechanism_tell_turned(const fw_mechanism_builder *b, const fw_device_revolute *from,
+                              const fw_mechanism_pin *pin) {
+    const int body[2] = {pin->body_a, pin->body_b};
+    const fw_geometry_vec2 local[2] = {{pin->ax_m, pin->ay_m}, {pin->bx_m, pin->by_m}},
+                           root[2] = {pin->root_a_m, pin->root_b_m};
+    fw_geometry_vec2 away[2] = {{0, 0}, {0, 0}}, end[2];
+    for (int i = 0; i < 2; i++) {
+        const double phi = body[i] == FW_GROUND ? 0 : b->mechanism->body[body[i]].phi_rad;
+        end[i] = fw_geometry_vec_rotate(root[i], phi);
+        if (body[i] != FW_GROUND)
+            away[i] = fw_geometry_vec_rotate((fw_geometry_vec2){-local[i].x, -local[i].y}, phi);
+    }
+    const fw_geometry_vec2 chord = vec_sub(end[1], end[0]);
+    const double far = vec_dot(chord, chord);
+    for (int i = 0; i < 2; i++)
+        if (body[i] != FW_GROUND && !((i ? -1 : 1) * vec_dot(away[i], chord) > far)) return;
+    if (!(far > 0) || fw_mechanism_said_already(b->diags, 651, from->place)) return;
+    fw_diag_warning(b->diags, 651, from->place,
+                    "%s%s: nothing is drawn, so that its axis says which end is whose, and the "
+                    "flexure begins in %s on the side away from it and runs back over it; "
+                    "exchange a and b, of a leaf turn the axis by 180 deg, or draw the bodies",
+                    FW_NAMED("hinge", from->id),
+                    fw_text_name(b->mechanism->body[body[body[1] != FW_GROUND]].id));
+}
+
 static bool two_bodies(const fw_mechanism_builder *b, int x, int y) {
     int n = b->device->nbody;
     return x >= FW_GROUND && y >= FW_GROUND && x < n && y < n && x != y;

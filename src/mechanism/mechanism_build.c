@@ -355,6 +355,10 @@ static void build_stops(const fw_mechanism_builder *b, const fw_device_revolute 
     to->stop_damping_Nms_per_rad = any && !isnan(c) ? c * b->variant->explicit_damping_scale : 0;
 }
 
+static bool is_drawn(const fw_mechanism_builder *b, int j) {
+    return b->layout && b->layout->drawn && b->layout->hinge[j].drawn;
+}
+
 /* what the layout drew of the flexure; without a drawing its axis and surfaces are not known */
 static void set_hinge_shape(const fw_mechanism_builder *b, int j, const fw_device_revolute *from,
                             fw_mechanism_hinge *to) {
@@ -363,7 +367,7 @@ static void set_hinge_shape(const fw_mechanism_builder *b, int j, const fw_devic
     to->axis_rad = from->axis_rad;
     to->first_is_a = true;
     to->cover_from_rad = to->cover_to_rad = (double)NAN;
-    if (!b->layout || !b->layout->drawn || !b->layout->hinge[j].drawn) return;
+    if (!is_drawn(b, j)) return;
     const fw_layout_hinge_layout *h = &b->layout->hinge[j];
     to->axis_rad = h->axis_rad;
     to->first_is_a = h->lower == from->body_a;
@@ -442,6 +446,7 @@ static fw_status build_pin(const fw_mechanism_builder *b, int j) {
         set_hinge_shape(b, j, from, hinge);
         move_pin(b, hinge, to);
         find_roots(b, hinge, to);
+        if (!is_drawn(b, j)) fw_mechanism_tell_turned(b, from, to);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;
         if (to->stiffness_Nm_per_rad > 0)

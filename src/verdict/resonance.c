@@ -15,7 +15,8 @@
    Inputs: the motion, and modes about the equilibrium of what does not go to and fro, voltages that do by their root mean
    square. Where that may be reached from rest within the scene frequencies in between belong to the range.
    Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
-   Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance */
+   Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance
+   Loads that make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"
@@ -123,8 +124,8 @@ static fw_status steady_part(fw_arena *arena, const fw_device_scene *s, fw_devic
 
 /* NULL: there are none */
 static fw_status modes_about(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                             bool at_equilibrium, const fw_statics_modes **modes) {
-    const fw_statics_mode_options o = {.accuracy = 0.03, .at_equilibrium = at_equilibrium};
+                             bool at_equilibrium, double accuracy, const fw_statics_modes **modes) {
+    const fw_statics_mode_options o = {.accuracy = accuracy, .at_equilibrium = at_equilibrium};
     fw_diags own = fw_diags_new(arena);
     *modes = NULL;
     fw_status status = fw_statics_small_motions(arena, m, scene, &o, &own, modes);
@@ -329,9 +330,9 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     FW_TRY(find_laws(arena, m, s, by));
     if (by->n == 0 || motion->nsample < 2) return FW_OK;
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
-    FW_TRY(modes_about(arena, m, &steady, moves, &modes));
-    if (modes && slowly) FW_TRY(modes_about(arena, m, &steady, false, &rest));
-    if (!modes) FW_TRY(modes_about(arena, m, &still, false, &modes));
+    FW_TRY(modes_about(arena, m, &steady, moves, 0.03, &modes));
+    if (modes && slowly) FW_TRY(modes_about(arena, m, &steady, false, 0.03, &rest));
+    if (!modes) FW_TRY(modes_about(arena, m, &still, false, 0.03, &modes));
     if (!modes) return FW_OK;
     FW_NEED(to->mode = fw_arena_array(arena, fw_verdict_shaken_mode, MODES_SHAKEN));
     FW_TRY(put_shares(arena, m, modes, motion, to));
@@ -341,6 +342,127 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
         to->mode[k].high = to->mode[k].omega * (1 + off);
     }
     if (rest) hold_both(rest, bodies, to);
+    return FW_OK;
+}
+
+/* ---- what pumps: loads that make a mode stiffer and softer as they go to and fro ---- */
+
+/* the scene at rest with what goes to and fro at its largest, one way (1) or the other (-1) */
+static fw_status held_at(fw_arena *arena, const fw_device_scene *s, double way,
+                         fw_device_scene *to) {
+    const double end = s->duration_s;
+    *to = *s;
+    FW_TRY(fw_device_own_scene(arena, to));
+#define HOLD(kind, ...)                                                                            \
+    for (int i = 0; i < s->n##kind; i++) {                                                         \
+        if (!fw_quantity_law_goes_to_and_fro(s->kind[i].law, end)) continue;                       \
+        const double by = way * fw_quantity_law_measure(s->kind[i].law, end).most;                 \
+        to->kind[i].law = NULL;                                                                    \
+        __VA_ARGS__                                                                                \
+    }
+    HOLD(force, to->force[i].fx_N *= by; to->force[i].fy_N *= by;)
+    HOLD(torque, to->torque[i].value_Nm *= by;)
+    HOLD(temperature, to->temperature[i].change_K *= by;)
+    HOLD(tendon, to->tendon[i].pull_N *= fmax(by, 0); to->tendon[i].draw_m *= fmax(by, 0);)
+    HOLD(comb, to->comb[i].voltage_V *= fmax(by, 0);)
+    HOLD(base, to->gx_m_per_s2 -= by * s->base[i].ax_m_per_s2;
+         to->gy_m_per_s2 -= by * s->base[i].ay_m_per_s2; to->gravity = true;
+         to->base[i].ax_m_per_s2 = to->base[i].ay_m_per_s2 = 0;)
+#undef HOLD
+    return FW_OK;
+}
+
+/* Share by which the square of a mode's frequency comes and goes; where one way has no equilibrium, as much as the other */
+static double comes_and_goes(const fw_statics_modes *rest, const fw_statics_modes *const at[2],
+                             int k) {
+    const double own = rest->mode[k].stiffness_per_s2;
+    double change[2];
+    for (int i = 0; i < 2; i++) {
+        const fw_statics_modes *is = at[i] ? at[i] : at[1 - i];
+        if (!is || k >= is->count) return 0;
+        change[i] = (at[i] ? 1 : -1) * (is->mode[k].stiffness_per_s2 - own) / own;
+    }
+    return fmin(0.5 * fabs(change[0] - change[1]), 1);
+}
+
+/* By how much x'' + 2 damping w x' + w^2 (1 + share f(t)) x = 0 may grow within the scene, f the law over its largest value:
+   Stoermer's steps, 24 to a period of w or of the law, from either start */
+static double grows(const shaking *by, double end_s, double most, double omega, double damping,
+                    double share) {
+    const double fastest = fw_quantity_law_wave_of(by->law).fastest_Hz,
+                 a_second = 24 * fmax(omega / (2 * FW_PI), fastest), steps = ceil(a_second * end_s),
+                 h = end_s / steps;
+    double grown = 0;
+    for (int start = 0; start < 2; start++) {
+        double x = 1 - start, v = start ? omega : 0, value[3];
+        for (double i = 0; i < steps; i++) {
+            const double t = (i + 0.5) * h;
+            fw_quantity_law_value(by->law, t, t, value);
+            const double f =
+                by->as == FW_LAW_SQUARED ? 2 * pow(value[0] / most, 2) - 1 : value[0] / most;
+            const double middle = x + 0.5 * h * v;
+            v = (v * (1 - damping * omega * h) - h * omega * omega * (1 + share * f) * middle) /
+                (1 + damping * omega * h);
+            x = middle + 0.5 * h * v;
+            grown = fmax(grown, hypot(x, v / omega));
+        }
+    }
+    return grown;
+}
+
+/* What grows tenfold from nothing that anybody states may be of any size */
+static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, const shakings *by,
+                          double bodies, fw_verdict_variant_verdict *v) {
+    const double much = 10, most_steps = 1e6, fine = 1e-3; /* a share is a difference */
+    const fw_device_scene *s = &m->device->scene[scene];
+    const fw_statics_modes *at[2] = {NULL, NULL}, *rest = NULL;
+    fw_device_scene held, steady;
+    bool moves, slowly;
+    if (by->n == 0) return FW_OK;
+    for (int i = 0; i < 2; i++) {
+        FW_TRY(held_at(arena, s, i ? -1 : 1, &held));
+        FW_TRY(modes_about(arena, m, &held, true, fine, &at[i]));
+    }
+    FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
+    FW_TRY(modes_about(arena, m, &steady, moves, fine, &rest));
+    for (int k = 0; rest && (at[0] || at[1]) && k < rest->count && k < MODES_SHAKEN; k++) {
+        const fw_statics_mode *mode = &rest->mode[k];
+        if (!(mode->stiffness_per_s2 > 0)) continue;
+        const double share = comes_and_goes(rest, at, k), omega = mode->omega_rad_per_s,
+                     end = by->end_s, damping = fmin(fmax(mode->damping_ratio, 0), 0.99);
+        if (!(0.25 * share * omega * end > log(much))) continue;
+        const double off = fmin(fw_statics_mode_error(mode), 0.5),
+                     low = omega * (1 - off - 0.5 * bodies), high = omega * (1 + off);
+        double grown = 0;
+        for (int i = 0; i < by->n; i++) {
+            const double a_second = 48 * fmax(high / (2 * FW_PI),
+                                              fw_quantity_law_wave_of(by->item[i].law).fastest_Hz),
+                         largest = fw_quantity_law_measure(by->item[i].law, end).most,
+                         run = fmin(end, most_steps / (3 * a_second)),
+                         n = fmin(2 + ceil((high - low) * fmin(run, 8 / (share * omega)) / 0.25),
+                                  fmax(3, most_steps / (a_second * run)));
+            for (double j = 0; j < n; j++) {
+                const double now = grows(&by->item[i], run, largest,
+                                         low + (high - low) * j / (n - 1), damping, share);
+                /* what has doubled goes on like that */
+                grown = fmax(grown, now > 2 ? pow(now, end / run) : now);
+            }
+        }
+        if (!(grown > much)) continue;
+        char f[32], goes[32], times[32];
+        return fw_verdict_scene_reason(
+            v, s, 650, FW_INCONCLUSIVE, 0.5,
+            fw_arena_printf(
+                arena,
+                "%s%s makes the mode at %s Hz stiffer and softer by %s %% as its loads go to and "
+                "fro, and so may let what swings there grow %s times, whatever begins it "
+                "(parametric resonance): keep the loads' frequency from twice the mode's and from "
+                "the mode's, lower the loads along flexures, or say by <material-damping> what "
+                "damps",
+                FW_NAMED("scene", s->name), fw_number_text(f, sizeof f, mode->f_Hz, 4),
+                fw_number_text(goes, sizeof goes, 100 * share, 2),
+                grown < 1e3 ? fw_number_text(times, sizeof times, grown, 3) : "a thousand"));
+    }
     return FW_OK;
 }
 
@@ -354,7 +476,7 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
         add_answer(&to->mode[k],
                    answers_of(&by, &to->mode[k], to->mode[k].low, to->mode[k].high, false),
                    by.end_s, m->nhinge, to->factor, &to->late);
-    return FW_OK;
+    return v->corner ? FW_OK : may_pump(arena, m, scene, &by, bodies, v);
 }
 
 fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *m, int scene,

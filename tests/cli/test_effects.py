@@ -390,6 +390,40 @@ class Resonance(unittest.TestCase):
         self.assertEqual(far["verdict"], "accept")
         self.assertLess(far["hinges"][0]["utilisation_band"][1], 1.1 * far["hinges"][0]["utilisation"])
 
+    def pumped(self, share, times, periods, more=""):
+        """an arm on a leaf, which a force along it pulls and presses by a share of what buckles it: k L tan(k L) = L/e, e from
+        the leaf to the force. (verdict, codes, growth that is told)"""
+        length, arm, low, high = 300e-6, 250e-6, 0.0, math.pi / 2
+        for _ in range(60):
+            q = (low + high) / 2
+            low, high = (q, high) if q * math.tan(q) < length / arm else (low, q)
+        buckles = 150e9 * 40e-6 * 4e-6 ** 3 / 12 * (low / length) ** 2
+        f = 1009.1  # Hz, of its lowest mode
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(f'''<device xmlns="urn:flexwright:device:1" name="pumped">
+<material ref="silicon-100" youngs-modulus="150 GPa" poisson="0.25" thickness="40 um" strength="1 GPa"/>
+<flexure id="leaf" kind="leaf" length="300 um" width="4 um" fillet="2 um"/><mechanism>
+<body id="arm" x="0.4 mm" y="0 mm" mass="10 ug" inertia="1 ug mm^2"/>
+<revolute id="A" a="ground" b="arm" b-x="-0.4 mm" hinge="leaf" axis="-90 deg"/></mechanism>
+<scene name="s" duration="{periods / f:.9g} s"><force on="arm" fx="{share * buckles:.9g} N" law="sine" frequency="{times * f:.9g} Hz"/>
+{more}</scene></device>''')
+            said = json.loads(run("check", device, "--corners", "none", "--advice", "none", "--json").stdout)
+        told = [re.search(r"grow ([\d.]+|a thousand) times", r["text"]) for r in said["reasons"] if r["code"] == "FW-D650"]
+        return said["verdict"], [t[1] for t in told]
+
+    def test_loads_that_pump_a_mode(self):
+        """Mathieu: at twice its frequency a mode whose stiffness comes and goes by e grows as exp(pi e/2) a period, within
+        (1 +- e/4) of that frequency, where it is not damped by more than e/4"""
+        verdict, told = self.pumped(0.05, 2, 60)
+        self.assertEqual(verdict, "inconclusive")
+        self.assertAlmostEqual(float(told[0]), math.exp(math.pi * 0.05 / 2 * 60), delta=0.1 * float(told[0]))
+        self.assertEqual(self.pumped(0.2, 2, 60), ("inconclusive", ["a thousand"]))
+        self.assertEqual(self.pumped(0.2, 2, 5), ("accept", []))  # it grows 4.8 times
+        self.assertEqual(self.pumped(0.2, 2.3, 60), ("accept", []))
+        self.assertEqual(self.pumped(0.2, 1.7, 60), ("accept", []))
+        self.assertEqual(self.pumped(0.2, 2, 60, '<material-damping loss-factor="0.2"/>'), ("accept", []))
+
     ARM = """<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><limits safety-factor="2"/>
 <flexure id="leaf" kind="leaf" length="400 um" width="10 um"/><mechanism>
 <body id="arm" x="1 mm" y="0 mm" mass="0.2 mg" inertia="0.1 mg mm^2"/><body id="table" x="0 mm" y="0 mm" mass="1 mg" inertia="1 mg mm^2"/>

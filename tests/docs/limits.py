@@ -25,6 +25,8 @@ CASES = {
                                 "check --corners none --advice none", "acts across the plane, and what the device does out of its plane is not known"),
     "Give of hinges whose axis": (f"{THEORY}/ring.xml", None, "simulate", r"foot stays a pin: the axis is not known"),
     "Solids as hinges": (f"{THEORY}/flexures.xml", None, "hinge --json", '"level": ?"continuum"|"level": "ends".*"strain": 0\\.011'),
+    "What tips devices with guides": ("tests/data/effects/rubbing.xml", None, "check --corners none --advice none",
+                                      r"out of the plane.*not known: joint slide is no flexure"),
     "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=26um "
                          "--set body[coupler]/@width=26um --set body[rocker]/@width=26um", "FW-D510"),
     "Strength of bodies": (f"{THEORY}/neck.xml", None, "check --corners none --advice none",
