@@ -496,7 +496,11 @@ fw_status fw_plan_find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism
     if (!pf->flow) return FW_OK;
     const fw_quantity *gap = fw_process_flow_gap(pf->flow, &below->open, &hollow, &material);
     below->known = below->open || (gap && !gap->unknown);
-    if (below->open) below->words = "nothing: the wafer is etched through";
+    if (below->open)
+        below->words = pf->use && pf->use->insulating_carrier
+                           ? "nothing of the wafer, which is etched through; how far below it its "
+                             "insulating carrier lies, nothing says"
+                           : "nothing: the wafer is etched through";
     if (!below->known || below->open) return FW_OK;
     char um[32];
     fw_number_text(um, sizeof um, 1e6 * gap->value, 4);
