@@ -22,6 +22,13 @@ static double strain_error(const fw_dynamics_motion *motion) {
     return fw_verdict_strain_monitor_error(observed, looser, motion->stats.estimate_margin);
 }
 
+static bool combs_pull(const fw_dynamics_motion *motion) {
+    const fw_effects_loads *loads = motion->loads;
+    for (int i = 0; loads && i < loads->nelement; i++)
+        if (fw_effects_comb_of(&loads->element[i])) return true;
+    return false;
+}
+
 /* what a hinge is judged by, the same for all that is run */
 typedef struct judged {
     const fw_mechanism *m;
@@ -115,12 +122,17 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     /* not of a figure that stands for the reference cases */
     bool usual =
         motion->ledger.hinge.used == FW_HINGE_REVOLUTE || moved >= fw_verdict_model_error.motion;
-    double less = usual ? 0 : lasting - fw_verdict_motion_lasting_below(by->m);
+    /* what contacts leave ringing, and what combs pull, goes with more than the first power of the stiffness */
+    const bool rings = motion->level && motion->level->blows > 0;
+    usual = usual || rings;
+    double less =
+        usual || combs_pull(motion) ? 0 : lasting - fw_verdict_motion_lasting_below(by->m);
     double more = usual ? 0 : lasting - fw_verdict_motion_lasting_above(by->m);
     double up = fmax(moved - more, 0) + bent, down = fmax(moved - less, 0);
     double stays = fmin(down, lasting);
     double share = out->utilisation > 0 ? 1 / out->utilisation : 0, kept = least * share;
     double above = e->above_anywhere + fmax(most * share - 1, 0) * (1 + e->above_anywhere + up);
+    if (rings) above = fmax(above, e->above);
     /* bodies give as they do whatever computes the hinges */
     out->lasting = fmin(up - bent, lasting) + bent + above;
     const double stated = by->hinge->stated_less;

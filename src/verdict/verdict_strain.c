@@ -471,12 +471,14 @@ static bool all_alike(const fw_mechanism *m) {
 }
 
 /* One hinge and nothing else that holds its second body, but for what turns the hinge: the strip is turned, or bears what acts, whatever it
-   gives aside. What holds its end in place feels the ends of the strip more than a rotation does. */
+   gives aside. What holds its end in place feels the ends of the strip more than a rotation does, and what a comb
+   pulls goes with more than the first power of the stiffness. */
 static bool holds_alone(const fw_mechanism *m) {
     const fw_device *d = m->device;
     if (m->nhinge != 1 || m->npin != 1 || m->njoint > 0 || m->nspring > 0 || !d) return false;
     for (int i = 0; i < d->nscene; i++)
-        if (d->scene[i].ntendon > 0 || d->scene[i].ncontact > 0) return false;
+        if (d->scene[i].ntendon > 0 || d->scene[i].ncontact > 0 || d->scene[i].ncomb > 0)
+            return false;
     return true;
 }
 
