@@ -56,9 +56,15 @@ typedef struct fw_flexure_error {
        1/K, of what is held in place with the moment, whose translation feels the ends more than the
        rotation does (a leaf three times) */
     double root_less, root_more;
+    /* relative, what it adds under a given load to what the strain may be off by: strain and stiffness are of the
+       same solids, whose strain per moment is off by less than both together */
+    double load_less, load_more;
     /* relative, by which a solid's peak may be below strain_per_rad, which bounds it */
     double strain;
-    double above;    /* by which it may be above: the solids' own error, and shapes not compared */
+    double above; /* by which it may be above: the solids' own error, and shapes not compared */
+    /* what of these two is the same wherever on the strip the peak is; of a path the rest is at the first root, the
+       second and between the roots, and above between them */
+    double strain_anywhere, above_anywhere, place_less[3], between_more;
     double centre_m; /* of W, on and across the axis */
     bool outside;    /* of the range that was compared */
 } fw_flexure_error;

@@ -417,46 +417,47 @@ double fw_flexure_path_root_opens(const fw_flexure_course *p, int end, double s_
     return ratio * ratio;
 }
 
-static double reach_of(const fw_flexure_course *p, int end, double fillet_m) {
+static double opens_of(const fw_flexure_course *p, int end, const fw_flexure_input *in) {
     const fw_geometry_strip_piece *q = &p->shape[end ? p->n - 1 : 0].piece;
-    return fw_flexure_root_reach_m(q->width_m[2 * end], fillet_m, q->curvature_per_m);
+    double s = fw_flexure_root_reach_m(q->width_m[2 * end], in->fillet_m, q->curvature_per_m);
+    double more = fmax(fw_flexure_path_root_opens(p, end, s) - 1, 0);
+    return in->crystal.known ? more + fmin(more, 0.02) : more / (1 + more);
 }
 
 /* What a path's closed form may be off by: that of arcs (flexure.c), besides
      edges that open by 2 s: bending over-estimated by 1 - (atan(3 ...)) ~ s^2 of the section's
        stiffness (Timoshenko's wedge; shear tilts the neutral fibres)
      middle between the edges beside the centre line by d: W by d, forces by 2 d over the size
-     peak strain: less by what the strip opens up to where the peak stands; 0.7 % in the middle of one that is thin
-       there, 0.3 % of several pieces (silicon, which was not compared: 1 %); between the roots of an isotropic path up to
+     peak strain: less at a root by what the strip opens up to where the peak stands (silicon: up to 2 % more); 0.7 % in
+       the middle of one that is thin there, 0.3 % of several pieces (silicon: 1 %); between isotropic roots up to
        0.2 t/R more, of solids 50 um deep with bends of R = 3 to 8 t: 0.6 % at 8 t, 2 % at 6 t, 3.5 % at 5 t, 5 % at 3 t
-   and twice all that where anything but one arc or line of one width is concerned: K and peak strain
-   of these were compared with solids (fw_flexure_errors), kx, ky, W were not, and of silicon nothing.
-   In: rad, m. test_path.c errors_are_stated */
+   and twice all that where not one arc or line of one width is concerned, whose K and peak strain were compared with
+   solids (fw_flexure_errors); kx, ky, W were not, and of silicon nothing. In: rad, m. test_path.c errors_are_stated */
 fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flexure_input *in) {
     fw_flexure_course p;
-    double thick, slope, aside, opens = 0;
+    double thick, slope, aside;
     fw_flexure_path_of(in, &p);
     double k = largest_curvature(&p, &thick, &slope, &aside);
-    for (int end = 0; end < 2; end++)
-        opens =
-            fmax(opens, fw_flexure_path_root_opens(&p, end, reach_of(&p, end, in->fillet_m)) - 1);
-    bool plain = p.n == 1 && p.shape[0].uniform;
+    const double open[2] = {opens_of(&p, 0, in), opens_of(&p, 1, in)},
+                 most = fmax(open[0], open[1]);
+    const bool plain = p.n == 1 && p.shape[0].uniform, crystal = in->crystal.known;
     double by = plain ? 1 : 2, size = f->radius_m;
     by *= f->length_m < 20 * f->width_m ? 2 : 1;
     by *= f->beyond_fit && thick <= 0.3 ? 2 : 1;
-    by *= thick > 0.15 ? 2 : 1;
-    if (thick > 0.3) by = fmax(by, 10);
-    double taper = slope * slope, off = 2 * aside / size;
-    double pieces = p.n == 1 ? (plain ? 0 : 0.007) : in->crystal.known ? 0.010 : 0.003;
-    const double deep = fmin(in->depth_m / f->width_m, 5) / 5;
-    const double bends = in->crystal.known || plain ? 0 : 0.2 * deep * fmin(thick, 0.35);
-    double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m;
+    by = thick > 0.3 ? fmax(2 * by, 10) : thick > 0.15 ? 2 * by : by;
+    double taper = slope * slope, off = 2 * aside / size, deep = fmin(in->depth_m / f->width_m, 5);
+    double pieces = p.n == 1 ? (plain ? 0 : 0.007) : crystal ? 0.010 : 0.003;
+    const double bends = crystal || plain ? 0 : 0.04 * deep * fmin(thick, 0.35);
+    double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m, worst = taper + pieces;
+    const double place = p.n == 1 && !crystal ? taper : worst;
     return (fw_flexure_error){.stiffness = by * 0.012 + taper,
                               .softer = taper, /* of one arc or line all that is not its ends' */
                               .kx = by * 0.030 + taper + off,
                               .ky = by * 0.030 + taper + off,
-                              .strain = taper + pieces + opens,
-                              .above = taper + pieces + bends,
+                              .strain = worst + (crystal ? most : most / (1 - most)),
+                              .above = worst + bends,
+                              .place_less = {place + open[0], place + open[1], place},
+                              .between_more = crystal && p.n > 1 ? 0 : worst + bends,
                               .centre_m = by * centre + aside + 0.1 * taper * size,
                               .outside = by > 1};
 }
@@ -571,7 +572,7 @@ static double ends_of_strain(const fw_flexure_course *p, const fw_flexure_input 
 void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
                      fw_flexure_result *out) {
     fw_flexure_course p;
-    double sum[SUMS], W[2];
+    double sum[SUMS], W[2], fit;
     fw_flexure_path_of(in, &p);
     const fw_flexure_path_stuff m = fw_flexure_path_stuff_of(&p, in);
     measure(&p, &m, W, sum);
@@ -593,7 +594,6 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     double without[SUMS], other[2];
     measure(&p, &flat, other, without);
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
-    double fit;
     out->ends_stiffer = sum[W1] / (sum[W1] - ends_of_strain(&p, in, &m));
     out->strain_per_rad = peak(&p, &m, in, out, &fit) / sum[W1] * out->ends_stiffer;
     out->strain_fit_per_rad = fit / sum[W1];

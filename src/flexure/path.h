@@ -115,6 +115,8 @@ typedef struct fw_flexure_path_strain {
     double reach_m[2]; /* from either end into the strip at most, the moment that counts */
     double narrows[2]; /* (w(0)/w(rho))^2 of either end, at least 1 */
     double stretched;  /* of what pulls along, the share that the blocks' give may take */
+    double less[3];    /* share by which either root, and what is between, may be strained less */
+    double more;       /* and by which what is between may be strained more */
     double W_m[2];     /* true centre of compliance */
     double
         *row; /* (FW_STRIP_ROWS x wide) the points once more, a number after the other; NULL: not */
@@ -155,6 +157,7 @@ typedef struct fw_flexure_strip_strains {
     double peak;  /* largest |strain|, fillets included */
     double least; /* no more than peak: with moments where the peaks of roots stand, and blocks that
                           give along the strip */
+    double most;  /* no less than peak: with what may be more between the roots */
     double root[2][2]; /* signed, at both faces of both roots: that of the side to which the axis
                           points away from first */
 } fw_flexure_strip_strains;

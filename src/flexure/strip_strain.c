@@ -24,6 +24,7 @@
 #include "flexure/section.h"
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 double fw_flexure_tension_concentration(double width_m, double fillet_m) {
     if (!(fillet_m > 0)) return 1;
@@ -158,7 +159,9 @@ fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in
         .fillet_m = in->fillet_m,
         .narrows = {1, 1},
         .stretched = give / (in->length_m + give),
+        .more = closed_form->error.between_more,
         .W_m = {closed_form->centre_m + closed_form->offset_m[0], closed_form->offset_m[1]}};
+    memcpy(out->less, closed_form->error.place_less, sizeof out->less);
     FW_TRY(fw_flexure_input_varies(in) ? varying_places(arena, in, closed_form->ends_stiffer, out)
                                        : even_places(arena, in, closed_form, out));
     out->wide = (out->n + 3) / 4 * 4;
@@ -405,7 +408,7 @@ static double least_at_root(const fw_flexure_path_strain *s, int end, const doub
                            : fmax(part * bent - drawn, (1 - g) * drawn - share * bent_most);
         least = fmax(least, here);
     }
-    return least;
+    return (1 - s->less[end]) * least;
 }
 
 /* The same between the roots, where nothing is concentrated: both faces have as much */
@@ -418,7 +421,7 @@ static double least_between(const fw_flexure_path_strain *s, const double *M, co
         double bent = fabs(p->strain_per_Nm * M[i]) * (1 - 0.5 * g * pull / (pull + 10));
         least = larger(least, bent + (1 - g) * fabs(p->strain_per_N * N[i]));
     }
-    return least;
+    return (1 - s->less[2]) * least;
 }
 
 /* between: the largest strain between the roots */
@@ -426,6 +429,7 @@ static void ends_of(const fw_flexure_path_strain *s, const double *M, const doub
                     double between, double known, fw_flexure_strip_strains *out) {
     for (int end = 0; end < 2; end++)
         narrowed(s, end, M, N, out);
+    out->most = larger(out->peak, (1 + s->more) * between);
     out->least = 0;
     if (out->peak <= known) return;
     double least = fmax(least_at_root(s, 0, M, N), least_at_root(s, 1, M, N));
@@ -519,15 +523,15 @@ static inside inside_of_pin(const fw_flexure_path_strain *s, const fw_flexure_st
 static void strains_of(const fw_flexure_path_strain *s, const double *M, const double *N,
                        inside within, double known, fw_flexure_strip_strains *out) {
     const int last = s->n - 1;
-    const double between = within.strain;
+    double between = within.strain, roots = strain_at(&s->point[0], M[0], N[0]);
     root_faces(&s->point[0], M[0], N[0], out->root[0]);
     root_faces(&s->point[last], M[last], N[last], out->root[1]);
-    double most = larger(between, strain_at(&s->point[0], M[0], N[0]));
-    most = larger(most, strain_at(&s->point[last], M[last], N[last]));
-    for (int i = 1; within.crest > most && i < last; i++)
-        if (s->point[i].strain_per_Nm * (fabs(M[i]) + 0.26 * fabs(M[i + 1] - M[i - 1])) > most)
-            most = larger(most, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
-    out->peak = most;
+    roots = larger(roots, strain_at(&s->point[last], M[last], N[last]));
+    const double matters = larger(between, s->more > 0 ? roots / (1 + s->more) : roots);
+    for (int i = 1; within.crest > matters && i < last; i++)
+        if (s->point[i].strain_per_Nm * (fabs(M[i]) + 0.26 * fabs(M[i + 1] - M[i - 1])) > matters)
+            between = larger(between, s->point[i].strain_per_Nm * crest(M[i - 1], M[i], M[i + 1]));
+    out->peak = larger(roots, between);
     ends_of(s, M, N, between, known, out);
 }
 

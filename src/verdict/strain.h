@@ -149,6 +149,7 @@ typedef struct fw_verdict_hinge_strains {
     /* what the peak is at least (fw_flexure_strip_strains); where the axis is not known the least that
        any direction of it has */
     double least;
+    double most;       /* and at most, beyond what it may be off by at the roots */
     double root[2][2]; /* at both faces of both roots, signed: their sign is what makes cycles */
     /* false: this is not the strain. An exact beam was asked for and none found with that place and force,
        or the closed form was, and the strip is beyond its buckling load, of which that knows nothing */
@@ -231,6 +232,7 @@ void fw_verdict_bending_record(fw_verdict_bending *bending, const fw_mechanism *
 typedef struct fw_verdict_hinge_peak {
     fw_verdict_largest strain;
     double least;  /* of what it is at least, of the instants alone */
+    double most;   /* and at most; likewise */
     double forced; /* largest |strain less that of the rotation alone| at an instant */
     bool lost;     /* at an instant it was not known, first at lost_s; such are left out */
     double lost_s;

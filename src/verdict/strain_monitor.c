@@ -121,6 +121,7 @@ static void take(fw_verdict_strain_monitor *w, int k, double t_s, double angle_r
     w->hinge[k].forced = fmax(w->hinge[k].forced, fabs(strain->peak - by_angle));
     fw_verdict_largest_add(&w->hinge[k].strain, t_s, strain->peak);
     w->hinge[k].least = fmax(w->hinge[k].least, strain->least);
+    w->hinge[k].most = fmax(w->hinge[k].most, strain->most);
 }
 
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *now) {

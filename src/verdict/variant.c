@@ -22,6 +22,13 @@ static double strain_error(const fw_dynamics_motion *motion) {
     return fw_verdict_strain_monitor_error(observed, looser, motion->stats.estimate_margin);
 }
 
+static bool combs_pull(const fw_dynamics_motion *motion) {
+    const fw_effects_loads *loads = motion->loads;
+    for (int i = 0; loads && i < loads->nelement; i++)
+        if (fw_effects_comb_of(&loads->element[i])) return true;
+    return false;
+}
+
 /* what a hinge is judged by, the same for all that is run */
 typedef struct judged {
     const fw_mechanism *m;
@@ -107,27 +114,38 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     double moved = lost ? fw_verdict_model_not_known : fw_verdict_motion_model_error(by->m, motion);
     double bent = fw_verdict_bending_counted(motion);
     out->numeric = numeric;
-    double stays = fmin(moved, fw_verdict_motion_lasting_error(by->m));
+    const fw_flexure_error *e = &c->error;
     double least =
         fmin(monitor->hinge[k].least + strain->between, strain->value) / out->strain_limit;
-    double less = fw_verdict_motion_lasting_error(by->m) - fw_verdict_motion_lasting_above(by->m);
+    double most = fmax(monitor->hinge[k].most + strain->between, strain->value) / out->strain_limit;
+    const double lasting = fw_verdict_motion_lasting_error(by->m);
     /* not of a figure that stands for the reference cases */
     bool usual =
         motion->ledger.hinge.used == FW_HINGE_REVOLUTE || moved >= fw_verdict_model_error.motion;
-    double up = (usual ? moved : fmax(moved - less, 0)) + bent;
-    /* bodies give as they do whatever computes the hinges */
-    out->lasting = fmin(up - bent, stays) + bent + c->error.above;
-    const double stated = by->hinge->stated_less, down = moved + stated;
-    out->lasting_low = stays + stated + bent + c->error.strain;
-    if (out->utilisation > 0) out->lasting_low += 1 - least / out->utilisation;
-    out->utilisation_low = fmax(0.0, least * (1.0 - down - bent - c->error.strain) - numeric);
-    out->utilisation_high = out->utilisation * (1.0 + up + c->error.above) + numeric;
+    /* what contacts leave ringing, and what combs pull, goes with more than the first power of the stiffness */
+    const bool rings = motion->level && motion->level->blows > 0;
+    usual = usual || rings;
+    double less =
+        usual || combs_pull(motion) ? 0 : lasting - fw_verdict_motion_lasting_below(by->m);
+    double more = usual ? 0 : lasting - fw_verdict_motion_lasting_above(by->m);
+    double up = fmax(moved - more, 0) + bent, down = fmax(moved - less, 0);
+    double stays = fmin(down, lasting);
     double share = out->utilisation > 0 ? 1 / out->utilisation : 0, kept = least * share;
-    double common = fmin(fw_verdict_motion_lasting_error(by->m), moved);
-    double above = fmin(fw_verdict_motion_lasting_above(by->m), up - bent);
-    out->parts = (fw_verdict_band_parts){.root = {kept * c->error.strain, c->error.above},
-                                         .stiffness = {kept * (common + stated), above},
-                                         .model = {kept * (moved - common), up - bent - above},
+    double above = e->above_anywhere + fmax(most * share - 1, 0) * (1 + e->above_anywhere + up);
+    if (rings) above = fmax(above, e->above);
+    /* bodies give as they do whatever computes the hinges */
+    out->lasting = fmin(up - bent, lasting) + bent + above;
+    const double stated = by->hinge->stated_less;
+    out->lasting_low = stays + stated + bent + e->strain_anywhere;
+    if (out->utilisation > 0) out->lasting_low += 1 - kept;
+    out->utilisation_low =
+        fmax(0.0, least * (1.0 - down - stated - bent - e->strain_anywhere) - numeric);
+    out->utilisation_high = out->utilisation * (1.0 + up + above) + numeric;
+    double below = fmin(lasting - less, down);
+    double stiff = fmin(fw_verdict_motion_lasting_above(by->m), up - bent);
+    out->parts = (fw_verdict_band_parts){.root = {kept * e->strain_anywhere, above},
+                                         .stiffness = {kept * (below + stated), stiff},
+                                         .model = {kept * (down - below), up - bent - stiff},
                                          .place = {1 - kept, 0},
                                          .bodies = {kept * bent, bent},
                                          .numbers = {share * numeric, share * numeric}};
@@ -182,8 +200,10 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     if (out->utilisation > by_angle) out->force_share = 1.0 - by_angle / out->utilisation;
     double share =
         load->known && load->over_rotation > 0.0 ? fabs(1.0 - 1.0 / load->over_rotation) : 0.0;
-    double moved = share * fw_verdict_motion_lasting_error(by->m);
-    double down = moved + share * by->hinge->stated_less;
+    /* hinges that are alike put on each other what they bear: by a power of the stiffness from that of a turn to that of
+       a load, as in a motion */
+    double moved = share * fw_verdict_motion_lasting_above(by->m);
+    double down = share * (fw_verdict_motion_lasting_below(by->m) + by->hinge->stated_less);
     double fades = load->known ? faded(by->hinge, load->force_N, out->peak_strain) : 0;
     double numeric =
         load->known ? load->error / out->strain_limit : peak->error_rad / c->limit_angle_rad;

@@ -20,7 +20,8 @@ fw_verdict_decision fw_verdict_worse(fw_verdict_decision a, fw_verdict_decision 
 
 /* what the band of a utilisation is made of, shares of it downwards and upwards */
 typedef struct fw_verdict_band_parts {
-    double root[2];      /* law of the peak strain */
+    double root
+        [2]; /* law of the peak strain; upwards with what it may be more by where the peak is not at a root */
     double stiffness[2]; /* of the closed form, that is of solids */
     double model[2];     /* step to the next level of the hinges */
     double place[2];  /* where the moment stands at a root, and what blocks give along the strip */
@@ -467,8 +468,9 @@ double fw_verdict_motion_model_error(const fw_mechanism *mechanism,
                                      const fw_dynamics_motion *motion);
 /* the part of it that exact beams have too */
 double fw_verdict_motion_lasting_error(const fw_mechanism *mechanism);
-/* of it what may make a strain more; the rest makes it less */
+/* of it what may make a strain more, and what may make it less beside what the strain itself is off by */
 double fw_verdict_motion_lasting_above(const fw_mechanism *mechanism);
+double fw_verdict_motion_lasting_below(const fw_mechanism *mechanism);
 /* fills the strains of a step to the next level (may be NULL), on both levels; loads: what acted */
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_effects_loads *loads,

@@ -348,7 +348,7 @@ void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *b
     fw_flexure_strip_strains now;
     if (isfinite(h->axis_rad)) {
         out->known = strains_along(h, beam, load, h->axis_rad + load->frame_rad, &now);
-        out->peak = now.peak, out->least = now.least;
+        out->peak = now.peak, out->least = now.least, out->most = now.most;
         memcpy(out->root, now.root, sizeof now.root);
         return;
     }
@@ -357,13 +357,14 @@ void fw_verdict_hinge_strain(const fw_mechanism_hinge *h, fw_flexure_elastica *b
     *out = (fw_verdict_hinge_strains){.least = (double)INFINITY, .known = true};
     for (int i = 0; i < DIRECTIONS; i++) {
         if (!strains_along(h, NULL, &all, i * FW_TURN / DIRECTIONS, &now)) out->known = false;
-        out->least = fmin(out->least, now.least);
+        out->least = fmin(out->least, now.least), out->most = fmax(out->most, now.most);
         if (!(now.peak > out->peak)) continue;
         out->peak = now.peak;
         memcpy(out->root, now.root, sizeof now.root);
     }
     if (load->fx_N == 0 && load->fy_N == 0) return;
     out->peak *= between_directions, out->least /= between_directions;
+    out->most *= between_directions;
     for (int i = 0; i < FW_FACES; i++)
         out->root[i / 2][i % 2] *= between_directions;
 }
@@ -463,19 +464,40 @@ static bool alike(const fw_mechanism_hinge *a, const fw_mechanism_hinge *b) {
            fabs(p->kx_N_per_m - q->kx_N_per_m) <= part * p->kx_N_per_m;
 }
 
+static bool all_alike(const fw_mechanism *m) {
+    for (int k = 1; k < m->nhinge; k++)
+        if (!alike(&m->hinge[0], &m->hinge[k])) return false;
+    return m->nhinge > 0;
+}
+
+/* One hinge and nothing else that holds its second body, but for what turns the hinge: the strip is turned, or bears what acts, whatever it
+   gives aside. What holds its end in place feels the ends of the strip more than a rotation does, and what a comb
+   pulls goes with more than the first power of the stiffness. */
+static bool holds_alone(const fw_mechanism *m) {
+    const fw_device *d = m->device;
+    if (m->nhinge != 1 || m->npin != 1 || m->njoint > 0 || m->nspring > 0 || !d) return false;
+    for (int i = 0; i < d->nscene; i++)
+        if (d->scene[i].ntendon > 0 || d->scene[i].ncontact > 0 || d->scene[i].ncomb > 0)
+            return false;
+    return true;
+}
+
 /* What the stiffness may add to a strain. The strain per radian is held to solids; what a moment
    strains is that over the stiffness, and less where solids are stiffer than the closed form. Hinges
    that are alike share out loads as before, whatever their one law is off by: then a strain is more
-   only by what solids may be softer. Of hinges that are not alike one may get what the other bears
-   less: up to the whole error. */
+   only by what solids may be softer, and of a single hinge by what their strain per moment may be more. Of
+   hinges that are not alike one may get what the other bears less: up to the whole error. */
 double fw_verdict_motion_lasting_above(const fw_mechanism *m) {
-    double most = 0;
-    bool same = true;
-    for (int k = 0; k < m->nhinge; k++) {
-        same = same && alike(&m->hinge[0], &m->hinge[k]);
-        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.root_more);
-    }
-    return same ? most : fw_verdict_motion_lasting_error(m);
+    if (!all_alike(m)) return fw_verdict_motion_lasting_error(m);
+    const fw_flexure_error *e = &m->hinge[0].closed_form.error;
+    if (m->hinge[0].stated) return 0;
+    return holds_alone(m) ? e->load_more : e->root_more;
+}
+
+/* and what it may take away: where all are alike, what strain per moment may be less by than strain per radian */
+double fw_verdict_motion_lasting_below(const fw_mechanism *m) {
+    if (!all_alike(m)) return fw_verdict_motion_lasting_error(m);
+    return m->hinge[0].stated ? 0 : m->hinge[0].closed_form.error.load_less;
 }
 
 /* Largest difference of strain and of angle between the level used and the next at the motion's

@@ -285,6 +285,37 @@ static void band_of_a_step(void **state) {
     fw_arena_free(s.r.arena);
 }
 
+/* Strain and stiffness are off together where all hinges are alike, and of one that nothing else holds a load strains
+   no more than is said; where they are not, one may bear what another does not */
+static void stiffness_of_hinges_that_are_alike(void **state) {
+    (void)state;
+    scenery s;
+    six_bar(&s, &cases[0], 1);
+    fw_mechanism m = s.r.m;
+    for (int i = 0; i < m.nhinge; i++) {
+        m.hinge[i].closed_form = m.hinge[0].closed_form, m.hinge[i].stated = false;
+        fw_flexure_error *e = &m.hinge[i].closed_form.error;
+        e->root_less = 0.006, e->root_more = 0.004, e->load_less = 0.001, e->load_more = 0;
+    }
+    assert_near(fw_verdict_motion_lasting_error(&m), 0.006, 0);
+    assert_near(fw_verdict_motion_lasting_above(&m), 0.004, 0);
+    assert_near(fw_verdict_motion_lasting_below(&m), 0.001, 0);
+    m.hinge[1].closed_form.stiffness_Nm_per_rad *= 1.1;
+    assert_near(fw_verdict_motion_lasting_above(&m), 0.006, 0);
+    assert_near(fw_verdict_motion_lasting_below(&m), 0.006, 0);
+    fw_device_scene pulled = {.ntendon = 1};
+    fw_device device = {0};
+    m.nhinge = m.npin = 1, m.njoint = m.nspring = 0, m.device = &device;
+    assert_near(fw_verdict_motion_lasting_above(&m), 0, 0);
+    assert_near(fw_verdict_motion_lasting_below(&m), 0.001, 0);
+    device.scene = &pulled, device.nscene = 1;
+    assert_near(fw_verdict_motion_lasting_above(&m), 0.004, 0);
+    m.hinge[0].stated = true;
+    assert_near(fw_verdict_motion_lasting_above(&m), 0, 0);
+    assert_near(fw_verdict_motion_lasting_below(&m), 0, 0);
+    fw_arena_free(s.r.arena);
+}
+
 /* an instant at which no beam bears the force in its place is said to be lost, and is in no peak; the next
    run starts without it */
 static void instants_without_a_beam(void **state) {
@@ -382,6 +413,7 @@ int main(void) {
         cmocka_unit_test(hairpin_turned_far),
         cmocka_unit_test(arc_pressed_until_it_bows),
         cmocka_unit_test(band_of_a_step),
+        cmocka_unit_test(stiffness_of_hinges_that_are_alike),
         cmocka_unit_test(instants_without_a_beam),
     };
     return cmocka_run_group_tests_name("strain-exact", tests, NULL, NULL);
