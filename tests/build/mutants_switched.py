@@ -180,7 +180,7 @@ def tests(regex):
     """{name: (command, environment, directory)} with the programs that have the changes"""
     ground.TREE, ground.BUILD = ROOT, BUILD
     found = {}
-    for name, (command, environment, directory) in ground.tests().items():
+    for name, (command, environment, directory) in ground.tests((GROUND / "ctest.json").read_text()).items():
         if not re.search(regex, name):
             continue
         if not found.get(name) and any(w == str(BUILD) or (w.startswith(str(BUILD) + "/") and not pathlib.Path(w).is_file()) for w in command):
@@ -300,7 +300,8 @@ def main():
     global GROUND
     GROUND = ROOT / f"build-switched-{options.name}" if options.name else GROUND
     if options.do == "ask" and not ground.isolated():
-        ground.GROUND = GROUND
+        ground.GROUND, ground.BUILD = GROUND, BUILD
+        (GROUND / "ctest.json").write_text(ground.listed())  # which writes into the build
         ground.isolate()
     globals()[options.do](options)
 
