@@ -59,7 +59,7 @@ CASES = {
     "plan_combs": f"plan docs/gallery/comb-stage/device.xml {QUICK} -o OUT",
     "plan_nodder": f"plan docs/gallery/copper-nodder/device.xml {QUICK} -o OUT",
     "plan_wafer": f"plan tests/data/wafer/leaf-wafer.xml {QUICK} -o OUT",
-    "plan_thrown": "plan tests/data/said/thrown.xml --corners none --measurements none -o OUT",
+    "plan_thrown": f"plan tests/data/said/thrown.xml {QUICK} -o OUT",
     "plan_drying": "plan tests/data/said/drying.xml --lab tests/data/said/drying-lab.xml --corners none --measurements none -o OUT",
     "plan_slender": "plan tests/data/said/slender.xml --corners none --measurements none --verbose -o OUT",
     "check_leaf": "check tests/data/said/leaf.xml --json",
