@@ -63,7 +63,7 @@ CASES = {
     "plan_drying": "plan tests/data/said/drying.xml --lab tests/data/said/drying-lab.xml --corners none --measurements none -o OUT",
     "plan_slender": "plan tests/data/said/slender.xml --corners none --measurements none --verbose -o OUT",
     "check_leaf": "check tests/data/said/leaf.xml --json",
-    "recipe_people": f"recipe tests/data/said/drying.xml {QUICK} --wafers 2 --operators 2 -o OUT "
+    "recipe_people": f"recipe tests/data/said/drying.xml {QUICK} --wafers 1 --operators 2 -o OUT "
                      "--day '08:00-12:00,13:00-18:00 from 2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3'",
     "mask_formats": f"mask tests/data/said/drying.xml {QUICK} --mask-format all -o OUT",
     "mask_no_flow": "mask tests/data/said/leaf.xml -o OUT",
