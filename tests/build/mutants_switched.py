@@ -209,6 +209,17 @@ def passes(name, what, count):
         return status, seconds, [n for n, byte in enumerate(file.read()) if byte]
 
 
+def layers(changes, numbers):
+    """of each function one change at a time: of two that are switched on, only the first is there"""
+    of, found = collections.Counter(), collections.defaultdict(list)
+    for n in numbers:
+        c = changes[n]
+        place = c["file"], body((ROOT / c["file"]).read_text(), c["begin"])
+        found[of[place]].append(n)
+        of[place] += 1
+    return found.values()
+
+
 def culprits(what, within_s, numbers):
     """{number: "" or "time of "} of those that the test notices, all at once first, then halves"""
     status, _ = ground.run(what, within_s, FW_SWITCH_ON=",".join(map(str, numbers)))
@@ -242,7 +253,9 @@ def ask(options):
                 print(f"{name} fails without a change", flush=True)
             continue
         random.Random(name).shuffle(those)
-        found = culprits(what, 2 + 5 * test["seconds"], those)
+        found = {}
+        for layer in layers(changes, those):
+            found |= culprits(what, 2 + 5 * test["seconds"], layer)
         for n in those:
             changes[n]["asked"].append(name)
         for n, how_so in found.items():
