@@ -58,6 +58,23 @@ static int make(fw_design *design, const fw_cli_options *options, unsigned what,
     return directory ? fw_design_write(design, directory, what) : FW_STATUS_OK;
 }
 
+static bool of_a_flow(fw_design *design) {
+    const fw_plan *plan = fw_plan_design_plan(design);
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].flow) return true;
+    return false;
+}
+
+/* why no file is there */
+static void say_nothing_written(fw_design *design) {
+    if (of_a_flow(design))
+        puts("\nnothing was written: a rejected design gets no masks and no recipes (--force "
+             "writes them, marked REJECTED)");
+    else
+        puts("\nnothing was written: masks and recipes are of a process flow, and the device names "
+             "no <flow>");
+}
+
 /* plan, mask and recipe differ only in what is written and shown */
 static int fabricate(fw_cli_options *options, unsigned what, const char *kind, int json) {
     int exit_status;
@@ -76,8 +93,7 @@ static int fabricate(fw_cli_options *options, unsigned what, const char *kind, i
         if (fw_design_files_written(design) > 0)
             printf("\nresults: %s/\n", directory);
         else
-            printf("\nnothing was written: a rejected design gets no masks and no recipes (--force "
-                   "writes them, marked REJECTED)\n");
+            say_nothing_written(design);
     }
     return fw_cli_session_close(design, options, status, fw_design_decision(design));
 }

@@ -432,6 +432,7 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *m, bool
 static const char *borne(fw_arena *arena, const fw_mechanism_drying *d, double tension) {
     char most[32];
     fw_number_text(most, sizeof most, 1e3 * tension, 3);
+    if (isinf(tension)) return "it may be dried from any liquid, from water too";
     if (tension > d->water_N_per_m)
         return fw_arena_printf(
             arena, "it may be dried from any liquid, from water too (up to %s mN/m)", most);

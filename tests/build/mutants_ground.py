@@ -109,10 +109,14 @@ def cases(script):
     return found
 
 
-def tests():
+def listed():
+    return quiet("ctest", "--test-dir", BUILD, "--show-only=json-v1")
+
+
+def tests(rows=None):
     """{name: (command, environment, directory)}: ctest's, those of many cases taken apart"""
     found = {}
-    for test in json.loads(quiet("ctest", "--test-dir", BUILD, "--show-only=json-v1"))["tests"]:
+    for test in json.loads(rows or listed())["tests"]:
         name, command = test["name"], test.get("command")
         properties = {p["name"]: p["value"] for p in test["properties"]}
         if not command or NOT_ASKED.search(name) or "long" in properties.get("LABELS", []):

@@ -137,6 +137,14 @@ class Stiction(unittest.TestCase):
             low, high = (middle, high) if holds(middle) else (low, middle)
         # the program's is lower by its error, by what the plate and its neck give, and by the neck and the leaf themselves
         self.assertTrue(0.75 < calm["below"]["bears_N_per_m"][0] / (low / 2) < 1.0, (calm["below"], low / 2))
+        # peel numbers: what is stored where the softest corner of the plate alone touches, over the largest adhesion of it, and
+        # where it lies flat, over the least; of three densities of the surfaces
+        stored = 0.5 * low_gap**2 / max(lift + bend * x * x + turn * y * y for x in (x0, x1) for y in (y0, y1))
+        flat, area = 0.5 * (g + 2e-6) ** 2 / lift, (x1 - x0) * (y1 - y0)
+        for lab, least, most in ((STICKY, 0.2, 0.3), (SLIPPERY, 0.01e-3, 0.03e-3)):
+            _, dried = self.check(lab=lab)
+            self.assertTrue(0.75 < dried["peel"][0] / (stored / (area * most)) < 1.0, dried["peel"])
+            self.assertTrue(0.75 < dried["peel"][1] / (flat / (area * least)) < 1.15, dried["peel"])
 
     def test_surfaces_that_close(self):
         """a lever that is pressed onto the other half of its hinge: what holds them against what opens them"""

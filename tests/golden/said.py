@@ -1,23 +1,29 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What commands say and draw, beside the gallery's: the terminal's text, the words of every page and picture, and of every
-picture what is drawn where. Each case is a small device and a command; what it said is in tests/golden/said/CASE.txt. A change that
-is wanted: FW_UPDATE=1 tests/golden/said.py PROGRAM, and look at the difference.
+"""What commands say and draw, beside the gallery's: the terminal's text, the words of every page and picture, of every
+picture what is drawn where, and the numbers and words of every JSON and CSV document. Each case is a small device and a command; what
+it said is in tests/golden/said/CASE.txt, its figures in CASE.figures. A change that is wanted: FW_UPDATE=1 tests/golden/said.py PROGRAM,
+and look at the difference.
 
     said.py PROGRAM [Said.test_CASE ...]
 
 Pictures are kept as how many elements of each kind they have, their words, and a hash of what is drawn, to a tenth of a
-pixel; numbers of documents are not kept here: their tests compute them again."""
+pixel. Of documents each name of a field is a line, without the places in lists: how many numbers it has, their least and largest, their
+mean and their mean weighed by place, so that one number that is another one, or in another place, is seen. Both are compared to 1e-5 of
+the largest, and figures.py says how; that they are right is for the tests that compute them again, here they are what they were."""
 import hashlib
 import html
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
 import unittest
 from collections import Counter
+
+import figures
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KEPT = ROOT / "tests/golden/said"
@@ -52,7 +58,21 @@ CASES = {
     "plan_stage": f"plan docs/gallery/straight-stage/device.xml {QUICK} -o OUT",
     "plan_combs": f"plan docs/gallery/comb-stage/device.xml {QUICK} -o OUT",
     "plan_nodder": f"plan docs/gallery/copper-nodder/device.xml {QUICK} -o OUT",
+    "plan_wafer": f"plan tests/data/wafer/leaf-wafer.xml {QUICK} -o OUT",
+    "plan_thrown": f"plan tests/data/said/thrown.xml {QUICK} -o OUT",
+    "plan_drying": "plan tests/data/said/drying.xml --lab tests/data/said/drying-lab.xml --corners none --measurements none -o OUT",
+    "plan_slender": "plan tests/data/said/slender.xml --corners none --measurements none --verbose -o OUT",
+    "check_leaf": "check tests/data/said/leaf.xml --json",
+    "recipe_people": f"recipe tests/data/said/drying.xml {QUICK} --wafers 1 --operators 2 -o OUT "
+                     "--day '08:00-12:00,13:00-18:00 from 2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3'",
+    "mask_formats": f"mask tests/data/said/drying.xml {QUICK} --mask-format all -o OUT",
+    "mask_no_flow": "mask tests/data/said/leaf.xml -o OUT",
+    "hinge_json": "hinge docs/gallery/leaf-four-bar/device.xml --json",
+    "study_size": "study tests/data/said/size.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_front": "study tests/data/said/front.xml --flow al-masked-rie --jobs 1 -o OUT",
 }
+# kept byte for byte by gallery.sh, of other devices
+GALLERY = re.compile(r"^masks/(?!.*\.outlines|.*-map)|^recipes/(?!.*\.(schedule|release))")
 NUMBER = re.compile(r"-?\d+\.\d+(?:[eE][-+]?\d+)?")
 BLOCK = re.compile(r"</?(?:p|h\d|tr|table|div|li|ul|section|figure|title|pre|summary|details|dt|dd|text|figcaption|caption)\b[^>]*>")
 
@@ -88,31 +108,43 @@ def reduced(path):
     return found + words(rest)
 
 
-def said(command):
-    """all of it, without what the machine or the version is"""
+def said(command, environment=None):
+    """(all of it, its figures), without what the machine or the version is"""
     with tempfile.TemporaryDirectory() as place:
         out = pathlib.Path(place) / "out"
-        argv = [str(PROGRAM), *command.replace("OUT", str(out)).split(), "--color=never"]
-        done = subprocess.run(argv, cwd=ROOT, capture_output=True, text=True, check=False, timeout=600)
-        lines = [f"$ flexwright {command}", f"exit {done.returncode}", *done.stderr.splitlines(), *done.stdout.splitlines()]
+        argv = [str(PROGRAM), *shlex.split(command.replace("OUT", str(out))), "--color=never"]
+        done = subprocess.run(argv, cwd=ROOT, capture_output=True, text=True, check=False, timeout=600, env=environment)
+        lines = [f"$ flexwright {command}", f"exit {done.returncode}", *done.stderr.splitlines()]
+        lines += [] if " --json" in command else done.stdout.splitlines()
+        found = figures.of(out, done.stdout if " --json" in command else None)
         for path in sorted(out.rglob("*")):
-            if path.suffix in (".svg", ".html") and "masks" not in path.parts and "recipes" not in path.parts:
+            if path.suffix in (".svg", ".html") and not GALLERY.search(str(path.relative_to(out))):
                 lines += [f"== {path.relative_to(out)}", *reduced(path)]
+            elif path.suffix == ".html" and command.startswith("recipe"):
+                lines += [f"== {path.relative_to(out)} {hashlib.sha256(chr(10).join(words(path.read_text(encoding='utf-8'))).encode()).hexdigest()[:16]}"]
+            elif path.suffix in (".txt", ".ics", ".step", ".stl", ".oas", ".dxf") and "-coupons" not in path.name:
+                # whole numbers of bytes and hashes are of files whose numbers may have other last digits
+                text = re.sub(rb"\b[0-9a-f]{64}\b|-[0-9a-f]{16}\b|\d+ bytes", b"", path.read_bytes().replace(VERSION.encode(), b""))
+                lines += [f"== {path.relative_to(out)} {hashlib.sha256(text).hexdigest()[:16]}"]
             elif path.suffix == ".png":
                 lines += [f"== {path.relative_to(out)}"]
     text = "\n".join(line.rstrip() for line in lines) + "\n"
     text = re.sub(r"[\d.]+ [mun]?s of CPU", "TIME of CPU", text.replace(str(out), "OUT").replace(VERSION, "VERSION"))
-    return re.sub(r" [\d.]+e-\d+(?=\n)", " TIME", text) if command.startswith("hinge") else text
+    return re.sub(r" [\d.]+e-\d+(?=\n)", " TIME", text) if command.startswith("hinge") else text, found
 
 
 class Said(unittest.TestCase):
     maxDiff = 4000
 
     def keeps(self, case):
-        now, kept = said(CASES[case]), KEPT / f"{case}.txt"
+        (now, numbers), kept = said(CASES[case]), KEPT / f"{case}.txt"
         if os.environ.get("FW_UPDATE"):
             kept.write_text(now, encoding="utf-8")
-        self.assertEqual(now, kept.read_text(encoding="utf-8"), f"{kept.relative_to(ROOT)}: if that is wanted, FW_UPDATE=1 tests/golden/said.py PROGRAM")
+            others = [said(CASES[case], {**os.environ, **other})[1] for other in figures.ELSEWHERE]
+            figures.write(kept.with_suffix(".figures"), numbers, others)
+        wanted = "if that is wanted, FW_UPDATE=1 tests/golden/said.py PROGRAM"
+        self.assertEqual(now, kept.read_text(encoding="utf-8"), f"{kept.relative_to(ROOT)}: {wanted}")
+        self.assertEqual(figures.differ(kept.with_suffix(".figures"), numbers), [], wanted)
 
     def test_statics_leaves(self):
         self.keeps("statics_leaves")
@@ -192,9 +224,44 @@ class Said(unittest.TestCase):
     def test_study_survive(self):
         self.keeps("study_survive")
 
+    def test_plan_wafer(self):
+        self.keeps("plan_wafer")
+
+    def test_plan_thrown(self):
+        self.keeps("plan_thrown")
+
+    def test_plan_drying(self):
+        self.keeps("plan_drying")
+
+    def test_plan_slender(self):
+        self.keeps("plan_slender")
+
+    def test_check_leaf(self):
+        self.keeps("check_leaf")
+
+    def test_recipe_people(self):
+        self.keeps("recipe_people")
+
+    def test_mask_formats(self):
+        self.keeps("mask_formats")
+
+    def test_mask_no_flow(self):
+        """an accepted device that names no flow was called a rejected one"""
+        self.keeps("mask_no_flow")
+
+    def test_hinge_json(self):
+        self.keeps("hinge_json")
+
+    def test_study_size(self):
+        self.keeps("study_size")
+
+    def test_study_front(self):
+        self.keeps("study_front")
+
     def test_every_case_is_kept(self):
         """and nothing else is"""
-        self.assertEqual({p.stem for p in KEPT.glob("*.txt")}, set(CASES))
+        for ending in ("txt", "figures"):
+            self.assertEqual({p.stem for p in KEPT.glob("*." + ending)}, set(CASES))
         self.assertEqual({n.removeprefix("test_") for n in dir(self) if n.startswith("test_")} - {"every_case_is_kept"}, set(CASES))
 
 

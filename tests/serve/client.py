@@ -73,8 +73,8 @@ class Server:
 
     # ---- the honest client ----
     def enter(self):
-        status, headers, _ = self.ask("GET", f"/?token={self.entry}", cookie=False)
-        assert status == 303 and headers["location"] == "/", (status, headers)
+        status, headers, said = self.ask("GET", f"/?token={self.entry}", cookie=False)
+        assert status == 303 and headers["location"] == "/" and said == b"opening the page\n", (status, headers, said)
         self.cookie = headers["set-cookie"].split(";")[0]
         self.token = self.json("GET", "/api/session")["token"]
         return self

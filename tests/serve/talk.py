@@ -15,7 +15,7 @@ import time
 import unittest
 import zipfile
 
-from client import ROOT, Server
+from client import ROOT, Server, processes
 
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 TEXT = re.sub(r"<require[^>]*/>", "", (ROOT / "tests/data/probes/gripper.xml").read_text(encoding="utf-8"))
@@ -61,6 +61,16 @@ class Talk(unittest.TestCase):
                 return job
             time.sleep(0.02)
         self.fail(job)
+
+    def in_order(self, numbers):
+        """of jobs that wait the one that was asked for first begins first, until all have ended"""
+        states = {}
+        while not all(states.get(n) in ("done", "failed", "cancelled") for n in numbers):
+            # later ones are asked first: one that has begun since is no mistake
+            states = {n: self.server.json("GET", f"/api/jobs/{n}")["state"] for n in reversed(numbers)}
+            begun = [states[n] != "queued" for n in numbers]
+            self.assertEqual(begun, sorted(begun, reverse=True), states)
+            time.sleep(0.01)
 
     def test_session_and_page(self):
         session = self.server.json("GET", "/api/session")
@@ -180,6 +190,11 @@ class Talk(unittest.TestCase):
         edit = self.server.json("POST", "/api/edit", {"text": TEXT, "changes": [{"path": "leaf", "value": "550 um"}]})
         self.assertEqual(edit["text"], TEXT.replace('"leaf" value="400 um"', '"leaf" value="550 um"'))
         self.assertIn("not known", self.fails(400, "POST", "/api/edit", {"text": TEXT, "change": []}))
+        # they read and print nothing of the terminal's
+        workers = [p for p in processes(self.server.process.pid) if p != self.server.process.pid]
+        self.assertTrue(workers)
+        for pid in workers:
+            self.assertEqual([os.readlink(f"/proc/{pid}/fd/{fd}") for fd in (0, 1)], ["/dev/null"] * 2)
 
     def test_jobs(self):
         """one runs, four wait, a sixth is told so; those that are cancelled or forgotten are gone, and what one made is what the
@@ -204,6 +219,7 @@ class Talk(unittest.TestCase):
         self.assertEqual(self.server.json("GET", f"/api/jobs/{waits[1]}")["state"], "cancelled")
         running = self.server.json("DELETE", f"/api/jobs/{first}")
         self.assertIn(running["state"], ("cancelled", "done"))
+        self.in_order([waits[0], *waits[2:]])
         done = self.ends(waits[0])
         self.assertEqual((done["state"], done["exit_status"], done["kind"]), ("done", 0, "statics"), done["messages"])
         self.assertTrue(0 < done["seconds"] < 30)

@@ -68,7 +68,32 @@ static void completions(void **state) {
     fw_arena_free(arena);
 }
 
+/* fish asks for a value behind those options that take one, and only there */
+static void fish_asks_for_values(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_text text = fw_text_new(arena);
+    fw_cli_completion(FW_SHELL_FISH, &text);
+    const char *script = text_of(arena, &text);
+    size_t count;
+    const fw_cli_option_row *row = fw_cli_option_rows(&count);
+    for (size_t k = 0; k < count; k++) {
+        const char *name = fw_arena_printf(arena, " -l %s ", row[k].name);
+        int lines = 0;
+        for (const char *at = script; (at = strstr(at, name)) != NULL; at++, lines++) {
+            const char *told = strstr(at, " -d '");
+            assert_non_null(told);
+            const char *words = fw_arena_printf(arena, "%.*s", (int)(told - at), at);
+            const bool asks = strstr(words, " -x") || strstr(words, " -r");
+            if (asks != (row[k].argument != NULL)) fail_msg("--%s: '%s'", row[k].name, words);
+            if (!row[k].letter) assert_null(strstr(words, " -s "));
+        }
+        assert_true(lines > 0);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pages), cmocka_unit_test(completions)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pages), cmocka_unit_test(completions), cmocka_unit_test(fish_asks_for_values)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

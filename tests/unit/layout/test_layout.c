@@ -516,6 +516,84 @@ static void free_rotation_as_made(void **state) {
     fw_arena_free(arena);
 }
 
+/* counter-clockwise; its corners are blunter than 0.3 rad, and its inner circle is larger than 4 d */
+static bool is_plain(fw_geometry_vec2 at[3], double d) {
+    double length[3], twice = (at[1].x - at[0].x) * (at[2].y - at[0].y) - (at[1].y - at[0].y) * (at[2].x - at[0].x);
+    if (twice < 0) {
+        const fw_geometry_vec2 other = at[1];
+        at[1] = at[2], at[2] = other, twice = -twice;
+    }
+    for (int i = 0; i < 3; i++)
+        length[i] = hypot(at[(i + 1) % 3].x - at[i].x, at[(i + 1) % 3].y - at[i].y);
+    for (int i = 0; i < 3; i++)
+        if (twice < length[i] * length[(i + 1) % 3] * sin(0.3)) return false;
+    return twice / (length[0] + length[1] + length[2]) > 4 * fabs(d);
+}
+
+/* the triangle of the lines d farther in */
+static void receded(const fw_geometry_vec2 at[3], double d, fw_geometry_vec2 to[3]) {
+    for (int i = 0; i < 3; i++) {
+        const fw_geometry_vec2 a = at[(i + 2) % 3], b = at[i], c = at[(i + 1) % 3];
+        const double p = hypot(a.x - b.x, a.y - b.y), q = hypot(c.x - b.x, c.y - b.y);
+        const double ux = (a.x - b.x) / p, uy = (a.y - b.y) / p, vx = (c.x - b.x) / q, vy = (c.y - b.y) / q;
+        const double far = d / fabs(ux * vy - uy * vx); /* along either side, d from the other */
+        to[i] = (fw_geometry_vec2){b.x + far * (ux + vx), b.y + far * (uy + vy)};
+    }
+}
+
+/* by which the first turns about w until it is `apart` from the second; M_PI: it never is, < 0: as drawn */
+static double turned_until(fw_arena *arena, fw_geometry_vec2 w, const fw_geometry_contour *c, double apart, int way) {
+    const double reach = 300e-6; /* no point of it moves farther by 1 rad */
+    double turn = 0;
+    for (int i = 0; i < 3000 && turn < M_PI; i++) {
+        const double by = way * turn;
+        const fw_geometry_pose pose = {w.x - (cos(by) * w.x - sin(by) * w.y), w.y - (sin(by) * w.x + cos(by) * w.y), by};
+        const fw_mark mark = fw_arena_mark(arena);
+        fw_geometry_contour now;
+        assert_int_equal(fw_geometry_contour_transform(arena, &c[0], pose, false, &now), FW_OK);
+        const double left = fw_geometry_contour_distance(&now, &c[1], NULL, NULL) - apart;
+        fw_arena_rewind(arena, mark);
+        if (i == 0 && left < 1e-6) return -1;
+        if (left < 2e-9) return turn;
+        turn += left / reach;
+    }
+    return fmin(turn, M_PI);
+}
+
+/* random triangles whose edges move out or in: out, they touch where they were 2 d apart; in, where smaller triangles do */
+static void free_rotation_of_any_two_as_made(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_layout_hinge_layout h = {.centre = {1e-3, -2e-3}, .keep_out_m = 50e-6};
+    unsigned seed = 27;
+    int met[2] = {0, 0};
+    for (int trial = 0; met[0] + met[1] < 60; trial++) {
+        const double d = (trial % 2 ? 1 : -1) * (1e-6 + 1e-8 * (rand_r(&seed) % 300));
+        fw_geometry_contour made[2];
+        bool plain = true;
+        for (int k = 0; k < 2; k++) {
+            fw_geometry_vec2 at[3], to[3];
+            const double toward = 2.2 * k + 1e-3 * (rand_r(&seed) % 1500);
+            for (int i = 0; i < 3; i++) {
+                const double far = 30.04e-6 + 1e-7 * (rand_r(&seed) % 1500), angle = toward + 1e-3 * (rand_r(&seed) % 1500);
+                at[i] = (fw_geometry_vec2){h.centre.x + far * cos(angle), h.centre.y + far * sin(angle)};
+            }
+            plain = plain && is_plain(at, d);
+            h.solid[k] = made[k] = triangle(arena, at);
+            if (d < 0 && plain) receded(at, -d, to), made[k] = triangle(arena, to);
+        }
+        if (!plain) continue;
+        const double apart = d > 0 ? 2 * d : 0, one = turned_until(arena, h.centre, made, apart, 1), other = turned_until(arena, h.centre, made, apart, -1);
+        double now;
+        if (one < 0) continue;
+        assert_int_equal(fw_layout_free_rotation_made(arena, &h, d, &now), FW_OK);
+        if (fabs(now - fmin(one, other)) > 0.02) fail_msg("%d: %g um: %g, and not %g", trial, 1e6 * d, now, fmin(one, other));
+        met[d > 0] += now < 3;
+    }
+    assert_true(met[0] > 15 && met[1] > 15);
+    fw_arena_free(arena);
+}
+
 static void symmetric_device_gives_symmetric_layout(void **state) {
     (void)state;
     fixture f;
@@ -965,6 +1043,7 @@ int main(void) {
         cmocka_unit_test(free_rotation_of_two_sectors),
         cmocka_unit_test(free_rotation_of_any_two),
         cmocka_unit_test(free_rotation_as_made),
+        cmocka_unit_test(free_rotation_of_any_two_as_made),
         cmocka_unit_test(symmetric_device_gives_symmetric_layout),
         cmocka_unit_test(variants_are_drawn_or_refused),
         cmocka_unit_test(other_mechanisms_are_drawn),

@@ -35,6 +35,10 @@ static void nothing_between_layers(void **state) {
             assert_ptr_equal(mask->finding[0].rule->kind, box[i].kind);
             assert_true(mask->finding[0].value == 0);
             assert_string_equal(mask->finding[0].label[0], "box");
+            /* two outlines and an edge of each, or one alone */
+            assert_true((mask->finding[0].label[1] == NULL) == (mask->finding[0].edge[1] == -1));
+            assert_true(mask->finding[0].edge[0] >= 0);
+            if (i == 1) assert_null(mask->finding[0].label[1]);
         }
         scene_free(f->s);
     }

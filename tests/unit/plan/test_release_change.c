@@ -86,17 +86,42 @@ static fw_plan *of_arm(const char *width, const char *die) {
     return plan;
 }
 
-/* every <die .../> of a reason opens a window when it is drawn; how many there are */
-static int proposals_open(const fw_plan *plan, const char *width, const char *stated) {
+/* a number of um behind a word of a text, which stays `other` where the word is not before `end` */
+static double um_of(const char *text, const char *end, const char *word, double other) {
+    const char *at = strstr(text, word);
+    double um = other;
+    if (at && at < end) assert_int_equal(sscanf(at + strlen(word), "%lf", &um), 1);
+    return um;
+}
+
+static fw_plan *with(const char *width, const double *um) {
+    char die[200];
+    snprintf(die, sizeof die, "<die tethers=\"no\" anchor=\"%.17g um\" frame=\"%.17g um\"", um[0], um[1]);
+    if (um[2] > 0.0) snprintf(die + strlen(die), sizeof die - strlen(die), " release-pitch=\"%.17g um\"", um[2]);
+    snprintf(die + strlen(die), sizeof die - strlen(die), "/>");
+    return of_arm(width, die);
+}
+
+/* Every <die .../> of a reason, beside what is stated, opens a window when it is drawn, and what is told of it is so; what is
+   wider alone is no wider than it must be. How many there are. */
+static int proposals_open(const fw_plan *plan, const char *width, const double *stated) {
     int n = 0;
     for (const char *at = strstr(plan->flow[0].flow->reason[0], "<die"); at; n++) {
-        char die[200];
-        const char *end = strstr(at, "/>");
-        assert_non_null(end);
-        snprintf(die, sizeof die, "<die %s%.*s", stated, (int)(end + 2 - at - 4), at + 4);
-        fw_plan *again = of_arm(width, die);
-        if (again->flow[0].flow->no_window) fail_msg("%s opens nothing", die);
+        const char *end = strstr(at, "/>"), *next = strstr(end, "; or ");
+        if (!next) next = end + strlen(end);
+        double um[3] = {um_of(at, end, " anchor=\"", stated[0]), um_of(at, end, " frame=\"", stated[1]), um_of(at, end, " release-pitch=\"", 0.0)};
+        fw_plan *again = with(width, um);
+        if (again->flow[0].flow->no_window) fail_msg("%.*s opens nothing", (int)(end - at), at);
+        assert_relative(1e6 * again->flow[0].release->needed_m, um_of(end, next, "free after ", 0.0), 6e-4);
+        assert_relative(1e6 * again->flow[0].release->lost_m, um_of(end, next, "holds for ", 0.0), 6e-4);
         fw_plan_free(again);
+        if (um[2] == 0.0) { /* steps of a hundredth of what is stated */
+            for (int k = 0; k < 2; k++)
+                um[k] -= um[k] > stated[k] ? 0.03 * stated[k] : 0.0;
+            again = with(width, um);
+            assert_true(again->flow[0].flow->no_window);
+            fw_plan_free(again);
+        }
         at = strstr(end, "<die");
     }
     return n;
@@ -104,17 +129,17 @@ static int proposals_open(const fw_plan *plan, const char *width, const char *st
 
 static void wider_bases_open_a_window(void **state) {
     (void)state;
-    static const char narrow[] = "anchor=\"60 um\" frame=\"60 um\" tethers=\"no\"";
-    char die[100];
-    snprintf(die, sizeof die, "<die %s/>", narrow);
-    fw_plan *plan = of_arm("120 um", die);
-    const fw_process_flow *f = plan->flow[0].flow;
-    assert_true(f->no_window);
-    const char *wider = strstr(f->reason[0], "anchor=\"");
-    if (!wider) fail_msg("%s", f->reason[0]);
-    assert_non_null(strstr(f->reason[0], "release-pitch=\""));
-    assert_true(proposals_open(plan, "120 um", "tethers=\"no\"") >= 1);
-    fw_plan_free(plan);
+    static const double stated[][3] = {{60, 60, 0}, {200, 60, 0}};
+    for (int i = 0; i < 2; i++) {
+        fw_plan *plan = with("120 um", stated[i]);
+        const fw_process_flow *f = plan->flow[0].flow;
+        assert_true(f->no_window);
+        const bool anchor = strstr(f->reason[0], "anchor=\"") != NULL, frame = strstr(f->reason[0], "frame=\"") != NULL;
+        if (anchor != (i == 0) || !frame) fail_msg("%s", f->reason[0]);
+        assert_non_null(strstr(f->reason[0], "release-pitch=\""));
+        assert_int_equal(proposals_open(plan, "120 um", stated[i]), 2);
+        fw_plan_free(plan);
+    }
 }
 
 /* larger holes in a grid that is stated */

@@ -383,6 +383,32 @@ static void mistakes_of_a_flow(void **state) {
     }
 }
 
+/* what is taken away sideways lies there, 2 um thick: half and twice as much is no other layer */
+static void what_goes_sideways_is_as_thick_as_it_lies(void **state) {
+    (void)state;
+    static const struct {
+        const char *um;
+        bool right;
+    } taken[] = {{"0.5", false}, {"0.98", false}, {"1.02", true}, {"2", true}, {"3.95", true}, {"4.05", false}, {"9", false}};
+    size_t nb = 0, n = 0;
+    const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SOI, &n);
+    text = replaced(arena, text, "<change kind=\"remove\" material=\"buried-oxide\" thickness=\"box.d\"",
+                    "<change kind=\"remove\" material=\"buried-oxide\" thickness=\"box.taken\"", &n);
+    for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) {
+        size_t m = n;
+        const char *q = fw_arena_printf(
+            arena, "<q id=\"box.taken\" value=\"%s\" u=\"0.1\" unit=\"um\" status=\"assumed\" src=\"guess\" range=\"film\"/><q id=\"box.d\"",
+            taken[i].um);
+        const char *own = replaced(arena, text, "<q id=\"box.d\"", q, &m);
+        fw_process_flow *flow = NULL;
+        diags = fw_diags_new(arena);
+        (void)fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", own, m, &diags, &flow);
+        const fw_diag *said = said_of(349, "step D12 takes");
+        if (taken[i].right != !said) fail_msg("%s um: '%s'", taken[i].um, said ? said->message : "nothing of 349");
+        if (said) assert_non_null(strstr(said->message, "but 2 um lie there"));
+    }
+}
+
 /* ampere for angstrom is another dimension, minutes for seconds another range */
 static void replaced_values_keep_their_range(void **state) {
     (void)state;
@@ -649,6 +675,32 @@ static void steps_that_do_nothing(void **state) {
     const char *smaller = "id=\"clean-bench\" class=\"wet bench for SC1\" capacity=\"4\"";
     assert_null(read_pack(arena, SILICON, bench, smaller, &diags));
     assert_non_null(said_of(558, "step S02 is for 6 wafers at once, and clean-bench takes 4"));
+}
+
+/* what a law says of the time of a step is what the bench can keep, with its pauses where it is done in parts */
+static void times_of_laws_can_be_kept(void **state) {
+    (void)state;
+    static const struct {
+        const char *id;
+        double value;
+        const char *says; /* NULL: nothing */
+    } of[] = {{"pan.R", 1e-9, NULL},
+              {"pan.R", 6e-12, NULL},
+              {"pan.R", 5e-12, "step S14 (wet-etch) takes 3333 min by its law (arrhenius), but nobody stops"},
+              {"pan.R", 3e-7, NULL},
+              {"pan.R", 4e-7, "step S14 (wet-etch) takes 0.04167 min by its law (arrhenius), but nobody stops"},
+              {"rie.break", 600, NULL},
+              {"rie.break", 1e5, "step S18 (dry-etch) takes 5099 min by its law (arde) and its pauses, but a plasma burns"}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        diags = fw_diags_new(arena);
+        fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+        measured(f, of[i].id, of[i].value, 1e-3 * of[i].value);
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        const fw_diag *said = said_of(577, "by its law");
+        if (of[i].says ? !said || !strstr(said->message, of[i].says) : said != NULL)
+            fail_msg("%s = %g: '%s'", of[i].id, of[i].value, said ? said->message : "nothing");
+        if (said) assert_true(said_of(577, "by its law")->place.line > 0);
+    }
 }
 
 static const char *step_text(const char *text, const char *id, size_t *n) {
@@ -929,6 +981,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(what_is_told, setup, teardown),
         cmocka_unit_test_setup_teardown(bath, setup, teardown),
         cmocka_unit_test_setup_teardown(mistakes_of_a_flow, setup, teardown),
+        cmocka_unit_test_setup_teardown(what_goes_sideways_is_as_thick_as_it_lies, setup, teardown),
         cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),
         cmocka_unit_test_setup_teardown(baths_are_named_and_spinners_turn, setup, teardown),
         cmocka_unit_test_setup_teardown(ranges_are_those_of_what_it_is, setup, teardown),
@@ -938,6 +991,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(uncertainties_make_sense, setup, teardown),
         cmocka_unit_test_setup_teardown(the_packs_own_wafer, setup, teardown),
         cmocka_unit_test_setup_teardown(steps_that_do_nothing, setup, teardown),
+        cmocka_unit_test_setup_teardown(times_of_laws_can_be_kept, setup, teardown),
         cmocka_unit_test_setup_teardown(who_is_there, setup, teardown),
         cmocka_unit_test_setup_teardown(flows_of_wrong_steps, setup, teardown),
         cmocka_unit_test_setup_teardown(sheets_go_over_to_dies, setup, teardown),

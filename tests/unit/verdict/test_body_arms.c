@@ -118,9 +118,10 @@ static void plain_ways_are_bounds(void **state) {
         fw_verdict_strain_monitor seen = {.mechanism = &s.m, .arena = s.arena};
         assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, v.arm, true, &seen.bending), FW_OK);
         const double q[3] = {0, 0, 0}, angle[2] = {0.1, -0.1}, far = 1e-2 / (1e-6 * 0.1);
-        for (int load = 0; load < 3; load++) {
-            const double force = load == 0 ? 0 : load == 1 ? 1e-9 : far;
-            const double reaction[4] = {force, 0, -force, 0};
+        for (int load = 0; load < 9; load++) { /* along x, along y, and between */
+            const double force = load % 3 == 0 ? 0 : load % 3 == 1 ? 1e-9 : far, way = (const double[]){0, M_PI / 2, 0.65}[load / 3];
+            const double fx = force * cos(way), fy = force * sin(way);
+            const double reaction[4] = {fx, fy, -fx, -fy};
             const fw_dynamics_instant now = {.q = q, .angle_rad = angle, .reaction_N = reaction};
             fw_verdict_bending_record(&seen.bending, &s.m, NULL);
             fw_verdict_bending_record(&seen.bending, &s.m, &now);
@@ -128,8 +129,8 @@ static void plain_ways_are_bounds(void **state) {
             double bodies = 0;
             for (int k = 0; k < 2; k++)
                 bodies += fw_verdict_arm_energy_J(&v.arm[2 * k + 1], E * h, -1e-6 * angle[k],
-                                                  reaction[2 * k], 0, &still);
-            if (load < 2) /* too little to be looked at */
+                                                  reaction[2 * k], reaction[2 * k + 1], &still);
+            if (load % 3 < 2) /* too little to be looked at */
                 assert_true(seen.bending.bodies_J == 0 && bodies < 0.025 * seen.bending.hinges_J);
             else
                 assert_relative(seen.bending.bodies_J, bodies, 1e-12);

@@ -183,6 +183,49 @@ static void what_is_made_follows_the_edges(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* the parabola through three widths of a piece, after Lagrange */
+static double width_at(const double *w, double x, double length) {
+    const double t = x / length;
+    return w[0] * (1 - t) * (1 - 2 * t) + w[1] * 4 * t * (1 - t) + w[2] * t * (2 * t - 1);
+}
+
+/* A path's pieces lose what its walls take at both ends, and keep the widths that they have at what is left, wider or narrower by
+   both edges; uniform pieces stay uniform, and the path turns by what is left of its curves. */
+static void pieces_keep_the_widths_of_what_is_left(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "0.02 mN");
+    static const double widths[][3] = {{8e-6, 11e-6, 9e-6}, {8e-6, 8e-6, 10e-6}, {9e-6, 7e-6, 7e-6}, {8e-6, 8e-6, 8e-6}, {6e-6, 9e-6, 6e-6}};
+    const double edges[] = {-0.7e-6, 0.4e-6};
+    for (size_t a = 0; a < 5; a++)
+        for (size_t b = 0; b < 5; b++)
+            for (int e = 0; e < 2; e++) {
+                fw_geometry_strip_piece piece[] = {{.length_m = 90e-6, .curvature_per_m = 2e3}, {.length_m = 60e-6, .curvature_per_m = -5e3}};
+                memcpy(piece[0].width_m, widths[a], sizeof widths[a]);
+                memcpy(piece[1].width_m, widths[b], sizeof widths[b]);
+                fw_device changed = *s.device;
+                fw_device_flexure flexure[2] = {s.device->flexure[0], s.device->flexure[1]};
+                flexure[0].kind = FW_FLEXURE_PATH, flexure[0].length_m = 150e-6, flexure[0].angle_rad = 90e-6 * 2e3 - 60e-6 * 5e3;
+                flexure[0].width_m = 6e-6, flexure[0].gap_m = 0;
+                flexure[0].piece = piece, flexure[0].npiece = 2;
+                changed.flexure = flexure;
+                const fw_verdict_fabrication made = {edges[e], 0, 1, 1, 0, NULL};
+                fw_verdict_fabricated_device d;
+                assert_int_equal(fw_verdict_fabrication_build(s.arena, &changed, NULL, &s.variant, &made, &d), FW_OK);
+                const fw_device_flexure *f = &d.device.flexure[0];
+                assert_int_equal(f->npiece, 2);
+                assert_near(f->length_m, 150e-6 - 2 * edges[e], 1e-15);
+                assert_near(f->angle_rad, (90e-6 - edges[e]) * 2e3 - (60e-6 - edges[e]) * 5e3, 1e-12);
+                for (int i = 0; i < 2; i++) {
+                    const double whole = piece[i].length_m, left = whole - edges[e], from = i == 0 ? edges[e] : 0;
+                    assert_near(f->piece[i].length_m, left, 1e-15);
+                    for (int k = 0; k < 3; k++)
+                        assert_near(f->piece[i].width_m[k], width_at(piece[i].width_m, from + 0.5 * k * left, whole) + 2 * edges[e], 1e-15);
+                }
+            }
+    fw_arena_free(s.arena);
+}
+
 /* a crystal's corner of Young's modulus is one of all its constants: stiffness goes with it, and a
    stated force strains as before */
 static void a_crystal_has_a_modulus_too(void **state) {
@@ -584,6 +627,7 @@ static void drawn_only_when_asked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_made_follows_the_edges),
+        cmocka_unit_test(pieces_keep_the_widths_of_what_is_left),
         cmocka_unit_test(a_crystal_has_a_modulus_too),
         cmocka_unit_test(no_corner_is_worse),
         cmocka_unit_test(each_hinge_has_its_own_corner),
