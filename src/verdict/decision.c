@@ -154,11 +154,38 @@ fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
     return FW_OK;
 }
 
+/* ---- what a flow makes ---- */
+
+/* the worst of everything that was run, and the hinge that makes it so */
+void fw_verdict_search_govern(fw_verdict_search *s) {
+    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    double most = -1.0;
+    fabricated->governing = FW_NONE;
+    fabricated->at = 0;
+    fw_verdict_decision worst = FW_ACCEPT;
+    for (int c = 0; c < fabricated->ncorner; c++) {
+        const fw_verdict_fabricated_corner *corner = &fabricated->corner[c];
+        if (fw_verdict_is_worse(worst, corner->decision)) continue;
+        if (corner->decision != worst) most = -1.0, worst = corner->decision;
+        if (corner->why && most < 0.0)
+            fabricated->at = c, fabricated->governing = FW_NONE, most = 0.0;
+        for (int k = 0; k < s->v->nhinge; k++)
+            if (corner->hinge[k].scene && !fw_verdict_is_worse(worst, corner->hinge[k].decision) &&
+                fw_above_rounding(corner->hinge[k].utilisation, most)) {
+                most = corner->hinge[k].utilisation;
+                fabricated->at = c, fabricated->governing = k;
+            }
+    }
+    fabricated->decision = worst == FW_ACCEPT                            ? FW_ACCEPT
+                           : fabricated->corner[0].decision == FW_REJECT ? FW_REJECT
+                                                                         : FW_INCONCLUSIVE;
+}
+
 /* ---- across the plane, as what a flow makes has it ---- */
 
-/* Forces that tip a device are borne by stiffnesses that go with the third power of the thickness and with Young's modulus:
-   what a flow makes of a device that tips above so many times its forces is not looked at */
-static const double far_from_tipping = 10;
+/* What a device tips at goes with the third power of its thickness and with Young's modulus; edges change what bends across
+   the plane, and the forces of what is moved by a given way, by less than this factor together */
+static const double edges_at_most = 2;
 static const double strained_most =
     10; /* a hinge without a bound across the plane counts as this */
 
@@ -166,11 +193,25 @@ static double surely_flat(const fw_verdict_across *a) {
     return a->tips / (1 + a->tips_error);
 }
 
-bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v) {
+/* the least that a flow makes of h^3 E, over the drawn one */
+static double weakest(const fw_verdict_variant_verdict *v) {
+    double thickness = 1, youngs = 1;
+    for (int i = 0; i < v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &v->input[i];
+        const double low = in->low - in->drawn, high = in->high - in->drawn;
+        thickness += in->thickness_at + fmin(in->thickness * low, in->thickness * high);
+        youngs += in->youngs_at + fmin(in->youngs * low, in->youngs * high);
+    }
+    return pow(fmax(thickness, 0), 3) * fmax(youngs, 0);
+}
+
+fw_verdict_tipping fw_verdict_across_counts(const fw_verdict_variant_verdict *v) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
+    const double near = edges_at_most / weakest(v);
+    fw_verdict_tipping counts = {false, o && o->required_tips < near}; /* NaN: no */
     for (int i = 0; o && i < o->nscene; i++)
-        if (surely_flat(&o->scene[i]) < far_from_tipping) return true;
-    return o && o->required_tips < far_from_tipping; /* NaN: no */
+        counts.scenes = counts.scenes || surely_flat(&o->scene[i]) < near;
+    return counts;
 }
 
 bool fw_verdict_across_open(const fw_verdict_variant_verdict *v) {

@@ -11,6 +11,8 @@ static const double fw_trusted = 0.3;
 /* checks below this share of their limits are of no account to estimates; so are those across the plane, of which nothing
    is told but whether they are beyond */
 static const double far_below = 0.1, flat_below = 0.5;
+static const double near_tipping =
+    0.97; /* both are bounds; what forces may be off by is little beside this */
 /* below this an input does not decide which corner is the worst one */
 static const double fw_of_no_account = 2e-3;
 
@@ -192,7 +194,7 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
         const bool across = r >= s->nplane;
         unsigned bits = choose(s, r, true);
         double upper = estimate(s, r, bits) + (across ? s->across_error : s->fabricated->error);
-        double bar = fmin(across ? HUGE_VAL : largest, log(near_limit(s, r)));
+        double bar = across ? log(near_tipping) : fmin(largest, log(near_limit(s, r)));
         bool first = !across && s->fabricated->ncorner == s->first; /* one is run in any case */
         if (!first && (fw_verdict_search_find(s, bits) != FW_NONE || !(upper > bar))) continue;
         if (upper > highest) highest = upper, next = bits;
@@ -353,8 +355,9 @@ static fw_status run_patterns(fw_verdict_search *s, apart *a) {
                 next = r;
         if (next == FW_NONE) return FW_OK;
         done[next] = true;
-        if ((any || next >= s->nplane) && !(a->most[next] + a->error > log(near_limit(s, next))))
-            continue;
+        const bool across = next >= s->nplane;
+        const double near = log(across ? near_tipping : near_limit(s, next));
+        if ((any || across) && !(a->most[next] + (across ? 0 : a->error) > near)) continue;
         FW_TRY(run_pattern(s, a, next, &ran));
         any = any || ran;
     }

@@ -251,7 +251,8 @@ static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
         for (int j = 0; j < count && !known; j++)
             known = a_share_of(n, forces, looked + (size_t)j * (size_t)n);
         if (known) continue;
-        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + 2 * n, other, 0};
+        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + 2 * n, other,
+                                                     isfinite(*factor) ? *factor : 0};
         double now;
         int weak;
         FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &now, &weak));
@@ -461,6 +462,9 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
 
 /* ---- required poses ---- */
 
+/* a factor that a flow cannot bring below 1 (fw_verdict_across_counts) may be a lesser one that is above this */
+static const double real_up_to = 10;
+
 /* The least factor over the corners of the required boxes by every grip and over the worst poses. Between them forces go
    nearly in proportion to the pose, and what tips is convex in them; a tenth is left for what does not. */
 static fw_status required_factor(fw_arena *arena, const both *is,
@@ -484,8 +488,8 @@ static fw_status required_factor(fw_arena *arena, const both *is,
         most[0] = most[2] = pow(v->workspace.load[j].most_N, 2);
         most[1] = m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad);
     }
-    const fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far,
-                                                 1 / (1 - is->rigid.error)};
+    fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far,
+                                           real_up_to / (1 - is->rigid.error)};
     *factor = HUGE_VAL;
     for (int i = 0; i < m->device->nworkspace; i++) {
         const fw_device_workspace_box *box = &m->device->workspace[i];
@@ -500,7 +504,7 @@ static fw_status required_factor(fw_arena *arena, const both *is,
                                 : 0;
             FW_TRY(fw_mechanism_plates_buckling(arena, is->soft.why ? &is->rigid : &is->soft,
                                                 &pressed, &tips, &hinge));
-            *factor = fmin(*factor, tips);
+            pressed.enough = fmin(pressed.enough, *factor = fmin(*factor, tips));
         }
     }
     *factor *= 1 - is->rigid.error;
@@ -508,22 +512,20 @@ static fw_status required_factor(fw_arena *arena, const both *is,
 }
 
 static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v,
-                                double *tips) {
-    double sure;
+                                double *sure) {
     char by[32];
-    if (!v->workspace.required || !v->workspace.reachable || (v->corner && !v->tipping))
+    if (!v->workspace.required || !v->workspace.reachable || (v->corner && !v->tipping.required))
         return FW_OK;
-    FW_TRY(required_factor(arena, is, v, &sure));
-    *tips = sure;
-    if (!(sure < 1)) return FW_OK;
+    FW_TRY(required_factor(arena, is, v, sure));
+    if (!(*sure < 1)) return FW_OK;
     FW_TRY(fw_verdict_workspace_reason(
         v, 647, FW_INCONCLUSIVE,
         fw_arena_printf(arena,
                         "what holds the required poses may tip the device out of its plane: it is "
                         "sure to stay flat up to %s times that; a thicker layer or a smaller box "
                         "keep it flat",
-                        fw_number_text(by, sizeof by, sure, 2))));
-    v->reason[v->nreason - 1].keep = fmin(fmax(sure, 1e-3), 0.99);
+                        fw_number_text(by, sizeof by, *sure, 2))));
+    v->reason[v->nreason - 1].keep = fmin(fmax(*sure, 1e-3), 0.99);
     v->reason[v->nreason - 1].either_way = true;
     return FW_OK;
 }
@@ -557,12 +559,12 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     const fw_device *d = m->device;
     both *is;
     fw_verdict_out_of_plane *out;
-    const bool tips = !brief || v->tipping;
+    const bool tips = !brief || v->tipping.scenes;
     v->out_of_plane = NULL;
-    if (!d || !m->layout || (!tips && !fw_verdict_out_of_plane_asked(m))) return FW_OK;
-    FW_NEED(out = fw_arena_one(arena, fw_verdict_out_of_plane));
+    if (!d || !m->layout) return FW_OK;
+    if (!(tips || v->tipping.required || fw_verdict_out_of_plane_asked(m))) return FW_OK;
+    FW_NEED(v->out_of_plane = out = fw_arena_one(arena, fw_verdict_out_of_plane));
     out->required_tips = (double)NAN;
-    v->out_of_plane = out;
     FW_NEED(out->plates = is = fw_arena_one(arena, both));
     FW_TRY(prepare(arena, m, v->arm, is));
     out->why = is->rigid.why;

@@ -24,33 +24,6 @@ static fw_status take_known(fw_arena *arena, const fw_verdict_variant_verdict *v
     return FW_OK;
 }
 
-/* ---- which point governs ---- */
-
-/* the worst of everything that was run, and the hinge that makes it so */
-void fw_verdict_search_govern(fw_verdict_search *s) {
-    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
-    double most = -1.0;
-    fabricated->governing = FW_NONE;
-    fabricated->at = 0;
-    fw_verdict_decision worst = FW_ACCEPT;
-    for (int c = 0; c < fabricated->ncorner; c++) {
-        const fw_verdict_fabricated_corner *corner = &fabricated->corner[c];
-        if (fw_verdict_is_worse(worst, corner->decision)) continue;
-        if (corner->decision != worst) most = -1.0, worst = corner->decision;
-        if (corner->why && most < 0.0)
-            fabricated->at = c, fabricated->governing = FW_NONE, most = 0.0;
-        for (int k = 0; k < s->v->nhinge; k++)
-            if (corner->hinge[k].scene && !fw_verdict_is_worse(worst, corner->hinge[k].decision) &&
-                fw_above_rounding(corner->hinge[k].utilisation, most)) {
-                most = corner->hinge[k].utilisation;
-                fabricated->at = c, fabricated->governing = k;
-            }
-    }
-    fabricated->decision = worst == FW_ACCEPT                            ? FW_ACCEPT
-                           : fabricated->corner[0].decision == FW_REJECT ? FW_REJECT
-                                                                         : FW_INCONCLUSIVE;
-}
-
 /* ---- bands of what was run ---- */
 
 static void widen(fw_verdict_band *b, double used) {
