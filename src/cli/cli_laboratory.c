@@ -457,6 +457,10 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
                                          run));
     }
     FW_TRY(wrong);
+    /* once all are there: wafers of one load share its time */
+    for (int i = 0; i < list.n; i++)
+        FW_TRY(fw_recipe_asrun_ask_time(plan->arena, run, &run->entry[run->nentry - list.n + i],
+                                        list.place[i], &plan->diags));
     return fw_text_end(added);
 }
 

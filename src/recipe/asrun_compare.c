@@ -48,6 +48,35 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
     return actual_s - read_s > booked_stop_s(run, e) ? "long" : "in window";
 }
 
+fw_status fw_recipe_asrun_out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                      const fw_recipe_asrun_entry *e, const char **how) {
+    const char *judged = fw_recipe_asrun_in_time(run, e);
+    const bool brief = strcmp(judged, "short") == 0;
+    fw_text text = fw_text_new(arena);
+    *how = NULL;
+    if (!brief && strcmp(judged, "long") != 0) return FW_OK;
+    fw_text_add(&text, "it took ");
+    fw_schedule_put_duration(&text, e->end_s - e->start_s);
+    fw_text_add(&text, brief ? ", before the first look at " : ", and is to stop by ");
+    fw_schedule_put_duration(&text, brief ? e->step->time.first_look_s : booked_stop_s(run, e));
+    FW_TRY(fw_text_end(&text));
+    *how = text.data;
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, fw_place place,
+                                   fw_diags *diags) {
+    const char *how;
+    FW_TRY(fw_recipe_asrun_out_of_time(arena, run, e, &how));
+    if (!how) return FW_OK;
+    fw_diag_warning(diags, 283, place,
+                    "step %s went otherwise than planned: %s; look at what that leaves before the "
+                    "next step%s",
+                    e->at->id, how, e->deviation ? "" : ", and write down why (deviation=...)");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
     for (int i = 0; i < step->naccept; i++)
         if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];

@@ -391,6 +391,32 @@ static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
     return true;
 }
 
+/* Readings of a step that was not run as it is meant to be speak of that run. They count, since nobody else knows whether
+   what they tell depends on it */
+static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
+                                const fw_recipe_asrun_entry *e, fw_diags *diags) {
+    const char *how;
+    fw_text text = fw_text_new(arena);
+    if (e->ncoupon == 0) return FW_OK;
+    FW_TRY(fw_recipe_asrun_out_of_time(arena, run, e, &how));
+    if (how) fw_text_printf(&text, "; %s", how);
+    for (int i = 0; i < e->nset; i++)
+        if (!fw_recipe_asrun_allowed(&e->set[i])) {
+            fw_text_printf(&text, "; %s was ", e->set[i].name);
+            fw_recipe_put_value(&text, e->set[i].value);
+            fw_text_printf(&text, " %s", e->set[i].q->unit);
+        }
+    if (e->deviation) fw_text_printf(&text, "; written down: %s", e->deviation);
+    if (text.length == 0) return FW_OK;
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(diags, 652, (fw_place){0},
+                    "what was read of step %s (line %d of the log) is of a run that went otherwise "
+                    "than planned%s; it counts like any other: leave it out where what it tells "
+                    "depends on that",
+                    e->step->id, e->line, text.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
                                    fw_process_readings *readings) {
     int most = 0;
@@ -400,6 +426,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
     FW_NEED(readings->item = fw_arena_array(arena, fw_process_reading, (size_t)most + 1));
     for (int i = 0; i < run->nentry; i++) {
         const fw_recipe_asrun_entry *e = &run->entry[i];
+        FW_TRY(tell_otherwise(arena, run, e, diags));
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;

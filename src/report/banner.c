@@ -453,11 +453,31 @@ fw_status fw_report_section_measurements(fw_report_page *page) {
 
 /* ---- which measurement pays: on the terminal ---- */
 
-/* where it is undecided what a flow makes; the whole list stands in the report */
+enum { RANKED = 6 }; /* on the terminal; all of them stand in the report */
+
+static void ranking(fw_text *out, const fw_measuring *m) {
+    int n = 0;
+    if (!m->what || !m->banded) return;
+    fw_text_printf(out, "  of the band of %s, ", m->what);
+    fw_measuring_put_band(out, &m->band);
+    fw_text_add(out, ", an input that is measured alone leaves:\n");
+    for (int i = 0; i < m->nitem && n < RANKED; i++) {
+        if (!m->item[i].made) continue;
+        fw_text_printf(out, "  %d  %s (%s): ", ++n, m->item[i].name,
+                       m->item[i].by ? m->item[i].by : "read by nothing here");
+        fw_measuring_put_worth(out, m, &m->item[i]);
+        fw_text_add(out, "\n");
+    }
+}
+
+/* where bands were asked for: by --measurements all, or because it is undecided what a flow makes */
 void fw_report_measurements_text(fw_text *out, const fw_report_input *in) {
     for (int i = 0; i < in->nflow; i++) {
         const fw_measuring *m = in->flow[i].measuring;
-        if (!m || !m->asked || !m->first || m->decision != FW_INCONCLUSIVE) continue;
-        fw_text_printf(out, "\n%s: %s\n", in->flow[i].flow ? in->flow[i].flow->id : "", m->first);
+        if (!m || !m->asked) continue;
+        if (m->first)
+            fw_text_printf(out, "\n%s: %s\n", in->flow[i].flow ? in->flow[i].flow->id : "",
+                           m->first);
+        ranking(out, m);
     }
 }

@@ -410,10 +410,50 @@ static double grows(const shaking *by, double end_s, double most, double omega, 
     return grown;
 }
 
+/* the most over the loads and over frequencies from low to high, so close together that none is missed */
+static double grows_most(const shakings *by, double low, double high, double omega, double damping,
+                         double share) {
+    const double most_steps = 1e6, end = by->end_s;
+    double grown = 0;
+    for (int i = 0; i < by->n; i++) {
+        const fw_quantity_law *law = by->item[i].law;
+        const double fastest = fw_quantity_law_wave_of(law).fastest_Hz,
+                     a_second = 48 * fmax(high / (2 * FW_PI), fastest),
+                     largest = fw_quantity_law_measure(law, end).most,
+                     run = fmin(end, most_steps / (3 * a_second)),
+                     wanted = 2 + ceil((high - low) * fmin(run, 8 / (share * omega)) / 0.25),
+                     n = fmin(wanted, fmax(3, most_steps / (a_second * run)));
+        for (double j = 0; j < n; j++) {
+            const double now =
+                grows(&by->item[i], run, largest, low + (high - low) * j / (n - 1), damping, share);
+            /* what has doubled goes on like that */
+            grown = fmax(grown, now > 2 ? pow(now, end / run) : now);
+        }
+    }
+    return grown;
+}
+
+static fw_status tell_pumped(fw_arena *arena, const fw_device_scene *s, const fw_statics_mode *mode,
+                             double share, double grown, fw_verdict_variant_verdict *v) {
+    char f[32], goes[32], times[32];
+    return fw_verdict_scene_reason(
+        v, s, 650, FW_INCONCLUSIVE, 0.5,
+        fw_arena_printf(
+            arena,
+            "%s%s makes the mode at %s Hz stiffer and softer by %s %% as its loads go to and "
+            "fro, and so may let what swings there grow %s times, whatever begins it "
+            "(parametric resonance): keep the loads' frequency from twice the mode's and from "
+            "the mode's, lower the loads along flexures, or say by <material-damping> what "
+            "damps",
+            FW_NAMED("scene", s->name), fw_number_text(f, sizeof f, mode->f_Hz, 4),
+            fw_number_text(goes, sizeof goes, 100 * share, 2),
+            grown < 1e3 ? fw_number_text(times, sizeof times, grown, 3) : "a thousand"));
+}
+
 /* What grows tenfold from nothing that anybody states may be of any size */
 static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, const shakings *by,
                           double bodies, fw_verdict_variant_verdict *v) {
-    const double much = 10, most_steps = 1e6, fine = 1e-3; /* a share is a difference */
+    const double much = 10, fine = 1e-3; /* a share is a difference */
     const fw_device_scene *s = &m->device->scene[scene];
     const fw_statics_modes *at[2] = {NULL, NULL}, *rest = NULL;
     fw_device_scene held, steady;
@@ -429,39 +469,12 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
         const fw_statics_mode *mode = &rest->mode[k];
         if (!(mode->stiffness_per_s2 > 0)) continue;
         const double share = comes_and_goes(rest, at, k), omega = mode->omega_rad_per_s,
-                     end = by->end_s, damping = fmin(fmax(mode->damping_ratio, 0), 0.99);
-        if (!(0.25 * share * omega * end > log(much))) continue;
-        const double off = fmin(fw_statics_mode_error(mode), 0.5),
-                     low = omega * (1 - off - 0.5 * bodies), high = omega * (1 + off);
-        double grown = 0;
-        for (int i = 0; i < by->n; i++) {
-            const double a_second = 48 * fmax(high / (2 * FW_PI),
-                                              fw_quantity_law_wave_of(by->item[i].law).fastest_Hz),
-                         largest = fw_quantity_law_measure(by->item[i].law, end).most,
-                         run = fmin(end, most_steps / (3 * a_second)),
-                         n = fmin(2 + ceil((high - low) * fmin(run, 8 / (share * omega)) / 0.25),
-                                  fmax(3, most_steps / (a_second * run)));
-            for (double j = 0; j < n; j++) {
-                const double now = grows(&by->item[i], run, largest,
-                                         low + (high - low) * j / (n - 1), damping, share);
-                /* what has doubled goes on like that */
-                grown = fmax(grown, now > 2 ? pow(now, end / run) : now);
-            }
-        }
-        if (!(grown > much)) continue;
-        char f[32], goes[32], times[32];
-        return fw_verdict_scene_reason(
-            v, s, 650, FW_INCONCLUSIVE, 0.5,
-            fw_arena_printf(
-                arena,
-                "%s%s makes the mode at %s Hz stiffer and softer by %s %% as its loads go to and "
-                "fro, and so may let what swings there grow %s times, whatever begins it "
-                "(parametric resonance): keep the loads' frequency from twice the mode's and from "
-                "the mode's, lower the loads along flexures, or say by <material-damping> what "
-                "damps",
-                FW_NAMED("scene", s->name), fw_number_text(f, sizeof f, mode->f_Hz, 4),
-                fw_number_text(goes, sizeof goes, 100 * share, 2),
-                grown < 1e3 ? fw_number_text(times, sizeof times, grown, 3) : "a thousand"));
+                     damping = fmin(fmax(mode->damping_ratio, 0), 0.99),
+                     off = fmin(fw_statics_mode_error(mode), 0.5);
+        if (!(0.25 * share * omega * by->end_s > log(much))) continue;
+        const double grown = grows_most(by, omega * (1 - off - 0.5 * bodies), omega * (1 + off),
+                                        omega, damping, share);
+        if (grown > much) return tell_pumped(arena, s, mode, share, grown, v);
     }
     return FW_OK;
 }

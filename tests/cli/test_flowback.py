@@ -61,12 +61,12 @@ class Flowback(unittest.TestCase):
     def sites(self, mean, spread):
         return " ".join(f"{self.random.gauss(mean, spread):.3f}" for _ in range(5))
 
-    def etch(self, wafer, *more, power="250 W", rate=0.545, lag=0.09):
+    def etch(self, wafer, *more, power="250 W", rate=0.545, lag=0.09, end="10:05", words=""):
         coupons = []
         for width in (5, 10, 20, 50, 100):
             values = self.sites(depth(width, rate * 90, lag), 0.25)
             coupons += ["--coupon", f"arde-slots, drawn={width} um, value={values} um, u=0.05 um, at=90 min, u-at=3 s"]
-        return self.command("--entry", f"S18; start=2026-11-0{wafer}T08:00; end=2026-11-0{wafer}T10:05; by=AB; second=CD",
+        return self.command("--entry", f"S18; start=2026-11-0{wafer}T08:00; end=2026-11-0{wafer}T{end}; by=AB; second=CD{words}",
                             "--wafer", wafer, "--instrument", "profilometer 2", "--setting", f"power={power}",
                             "--site", f"aluminium left={self.sites(0.42, 0.01)} um", *coupons, *more)
 
@@ -280,6 +280,20 @@ class Flowback(unittest.TestCase):
         day.write_text("# nothing\n")
         self.assertIn("no entry", self.expect(self.command("--entries", day), 3).stderr)
         self.assertIn("use one of them", self.expect(self.command("--entries", day, "--entry", "S01"), 2).stderr)
+
+    def test_what_went_otherwise_is_said_at_once(self):
+        """how long a step took when it is entered, and what was done otherwise when its readings become the laboratory's values"""
+        usual = self.expect(self.etch(1, "--lot", "L7", "--wafers", "3")).stderr
+        self.assertNotIn("otherwise than planned", usual)
+        late = self.expect(self.etch(2, end="14:35", words="; deviation=pump, left over lunch")).stderr
+        self.assertIn("step S18 went otherwise than planned: it took 6 h 35 min, and is to stop by ", late)
+        self.assertNotIn("write down why", late)
+        self.expect(self.etch(3, power="262 W"))
+        said = self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", self.here / "lab.xml")).stderr
+        told = [line for line in said.splitlines() if "FW-D652" in line]
+        self.assertEqual(len(told), 2, said)
+        self.assertIn("written down: pump, left over lunch", told[0])
+        self.assertIn("power was 262 W", told[1])
 
     def test_a_lot(self):
         self.lot()
