@@ -125,10 +125,6 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
                                      const fw_recipe_asrun *run, fw_recipe_deviation **list,
                                      int *n);
 
-/* How long the step of an entry took where that is out of its window: "it took 45 min, and is to stop by 26 min"; NULL: it
-   is not, or there is no plan */
-fw_status fw_recipe_asrun_out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
-                                      const fw_recipe_asrun_entry *e, const char **how);
 /* FW-D283 where entry e, which was just added, took another time than planned; said at once, while something can be done */
 fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags);

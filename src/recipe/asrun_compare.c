@@ -48,8 +48,9 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
     return actual_s - read_s > booked_stop_s(run, e) ? "long" : "in window";
 }
 
-fw_status fw_recipe_asrun_out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
-                                      const fw_recipe_asrun_entry *e, const char **how) {
+/* "it took 45 min, and is to stop by 26 min"; NULL: in its window, or there is no plan */
+static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
+                             const fw_recipe_asrun_entry *e, const char **how) {
     const char *judged = fw_recipe_asrun_in_time(run, e);
     const bool brief = strcmp(judged, "short") == 0;
     fw_text text = fw_text_new(arena);
@@ -68,7 +69,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, fw_place place,
                                    fw_diags *diags) {
     const char *how;
-    FW_TRY(fw_recipe_asrun_out_of_time(arena, run, e, &how));
+    FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
     fw_diag_warning(diags, 283, place,
                     "step %s went otherwise than planned: %s; look at what that leaves before the "

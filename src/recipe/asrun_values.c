@@ -392,14 +392,10 @@ static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
 }
 
 /* Readings of a step that was not run as it is meant to be speak of that run. They count, since nobody else knows whether
-   what they tell depends on it */
-static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
-                                const fw_recipe_asrun_entry *e, fw_diags *diags) {
-    const char *how;
+   what they tell depends on it. Times are not looked at: they are planned for a device, and this is of its log alone */
+static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e, fw_diags *diags) {
     fw_text text = fw_text_new(arena);
     if (e->ncoupon == 0) return FW_OK;
-    FW_TRY(fw_recipe_asrun_out_of_time(arena, run, e, &how));
-    if (how) fw_text_printf(&text, "; %s", how);
     for (int i = 0; i < e->nset; i++)
         if (!fw_recipe_asrun_allowed(&e->set[i])) {
             fw_text_printf(&text, "; %s was ", e->set[i].name);
@@ -426,7 +422,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
     FW_NEED(readings->item = fw_arena_array(arena, fw_process_reading, (size_t)most + 1));
     for (int i = 0; i < run->nentry; i++) {
         const fw_recipe_asrun_entry *e = &run->entry[i];
-        FW_TRY(tell_otherwise(arena, run, e, diags));
+        FW_TRY(tell_otherwise(arena, e, diags));
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;
