@@ -443,8 +443,8 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
             "make it <vary>";
     if (!what && s->kind != FW_STUDY_IS_sweep && fw_xml_given(record, "points"))
         what = "points belong to kind=\"sweep\"; remove them";
-    if (!what && yield && fw_xml_given(record, "as"))
-        what = "a yield is of devices as they are made; remove as";
+    if (!what && yield && s->judge != FW_JUDGE_MADE)
+        what = "a yield is of devices as they are made; take as=\"made\", or leave as out";
     if (!what && s->kind == FW_STUDY_IS_size && s->judge == FW_JUDGE_HINGES)
         what = "kind=\"size\" returns what check accepts, and hinges alone do not say that; take "
                "as=\"drawn\" or as=\"made\"";
