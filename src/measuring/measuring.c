@@ -94,6 +94,18 @@ static bool same_inputs(const fw_verdict_fabrication_input *a, int na,
     return na == nb;
 }
 
+/* Where the description states a thickness, that is what is made, as much apart as the pack's own is */
+static void as_described(const fw_verdict_variant_verdict *v, fw_measuring_item *item) {
+    for (int k = 0; k < v->ninput; k++) {
+        const fw_verdict_fabrication_input *in = &v->input[k];
+        if (in->thickness == 0 || !in->q.id || strcmp(in->q.id, item->id) != 0) continue;
+        const double ratio = in->nominal / item->value;
+        if (!(ratio > 0) || !isfinite(ratio)) return;
+        item->value *= ratio, item->before *= ratio, item->after *= ratio;
+        return;
+    }
+}
+
 /* an input that no better reading exists of changes nothing, and one without any value cannot */
 static fw_status find_made(work *w) {
     const fw_verdict_variant_verdict *v = w->in->verdict;
@@ -104,6 +116,7 @@ static fw_status find_made(work *w) {
         FW_TRY(fw_process_flow_fabricated_with(w->arena, w->in->flow, &with, w->in->drawn,
                                                v->variant, &w->input[i], &w->ninput[i]));
         item->made = !same_inputs(w->input[i], w->ninput[i], v->input, v->ninput);
+        as_described(v, item);
     }
     return FW_OK;
 }

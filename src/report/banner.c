@@ -471,13 +471,13 @@ static void ranking(fw_text *out, const fw_measuring *m) {
 }
 
 /* where bands were asked for: by --measurements all, or because it is undecided what a flow makes */
-void fw_report_measurements_text(fw_text *out, const fw_report_input *in) {
+void fw_report_measurements_text(fw_text *out, const fw_report_input *in, bool ranked) {
     for (int i = 0; i < in->nflow; i++) {
         const fw_measuring *m = in->flow[i].measuring;
         if (!m || !m->asked) continue;
         if (m->first)
             fw_text_printf(out, "\n%s: %s\n", in->flow[i].flow ? in->flow[i].flow->id : "",
                            m->first);
-        ranking(out, m);
+        if (ranked) ranking(out, m);
     }
 }

@@ -133,7 +133,7 @@ fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_dev
 /* what each flow makes of the device, at its corners */
 void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict);
 /* what to measure first where that is undecided */
-void fw_report_measurements_text(fw_text *out, const fw_report_input *input);
+void fw_report_measurements_text(fw_text *out, const fw_report_input *input, bool ranked);
 /* peaks, statistics, effects of one scene; holds a measured CPU time */
 fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechanism *mechanism,
                                   const fw_dynamics_motion *motion, fw_text *out);

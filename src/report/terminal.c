@@ -327,7 +327,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     if (style.detail >= 0) out_of_plane(out, v);
     if (style.detail >= 0) FW_TRY(stiction(out, v));
     if (style.detail >= 0) fw_report_fabricated_text(out, v);
-    fw_report_measurements_text(out, input);
+    fw_report_measurements_text(out, input, style.detail >= 0);
     advice(out, v);
     parameters(out, v);
     for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)

@@ -152,6 +152,14 @@ class Measurements(unittest.TestCase):
         self.assertIsNone(copper["made.wall"]["read_by"])
         self.assertEqual(copper["litho.edge"]["read_by"], "coupon cd-lines")
 
+    def test_a_thickness_that_the_description_states_is_what_is_measured(self):
+        """and not the pack's own, which is a tenth less"""
+        flows = {f["id"]: f for f in self.check(GALLERY, "--flow", "copper-on-porous-silicon", "--set", "flow[copper-on-porous-silicon]/@thickness=10 um",
+                                                "--measurements", "all")["flows"]}
+        item = next(r for r in flows["copper-on-porous-silicon"]["measurements"]["ranked"] if r["id"] == "made.cu")
+        self.assertAlmostEqual(item["value"], 10, places=9)
+        self.assertAlmostEqual(item["u"], 10 * 0.1 / 3**0.5, places=6)
+
     def test_terminal(self):
         result = run("check", self.device, "-q")  # where it is undecided, even in few words
         self.assertEqual(result.returncode, 4)
@@ -161,7 +169,12 @@ class Measurements(unittest.TestCase):
         self.assertRegex(first, r"^Measure the edge of the aluminium first \(made\.al-edge; coupon cd-lines\): the "
                                 r"band of hinge A goes from [\d.]+\.\.[\d.]+ % to [\d.]+\.\.[\d.]+ %.*accepted\.$")
         self.assertNotIn("Measure the", run("check", self.device, "--measurements", "none").stdout)
+        self.assertNotIn("an input that is measured alone leaves", result.stdout)
         self.assertNotIn("Measure the", run("check", GALLERY).stdout)  # accepted
+        ranked = run("check", GALLERY, "--measurements", "all", "--flow", "al-masked-rie", "--advice", "none").stdout.splitlines()
+        at = next(i for i, x in enumerate(ranked) if "an input that is measured alone leaves" in x)
+        self.assertRegex(ranked[at], r"^  of the band of hinge A, [\d.]+\.\.[\d.]+ %, ")
+        self.assertRegex(ranked[at + 1], r"^  1  edge of the aluminium \(coupon cd-lines\): [\d.]+\.\.[\d.]+ %")
 
     def test_what_is_asked_for(self):
         def asked(*arguments):
