@@ -84,25 +84,12 @@ const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, con
     return NULL;
 }
 
-double fw_recipe_asrun_limit(const char *text, double absent) {
-    double value;
-    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
-}
-
-static bool inside(const char *low, const char *high, double value) {
-    return value >= fw_recipe_asrun_limit(low, -(double)INFINITY) &&
-           value <= fw_recipe_asrun_limit(high, (double)INFINITY);
-}
-
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
     if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
     for (int i = 0; i < FW_RECIPE_SITES; i++)
-        if (!isnan(m->site[i]) && !inside(a->low, a->high, m->site[i])) return false;
+        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(a->low, a->high, m->site[i]))
+            return false;
     return true;
-}
-
-bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
-    return isnan(set->value) || inside(set->low, set->high, set->value);
 }
 
 /* waited from the end of the step that the lag names; NaN: that step is not in the log */
@@ -194,7 +181,7 @@ static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
             put_unit(&planned, a->unit);
         }
         for (int k = 0, n = 0; k < FW_RECIPE_SITES && !word; k++) {
-            if (isnan(m->site[k]) || inside(a->low, a->high, m->site[k])) continue;
+            if (isnan(m->site[k]) || fw_recipe_asrun_inside(a->low, a->high, m->site[k])) continue;
             fw_text_add(&is, n++ ? ", " : "");
             fw_recipe_put_value(&is, m->site[k]);
             put_unit(&is, a->unit);

@@ -47,11 +47,13 @@ fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *w
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
 
-/* asrun_compare.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a limit as it is
-   written; does what was measured and set keep its limits? */
+/* asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
+   limit as it is written; does what was measured and set keep its limits? */
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure);
 double fw_recipe_asrun_limit(const char *text, double absent);
+/* is it within these limits? An empty one is none */
+bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
 

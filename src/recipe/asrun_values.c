@@ -391,6 +391,20 @@ static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
     return true;
 }
 
+double fw_recipe_asrun_limit(const char *text, double absent) {
+    double value;
+    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
+}
+
+bool fw_recipe_asrun_inside(const char *low, const char *high, double value) {
+    return value >= fw_recipe_asrun_limit(low, -(double)INFINITY) &&
+           value <= fw_recipe_asrun_limit(high, (double)INFINITY);
+}
+
+bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
+    return isnan(set->value) || fw_recipe_asrun_inside(set->low, set->high, set->value);
+}
+
 /* Readings of a step that was not run as it is meant to be speak of that run. They count, since nobody else knows whether
    what they tell depends on it. Times are not looked at: they are planned for a device, and this is of its log alone */
 static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e, fw_diags *diags) {

@@ -132,7 +132,7 @@ fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_dev
                                      const fw_statics *statics, fw_text *out);
 /* what each flow makes of the device, at its corners */
 void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict);
-/* what to measure first where that is undecided */
+/* what to measure first where bands were asked for; ranked: and what every other input would leave */
 void fw_report_measurements_text(fw_text *out, const fw_report_input *input, bool ranked);
 /* peaks, statistics, effects of one scene; holds a measured CPU time */
 fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechanism *mechanism,

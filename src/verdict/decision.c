@@ -205,13 +205,12 @@ static double weakest(const fw_verdict_variant_verdict *v) {
     return pow(fmax(thickness, 0), 3) * fmax(youngs, 0);
 }
 
-fw_verdict_tipping fw_verdict_across_counts(const fw_verdict_variant_verdict *v) {
+bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
     const double near = edges_at_most / weakest(v);
-    fw_verdict_tipping counts = {false, o && o->required_tips < near}; /* NaN: no */
     for (int i = 0; o && i < o->nscene; i++)
-        counts.scenes = counts.scenes || surely_flat(&o->scene[i]) < near;
-    return counts;
+        if (surely_flat(&o->scene[i]) < near) return true; /* NaN: no */
+    return false;
 }
 
 bool fw_verdict_across_open(const fw_verdict_variant_verdict *v) {
@@ -227,12 +226,11 @@ static double check_of(double used) {
 
 void fw_verdict_across_checks(const fw_verdict_variant_verdict *v, int nscene, double *ln) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
-    for (int i = 0; i < 2 * nscene + 1; i++)
+    for (int i = 0; i < 2 * nscene; i++)
         ln[i] = (double)NAN;
     for (int i = 0; o && i < o->nscene; i++) {
         const fw_verdict_across *a = &o->scene[i];
         ln[a->scene_index] = check_of(1 / a->tips);
         ln[nscene + a->scene_index] = check_of(a->strained);
     }
-    if (o) ln[2 * nscene] = check_of(1 / o->required_tips);
 }

@@ -71,11 +71,6 @@ typedef struct fw_verdict_clearance {
     fw_verdict_decision decision;
 } fw_verdict_clearance;
 
-/* is what tips the device out of its plane looked at, by its scenes and by what holds required poses? */
-typedef struct fw_verdict_tipping {
-    bool scenes, required;
-} fw_verdict_tipping;
-
 /* how the device is out of the plane in one scene: sag, tilt, and what tips it (verdict_out_of_plane.c) */
 typedef struct fw_verdict_across {
     const char *scene;
@@ -120,8 +115,6 @@ typedef struct fw_verdict_out_of_plane {
     struct fw_verdict_plates *plates; /* what it was computed with (verdict_out_of_plane.c) */
     fw_verdict_across *scene;         /* (nscene) of this flow, those that were run */
     int nscene;
-    double
-        required_tips; /* factor on what holds required poses below which nothing tips; NaN: not looked at */
 } fw_verdict_out_of_plane;
 
 /* Whether a liquid pulls it to its carrier, or one wall to another, as it dries, and whether it then lets go
@@ -276,7 +269,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_dynamics_motion *const *like;
     /* of what the flow makes: bent strips were looked at as drawn, with an allowance */
     bool corner;
-    fw_verdict_tipping tipping; /* of a corner: what of it is looked at */
+    bool tipping; /* of a corner: what tips it out of its plane is looked at */
     /* NULL: not asked for, or the drawn device is not accepted */
     fw_verdict_fabricated_verdict *fabricated;
     fw_verdict_decision drawn; /* decision of the drawn geometry alone */

@@ -488,7 +488,7 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
                              .options = *options,
                              .v = v,
                              .nplane = nplane,
-                             .ncheck = nplane + 2 * device->nscene + 1,
+                             .ncheck = nplane + 2 * device->nscene,
                              .tipping = fw_verdict_across_counts(v),
                              .clearances = fw_verdict_search_clearances_count(v, false),
                              .nearest = fw_verdict_search_clearances_count(v, true)};

@@ -462,9 +462,6 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
 
 /* ---- required poses ---- */
 
-/* a factor that a flow cannot bring below 1 (fw_verdict_across_counts) may be a lesser one that is above this */
-static const double real_up_to = 10;
-
 /* The least factor over the corners of the required boxes by every grip and over the worst poses. Between them forces go
    nearly in proportion to the pose, and what tips is convex in them; a tenth is left for what does not. */
 static fw_status required_factor(fw_arena *arena, const both *is,
@@ -488,8 +485,7 @@ static fw_status required_factor(fw_arena *arena, const both *is,
         most[0] = most[2] = pow(v->workspace.load[j].most_N, 2);
         most[1] = m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad);
     }
-    fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far,
-                                           real_up_to / (1 - is->rigid.error)};
+    fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far, 1 / (1 - is->rigid.error)};
     *factor = HUGE_VAL;
     for (int i = 0; i < m->device->nworkspace; i++) {
         const fw_device_workspace_box *box = &m->device->workspace[i];
@@ -511,33 +507,32 @@ static fw_status required_factor(fw_arena *arena, const both *is,
     return FW_OK;
 }
 
-static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v,
-                                double *sure) {
+static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v) {
+    double sure;
     char by[32];
-    if (!v->workspace.required || !v->workspace.reachable || (v->corner && !v->tipping.required))
-        return FW_OK;
-    FW_TRY(required_factor(arena, is, v, sure));
-    if (!(*sure < 1)) return FW_OK;
+    if (!v->workspace.required || !v->workspace.reachable || v->corner) return FW_OK;
+    FW_TRY(required_factor(arena, is, v, &sure));
+    if (!(sure < 1)) return FW_OK;
     FW_TRY(fw_verdict_workspace_reason(
         v, 647, FW_INCONCLUSIVE,
         fw_arena_printf(arena,
                         "what holds the required poses may tip the device out of its plane: it is "
                         "sure to stay flat up to %s times that; a thicker layer or a smaller box "
                         "keep it flat",
-                        fw_number_text(by, sizeof by, *sure, 2))));
-    v->reason[v->nreason - 1].keep = fmin(fmax(*sure, 1e-3), 0.99);
+                        fw_number_text(by, sizeof by, sure, 2))));
+    v->reason[v->nreason - 1].keep = fmin(fmax(sure, 1e-3), 0.99);
     v->reason[v->nreason - 1].either_way = true;
     return FW_OK;
 }
 
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    fw_verdict_out_of_plane *o = v->out_of_plane;
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
     for (int i = 0; o && !o->why && i < o->nscene; i++) {
         const fw_device_scene *s = &v->mechanism->device->scene[o->scene[i].scene_index];
         if (!fw_mechanism_plates_asked(s)) continue;
         FW_TRY(judge_strain(arena, o->plates, v, &o->scene[i]));
     }
-    if (o && o->plates->rigid.n > 0) return judge_required(arena, o->plates, v, &o->required_tips);
+    if (o && o->plates->rigid.n > 0) return judge_required(arena, o->plates, v);
     return FW_OK;
 }
 
@@ -559,12 +554,11 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     const fw_device *d = m->device;
     both *is;
     fw_verdict_out_of_plane *out;
-    const bool tips = !brief || v->tipping.scenes;
+    const bool tips = !brief || v->tipping;
     v->out_of_plane = NULL;
     if (!d || !m->layout) return FW_OK;
-    if (!(tips || v->tipping.required || fw_verdict_out_of_plane_asked(m))) return FW_OK;
+    if (!tips && !fw_verdict_out_of_plane_asked(m)) return FW_OK;
     FW_NEED(v->out_of_plane = out = fw_arena_one(arena, fw_verdict_out_of_plane));
-    out->required_tips = (double)NAN;
     FW_NEED(out->plates = is = fw_arena_one(arena, both));
     FW_TRY(prepare(arena, m, v->arm, is));
     out->why = is->rigid.why;

@@ -74,11 +74,11 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *mec
                                         fw_diags *diags, fw_verdict_variant_verdict *v);
 /* once hinges were judged in the plane: what they bear across it by weight and shocks */
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v);
-/* Across the plane as checks of a search over what a flow makes: ln of what tips in each scene, of what hinges bear there,
-   and last of what tips in required poses, which are 1 at their limits; NaN: none. ln (2 nscene + 1) */
+/* Across the plane as checks of a search over what a flow makes: ln of what tips in each scene, and of what hinges bear
+   there, which are 1 at their limits; NaN: none. ln (2 nscene) */
 void fw_verdict_across_checks(const fw_verdict_variant_verdict *v, int nscene, double *ln);
 /* is the drawn device so near to tipping that what a flow makes of it may tip? */
-fw_verdict_tipping fw_verdict_across_counts(const fw_verdict_variant_verdict *v);
+bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v);
 /* what tips is accepted but for what its forces may be off by, so that closer numbers may decide */
 bool fw_verdict_across_open(const fw_verdict_variant_verdict *v);
 /* the mode that a probe counts, if it is one across the plane; NULL: it is that of number *in_plane (from 1) in it, or
@@ -199,8 +199,8 @@ typedef struct fw_verdict_search {
                    requirements, then clearance of every scene and every required box; from `nplane` on those across
                    the plane, which only count near their limits */
     int nplane;
-    double across_error;        /* as fabricated->error, of those across the plane */
-    fw_verdict_tipping tipping; /* fw_verdict_across_counts */
+    double across_error; /* as fabricated->error, of those across the plane */
+    bool tipping;        /* fw_verdict_across_counts */
     bool clearances; /* some pair uses so much of its distance that corners are asked how much */
     bool
         nearest; /* the nearest one of a scene or box does: its distance is found at corners, not bounded */

@@ -66,12 +66,14 @@ static void values(void **state) {
             fw_cli_options to = {0};
             const char *wrong = o->take(&to, row[i].takes[k]);
             if (wrong) fail_msg("--%s '%s': %s", o->name, row[i].takes[k], wrong);
+            fw_cli_options_free(&to);
         }
         for (size_t k = 0; k < 7 && row[i].refuses[k]; k++) {
             fw_cli_options to = {0};
             const char *wrong = o->take(&to, row[i].refuses[k]);
             if (!wrong) fail_msg("--%s '%s' is taken", o->name, row[i].refuses[k]);
             assert_true(strlen(wrong) > 8);
+            fw_cli_options_free(&to);
         }
     }
 }

@@ -28,9 +28,9 @@ static void a_point_is_its_corner(void **state) {
                              FW_OK);
             for (int k = 0; k < v->nhinge; k++)
                 if (corner->hinge[k].scene) most = fmax(most, corner->hinge[k].utilisation);
-            /* and what no hinge says: what tips the device out of its plane, in every scene and required pose */
+            /* and what no hinge says: what tips the device out of its plane, in every scene */
             const double *ln = v->fabricated->ln + (size_t)c * (size_t)v->fabricated->ncheck;
-            const int across = 2 * plan->device->nscene + 1;
+            const int across = 2 * plan->device->nscene;
             for (int r = v->fabricated->ncheck - across; r < v->fabricated->ncheck; r++)
                 most = fmax(most, isnan(ln[r]) ? 0 : exp(ln[r]));
             /* both are a first look or closer: its accuracy is 3 % */
