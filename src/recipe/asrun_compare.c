@@ -69,6 +69,8 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, fw_place place,
                                    fw_diags *diags) {
     const char *how;
+    if (e->fate != FW_FATE_RUN || !e->step)
+        return FW_OK; /* what became of a wafer is no step that was run */
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
     fw_diag_warning(diags, 283, place,

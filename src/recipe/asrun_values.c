@@ -409,7 +409,7 @@ bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
    what they tell depends on it. Times are not looked at: they are planned for a device, and this is of its log alone */
 static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e, fw_diags *diags) {
     fw_text text = fw_text_new(arena);
-    if (e->ncoupon == 0) return FW_OK;
+    if (e->ncoupon == 0 || !e->step) return FW_OK;
     for (int i = 0; i < e->nset; i++)
         if (!fw_recipe_asrun_allowed(&e->set[i])) {
             fw_text_printf(&text, "; %s was ", e->set[i].name);

@@ -289,6 +289,8 @@ class Flowback(unittest.TestCase):
         self.assertIn("step S18 went otherwise than planned: it took 6 h 35 min, and is to stop by ", late)
         self.assertNotIn("write down why", late)
         self.expect(self.etch(3, power="262 W"))
+        lost = self.expect(self.command("--entry", "S18; start=2026-11-03T12:10; by=AB; scrapped=cracked in the chuck", "--wafer", "3")).stderr
+        self.assertNotIn("otherwise than planned", lost)  # what became of a wafer took no time
         said = self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", self.here / "lab.xml")).stderr
         told = [line for line in said.splitlines() if "FW-D652" in line]
         self.assertEqual(len(told), 2, said)
