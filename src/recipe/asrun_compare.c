@@ -48,6 +48,10 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
     return actual_s - read_s > booked_stop_s(run, e) ? "long" : "in window";
 }
 
+static bool is_out_of_time(const char *judged) {
+    return strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0;
+}
+
 /* "it took 45 min, and is to stop by 26 min"; NULL: in its window, or there is no plan */
 static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
                              const fw_recipe_asrun_entry *e, const char **how) {
@@ -55,7 +59,7 @@ static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
     const bool brief = strcmp(judged, "short") == 0;
     fw_text text = fw_text_new(arena);
     *how = NULL;
-    if (!brief && strcmp(judged, "long") != 0) return FW_OK;
+    if (!is_out_of_time(judged)) return FW_OK;
     fw_text_add(&text, "it took ");
     fw_schedule_put_duration(&text, e->end_s - e->start_s);
     fw_text_add(&text, brief ? ", before the first look at " : ", and is to stop by ");
@@ -155,8 +159,7 @@ static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
                               const fw_recipe_asrun_entry *e) {
     int together;
     const double actual = e->end_s - e->start_s, loads = loads_of(run, e, &together);
-    const char *judged = fw_recipe_asrun_in_time(run, e);
-    if (strcmp(judged, "short") != 0 && strcmp(judged, "long") != 0) return FW_OK;
+    if (!is_out_of_time(fw_recipe_asrun_in_time(run, e))) return FW_OK;
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
     fw_schedule_put_duration(&planned, e->step->booked_s * loads);
     fw_text_add(&planned, " at the machine; from the first look at ");

@@ -414,7 +414,8 @@ static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e,
         if (!fw_recipe_asrun_allowed(&e->set[i])) {
             fw_text_printf(&text, "; %s was ", e->set[i].name);
             fw_recipe_put_value(&text, e->set[i].value);
-            fw_text_printf(&text, " %s", e->set[i].q->unit);
+            if (strcmp(e->set[i].q->unit, "1") != 0)
+                fw_text_printf(&text, " %s", e->set[i].q->unit);
         }
     if (e->deviation) fw_text_printf(&text, "; written down: %s", e->deviation);
     if (text.length == 0) return FW_OK;

@@ -500,7 +500,8 @@ static fw_status required_factor(fw_arena *arena, const both *is,
                                 : 0;
             FW_TRY(fw_mechanism_plates_buckling(arena, is->soft.why ? &is->rigid : &is->soft,
                                                 &pressed, &tips, &hinge));
-            pressed.enough = fmin(pressed.enough, *factor = fmin(*factor, tips));
+            *factor = fmin(*factor, tips);
+            pressed.enough = fmin(pressed.enough, *factor); /* of the others: do they tip before? */
         }
     }
     *factor *= 1 - is->rigid.error;
