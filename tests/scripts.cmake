@@ -39,6 +39,7 @@ fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/b
                $<TARGET_FILE:flexwright_library>)
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 1200)
 fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/cli/test_advice.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.fitted COMMAND ${Python3_EXECUTABLE} tests/cli/test_fitted.py ${FW_PROGRAM})
 fw_script_test(cli.study COMMAND ${Python3_EXECUTABLE} tests/cli/test_study.py ${FW_PROGRAM} TIMEOUT 1200)
 fw_script_test(cli.sizing COMMAND ${Python3_EXECUTABLE} tests/cli/test_sizing.py ${FW_PROGRAM} TIMEOUT 3600)
 # a cluster of one node; what needs none is tried first, and 77 says that there is no Slurm

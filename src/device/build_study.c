@@ -394,6 +394,24 @@ static void check_inputs(fw_xml_reader *r, const fw_device_study *s) {
     }
 }
 
+/* what response surfaces cannot tell; NULL: they may */
+static const char *unfit(const fw_device_study *s) {
+    if (s->kind != FW_STUDY_IS_sweep) return "fitted=\"...\" belongs to kind=\"sweep\"; remove it";
+    if (s->points == FW_POINTS_LIST)
+        return "a list has few points, and each is judged; remove fitted, or take "
+               "points=\"sobol\"";
+    if (s->judge == FW_JUDGE_MADE)
+        return "fitted=\"...\" tells devices as drawn, since what flows make of them is searched "
+               "in "
+               "each device anew; take as=\"drawn\" or as=\"hinges\", or remove it";
+    for (int k = 0; k < s->nvary; k++)
+        if (s->vary[k].ntext > 0)
+            return "fitted=\"...\" goes between values, and a <vary> lists its own; give it from "
+                   "and "
+                   "to, or remove fitted";
+    return NULL;
+}
+
 /* what a kind needs to have anything to do */
 static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_device_study *s) {
     int goals = 0;
@@ -443,6 +461,7 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
             "make it <vary>";
     if (!what && s->kind != FW_STUDY_IS_sweep && fw_xml_given(record, "points"))
         what = "points belong to kind=\"sweep\"; remove them";
+    if (!what && s->fitted > 0) what = unfit(s);
     if (!what && yield && s->judge != FW_JUDGE_MADE)
         what = "a yield is of devices as they are made; take as=\"made\", or leave as out";
     if (!what && s->kind == FW_STUDY_IS_size && s->judge == FW_JUDGE_HINGES)
@@ -465,6 +484,7 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         .seed = fw_xml_whole_or(record, "seed", 1),
         .confidence = fw_xml_number_or(record, "confidence", 0.95),
         .yield = fw_xml_number_or(record, "yield", 0),
+        .fitted = fw_xml_number_or(record, "fitted", 0),
         .place = record->element->place};
     size_t varied = (size_t)fw_xml_children(record, "vary"),
            uncertain = (size_t)fw_xml_children(record, "uncertain"),

@@ -210,10 +210,12 @@ typedef struct fw_device_study {
     fw_device_study_kind kind;
     fw_device_study_points points;
     fw_device_study_judge judge;
-    int samples;          /* 0: as many as the kind wants */
-    long seed;            /* of random numbers */
-    double confidence;    /* of intervals */
-    double yield;         /* that a size wants; 0: none */
+    int samples;       /* 0: as many as the kind wants */
+    long seed;         /* of random numbers */
+    double confidence; /* of intervals */
+    double yield;      /* that a size wants; 0: none */
+    double
+        fitted; /* what devices of a sweep that are not judged may be off by, of the largest value; 0: all are judged */
     fw_device_vary *vary; /* (nvary) */
     int nvary;
     fw_device_uncertain *uncertain; /* (nuncertain) */

@@ -79,6 +79,11 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
         {"seed",          D_PURE,                                                                  \
          WHOLE,           RANGE(0, 2147483647, "seeds have 31 bits"),                              \
          .fallback = "1", .sentence = "Of random numbers: the same seed gives the same study."},   \
+        {"fitted", D_PURE, ABOVE(0, 0.2, "what is off by more tells nothing"), .fallback = "none", \
+         .sentence =                                                                               \
+             "Of a sweep over a grid or a Sobol' sequence: devices whose decision and numbers "    \
+             "response surfaces tell are not judged. Responses may be off by this share of the "   \
+             "largest one. none: all devices are judged."},                                        \
         {"confidence", D_PURE, ABOVE(0.5, 0.999999, "of an interval"), .fallback = "0.95",         \
          .sentence = "How often intervals hold the truth."},                                       \
     {                                                                                              \

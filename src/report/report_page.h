@@ -16,7 +16,7 @@ const char *fw_report_decision_word(fw_verdict_decision decision); /* "ACCEPT" .
 /* `colour` when it reads #rgb or #rrggbb, else entry `index` of the palette */
 const char *fw_report_layer_colour(const char *colour, int index);
 
-/* ---- report_view.c: from the plane to picture coordinates, y down ---- */
+/* ---- figure.c: from the plane to picture coordinates, y down ---- */
 typedef struct fw_report_view {
     double x0_m, y1_m, scale; /* pixel per m */
     double width, height;

@@ -244,6 +244,8 @@ static fw_status run_as_it_stands(fw_study *study) {
     FW_NEED(design);
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK) status = fw_study_responses_take(study, design, now, &study->diags);
+    if (status == FW_STATUS_OK && study->asked->fitted > 0)
+        study->npart = fw_study_part_count(&fw_plan_design_plan(design)->verdict);
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
     fw_design_free(design);
     study->seconds_each =
@@ -290,6 +292,7 @@ static fw_status find_hash(fw_study *study) {
     add_text(&t, a->name);
     add_real(&t, a->confidence);
     if (a->yield > 0) add_real(&t, a->yield);
+    if (a->fitted > 0) fw_text_add(&t, " fitted"), add_real(&t, a->fitted);
     for (int k = 0; k < a->nvary; k++) {
         const fw_device_vary *v = &a->vary[k];
         add_text(&t, v->what);
@@ -444,10 +447,6 @@ static fw_status open_all(fw_study *study) {
     return run_as_it_stands(study);
 }
 
-static fw_status open_in(fw_study *study) {
-    return open_all(study);
-}
-
 fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
     *study = new_study(options);
     FW_NEED(*study);
@@ -588,7 +587,7 @@ fw_status fw_study_open_merge(const fw_study_options *options, const char *direc
                              "its store does not say which study it is of");
     study->options.file = file;
     study->options.study = name;
-    return open_in(study);
+    return open_all(study);
 }
 
 fw_status fw_study_merge(fw_study *study, const char *const *directory, int n) {

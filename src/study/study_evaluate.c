@@ -173,11 +173,16 @@ double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
 
 /* ---- one device ---- */
 
+const char fw_study_told_by_surface[] = "response surface";
+
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample) {
     *sample = (fw_study_sample){.decision = -1};
     FW_NEED(sample->text = fw_arena_alloc(arena, (size_t)study->ninput, sizeof *sample->text));
     FW_NEED(sample->value = fw_arena_array(arena, double, (size_t)study->ninput));
     FW_NEED(sample->response = fw_arena_array(arena, double, (size_t)study->nresponse));
+    if (study->npart > 0)
+        FW_NEED(sample->part =
+                    fw_arena_array(arena, double, (size_t)(2 * FW_VERDICT_LOOKS * study->npart)));
     return FW_OK;
 }
 
@@ -410,7 +415,40 @@ static double used_of(const fw_verdict *verdict, int decision) {
             if (v->reason[k].decision != FW_ACCEPT && v->reason[k].keep > 0)
                 most = fmax(most, fmin(1 / v->reason[k].keep, 10));
     }
+    return fw_study_used(most, decision);
+}
+
+double fw_study_used(double most, int decision) {
     return decision == 0 ? fmin(most, 1) : fmax(most, beyond);
+}
+
+/* ---- what a decision follows from ---- */
+
+int fw_study_part_count(const fw_verdict *verdict) {
+    int n = verdict->nhinge;
+    for (int i = 0; i < verdict->nvariant; i++)
+        n += verdict->variant[i].nrequirement;
+    return n;
+}
+
+static void take_ends(double low, double high, double **part) {
+    *(*part)++ = isnan(low) ? 0 : low;
+    *(*part)++ = isnan(high) ? 0 : high;
+}
+
+static void take_parts(const fw_study *study, const fw_verdict *verdict, fw_study_sample *sample) {
+    sample->nlook = fw_study_part_count(verdict) == study->npart ? verdict->ncomputed : 0;
+    for (int l = 0; l < sample->nlook; l++) {
+        const fw_verdict_computed *look = &verdict->computed[l];
+        double *part = sample->part + 2 * study->npart * (int)look->refinement;
+        sample->looks[l] = (int)look->refinement;
+        for (int i = 0; i < verdict->nhinge; i++)
+            take_ends(look->hinge[i].utilisation_low, look->hinge[i].utilisation_high, &part);
+        for (int i = 0; i < verdict->nvariant; i++)
+            for (int k = 0; look->requirement[i] && k < verdict->variant[i].nrequirement; k++)
+                take_ends(look->requirement[i][k].utilisation_low,
+                          look->requirement[i][k].utilisation_high, &part);
+    }
 }
 
 bool fw_study_same_files(const fw_study *study, fw_design *design) {
@@ -427,7 +465,7 @@ bool fw_study_same_files(const fw_study *study, fw_design *design) {
 
 static void blank(const fw_study *study, fw_study_sample *sample) {
     sample->run = false, sample->decision = -1, sample->why[0] = '\0';
-    sample->used = (double)NAN;
+    sample->used = (double)NAN, sample->nlook = 0;
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
 }
@@ -441,6 +479,8 @@ int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sam
     sample->run = status == FW_STATUS_OK;
     if (sample->run) {
         sample->decision = fw_design_decision(design);
+        if (sample->decision >= 0 && study->asked && study->asked->fitted > 0)
+            take_parts(study, &fw_plan_design_plan(design)->verdict, sample);
         if (sample->decision >= 0)
             sample->used = used_of(&fw_plan_design_plan(design)->verdict, sample->decision);
     } else

@@ -64,6 +64,8 @@ double fw_study_input_share(const fw_study_input *input, double value);
 
 /* a sample with room for inputs and responses */
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
+/* `why` of a device that was not judged: response surfaces told it (kind_sweep.c) */
+extern const char fw_study_told_by_surface[];
 /* everything but the room that it lies in */
 void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to);
 /* Runs the device of sample->text, with everything read anew and nothing left out, as a command does it: decision and
@@ -80,6 +82,10 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
                             fw_diags *diags);
 /* what a design that was read says: decision and responses, or why not; the library's status */
 int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample);
+/* what the decision of a device as drawn follows from: its hinges and its requirements */
+int fw_study_part_count(const fw_verdict *verdict);
+/* used (limit_used) of a device whose hinges and requirements use at most so much, by what was decided: 0 accepted */
+double fw_study_used(double most, int decision);
 /* what responses need of a design that was read; the library's status */
 int fw_study_stages_run(fw_design *design, unsigned stages);
 /* one hash of all files that a plan has read */
@@ -116,6 +122,8 @@ typedef struct fw_study_work {
     fw_status (*fill)(void *context, long k, fw_study_sample *sample, bool *wanted);
     /* in the calling thread, in the order in which they end; NULL: nobody */
     fw_status (*take)(void *context, const fw_study_sample *sample);
+    bool
+        anew; /* what the store has is judged once more: it does not hold all that `take` wants to know */
     void *context;
 } fw_study_work;
 /* FW_CANCELLED: what was taken before is whole */
@@ -437,7 +445,15 @@ typedef struct fw_study_flow_yield { /* yield of one flow */
     const fw_study_levels *levels; /* NULL: neither a level nor a trend is stated */
 } fw_study_flow_yield;
 
+typedef struct fw_study_fitted { /* a sweep of which response surfaces told the most */
+    long judged, open, told;     /* of which they were made; that they left open; the others */
+    long checked; /* devices of the last round that were told and then judged: all came as told */
+    double *off;  /* (nresponse) what a response that is told may be off by */
+    double used_off; /* likewise of limit_used */
+} fw_study_fitted;
+
 typedef struct fw_study_result {
+    const fw_study_fitted *fitted;                      /* NULL: every device was judged */
     long run, accepted, rejected, inconclusive, failed; /* samples */
     fw_study_extreme *extreme;                          /* (nresponse) */
     const char *example_why; /* of a sample that could not be run; NULL */

@@ -95,6 +95,8 @@ fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *co
    a time. A sample does not know which thread it is in, so the results are the same for any number of them.
    Slots bound the memory: twice as many samples as threads are under way. */
 
+enum { TELL_EACH = 1024 }; /* of samples that are not wanted */
+
 typedef enum slot_state { FREE, GIVEN, TAKEN, ENDED } slot_state; /* TAKEN: by a worker */
 
 typedef struct slot {
@@ -194,7 +196,7 @@ static void wait_ended(pool *p) {
 /* a sample that the store has is taken as it is; the lock is not held */
 static fw_status from_store(pool *p, fw_study_sample *sample, bool *there) {
     *there = false;
-    if (!p->study->store) return FW_OK;
+    if (!p->study->store || p->work->anew) return FW_OK;
     FW_TRY(fw_study_store_get(p->study->store, sample->i, sample, there));
     if (!*there) return FW_OK;
     count(p);
@@ -209,10 +211,11 @@ static fw_status give(pool *p, slot *s, long k, bool *given) {
     FW_TRY(p->work->fill(p->work->context, k, &s->sample, &wanted));
     if (!wanted) {
         count(p);
+        if (k % TELL_EACH == 0) tell(p);
         return FW_OK;
     }
     FW_TRY(from_store(p, &s->sample, &there));
-    if (!there && p->study->stored_only)
+    if (!there && p->study->stored_only && !p->work->anew)
         return fw_diag_error(
             &p->study->diags, 497, (fw_place){.file = p->study->options.file},
             "sample %ld is in none of the shards; run the shard that has it to its "

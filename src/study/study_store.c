@@ -190,7 +190,7 @@ fw_status fw_study_store_said(fw_arena *arena, fw_diags *diags, const char *dire
 static fw_status prepare_all(fw_study_store *store) {
     const fw_study *study = store->study;
     fw_text add = fw_text_new(study->arena), get = fw_text_new(study->arena);
-    fw_text_add(&add, "INSERT INTO sample VALUES (?, ?, ?, ?");
+    fw_text_add(&add, "INSERT OR IGNORE INTO sample VALUES (?, ?, ?, ?");
     for (int k = 0; k < study->ninput + study->nresponse; k++)
         fw_text_add(&add, ", ?");
     fw_text_add(&add, ")");
@@ -384,7 +384,7 @@ fw_status fw_study_store_add(fw_study_store *store, const fw_study_sample *sampl
     sqlite3_bind_int64(s, at++, sample->i);
     sqlite3_bind_text(s, at++, fw_study_state_text(sample->run, sample->decision), -1,
                       SQLITE_STATIC);
-    sqlite3_bind_text(s, at++, sample->run ? NULL : sample->why, -1, SQLITE_TRANSIENT);
+    sqlite3_bind_text(s, at++, sample->why[0] ? sample->why : NULL, -1, SQLITE_TRANSIENT);
     bind_number(s, at++, sample->used);
     for (int k = 0; k < study->ninput; k++, at++)
         if (study->input[k].ntext > 0)
@@ -579,8 +579,8 @@ static fw_status merge_one(fw_study_store *store, const char *directory, int n, 
     sqlite3_finalize(attach);
     if (!done) return failed(store, "a shard could not be read");
     /* what chooses later samples every shard has judged, to the same bits */
-    bool apart =
-        study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity;
+    bool apart = (study->asked->kind == FW_STUDY_IS_sweep && !(study->asked->fitted > 0)) ||
+                 study->asked->kind == FW_STUDY_IS_sensitivity;
     if (!apart) status = agree(store, directory);
     if (status == FW_OK)
         status = run(store,

@@ -93,6 +93,11 @@ fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
     FW_TRY(fw_study_asked_text(study, out));
     fw_text_printf(out, "%s%ld devices in %d threads",
                    study->asked->kind == FW_STUDY_IS_sweep ? "" : "at most ", n, jobs);
+    if (study->asked->fitted > 0) {
+        fw_text_add(out, ", of which response surfaces tell those that they can to within ");
+        percent(out, study->asked->fitted);
+        fw_text_add(out, "; if all were judged");
+    }
     if (study->seconds_each > 0) {
         fw_text_add(out, ", about ");
         seconds(out, study->seconds_each * (double)n / jobs);
@@ -124,7 +129,23 @@ static void say_samples(fw_text *out, const fw_study *study) {
     fw_text_add(out, "\n");
 }
 
+/* of a sweep of which response surfaces told most devices */
+static void say_fitted(fw_text *out, const fw_study *study) {
+    const fw_study_fitted *f = study->result->fitted;
+    if (!f) return;
+    fw_text_printf(out,
+                   "  %ld of them were told by response surfaces of %ld that were judged, %ld more "
+                   "were judged since the surfaces left them open\n",
+                   f->told, f->judged, f->open);
+    if (f->checked > 0)
+        fw_text_printf(out,
+                       "  %ld were told first and then judged, to see: all came as told; so, at "
+                       "95 %%, fewer than 1 in %ld of those told is told wrongly\n",
+                       f->checked, f->checked / 3 > 1 ? f->checked / 3 : 1);
+}
+
 static void say_ranges(fw_text *out, const fw_study *study) {
+    say_fitted(out, study);
     for (int r = 0; r < study->nresponse; r++) {
         const fw_study_response *q = &study->response[r];
         const fw_study_extreme *e = &study->result->extreme[r];
@@ -135,6 +156,10 @@ static void say_ranges(fw_text *out, const fw_study *study) {
         fw_text_printf(out, " (number %ld)", e->largest_at);
         if (e->n < study->result->run + study->result->failed)
             fw_text_printf(out, ", in %ld devices", e->n);
+        if (study->result->fitted && study->result->fitted->told > 0) {
+            fw_text_add(out, "; told ones to within ");
+            number(out, study->result->fitted->off[r], q->unit);
+        }
         fw_text_add(out, "\n");
     }
 }
@@ -390,7 +415,7 @@ static fw_status row(void *context, const fw_study_sample *s) {
     fw_text_printf(&line, "%ld,", s->i);
     fw_text_add(&line, fw_study_state_text(s->run, s->decision));
     fw_text_add(&line, ",");
-    fw_text_csv(&line, s->run ? "" : s->why);
+    fw_text_csv(&line, s->why);
     real(&line, s->used);
     for (int k = 0; k < t->study->ninput; k++)
         if (t->study->input[k].ntext > 0)

@@ -121,11 +121,25 @@ static void responses_json(fw_json *j, const fw_study *study) {
         fw_json_real(j, "min", q->asked->min);
         fw_json_real(j, "max", q->asked->max);
         fw_json_real(j, "now", q->now);
+        if (study->result->fitted) fw_json_real(j, "told_within", study->result->fitted->off[r]);
         extreme(j, &study->result->extreme[r]);
         derivatives(j, study, r);
         ends(j, study, r);
         fw_json_end(j);
     }
+    fw_json_end(j);
+}
+
+static void fitted(fw_json *j, const fw_study *study) {
+    const fw_study_fitted *f = study->result->fitted;
+    if (!f) return;
+    fw_json_object(j, "fitted");
+    fw_json_real(j, "asked", study->asked->fitted);
+    fw_json_whole(j, "judged", f->judged);
+    fw_json_whole(j, "left_open", f->open);
+    fw_json_whole(j, "told", f->told);
+    fw_json_whole(j, "checked", f->checked);
+    fw_json_real(j, "limit_used_within", f->used_off);
     fw_json_end(j);
 }
 
@@ -304,6 +318,7 @@ fw_status fw_study_json(const fw_study *study, fw_text *out) {
     fw_json_end(&j);
     given(&j, study);
     inputs(&j, study);
+    fitted(&j, study);
     responses_json(&j, study);
     size(&j, study);
     if (study->asked->yield > 0) fw_json_real(&j, "wanted_yield", study->asked->yield);

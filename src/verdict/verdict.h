@@ -360,6 +360,21 @@ typedef struct fw_verdict_parameter_advice {
     bool ended; /* before the search was done */
 } fw_verdict_parameter_advice;
 
+/* what is computed once more of a device that is undecided */
+typedef enum fw_verdict_refinement {
+    FW_REFINE_NOTHING,
+    FW_REFINE_NUMBERS, /* tighter numbers alone */
+    FW_REFINE_HINGES   /* those, and a better model of the hinges */
+} fw_verdict_refinement;
+enum { FW_VERDICT_LOOKS = 3 };
+
+/* the numbers of the drawn device, as they were first computed or more closely where that could decide it */
+typedef struct fw_verdict_computed {
+    fw_verdict_refinement refinement;           /* FW_REFINE_NOTHING: the first */
+    const fw_verdict_hinge_verdict *hinge;      /* (nhinge) of the verdict */
+    const fw_verdict_requirement **requirement; /* (nvariant) of each */
+} fw_verdict_computed;
+
 typedef struct fw_verdict {
     fw_verdict_decision decision;        /* as drawn and as made */
     fw_verdict_decision drawn;           /* of the drawn geometry alone */
@@ -381,6 +396,9 @@ typedef struct fw_verdict {
     fw_verdict_parameter_advice *parameter;
     int nparameter;
     const fw_layout *layout; /* what was judged; NULL: it cannot be drawn */
+    fw_verdict_computed
+        computed[FW_VERDICT_LOOKS]; /* (ncomputed) the last one is what the decision stands on */
+    int ncomputed;
 } fw_verdict;
 
 typedef enum fw_verdict_corners {

@@ -11,11 +11,6 @@
 void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other);
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other);
 /* hinges of which some are inconclusive: what may decide them */
-typedef enum fw_verdict_refinement {
-    FW_REFINE_NOTHING,
-    FW_REFINE_NUMBERS, /* tighter numbers alone */
-    FW_REFINE_HINGES   /* those, and a better model of the hinges */
-} fw_verdict_refinement;
 fw_verdict_refinement fw_verdict_refinement_of(const fw_verdict_hinge_verdict *hinge, int nhinge);
 /* accuracy at which numbers decide all that are inconclusive now, were nothing else to change */
 extern const double fw_verdict_tightest; /* accuracy of the closest look */

@@ -230,6 +230,17 @@ static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
     return most;
 }
 
+/* what was computed stays in the arena when it is computed once more */
+static fw_status keep_computed(fw_arena *arena, const fw_verdict *verdict,
+                               fw_verdict_refinement refinement, fw_verdict_computed *look) {
+    *look = (fw_verdict_computed){refinement, verdict->hinge, NULL};
+    FW_NEED(look->requirement =
+                fw_arena_alloc(arena, (size_t)verdict->nvariant, sizeof *look->requirement));
+    for (int i = 0; i < verdict->nvariant; i++)
+        look->requirement[i] = verdict->variant[i].requirement;
+    return FW_OK;
+}
+
 /* no motion makes it accepted: it, or a part of it, cannot be drawn */
 static bool decided_by_drawing(const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict) {
@@ -260,6 +271,9 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device, const fw_verd
     /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
        less than better hinges, which then may not be needed */
     const char *vain;
+    fw_verdict_computed look[FW_VERDICT_LOOKS] = {{.hinge = NULL}};
+    int nlook = 0;
+    FW_TRY(keep_computed(arena, verdict, FW_REFINE_NOTHING, &look[nlook++]));
     for (fw_verdict_refinement last = FW_REFINE_NOTHING;
          verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance &&
          !fw_verdict_no_number_helps(verdict, &vain);) {
@@ -271,7 +285,10 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device, const fw_verd
         *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
         FW_TRY(attempt(arena, device, judged, &tight, &again, verdict));
         verdict->accuracy_wanted = options->motion.accuracy;
+        FW_TRY(keep_computed(arena, verdict, refinement, &look[nlook++]));
     }
+    memcpy(verdict->computed, look, sizeof look);
+    verdict->ncomputed = nlook;
     verdict->layout = judged;
     FW_TRY(as_fabricated(arena, device, judged, options, verdict));
     if (*layout && (*layout)->nfault > 0) /* whatever its motion does */

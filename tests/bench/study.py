@@ -4,6 +4,7 @@
 
     tests/bench/study.py build/flexwright [--designs 1000] [--checks 30] [--rounds 3] [--jobs N]
     tests/bench/study.py build/flexwright --instructions 10 [--as hinges]
+    tests/bench/study.py build/flexwright --designs 1000000 --checks 6 --rounds 1 --jobs 2 --as hinges --fitted 0.01
 
 The reference six-bar as drawn, the width and the arc of every hinge at random, a step load, accuracy 1e-3, the
 verdict of every hinge. Rounds take turns, so that all meet the same noise; times are of the processor, user and
@@ -32,12 +33,12 @@ def device():
     return text.replace(' flow="al-masked-rie"', "").replace('angle="arc"', 'angle="240 deg"')
 
 
-def study(designs, judged):
+def study(designs, judged, fitted=None):
     rows = "".join(f'<vary what="flexure[{h}]/@width" from="{0.8 * w:g} um" to="{1.2 * w:g} um"/>'
                    f'<vary what="flexure[{h}]/@angle" from="200 deg" to="250 deg"/>\n' for h, w in WIDTHS.items())
     hinges = "".join(f'<respond name="{h}" value="hinges[{h}].utilisation"/>' for h in WIDTHS)
     return ('<study xmlns="urn:flexwright:study:1" name="six-bars" kind="sweep" points="sobol" '
-            f'as="{judged}" samples="{designs}" device="device.xml">\n{rows}{hinges}</study>\n')
+            f'as="{judged}" samples="{designs}"{f""" fitted="{fitted}" """ if fitted else ""} device="device.xml">\n{rows}{hinges}</study>\n')
 
 
 def run(*command):
@@ -90,6 +91,7 @@ def main():
         ask.add_argument(f"--{name}", type=int, default=usual)
     ask.add_argument("--instructions", type=int, default=0, metavar="DESIGNS")
     ask.add_argument("--as", dest="judged", choices=("drawn", "hinges"), default="drawn")
+    ask.add_argument("--fitted", metavar="SHARE", help="devices that response surfaces tell are not judged")
     given = ask.parse_args()
     program = given.program.resolve()
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -100,7 +102,7 @@ def main():
             instructions(program, place, given.instructions, given.judged)
             return
         for n in (2, given.designs):
-            (place / f"study-{n}.xml").write_text(study(n, given.judged))
+            (place / f"study-{n}.xml").write_text(study(n, given.judged, given.fitted))
         each, checks, walls, memory = [], [], [], 0
         for turn in range(given.rounds):
             few = run(program, "study", place / "study-2.xml", "-o", place / f"two-{turn}", "--jobs", given.jobs)

@@ -42,7 +42,7 @@ describe("a range", () => {
         assert.equal(await page.inputValue('[aria-label="First input, from"]'), "6 um");
         assert.equal(await page.inputValue('[aria-label="First input, to"]'), "16 um");
         const list = await points(page);
-        assert.ok(list.length >= 201, String(list.length));
+        assert.ok(list.length >= 51 && list.length <= 202, String(list.length));
         assert.ok(list.some((p) => p.x === 8) && list.some((p) => p.x === 6) && list.some((p) => p.x === 16));
         assert.match(await page.textContent(".explore-summary"), /^[A-Z].* from 6 to .* um/);
     });
@@ -74,7 +74,32 @@ describe("a range", () => {
         await page.selectOption('select[aria-label="Vary"]', "width");
         await whole(page);
         assert.equal(asked.length, 0, "what was computed for this very input is remembered");
-        assert.ok((await points(page)).length >= 201);
+        assert.ok((await points(page)).length >= 51);
+    });
+
+    test("what is left out between points lies on the line", async () => {
+        const list = (await points(page)).sort((a, b) => a.x - b.x);
+        const values = list.flatMap((p) => [p.value, p.low, p.high]), span = Math.max(...values) - Math.min(...values);
+        const widest = list.slice(1).map((p, i) => [list[i], p]).sort((a, b) => b[1].x - b[0].x - (a[1].x - a[0].x)).slice(0, 3);
+        assert.ok(widest[0][1].x - widest[0][0].x > 0.051, "something was left out");
+        for (const [a, b] of widest) {
+            const told = check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `width=${(a.x + b.x) / 2} um`);
+            const off = told.governing.utilisation * 100 - (a.value + b.value) / 2;
+            assert.ok(Math.abs(off) < 2e-3 * span, `${off} of ${span}`);
+            assert.equal(told.verdict, a.state);
+        }
+    });
+
+    test("where somebody keeps looking a device is computed", async () => {
+        const before = (await points(page)).map((p) => p.x).sort((a, b) => a - b);
+        const i = before.findIndex((v, k) => k > 0 && v - before[k - 1] > 0.15);
+        assert.ok(i > 0, "a place that was left out");
+        const place = (before[i] + before[i - 1]) / 2;
+        await page.locator('[aria-label="Look at"]').fill(String(Math.round(100 * (place - 6))));
+        await page.waitForFunction((n) => globalThis.flexwright.parts.explore.done.size > n, before.length, { timeout: LONG });
+        const near = (await points(page)).map((p) => p.x).find((v) => Math.abs(v - place) < 0.01);
+        assert.ok(near, String(place));
+        assert.match(await page.textContent(".explore-readout"), new RegExp(`width ${near}`));
     });
 
     test("a place that is looked at is told, and used by one step of the history", async () => {

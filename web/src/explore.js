@@ -6,7 +6,7 @@ import { post } from "./api.js";
 import { begin, inputKey, mayChange, Shown } from "./belong.js";
 import { edit, isPresent, lab } from "./design.js";
 import { announce, button, h, select, setOptions } from "./dom.js";
-import { CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, unitSizes } from "./exploring.js";
+import { bendOf, bent, CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, unitSizes } from "./exploring.js";
 import { ExplorePlot, legendOf, WORDS } from "./exploreplot.js";
 import { number, percent } from "./format.js";
 import { csvOf, saveAs, svgOf } from "./plotfile.js";
@@ -279,10 +279,20 @@ export class Explore {
     async #askLine(spec, key, signal) {
         const [x] = spec.inputs;
         const at = (share) => Number(textOf(x.from + share * (x.to - x.from), "").trim());
-        const ask = (list) => this.#ask(spec, list.map((v) => [textOf(v, x.unit)]), key, signal, (p, i) => this.done.set(list[i], { x: list[i], ...p }));
+        let round = 0;
+        const ask = async (list) => {
+            await this.#ask(spec, list.map((v) => [textOf(v, x.unit)]), key, signal, (p, i) => this.done.set(list[i], { x: list[i], round, bend: 0, ...p }));
+            const points = this.#sorted();
+            points.forEach((p, k) => p.round === round && (p.bend = bendOf(points, k)));
+            round++;
+        };
         this.inAll = POINTS + 2;
         if (x.now >= x.from && x.now <= x.to) await ask([x.now]);
-        for (const round of rounds()) await ask(round.list.map((i) => at(i / POINTS)).filter((v) => !this.done.has(v)));
+        for (const { list, stride } of rounds()) {
+            const some = bent(list.map((i) => at(i / POINTS)).filter((v) => !this.done.has(v)), this.#sorted(), stride);
+            this.inAll -= list.length - some.length;
+            if (some.length) await ask(some);
+        }
         for (let k = 0; k < HALVINGS; k++) { // where the decision changes
             const points = this.#sorted();
             const between = points.slice(1).map((p, i) => [points[i], p]).filter(([a, b]) => a.state !== b.state).slice(0, EDGES);
@@ -357,7 +367,7 @@ export class Explore {
         this.button.classList.toggle("primary", this.showing.of === null || this.showing.former);
         this.message.textContent = busy ? `${this.asked} of ${this.inAll} devices · ${((performance.now() - this.begun) / 1e3).toFixed(1)} s`
             : why !== undefined ? why : this.showing.of === null ? "" : this.showing.former ? "of the former input: something has changed since"
-                : `${this.done.size} devices in ${number(this.seconds, 3)} s${this.whole ? "" : "; not all of it: stopped"}`;
+                : `${this.done.size} devices in ${number(this.seconds, 3)} s${!this.whole ? "; not all of it: stopped" : this.spec.inputs.length === 1 ? ", closer where the line bends" : ""}`;
     }
 
     #look(at) {
@@ -365,6 +375,21 @@ export class Explore {
         const [x] = this.spec.inputs;
         if (!Array.isArray(at)) this.slider.value = Math.round((1000 * (at - x.from)) / (x.to - x.from));
         this.#draw();
+        clearTimeout(this.looking);
+        if (!Array.isArray(at)) this.looking = setTimeout(() => this.#lookCloser(x, at), QUIET_MS);
+    }
+
+    /** Where somebody keeps looking a device is computed, if there is none within a 400th of the range. */
+    async #lookCloser(x, at) {
+        const spec = this.spec, key = this.key, v = Number(textOf(at, "").trim());
+        const near = () => [...this.done.values()].some((p) => Math.abs(p.x - v) <= (x.to - x.from) / 400);
+        if (this.control || !this.whole || key !== this.showing.of || v < x.from || v > x.to || near()) return;
+        const control = (this.closer = new AbortController());
+        try {
+            await this.#ask(spec, [[textOf(v, x.unit)]], key, control.signal, (p) => spec === this.spec && this.done.set(v, { x: v, round: 0, bend: 0, ...p }));
+        } catch (error) {
+            if (!control.signal.aborted && !error.lost) this.#failed([error.message], key);
+        }
     }
 
     #slid() {

@@ -10,7 +10,9 @@ const LEFT_OUT = new Set(["parameter", "study", "vary", "uncertain", "trend", "r
 const ROUND = 4; // digits of an end that was not stated
 export const POINTS = 200; // intervals of a range
 export const CELLS = 32; // of each of two
-const STRIDES = [25, 5, 1];
+const STRIDES = [40, 8, 4, 2, 1];
+const ALWAYS = 4; // up to this stride all points are asked for, beyond it where the line bends
+const FLAT = 1 / 1000; // of the height of what is shown: less cannot be seen
 const MAP_STRIDES = [8, 4, 2, 1];
 
 export const unitSizes = (table) => Object.fromEntries(table.units.map((u, i) => [u, table.unit_factors[i]]));
@@ -124,6 +126,32 @@ export function rounds() {
         for (const i of list) done.add(i);
         return { stride, list };
     });
+}
+
+/** Of the values v of a round those without which the line would be another one. A point lies off the straight line between its
+ *  neighbours by some `bend`; the points halfway to them then lie off by a quarter of that. `points`: what is done, sorted by x,
+ *  with the round that it came in. A first round of such points, and one where the decision or what is known changes, is asked for whole. */
+export function bent(values, points, stride) {
+    if (stride >= ALWAYS) return values;
+    const known = points.filter((p) => Number.isFinite(p.value));
+    const all = known.flatMap((p) => [p.value, p.low, p.high].filter(Number.isFinite));
+    const flat = FLAT * (Math.max(...all) - Math.min(...all));
+    let i = 0;
+    return values.filter((v) => {
+        while (i + 1 < points.length && points[i + 1].x <= v) i++;
+        const [a, b] = [points[i], points[i + 1]];
+        if (!b || a.state !== b.state || !Number.isFinite(a.value) || !Number.isFinite(b.value)) return true;
+        const last = a.round > b.round ? a : b;
+        return !(last.bend / 4 <= flat);
+    });
+}
+
+/** How far point k of points that are sorted by x lies off the straight line between its neighbours, the ends of its band likewise. */
+export function bendOf(points, k) {
+    const [a, p, b] = [points[k - 1], points[k], points[k + 1]];
+    if (!a || !b) return Infinity;
+    const off = ["value", "low", "high"].map((key) => p[key] - (a[key] + ((b[key] - a[key]) * (p.x - a.x)) / (b.x - a.x))).filter(Number.isFinite);
+    return off.length ? Math.max(...off.map(Math.abs)) : Infinity;
 }
 
 /** Likewise of a map: pairs of indices 0..CELLS. */

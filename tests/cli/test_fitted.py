@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A sweep with fitted=...: devices that response surfaces tell are what a sweep that judges all says of them, in any
+number of threads, shards and attempts the same bytes; what surfaces cannot know is refused."""
+import json
+import pathlib
+import shutil
+import sqlite3
+import tempfile
+import unittest
+
+from common import run
+from test_study import ONE_LEAF, study
+
+ROWS = """<vary what="push" from="{low}" to="{high}" steps="16"/>
+<vary what="width" from="7 um" to="9 um" steps="16"/>
+<respond name="U" value="hinges[A].utilisation"/>
+<respond name="turned" value="hinges[A].peak_angle_rad"/>"""
+FILES = ("study.sqlite", "study.csv", "study.json", "study.html")
+
+
+def rows_of(place):
+    with sqlite3.connect(place / "study.sqlite") as store:
+        return store.execute("SELECT * FROM sample ORDER BY i").fetchall()
+
+
+class Fitted(unittest.TestCase):
+    def setUp(self):
+        self.place = pathlib.Path(tempfile.mkdtemp(prefix="fw-fitted-"))
+        self.addCleanup(shutil.rmtree, self.place)
+        # a load that is there at once: what a ramp leaves ringing goes in waves of the width, which no surface follows
+        text = ONE_LEAF.replace(' law="ramp" rise="0.5 ms"', "")
+        assert text != ONE_LEAF
+        (self.place / "leaf.xml").write_text(text)
+
+    def study(self, name, low="40 uN", high="110 uN", rows=ROWS, **more):
+        asked = {"points": "sobol", "samples": 300, "as": "hinges", "fitted": 0.02, **more}
+        path = self.place / f"{name}.xml"
+        path.write_text(study("s", "sweep", rows.format(low=low, high=high), "leaf.xml",
+                              **{k: v for k, v in asked.items() if v is not None}))
+        return path
+
+    def run_study(self, name, *options, **more):
+        out = self.place / name
+        done = run("study", self.study("study", **more), "-o", out, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return out, done.stdout
+
+    def compare(self, told, judged):
+        """decisions, and responses within what is stated; how many were told"""
+        within = json.loads((told / "study.json").read_text())
+        off = [within["fitted"]["limit_used_within"]] + [r["told_within"] for r in within["responses"]]
+        a, b = rows_of(judged), rows_of(told)
+        self.assertEqual([r[0] for r in a], [r[0] for r in b])
+        count, states = 0, set()
+        for is_, said in zip(a, b):
+            if said[2] is None:
+                self.assertEqual(is_, said, "a judged device is the same in both")
+                continue
+            self.assertEqual(said[2], "response surface")
+            self.assertEqual(is_[1], said[1], f"number {is_[0]}")
+            self.assertEqual(is_[4:6], said[4:6])
+            for x, y, far in zip((is_[3], *is_[6:]), (said[3], *said[6:]), off):
+                self.assertLessEqual(abs(x - y), far * (1 + 1e-6) + 1e-6 * abs(x))
+            count, states = count + 1, states | {said[1]}
+        fitted = within["fitted"]
+        self.assertEqual(fitted["told"], count)
+        self.assertEqual(fitted["told"] + fitted["judged"] + fitted["left_open"], len(b))
+        for r, far in zip(range(6, 8), off[1:]):
+            self.assertLessEqual(far, 0.02 * max(abs(row[r]) for row in a) * (1 + 1e-9))
+        return count, states
+
+    def test_told_devices_are_what_judged_ones_are(self):
+        for points, more in (("sobol", {}), ("grid", {"samples": None})):
+            told, said = self.run_study(f"told-{points}", points=points, **more)
+            judged, _ = self.run_study(f"judged-{points}", points=points, fitted=None, **more)
+            count, states = self.compare(told, judged)
+            self.assertGreater(count, 100, said)
+            self.assertEqual(states & {"accept", "reject"}, {"accept", "reject"})
+            self.assertIn(f"{count} of them were told by response surfaces", said)
+            self.assertIn("all came as told", said)
+
+    def test_threads_shards_and_attempts_change_no_byte(self):
+        one, _ = self.run_study("one", "--jobs", "1", samples=200, fitted=0.05)
+        many, _ = self.run_study("many", "--jobs", "3", samples=200, fitted=0.05)
+        path = self.study("study", samples=200, fitted=0.05)
+        shards = [self.place / f"shard{i}" for i in (1, 2)]
+        for i, out in enumerate(shards, 1):
+            self.assertEqual(run("study", path, "-o", out, "--shard", f"{i}/2").returncode, 0)
+        merged = self.place / "merged"
+        done = run("study", "merge", *shards, "-o", merged)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        begun = self.place / "begun"
+        shutil.copytree(one, begun)
+        with sqlite3.connect(begun / "study.sqlite") as store:
+            store.execute("DELETE FROM sample WHERE i % 3 = 1")
+        done = run("study", path, "-o", begun, "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for other in (many, merged, begun):
+            for name in FILES:
+                self.assertEqual((one / name).read_bytes(), (other / name).read_bytes(), f"{other.name}/{name}")
+
+    def test_what_surfaces_know_nothing_of_is_refused(self):
+        """what is searched in each device anew, what lies between no two values, devices that cannot be drawn"""
+        for what, more, says in (
+                ("as made", {"as": "made"}, "since what flows make"),
+                ("a list", {"points": "list", "samples": None}, "a list has few points"),
+                ("words", {"rows": ROWS.replace('from="7 um" to="9 um" steps="16"', 'values="7 um; 8 um"')}, "lists its own"),
+                ("nothing", {"fitted": 0}, "above 0"),
+                ("all of it", {"fitted": 0.5}, "what is off by more tells nothing"),
+                ("not drawn", {"rows": ROWS.replace('to="9 um"', 'to="900 um"')}, "FW-D660")):
+            done = run("study", self.study("refused", **more), "-o", self.place / "refused")
+            self.assertEqual(done.returncode, 3, f"{what}: {done.stdout}{done.stderr}")
+            self.assertIn(says, done.stderr, what)
+
+
+if __name__ == "__main__":
+    unittest.main()
