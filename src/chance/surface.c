@@ -76,13 +76,18 @@ static fw_status number(fw_arena *arena, fw_chance_surface *s) {
     return FW_OK;
 }
 
-static void gram_of(const fit *f) {
+/* points between two looks at a request to stop */
+enum { AT_ONCE = 64 };
+
+static fw_status gram_of(const fw_arena *arena, const fit *f) {
     for (size_t i = 0; i < f->n; i++) {
+        if (i % AT_ONCE == 0 && fw_arena_cancelled(arena)) return FW_CANCELLED;
         const double *v = f->v + i * f->terms;
         for (size_t j = 0; j < f->terms; j++)
             for (size_t k = j; k < f->terms; k++)
                 f->gram[j * f->terms + k] += v[j] * v[k];
     }
+    return FW_OK;
 }
 
 /* gram = L L^T; false: a product is, but for round-off, a sum of those before it at these points */
@@ -167,11 +172,13 @@ static fw_status fit_degree(fw_arena *scratch, size_t n, const double *z, const 
     FW_NEED(missed && size ? missed : NULL);
     for (size_t i = 0; i < n; i++)
         products(s, z + i * s->dimensions, f.v + i * f.terms);
-    gram_of(&f);
+    FW_TRY(gram_of(scratch, &f));
     *found = factor(&f, size);
     if (!*found) return FW_OK;
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
+        if (i % AT_ONCE == 0 && fw_arena_cancelled(scratch)) return FW_CANCELLED;
         orthonormal(&f, f.v + i * f.terms);
+    }
     project(&f, y);
     miss(&f, y, missed, missed + ((size_t)s->degree + 1) * s->columns);
     for (size_t c = 0; c < s->columns; c++) {

@@ -117,8 +117,8 @@ static const double margin = 3;
 typedef struct judged {   /* (n) in the order in which they were chosen */
     long n, before, most; /* before this round; room */
     long *number;
-    double *z, *response, *part, *used; /* (x d), (x R), (x LOOKS x 2 P), (x 1) */
-    int *decision, *nlook, *looks;      /* looks (x LOOKS) */
+    double *z, *response, *part;   /* (x d), (x responses), (x LOOKS x ends) */
+    int *decision, *nlook, *looks; /* looks (x LOOKS) */
 } judged;
 
 typedef struct fitted {
@@ -162,7 +162,6 @@ static fw_status fitted_new(fitted *f, fw_study *study, const sweep *s) {
     FW_NEED(j->z = fw_arena_array(arena, double, most *d));
     FW_NEED(j->response = fw_arena_array(arena, double, most *r));
     FW_NEED(j->part = fw_arena_array(arena, double, most *FW_VERDICT_LOOKS *e));
-    FW_NEED(j->used = fw_arena_array(arena, double, most));
     FW_NEED(j->decision = fw_arena_array(arena, int, 2 * most));
     FW_NEED(j->looks = fw_arena_array(arena, int, most *FW_VERDICT_LOOKS));
     j->nlook = j->decision + most;
@@ -273,7 +272,7 @@ static fw_status take_judged(void *context, const fw_study_sample *sample) {
     if (f->ends > 0)
         memcpy(j->part + k * FW_VERDICT_LOOKS * f->ends, sample->part,
                (size_t)(FW_VERDICT_LOOKS * f->ends) * sizeof(double));
-    j->used[k] = sample->used, j->decision[k] = sample->decision, j->nlook[k] = sample->nlook;
+    j->decision[k] = sample->decision, j->nlook[k] = sample->nlook;
     memcpy(j->looks + k * FW_VERDICT_LOOKS, sample->looks, sizeof sample->looks);
     return FW_OK;
 }
