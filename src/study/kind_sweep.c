@@ -16,7 +16,6 @@
    only surfaces that told no decision otherwise and no response worse than they said are used (so n devices of the last round
    say, at 95 %, that fewer than 3 / n of those that are told are told wrongly). A device that was decided by something else
    than hinges and requirements, or was not run, ends the study: surfaces know nothing of it (FW-D660). */
-#include "base/text.h"
 #include "chance/random.h"
 #include "chance/surface.h"
 #include "study/study_parts.h"
@@ -110,7 +109,6 @@ enum {
     CHECKED_MOST = 1000,          /* and no more */
     LOOKED_AT = 2000,             /* points of which it is found how many stay open */
     ENDS = 1 << FW_VERDICT_LOOKS, /* devices that are undecided at a look were looked at no more */
-    DIGITS = 6                    /* of what is told */
 };
 static const double margin = 3;
 
@@ -132,6 +130,8 @@ typedef struct fitted {
     fw_chance_surface part[FW_VERDICT_LOOKS], response[FW_VERDICT_LOOKS]; /* of what ended there */
     /* where devices that were undecided at a look went: 1 << of the next one, and ENDS */
     int next[FW_VERDICT_LOOKS];
+    int *
+        largest_of; /* (responses) which number of hinges it is the largest of (FW_PART_...); -1: none */
     double *limit; /* (responses) of what is told, how far off it may be */
     double *far;   /* (responses) and is */
     double used_far;
@@ -149,7 +149,7 @@ static bool is_taken(const fitted *f, long k) {
 static fw_status fitted_new(fitted *f, fw_study *study, const sweep *s) {
     fw_arena *arena = study->arena;
     *f = (fitted){.sweep = s, .study = study, .d = study->ninput, .responses = study->nresponse};
-    f->ends = 2 * study->npart;
+    f->ends = FW_PART_NUMBERS * study->npart;
     const size_t d = (size_t)f->d, r = (size_t)f->responses, e = (size_t)f->ends,
                  each = d + r + FW_VERDICT_LOOKS * e + 8;
     size_t most = JUDGED_NUMBERS / each;
@@ -168,6 +168,7 @@ static fw_status fitted_new(fitted *f, fw_study *study, const sweep *s) {
     FW_NEED(f->work = fw_arena_array(arena, double, FW_CHANCE_SURFACE_TERMS));
     FW_NEED(f->z = fw_arena_array(arena, double, d));
     FW_NEED(f->end = fw_arena_array(arena, double, FW_VERDICT_LOOKS *e + 1));
+    FW_NEED(f->largest_of = fw_arena_array(arena, int, r));
     FW_NEED(f->limit = fw_arena_array(arena, double, 5 * r));
     f->far = f->limit + r, f->value = f->far + r, f->least = f->value + r, f->most = f->least + r;
     return fw_study_sample_new(arena, study, &f->sample);
@@ -203,61 +204,50 @@ static fw_status fill_judged(void *context, long k, fw_study_sample *sample, boo
     return at_point(f->sweep, f->at.number[f->at.before + k], sample);
 }
 
-static fw_status refuse(const fitted *f, const fw_study_sample *sample, const char *why) {
-    char text[FW_STUDY_WHY];
-    snprintf(text, sizeof text, "%s", why);
-    return fw_diag_error(
-        &f->study->diags, 660, f->study->asked->place,
-        "fitted: of the devices that were judged, number %ld %s: response surfaces "
-        "know nothing of it; make the ranges narrower, or remove fitted, so that "
-        "all are judged",
-        sample->i, text);
+static fw_status refuse(const fitted *f, const fw_study_sample *sample, const char *why,
+                        const char *what) {
+    return fw_diag_error(&f->study->diags, 660, f->study->asked->place,
+                         "fitted: of the devices that were judged, number %ld %s%.200s: response "
+                         "surfaces know nothing of it; make the ranges narrower, or remove fitted, "
+                         "so that all are judged",
+                         sample->i, why, what);
 }
 
 static int decided_by(const fitted *f, const double *end) {
     int decision = 0;
-    for (int e = 0; e < f->ends; e += 2) {
-        if (end[e] > 1) return 1;
-        if (end[e + 1] > 1) decision = 4;
+    for (int e = 0; e < f->ends; e += FW_PART_NUMBERS) {
+        if (end[e + FW_PART_LOW] > 1) return 1;
+        if (end[e + FW_PART_HIGH] > 1) decision = 4;
     }
     return decision;
 }
 
 static double most_of(const fitted *f, const double *end) {
     double most = 0;
-    for (int e = 1; e < f->ends; e += 2)
+    for (int e = FW_PART_HIGH; e < f->ends; e += FW_PART_NUMBERS)
         most = fmax(most, end[e]);
     return most;
 }
 
 /* can surfaces know of it? */
 static fw_status check_judged(const fitted *f, const fw_study_sample *sample) {
-    if (!sample->run) {
-        char why[FW_STUDY_WHY];
-        snprintf(why, sizeof why, "could not be judged (%.200s)", sample->why);
-        return refuse(f, sample, why);
-    }
+    if (!sample->run) return refuse(f, sample, "could not be judged, ", sample->why);
     for (int r = 0; r < f->responses; r++)
-        if (!isfinite(sample->response[r])) {
-            char why[FW_STUDY_WHY];
-            snprintf(why, sizeof why, "has no value of '%.100s'",
-                     f->study->response[r].asked->name);
-            return refuse(f, sample, why);
-        }
+        if (!isfinite(sample->response[r]))
+            return refuse(f, sample, "has no value of ", f->study->response[r].asked->name);
     if (sample->decision < 0) return FW_OK; /* nothing is decided of any */
     if (sample->nlook == 0)
         return refuse(f, sample,
-                      "has other hinges or requirements than the description has, if that can be "
-                      "judged as it stands");
+                      "has other hinges or requirements than the description as it stands", "");
     const double *end = sample->part + f->ends * sample->looks[sample->nlook - 1];
     for (int e = 0; e < f->ends; e++)
-        if (!isfinite(end[e])) return refuse(f, sample, "has a band without ends");
+        if (!isfinite(end[e])) return refuse(f, sample, "has a band without ends", "");
     const bool follows =
         decided_by(f, end) == sample->decision &&
         fabs(fw_study_used(most_of(f, end), sample->decision) - sample->used) < 1e-9 * sample->used;
-    return follows
-               ? FW_OK
-               : refuse(f, sample, "is decided by something else than its hinges and requirements");
+    return follows ? FW_OK
+                   : refuse(f, sample,
+                            "is decided by something else than its hinges and requirements", "");
 }
 
 static fw_status take_judged(void *context, const fw_study_sample *sample) {
@@ -321,6 +311,27 @@ static void learn_next(fitted *f) {
         }
 }
 
+/* is a response the largest of these numbers of all hinges, in every device that was judged? */
+static bool is_largest(const fitted *f, int r, int number) {
+    const judged *j = &f->at;
+    for (long k = 0; k < j->n; k++) {
+        const double *end = j->part + (k * FW_VERDICT_LOOKS + last_look(j, k)) * f->ends;
+        double most = -HUGE_VAL;
+        for (int e = number; e < FW_PART_NUMBERS * f->study->nhinge; e += FW_PART_NUMBERS)
+            most = fmax(most, end[e]);
+        if (!(fabs(j->response[k * f->responses + r] - most) <= 1e-12 * fabs(most))) return false;
+    }
+    return f->ends > 0;
+}
+
+static void find_largest(fitted *f) {
+    for (int r = 0; r < f->responses; r++) {
+        f->largest_of[r] = -1;
+        for (int number = 0; number < FW_PART_NUMBERS && f->largest_of[r] < 0; number++)
+            if (is_largest(f, r, number)) f->largest_of[r] = number;
+    }
+}
+
 static fw_status fit_all(fitted *f) {
     fw_arena_free(f->fits);
     FW_NEED(f->fits = fw_arena_part(f->study->arena, 0));
@@ -329,6 +340,7 @@ static fw_status fit_all(fitted *f) {
         FW_TRY(fit_look(f, look, true, &f->response[look]));
     }
     learn_next(f);
+    find_largest(f);
     f->made = true;
     return FW_OK;
 }
@@ -352,6 +364,16 @@ static void told_new(const fitted *f, told *t) {
         t->least[r] = HUGE_VAL, t->most[r] = -HUGE_VAL;
 }
 
+/* The largest of the hinges' numbers has an edge wherever another hinge comes to be it; each by itself has none. */
+static void largest_hinge(const fitted *f, int look, int number, double *least, double *most) {
+    const double *end = f->end + look * f->ends;
+    *least = *most = -HUGE_VAL;
+    for (int e = number; e < FW_PART_NUMBERS * f->study->nhinge; e += FW_PART_NUMBERS) {
+        *least = fmax(*least, end[e] - off(&f->part[look], e));
+        *most = fmax(*most, end[e] + off(&f->part[look], e));
+    }
+}
+
 /* it may end at this look */
 static void ends_at(const fitted *f, int look, int decision, const double *z, told *t) {
     const fw_chance_surface *s = &f->response[look];
@@ -361,11 +383,13 @@ static void ends_at(const fitted *f, int look, int decision, const double *z, to
     t->decision = decision;
     fw_chance_surface_at(s, z, f->work, f->value);
     for (int r = 0; r < f->responses; r++) {
-        t->least[r] = fmin(t->least[r], f->value[r] - off(s, r));
-        t->most[r] = fmax(t->most[r], f->value[r] + off(s, r));
+        double at_least = f->value[r] - off(s, r), at_most = f->value[r] + off(s, r);
+        if (f->largest_of[r] >= 0) largest_hinge(f, look, f->largest_of[r], &at_least, &at_most);
+        t->least[r] = fmin(t->least[r], at_least);
+        t->most[r] = fmax(t->most[r], at_most);
     }
     double least = 0, most = 0;
-    for (int e = 1; e < f->ends; e += 2) {
+    for (int e = FW_PART_HIGH; e < f->ends; e += FW_PART_NUMBERS) {
         least = fmax(least, end[e] - off(&f->part[look], e));
         most = fmax(most, end[e] + off(&f->part[look], e));
     }
@@ -381,12 +405,12 @@ static ways ways_of(const fitted *f, int look, const double *end) {
     const fw_chance_surface *s = &f->part[look];
     ways w = {.accept = true};
     bool surely_accepted = true, surely_rejected = false;
-    for (int e = 0; e < f->ends; e += 2) {
-        const double low = off(s, e), high = off(s, e + 1);
-        w.reject = w.reject || end[e] + low > 1;
-        surely_rejected = surely_rejected || end[e] - low > 1;
-        w.accept = w.accept && end[e + 1] - high <= 1;
-        surely_accepted = surely_accepted && end[e + 1] + high <= 1;
+    for (int e = 0; e < f->ends; e += FW_PART_NUMBERS) {
+        const int l = e + FW_PART_LOW, h = e + FW_PART_HIGH;
+        w.reject = w.reject || end[l] + off(s, l) > 1;
+        surely_rejected = surely_rejected || end[l] - off(s, l) > 1;
+        w.accept = w.accept && end[h] - off(s, h) <= 1;
+        surely_accepted = surely_accepted && end[h] + off(s, h) <= 1;
     }
     w.undecided = !surely_accepted && !surely_rejected;
     w.accept = w.accept && !surely_rejected;
@@ -504,14 +528,6 @@ static fw_status make_surfaces(fitted *f) {
 
 /* ---- the others ---- */
 
-static double rounded(double value) {
-    char text[40];
-    double read = value;
-    fw_number_text(text, sizeof text, value, DIGITS);
-    fw_number_parse(text, strlen(text), &read);
-    return read;
-}
-
 static fw_status fill_told(void *context, long k, fw_study_sample *sample, bool *wanted) {
     fitted *f = context;
     told t;
@@ -525,10 +541,10 @@ static fw_status fill_told(void *context, long k, fw_study_sample *sample, bool 
     *wanted = t.open;
     if (*wanted) return FW_OK;
     sample->run = true, sample->decision = t.decision;
-    sample->used = f->ends > 0 ? rounded(0.5 * (t.used[0] + t.used[1])) : (double)NAN;
+    sample->used = f->ends > 0 ? fw_study_rounded(0.5 * (t.used[0] + t.used[1])) : (double)NAN;
     if (f->ends > 0) f->used_far = fmax(f->used_far, 0.5 * (t.used[1] - t.used[0]));
     for (int r = 0; r < f->responses; r++) {
-        sample->response[r] = rounded(0.5 * (t.least[r] + t.most[r]));
+        sample->response[r] = fw_study_rounded(0.5 * (t.least[r] + t.most[r]));
         f->far[r] = fmax(f->far[r], half(&t, r));
     }
     snprintf(sample->why, FW_STUDY_WHY, "%s", fw_study_told_by_surface);

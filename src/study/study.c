@@ -245,7 +245,7 @@ static fw_status run_as_it_stands(fw_study *study) {
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK) status = fw_study_responses_take(study, design, now, &study->diags);
     if (status == FW_STATUS_OK && study->asked->fitted > 0)
-        study->npart = fw_study_part_count(&fw_plan_design_plan(design)->verdict);
+        fw_study_parts_of(&fw_plan_design_plan(design)->verdict, study);
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
     fw_design_free(design);
     study->seconds_each =

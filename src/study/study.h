@@ -75,8 +75,8 @@ typedef struct fw_study_sample {
     /* largest share of a limit that any hinge or requirement uses, at the upper end of its band and over all
        that the flows make of it; above 1 where it is not accepted; NaN: not judged */
     double used;
-    /* (FW_VERDICT_LOOKS x study->npart x 2) of the drawn device, look by look: the ends of the band of every hinge, then of
-       every requirement; 0: it has none. NULL where npart is 0 */
+    /* (FW_VERDICT_LOOKS x study->npart x FW_PART_NUMBERS) of the drawn device, look by look: what every hinge, then every requirement
+       uses of its limit, both ends of its band and the value; 0: it has none. NULL where npart is 0 */
     double *part;
     int looks[FW_VERDICT_LOOKS]; /* (nlook) which, in order (fw_verdict_refinement) */
     int nlook;                   /* 0: it has other hinges or requirements than the description */
@@ -103,12 +103,13 @@ typedef struct fw_study {
     int ninput, nvary, nsetting;
     fw_study_response *response; /* (nresponse) */
     int nresponse;
-    unsigned stages;     /* FW_STUDY_STAGE_..., what the responses need */
-    int npart;           /* hinges and requirements, where devices are told by them; else 0 */
-    fw_design *design;   /* the description as it stands; of a yield judged as drawn */
-    fw_design *former;   /* as it was first read: places are of it; NULL: the same */
-    fw_plan *plan;       /* of `design` */
-    double seconds_each; /* what the description as it stands took, all its stages; CPU */
+    unsigned stages; /* FW_STUDY_STAGE_..., what the responses need */
+    /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
+    int npart, nhinge;
+    fw_design *design;            /* the description as it stands; of a yield judged as drawn */
+    fw_design *former;            /* as it was first read: places are of it; NULL: the same */
+    fw_plan *plan;                /* of `design` */
+    double seconds_each;          /* what the description as it stands took, all its stages; CPU */
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
     struct fw_study_engines *engines; /* what samples have in common */

@@ -16,7 +16,10 @@
    Numbers in SI inside, texts as --set takes them outside. What counts is the text: the value of a sample is the
    one that its text has. Test: tests/unit/study/test_response.c */
 
-enum { SWEPT = 12 }; /* digits of a step, as those of a wafer's sweep */
+enum {
+    SWEPT = 12,
+    TOLD = 6
+}; /* digits of a step, as those of a wafer's sweep; of what is told and not judged */
 
 fw_status fw_study_input_write(const fw_study_input *input, double value, int digits,
                                char text[FW_STUDY_TEXT], double *shown) {
@@ -28,6 +31,14 @@ fw_status fw_study_input_write(const fw_study_input *input, double value, int di
     int n = snprintf(text, FW_STUDY_TEXT, "%s%s%s", number, *input->unit_text ? " " : "",
                      input->unit_text);
     return n < FW_STUDY_TEXT ? FW_OK : FW_LIMIT;
+}
+
+double fw_study_rounded(double value) {
+    char text[40];
+    double read = value;
+    fw_number_text(text, sizeof text, value, TOLD);
+    fw_number_parse(text, strlen(text), &read);
+    return read;
 }
 
 int fw_study_input_steps(const fw_study_input *input) {
@@ -181,8 +192,8 @@ fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_s
     FW_NEED(sample->value = fw_arena_array(arena, double, (size_t)study->ninput));
     FW_NEED(sample->response = fw_arena_array(arena, double, (size_t)study->nresponse));
     if (study->npart > 0)
-        FW_NEED(sample->part =
-                    fw_arena_array(arena, double, (size_t)(2 * FW_VERDICT_LOOKS * study->npart)));
+        FW_NEED(sample->part = fw_arena_array(
+                    arena, double, (size_t)(FW_PART_NUMBERS * FW_VERDICT_LOOKS * study->npart)));
     return FW_OK;
 }
 
@@ -424,30 +435,38 @@ double fw_study_used(double most, int decision) {
 
 /* ---- what a decision follows from ---- */
 
-int fw_study_part_count(const fw_verdict *verdict) {
+static int part_count(const fw_verdict *verdict) {
     int n = verdict->nhinge;
     for (int i = 0; i < verdict->nvariant; i++)
         n += verdict->variant[i].nrequirement;
     return n;
 }
 
-static void take_ends(double low, double high, double **part) {
+void fw_study_parts_of(const fw_verdict *verdict, fw_study *study) {
+    study->npart = part_count(verdict), study->nhinge = verdict->nhinge;
+}
+
+static void take_part(double low, double high, double value, double **part) {
     *(*part)++ = isnan(low) ? 0 : low;
     *(*part)++ = isnan(high) ? 0 : high;
+    *(*part)++ = isnan(value) ? 0 : value;
 }
 
 static void take_parts(const fw_study *study, const fw_verdict *verdict, fw_study_sample *sample) {
-    sample->nlook = fw_study_part_count(verdict) == study->npart ? verdict->ncomputed : 0;
+    sample->nlook = part_count(verdict) == study->npart ? verdict->ncomputed : 0;
     for (int l = 0; l < sample->nlook; l++) {
         const fw_verdict_computed *look = &verdict->computed[l];
-        double *part = sample->part + 2 * study->npart * (int)look->refinement;
+        double *part = sample->part + FW_PART_NUMBERS * study->npart * (int)look->refinement;
         sample->looks[l] = (int)look->refinement;
-        for (int i = 0; i < verdict->nhinge; i++)
-            take_ends(look->hinge[i].utilisation_low, look->hinge[i].utilisation_high, &part);
+        for (int i = 0; i < verdict->nhinge; i++) {
+            const fw_verdict_hinge_verdict *h = &look->hinge[i];
+            take_part(h->utilisation_low, h->utilisation_high, h->utilisation, &part);
+        }
         for (int i = 0; i < verdict->nvariant; i++)
-            for (int k = 0; look->requirement[i] && k < verdict->variant[i].nrequirement; k++)
-                take_ends(look->requirement[i][k].utilisation_low,
-                          look->requirement[i][k].utilisation_high, &part);
+            for (int k = 0; look->requirement[i] && k < verdict->variant[i].nrequirement; k++) {
+                const fw_verdict_requirement *r = &look->requirement[i][k];
+                take_part(r->utilisation_low, r->utilisation_high, r->utilisation, &part);
+            }
     }
 }
 

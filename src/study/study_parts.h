@@ -45,6 +45,8 @@ bool fw_study_response_find(const fw_study_response *response, const json_t *roo
 /* the text of a value (SI), so many digits in the input's unit, and the value that this text has */
 fw_status fw_study_input_write(const fw_study_input *input, double value, int digits,
                                char text[FW_STUDY_TEXT], double *shown);
+/* a number that was told and not judged, in as many digits as that may have */
+double fw_study_rounded(double value);
 /* step k of an input: listed, or between from and to */
 fw_status fw_study_input_step(const fw_study_input *input, int k, char text[FW_STUDY_TEXT],
                               double *value);
@@ -82,8 +84,9 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
                             fw_diags *diags);
 /* what a design that was read says: decision and responses, or why not; the library's status */
 int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample);
-/* what the decision of a device as drawn follows from: its hinges and its requirements */
-int fw_study_part_count(const fw_verdict *verdict);
+enum { FW_PART_LOW, FW_PART_HIGH, FW_PART_VALUE, FW_PART_NUMBERS }; /* numbers of a part */
+/* what the decision of a device as drawn follows from: its hinges and its requirements, npart and nhinge */
+void fw_study_parts_of(const fw_verdict *verdict, fw_study *study);
 /* used (limit_used) of a device whose hinges and requirements use at most so much, by what was decided: 0 accepted */
 double fw_study_used(double most, int decision);
 /* what responses need of a design that was read; the library's status */

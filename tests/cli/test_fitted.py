@@ -10,7 +10,7 @@ import tempfile
 import unittest
 
 from common import run
-from test_study import ONE_LEAF, study
+from test_study import ONE_LEAF, bare, study
 
 ROWS = """<vary what="push" from="{low}" to="{high}" steps="16"/>
 <vary what="width" from="7 um" to="9 um" steps="16"/>
@@ -79,6 +79,31 @@ class Fitted(unittest.TestCase):
             self.assertEqual(states & {"accept", "reject"}, {"accept", "reject"})
             self.assertIn(f"{count} of them were told by response surfaces", said)
             self.assertIn("all came as told", said)
+
+    def test_the_hinge_that_governs_may_be_another_one(self):
+        """the largest of many has edges where another comes to be it, which a surface through it would not follow"""
+        (self.place / "bare.xml").write_text(bare())
+        rows = """<vary what="flexure[F]/@width" from="8 um" to="12 um"/>
+            <vary what="flexure[A]/@width" from="7 um" to="11 um"/>
+            <respond name="governing" value="governing.utilisation"/>
+            <respond name="highest" value="hinges[*].utilisation_band[1]" take="largest"/>
+            <respond name="F" value="hinges[F].utilisation"/>
+            <respond name="A" value="hinges[A].utilisation"/>"""
+        for name, more in (("told", {"fitted": "0.01", "samples": 3000}), ("judged", {"samples": 400})):
+            path = self.place / f"{name}.xml"
+            path.write_text(study("s", "sweep", rows, "bare.xml", points="sobol", **{"as": "hinges"}, **more))
+            done = run("study", path, "-o", self.place / name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        said = json.loads((self.place / "told/study.json").read_text())
+        self.assertGreater(said["fitted"]["told"], 2600)
+        off = [r["told_within"] for r in said["responses"]]
+        governs = set()
+        for is_, told in zip(rows_of(self.place / "judged"), rows_of(self.place / "told")):
+            self.assertEqual(is_[1], told[1])
+            for x, y, far in zip(is_[6:], told[6:], off):
+                self.assertLessEqual(abs(x - y), far + 1e-6 * x, str(is_))
+            governs.add("A" if is_[9] > is_[8] else "F")
+        self.assertEqual(governs, {"A", "F"})
 
     def test_threads_shards_and_attempts_change_no_byte(self):
         one, _ = self.run_study("one", "--jobs", "1", samples=200, fitted=0.05)
