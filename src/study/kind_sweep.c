@@ -528,6 +528,13 @@ static fw_status make_surfaces(fitted *f) {
 
 /* ---- the others ---- */
 
+/* the middle, rounded; *far: the most that the truth may be away */
+static double told_as(double least, double most, double *far) {
+    const double value = fw_study_rounded(0.5 * (least + most));
+    *far = fmax(*far, fmax(most - value, value - least));
+    return value;
+}
+
 static fw_status fill_told(void *context, long k, fw_study_sample *sample, bool *wanted) {
     fitted *f = context;
     told t;
@@ -541,12 +548,9 @@ static fw_status fill_told(void *context, long k, fw_study_sample *sample, bool 
     *wanted = t.open;
     if (*wanted) return FW_OK;
     sample->run = true, sample->decision = t.decision;
-    sample->used = f->ends > 0 ? fw_study_rounded(0.5 * (t.used[0] + t.used[1])) : (double)NAN;
-    if (f->ends > 0) f->used_far = fmax(f->used_far, 0.5 * (t.used[1] - t.used[0]));
-    for (int r = 0; r < f->responses; r++) {
-        sample->response[r] = fw_study_rounded(0.5 * (t.least[r] + t.most[r]));
-        f->far[r] = fmax(f->far[r], half(&t, r));
-    }
+    sample->used = f->ends > 0 ? told_as(t.used[0], t.used[1], &f->used_far) : (double)NAN;
+    for (int r = 0; r < f->responses; r++)
+        sample->response[r] = told_as(t.least[r], t.most[r], &f->far[r]);
     snprintf(sample->why, FW_STUDY_WHY, "%s", fw_study_told_by_surface);
     return fw_study_keep(f->study, sample);
 }
