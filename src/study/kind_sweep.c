@@ -5,12 +5,10 @@
    With fitted="0.01" most devices are told and not judged. Of those that are judged first, response surfaces
    (chance/surface.h) are made: of the responses, and of what decisions follow from, the ends of the band of every hinge and
    requirement, for each look at them (verdict.h), since a closer look moves all of them at once. A surface is taken to be off
-   by at most `margin` times the worst that it misses one of its own devices by with that left out. Then a device is
-
-     accepted      all upper ends, and what they may be off by, are below 1
-     rejected      a lower end, less what it may be off by, is above 1
-     inconclusive  it is surely neither, and no device like it was looked at more closely;
-                   where all like it were, the surfaces of that closer look are asked
+   by at most `margin` times the worst that it misses one of its own devices by with that left out. A look accepts where all upper
+   ends, and what they may be off by, are below 1, and rejects where a lower end less that is above 1; between, both may be, and the device
+   may go where judged ones that were undecided there went: on to a closer look, or to its end. It is told where all ways that it may go
+   end in one decision, and no response is off by more than was asked for,
 
    and anything else is judged. Devices are judged in rounds, half as many again each, which are told first and then judged:
    only surfaces that told no decision otherwise and no response worse than they said are used (so n devices of the last round
@@ -101,10 +99,10 @@ static fw_status check_points(fw_study *study, long n) {
 /* ---- devices that are judged, of which surfaces are made ---- */
 
 enum {
-    FIRST_LEAST = 96, /* devices of the first round, and so many for each term of a plane */
-    FIRST_EACH = 5,
-    JUDGED_MOST = 10000, /* of which surfaces are made */
-    JUDGED_NUMBERS = 3000000,
+    FIRST_LEAST = 96,
+    FIRST_EACH = 5, /* devices of the first round, at all and of each term of a plane */
+    JUDGED_MOST = 10000,
+    JUDGED_NUMBERS = 3000000,     /* of which surfaces are made; of theirs that are kept */
     CHECKED_EACH = 1000,          /* one of so many, */
     CHECKED_MOST = 1000,          /* and no more */
     LOOKED_AT = 2000,             /* points of which it is found how many stay open */
@@ -259,9 +257,8 @@ static fw_status take_judged(void *context, const fw_study_sample *sample) {
     FW_TRY(check_judged(f, sample));
     place_of(f, sample, j->z + k * f->d);
     memcpy(j->response + k * f->responses, sample->response, (size_t)f->responses * sizeof(double));
-    if (f->ends > 0)
-        memcpy(j->part + k * FW_VERDICT_LOOKS * f->ends, sample->part,
-               (size_t)(FW_VERDICT_LOOKS * f->ends) * sizeof(double));
+    for (int e = 0; e < FW_VERDICT_LOOKS * f->ends; e++)
+        j->part[k * FW_VERDICT_LOOKS * f->ends + e] = sample->part[e];
     j->decision[k] = sample->decision, j->nlook[k] = sample->nlook;
     memcpy(j->looks + k * FW_VERDICT_LOOKS, sample->looks, sizeof sample->looks);
     return FW_OK;
@@ -491,7 +488,7 @@ static fw_status count_open(fitted *f) {
 
 /* devices of the last round that were told before they were judged, at least */
 static long checks_wanted(long n) {
-    return n / CHECKED_EACH < CHECKED_MOST ? n / CHECKED_EACH : CHECKED_MOST;
+    return n < CHECKED_EACH * CHECKED_MOST ? n / CHECKED_EACH : CHECKED_MOST;
 }
 
 /* Rounds go on while what stays open costs more than the next one, whose devices are of the study as well: only those cost

@@ -12,10 +12,11 @@ import unittest
 from common import run
 from test_study import ONE_LEAF, bare, study
 
-ROWS = """<vary what="push" from="{low}" to="{high}" steps="16"/>
-<vary what="width" from="7 um" to="9 um" steps="16"/>
+ROWS = """<vary what="push" from="{low}" to="{high}" steps="14"/>
+<vary what="width" from="7 um" to="9 um" steps="14"/>
 <respond name="U" value="hinges[A].utilisation"/>
 <respond name="turned" value="hinges[A].peak_angle_rad"/>"""
+FEW = {"samples": 150, "fitted": 0.05, "low": "20 uN", "high": "60 uN"}  # none near its limit, which costs most
 FILES = ("study.sqlite", "study.csv", "study.json", "study.html")
 
 
@@ -34,7 +35,7 @@ class Fitted(unittest.TestCase):
         (self.place / "leaf.xml").write_text(text)
 
     def study(self, name, low="40 uN", high="110 uN", rows=ROWS, **more):
-        asked = {"points": "sobol", "samples": 300, "as": "hinges", "fitted": 0.02, **more}
+        asked = {"points": "sobol", "samples": 240, "as": "hinges", "fitted": 0.02, **more}
         path = self.place / f"{name}.xml"
         path.write_text(study("s", "sweep", rows.format(low=low, high=high), "leaf.xml",
                               **{k: v for k, v in asked.items() if v is not None}))
@@ -75,7 +76,7 @@ class Fitted(unittest.TestCase):
             told, said = self.run_study(f"told-{points}", points=points, **more)
             judged, _ = self.run_study(f"judged-{points}", points=points, fitted=None, **more)
             count, states = self.compare(told, judged)
-            self.assertGreater(count, 100, said)
+            self.assertGreater(count, 50, said)
             self.assertEqual(states & {"accept", "reject"}, {"accept", "reject"})
             self.assertIn(f"{count} of them were told by response surfaces", said)
             self.assertIn("all came as told", said)
@@ -106,9 +107,9 @@ class Fitted(unittest.TestCase):
         self.assertEqual(governs, {"A", "F"})
 
     def test_threads_shards_and_attempts_change_no_byte(self):
-        one, _ = self.run_study("one", "--jobs", "1", samples=200, fitted=0.05)
-        many, _ = self.run_study("many", "--jobs", "3", samples=200, fitted=0.05)
-        path = self.study("study", samples=200, fitted=0.05)
+        one, _ = self.run_study("one", "--jobs", "1", **FEW)
+        many, _ = self.run_study("many", "--jobs", "3", **FEW)
+        path = self.study("study", **FEW)
         shards = [self.place / f"shard{i}" for i in (1, 2)]
         for i, out in enumerate(shards, 1):
             self.assertEqual(run("study", path, "-o", out, "--shard", f"{i}/2").returncode, 0)
@@ -130,7 +131,7 @@ class Fitted(unittest.TestCase):
         for what, more, says in (
                 ("as made", {"as": "made"}, "since what flows make"),
                 ("a list", {"points": "list", "samples": None}, "a list has few points"),
-                ("words", {"rows": ROWS.replace('from="7 um" to="9 um" steps="16"', 'values="7 um; 8 um"')}, "lists its own"),
+                ("words", {"rows": ROWS.replace('from="7 um" to="9 um" steps="14"', 'values="7 um; 8 um"')}, "lists its own"),
                 ("nothing", {"fitted": 0}, "above 0"),
                 ("all of it", {"fitted": 0.5}, "what is off by more tells nothing"),
                 ("not drawn", {"rows": ROWS.replace('to="9 um"', 'to="900 um"')}, "FW-D660")):
