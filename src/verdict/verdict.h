@@ -191,6 +191,7 @@ typedef struct fw_verdict_requirement {
     double numeric; /* part of the band on either side that a tighter run would take away */
     double lasting; /* relative part of it that no better model of the hinges would take away */
     double t_s;     /* when; NaN: no one time */
+    double rings;   /* of a final value, by how much it still goes to and fro; else 0 */
     /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
     double all_low, all_high;
     fw_verdict_decision decision;

@@ -110,6 +110,9 @@ struct fw_verdict_shaken {
     double *factor;
     double late; /* what of a largest way may be there at the end besides, for phases run apart */
 };
+/* does a law go to and fro in the scene? */
+fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                               bool *shaken);
 /* v->shaken, whose factors are 1 where no law goes to and fro; bodies (nscene): share that they give
    (fw_verdict_bending_share). A warning (FW-D642), and what may meet then, or may not, is undecided */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,

@@ -565,6 +565,24 @@ class Probe(unittest.TestCase):
         self.assertEqual(len(verdict["requirements"]), len(bounds))
         return verdict["requirements"], verdict
 
+    def test_a_final_value_of_what_rings_is_anywhere_in_its_ring(self):
+        """a stage that nothing damps is drawn aside within a millisecond: 40 ms later nobody knows where in its swing it is"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8")
+        text = text.replace('rise="20 ms"', 'rise="1 ms"')
+        asked = '<require probe="stroke" measure="final" min="40 um" scene="draw"/>'
+        options = ("check", "--json", "--corners", "none", "--advice", "none")
+        for damped, bound, verdict in ((False, "45 um", "inconclusive"), (False, "90 um", "accept"), (True, "90 um", "accept")):
+            device = text if damped else text.replace('<air kind="slide" gap="10 um"/>', "")
+            device = device.replace(asked, f'<require probe="stroke" measure="final" max="{bound}" scene="draw"/>')
+            done = run(options[0], self.file(device), *options[1:])
+            answer = json.loads(done.stdout)
+            final = next(r for r in answer["requirements"] if r["measure"] == "final")
+            self.assertEqual(final["verdict"], verdict, (damped, bound, final))
+            low, high = final["band"]
+            self.assertEqual(low < 45e-6 and high > 70e-6, not damped, (damped, bound, final))
+            told = "has not come to rest (where it ends it still goes to and fro by 15.06 um to either side" in done.stdout
+            self.assertEqual(told, verdict == "inconclusive", (damped, bound))
+
     def test_a_band_is_what_motion_and_model_are_off_by(self):
         """value, error and how far a probe goes are those of the motion; the model is off by one share of how far it goes, of all measures"""
         asked, verdict = self.required([(a, -1e3, None) for a in self.ASKED])
