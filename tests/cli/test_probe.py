@@ -395,6 +395,24 @@ class Probe(unittest.TestCase):
         self.assertEqual(verdict["verdict"], "accept")
         self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - began, 15)
 
+    def test_a_scene_in_which_nothing_moves_is_told(self):
+        """a most of a displacement, and the limit of every hinge, are met by a device that nobody drives"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8").replace('min="40 um"', 'max="60 um"')
+        asked = text[text.index("<probe"):text.index("<require frequency")]
+        told = {"115 uN": None,
+                "0 uN": "nothing moves in scene draw: what is required there of stroke (final), stroke (parasitic)"}
+        for pull, words in told.items():
+            for whole in (True, False):
+                device = text.replace('value="115 uN"', f'value="{pull}"')
+                device = device if whole else device.replace(asked, "")
+                done = run("check", self.file(device), "--corners", "none", "--advice", "none")
+                self.assertEqual(done.returncode, 0, done.stdout)
+                self.assertEqual(done.stderr.count("FW-D655"), 1 if words else 0, done.stderr)
+                if words and whole:
+                    self.assertIn(words, " ".join(done.stderr.split()))
+                elif words:
+                    self.assertIn("that no hinge is strained says nothing of what the device bears", " ".join(done.stderr.split()))
+
     def test_what_is_made_is_judged_too(self):
         drawn = self.check()
         grip = next(r for r in drawn["requirements"] if r["probe"] == "frequency-1")
