@@ -95,6 +95,8 @@ typedef struct fw_verdict_across {
     const char *strained_hinge;
     fw_verdict_decision decision;
 } fw_verdict_across;
+/* is `tips` a number to tell? Else nothing that tips it was found, or (NaN) looked for */
+bool fw_verdict_across_tips(const fw_verdict_across *across);
 
 typedef struct fw_verdict_plate_mode {
     double f_Hz, low_Hz,

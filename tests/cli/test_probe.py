@@ -413,6 +413,22 @@ class Probe(unittest.TestCase):
                 elif words:
                     self.assertIn("that no hinge is strained says nothing of what the device bears", " ".join(done.stderr.split()))
 
+    def test_what_is_left_of_no_force_tips_nothing(self):
+        """round-off over round-off: it was told as 6e8 times its forces, which may be off by 5341 %"""
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8")
+        for alone in (False, True):
+            device = text
+            if alone:
+                device = text[:text.index("<tendon")] + text[text.index("</tendon>") + len("</tendon>"):]
+                device = re.sub("<probe id=.tension.*?/>", "", device).replace('min="40 um"', 'max="60 um"')
+            path = self.file(device)
+            done = run("check", path, "--corners", "none", "--advice", "none")
+            known = json.loads(run("check", path, "--corners", "none", "--advice", "none", "--json").stdout)
+            tips = known["out_of_plane"][0]["scenes"][0]["tips_at"]
+            self.assertEqual("draw: nothing that tips it was found" in done.stdout, alone, done.stdout)
+            self.assertEqual("draw: does not tip below" in done.stdout, not alone, done.stdout)
+            self.assertEqual(tips is None, alone, tips)
+
     def test_what_is_made_is_judged_too(self):
         drawn = self.check()
         grip = next(r for r in drawn["requirements"] if r["probe"] == "frequency-1")
