@@ -197,6 +197,15 @@ class Manners(unittest.TestCase):
         cases = (
             ("straight-stage", 'width="120 um"', 'width="120 N"', "FW-D025", "a length is wanted"),
             ("straight-stage", 'plate-width="0.9 mm"', 'plate-width="-0.9 mm"', "FW-D047", "must be at least 1 um"),
+            # as it is written, of which body, and no 300000 um
+            ("straight-stage", 'plate-width="0.9 mm"', 'plate-width="-0.9 mm"', "FW-D047",
+             "body 'stage': plate-width is -0.9 mm; it must be at least 1 um and at most 300 mm ("),
+            ("straight-stage", 'plate-width="0.9 mm"', 'plate-width="0.9 mm - 2 mm"', "FW-D047",
+             "plate-width is 0.9 mm - 2 mm, which is -1100 um; it"),
+            ("free-form-gripper", '<disc x="20 um" y="820 um"', '<disc copies="0" x="20 um" y="820 um"', "FW-D047",
+             "<disc> of body 'left': copies is 0; it must be at least 1 and at most 500 (1 is the shape alone"),
+            ("free-form-gripper", '<body id="left" x="-span" y="0 mm"', '<body id="left" x="-span" y="299.9 mm + 400 um"', "FW-D047",
+             "give its bodies mass and inertia in place of a width, a plate or shapes"),
             ("straight-stage", 'width="120 um"', 'width="120 V/m"', "FW-D025", "this is a quantity in 'm kg s^-3 A^-1', and a"),
             ("free-form-gripper", '<disc x="20 um" y="820 um"', '<disc x="900 um" y="820 um"', "FW-D316",
              "move it into the body"),
