@@ -64,7 +64,8 @@ const char *fw_xml_label(const fw_xml_record *record, char buffer[FW_LABEL]) {
 const char *fw_xml_in_unit(char buffer[FW_LABEL], double value, const char *unit) {
     fw_quantity_unit u = {.factor = 1.0};
     bool pure = !unit || strcmp(unit, "1") == 0;
-    if (!pure && strcmp(unit, "um") == 0 && fabs(value) >= 0.01) unit = "mm"; /* no 300000 um */
+    if (!pure && strcmp(unit, "um") == 0 && fabs(value) >= 0.01)
+        unit = fabs(value) >= 1 ? "m" : "mm"; /* no 300000 um */
     if (!pure) fw_quantity_unit_parse(unit, strlen(unit), &u, NULL, NULL);
     /* 40 bytes hold any number; the rest of the buffer is for the unit */
     fw_number_text(buffer, 40, fw_quantity_unit_from_si(&u, value), 6);
