@@ -191,6 +191,26 @@ class Manners(unittest.TestCase):
         # within them what few want is folded once more
         self.assertRegex(main, r"<details><summary><h3>The hinges by models")
 
+    def test_a_base_says_that_it_does_not_turn_with_the_device(self):
+        """an arm on an arc that cannot be drawn at 222 degrees, and can at 227"""
+        def device(degrees):
+            c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+            x, y = -1284 * s, 1284 * c  # from the hinge, across its axis
+            return (f"""<?xml version="1.0" encoding="UTF-8"?>
+<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie"/>
+<flexure id="F" kind="csfh" radius="132.689 um" angle="191.4 deg" width="5.341 um" fillet="1.985 um"/>
+<mechanism><body id="arm" x="{x} um" y="{y} um" width="150 um" plate-width="400 um" plate-height="300 um"
+plate-angle="{degrees + 90} deg"/><revolute id="H" a="ground" a-x="0 um" a-y="0 um" b="arm" b-x="{-x} um" b-y="{-y} um" hinge="F"
+axis="{degrees} deg"/></mechanism>
+<scene name="s" duration="10 ms"><torque on="arm" value="10000 pN m" law="ramp" rise="10 ms"/></scene></device>""")
+        with tempfile.TemporaryDirectory() as place:
+            path = pathlib.Path(place) / "d.xml"
+            for degrees, drawn in ((222.173, False), (227.173, True)):
+                path.write_text(device(degrees))
+                done = run("check", str(path), "--corners", "none", "--advice", "none")
+                self.assertEqual("FW-D126" in done.stderr, not drawn, done.stderr)
+                self.assertEqual("the same device turned by some degrees may be drawn" in " ".join(done.stderr.split()), not drawn)
+
     def test_one_mistake_is_one_message(self):
         """and what it says is what a user may do; each a change of the gallery's straight stage or gripper"""
         gallery = {d: (ROOT / f"docs/gallery/{d}/device.xml").read_text() for d in ("straight-stage", "free-form-gripper")}
