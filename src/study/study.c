@@ -570,11 +570,6 @@ long fw_study_count(const fw_study *study) {
     return 0;
 }
 
-int fw_study_decision(const fw_study *study) {
-    const fw_study_result *r = study->result;
-    return study->asked && study->asked->kind == FW_STUDY_IS_size && r && r->nfound == 0 ? 1 : 0;
-}
-
 /* ---- shards ---- */
 
 fw_status fw_study_open_merge(const fw_study_options *options, const char *directory,
