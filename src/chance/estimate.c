@@ -314,6 +314,13 @@ static fw_status by_method(fw_chance_run *run, fw_chance_method method, fw_chanc
     return FW_INTERNAL;
 }
 
+fw_status fw_chance_estimate_check(const fw_chance_limit *limit, const fw_chance_options *options,
+                                   const char **why) {
+    fw_chance_run run;
+    *why = NULL;
+    return run_of(NULL, limit, options, &run, why);
+}
+
 fw_status fw_chance_estimate_run(fw_arena *arena, const fw_chance_limit *limit,
                                  const fw_chance_options *options, fw_chance_estimate *out,
                                  const char **why) {

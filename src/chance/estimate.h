@@ -85,6 +85,9 @@ typedef struct fw_chance_estimate {
 
 /* FW_INPUT: options out of range (*why, of the arena, says which). FW_LIMIT: quasi beyond FW_CHANCE_SOBOL_MOST
    dimensions. FW_SOLVER: importance, and no design point was found. FW_CANCELLED as the arena says. */
+/* FW_INPUT and *why: it cannot be begun, as fw_chance_estimate_run would say; nothing is evaluated */
+fw_status fw_chance_estimate_check(const fw_chance_limit *limit, const fw_chance_options *options,
+                                   const char **why);
 fw_status fw_chance_estimate_run(fw_arena *arena, const fw_chance_limit *limit,
                                  const fw_chance_options *options, fw_chance_estimate *out,
                                  const char **why);

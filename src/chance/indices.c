@@ -174,8 +174,9 @@ static fw_status replicate(fw_arena *arena, work *w, size_t number, size_t base,
     return FW_OK;
 }
 
-static fw_status check(const fw_chance_model *model, const fw_chance_index_options *o,
-                       const char **why) {
+fw_status fw_chance_indices_check(const fw_chance_model *model, const fw_chance_index_options *o,
+                                  const char **why) {
+    *why = NULL;
     if (model->dimensions < 1 || model->responses < 1)
         *why = "nothing scatters, or nothing is asked for";
     else if (o->base < BASE_LEAST)
@@ -200,8 +201,7 @@ fw_status fw_chance_indices_run(fw_arena *arena, const fw_chance_model *model,
                                 const char **why) {
     work w;
     size_t base = 1;
-    *why = NULL;
-    FW_TRY(check(model, options, why));
+    FW_TRY(fw_chance_indices_check(model, options, why));
     FW_TRY(work_new(arena, model, &w));
     while (2 * base * REPLICATES <= options->base)
         base *= 2;

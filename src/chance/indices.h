@@ -38,6 +38,9 @@ typedef struct fw_chance_indices {
     fw_chance_share *first, *total; /* (responses x groups); NaN where the variance is 0 */
 } fw_chance_indices;
 
+/* FW_INPUT and *why: they cannot be begun, as fw_chance_indices_run would say; nothing is evaluated */
+fw_status fw_chance_indices_check(const fw_chance_model *model,
+                                  const fw_chance_index_options *options, const char **why);
 fw_status fw_chance_indices_run(fw_arena *arena, const fw_chance_model *model,
                                 const fw_chance_index_options *options, fw_chance_indices *out,
                                 const char **why);

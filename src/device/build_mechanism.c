@@ -15,7 +15,8 @@ static void check_on_wafer(fw_device_reader *r, const fw_xml_record *record, con
     fw_diag_error(
         r->diags, 47, fw_xml_place_of(record, name),
         "%s: %s puts it at %s; what is drawn must lie within -300 mm and 300 mm (wafers are at "
-        "most 300 mm wide); leave the width out for a mechanism that is only computed",
+        "most 300 mm wide). Move it there; or, for a mechanism that is only computed, give its "
+        "bodies mass and inertia in place of a width, a plate or shapes",
         fw_xml_label(record, label), name, fw_xml_in_unit(value, value_m, "mm"));
 }
 

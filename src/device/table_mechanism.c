@@ -225,7 +225,8 @@ static const char *const drawn_in[] = {"um", "nm", "mm", "cm", "m", "in", "mil",
         {"copies",                                                                                 \
          D_PURE,                                                                                   \
          WHOLE,                                                                                    \
-         RANGE(1, 500, "a comb of 500 teeth is wider than any die that is of use"),                \
+         RANGE(1, 500,                                                                             \
+               "1 is the shape alone, and 500 teeth are wider than any die that is of use"),       \
          .fallback = "1",                                                                          \
          .sentence =                                                                               \
              "How many are drawn, each moved on from the one before by pitch-x, pitch-y."},        \

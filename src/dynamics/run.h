@@ -78,6 +78,7 @@ typedef struct fw_dynamics_problem {
     double *q0;        /* (3 nbody) assembled, SI */
     double *start;     /* (ny) scaled */
     double amplitude;  /* scaled size of the motion: the absolute tolerance is rtol times this */
+    bool stretched;    /* the ground stretches, as it does under heat */
     bool idle;         /* nothing acts and nothing moves at the start: what moves is round-off */
     double most_angle; /* rad; HUGE_VAL: no end before the end */
     double uneven;     /* heaviest body over the lightest one between two joints */

@@ -16,6 +16,7 @@ static fw_status motion_size(fw_dynamics_problem *problem, const fw_effects_load
     double *force, *displacement, *rotation, size = 0, speed = 0;
     const double still = 1e-6; /* where nothing moves round-off is held far below what is seen */
     problem->amplitude = 1;
+    problem->stretched = loads->stretch.law != NULL;
     if (m->ndriver > 0) return FW_OK;
     if (loads->stretch.law)
         size = fabs(loads->stretch.strain) *

@@ -547,8 +547,12 @@ static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
     fw_diag_error(d->diags, 126, fw_layout_body_place(d, w->body),
                   "%s: edges of two of its parts nearly coincide over some length, so that the "
                   "parts cannot be united to one outline; change a width or a position by a few "
-                  "micrometres",
-                  label);
+                  "micrometres%s",
+                  label,
+                  w->body >= 0 ? ""
+                               : ". A base leaves its hinge straight towards a side of the frame "
+                                 "however the device lies on the wafer, so that the same device "
+                                 "turned by some degrees may be drawn");
     return FW_GEOMETRY;
 }
 

@@ -350,7 +350,7 @@ static fw_status add_joints(fw_layout_drawing *d) {
 
 /* warnings and notes of a drawing, which are not repeated when the device is drawn again */
 static bool comments_drawing(int number) {
-    static const int of_drawing[] = {127, 130, 131, 138, 139, 189, 255, 258};
+    static const int of_drawing[] = {127, 130, 131, 138, 139, 189, 255, 258, 653};
     for (size_t i = 0; i < sizeof of_drawing / sizeof of_drawing[0]; i++)
         if (number == of_drawing[i]) return true;
     return false;

@@ -386,6 +386,124 @@ fw_status fw_layout_head_draw(fw_layout_drawing *d, int joint, int body, int att
     return fw_layout_head_draw_shape(d->arena, &plan->shape[side == &plan->side[1]], side);
 }
 
+/* ---- leaves that the layout turned off the legs that they hold ----
+   A leaf in line with a leg bears the leg's force along itself; turned off it, it bends under that force, hundreds of times
+   softer. Where pins let the bodies move, that hardly shows: the leaf turns. Where they do not, as in pairs of legs that
+   snap through, all that moves does so by this give. docs/theory/layout.md, section 3; decision 137 */
+
+/* freedoms that pins alone leave to what hangs together with a body without the ground; `in`: which
+   bodies do (nbody) */
+static int pin_freedoms(const fw_device *device, int body, bool *in) {
+    for (int b = 0; b < device->nbody; b++)
+        in[b] = b == body;
+    for (bool more = true; more;) {
+        more = false;
+        for (int j = 0; j < device->nrevolute + device->njoint; j++) {
+            const fw_device_joint *t =
+                j < device->nrevolute ? NULL : &device->joint[j - device->nrevolute];
+            int a = t ? t->body_a : device->revolute[j].body_a;
+            int b = t ? t->body_b : device->revolute[j].body_b;
+            if (a < 0 || b < 0 || in[a] == in[b]) continue;
+            in[a] = in[b] = more = true;
+        }
+    }
+    int free = 0;
+    for (int b = 0; b < device->nbody; b++)
+        free += in[b] ? 3 : 0;
+    for (int j = 0; j < device->nrevolute; j++) {
+        int a = device->revolute[j].body_a, b = device->revolute[j].body_b;
+        if (in[a < 0 ? b : a]) free -= 2;
+    }
+    for (int j = 0; j < device->njoint; j++) {
+        const fw_device_joint *t = &device->joint[j];
+        if (!in[t->body_a < 0 ? t->body_b : t->body_a]) continue;
+        switch (t->kind) {
+        case FW_JOINT_PRISMATIC:
+            free -= 2;
+            break;
+        case FW_JOINT_DISTANCE:
+            free -= 1;
+            break;
+        case FW_JOINT_WELD:
+            free -= 3;
+            break;
+        }
+    }
+    return free;
+}
+
+/* angle from the leaf of a joint to the line of a body between its two hinges, -90 to 90 degrees; not
+   a number: the body is no leg */
+static double off_leg(const fw_layout_drawing *d, int joint, int body) {
+    const fw_device *device = d->device;
+    int its[2];
+    if (body < 0 || !isnan(device->body[body].plate_width_m) ||
+        fw_layout_body_joints(device, body, its, 2) != 2)
+        return NAN;
+    fw_geometry_vec2 leg =
+        fw_sub(fw_layout_joint_point(device, its[1]), fw_layout_joint_point(device, its[0]));
+    fw_geometry_vec2 leaf = fw_left(fw_polar(d->layout->hinge[joint].axis_rad));
+    double angle = atan2(cross(leaf, leg), fw_dot(leaf, leg));
+    if (angle > 0.5 * FW_PI) angle -= FW_PI;
+    return angle < -0.5 * FW_PI ? angle + FW_PI : angle;
+}
+
+typedef struct off_its_leg {
+    int joint, leg;
+    double off_rad;
+} off_its_leg;
+
+/* the leg that the leaf of a joint is off by the least; leg FW_NONE: it is no such leaf */
+static off_its_leg off_which_leg(const fw_layout_drawing *d, int joint, bool *scratch) {
+    const fw_device_revolute *j = &d->device->revolute[joint];
+    double a = off_leg(d, joint, j->body_a), b = off_leg(d, joint, j->body_b);
+    off_its_leg off = {joint, FW_NONE, 0.0};
+    if (!isnan(j->axis_rad) || d->device->flexure[j->flexure].kind != FW_FLEXURE_LEAF) return off;
+    if (isnan(a) && isnan(b)) return off;
+    bool is_a = isnan(b) || fabs(a) < fabs(b);
+    off.off_rad = is_a ? a : b;
+    if (fabs(off.off_rad) < fw_layout_rule.off_leg_rad) return off;
+    if (fabs(off.off_rad) < fw_layout_rule.across_leg_rad &&
+        pin_freedoms(d->device, is_a ? j->body_a : j->body_b, scratch) > 0)
+        return off;
+    off.leg = is_a ? j->body_a : j->body_b;
+    return off;
+}
+
+/* one warning of all of them */
+static fw_status say_off_legs(fw_layout_drawing *d) {
+    enum { NAMED = 4 };
+    const fw_device *device = d->device;
+    fw_text text = fw_text_new(d->arena);
+    bool *scratch;
+    int n = 0, first = FW_NONE;
+    FW_NEED(scratch = fw_arena_array(d->arena, bool, (size_t)device->nbody));
+    for (int i = 0; i < device->nrevolute; i++) {
+        off_its_leg off = off_which_leg(d, i, scratch);
+        char turned[32], along[32];
+        if (off.leg == FW_NONE) continue;
+        if (n++ == 0) first = i;
+        if (n > NAMED) continue;
+        fw_number_text(turned, sizeof turned, fabs(off.off_rad) * FW_DEG_PER_RAD, 3);
+        double in_line = remainder(d->layout->hinge[i].axis_rad + off.off_rad, 2.0 * FW_PI);
+        fw_number_text(along, sizeof along, in_line * FW_DEG_PER_RAD, 6);
+        fw_text_printf(&text, "%s%s%s by %s deg off %s%s (axis=\"%s deg\" lays it in line)",
+                       n > 1 ? ", " : "", FW_NAMED("hinge", device->revolute[i].id), turned,
+                       FW_NAMED("body", device->body[off.leg].id), along);
+    }
+    if (n > NAMED) fw_text_printf(&text, ", and %d more", n - NAMED);
+    FW_TRY(fw_text_end(&text));
+    if (n == 0) return FW_OK;
+    fw_diag_warning(
+        d->diags, 653, device->revolute[first].place,
+        "no axis is stated, and the layout turns the %s of %s: forces along such a body "
+        "bend its leaf in place of pulling it, so that the device gives far more, and what is "
+        "to snap through may not; state the axis, which is the direction across the leaf, "
+        "also to keep it as it is",
+        n > 1 ? "leaves" : "leaf", text.data);
+    return FW_OK;
+}
+
 fw_status fw_layout_hinges_plan(fw_layout_drawing *d) {
     const fw_device *device = d->device;
     bool bad = false;
@@ -416,5 +534,6 @@ fw_status fw_layout_hinges_plan(fw_layout_drawing *d) {
             FW_TRY(fw_layout_fault_keep(d, fault));
             bad = true;
         }
+    if (!bad && !d->said) FW_TRY(say_off_legs(d));
     return bad ? FW_GEOMETRY : FW_OK;
 }

@@ -77,6 +77,8 @@ const fw_layout_rules fw_layout_rule = {
     .far_side_least_m = 1e-6,
     .far_side_ahead_m = 5e-6,
     .opposite_norm = 0.2,
+    .off_leg_rad = 0.0175,
+    .across_leg_rad = 1.3,
 
     .bar_overlap_m = 72e-6,
     .bar_inset_m = 4e-6,

@@ -182,6 +182,25 @@ double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int 
     return fw_probe_value(p, &s);
 }
 
+fw_probe_ring fw_probe_rings(const fw_probe *p, const fw_dynamics_motion *motion) {
+    const int n = motion->nsample;
+    double turn[3], at_s[3], later = n > 0 ? fw_probe_at_row(p, motion, n - 1) : 0;
+    fw_probe_ring ring = {0, later, later};
+    int found = 0;
+    for (int i = n - 2; i > 0 && found < 3; i--) {
+        const double here = fw_probe_at_row(p, motion, i),
+                     before = fw_probe_at_row(p, motion, i - 1);
+        if ((here - before) * (later - here) < 0)
+            turn[found] = here, at_s[found++] = motion->t_s[i];
+        later = here;
+    }
+    if (found < 3 || motion->t_s[n - 1] - at_s[0] > 1.5 * (at_s[0] - at_s[1])) return ring;
+    for (int i = 0; i < 3; i++)
+        ring.low = fmin(ring.low, turn[i]), ring.high = fmax(ring.high, turn[i]);
+    ring.amplitude = 0.5 * fmax(fabs(turn[0] - turn[1]), fabs(turn[1] - turn[2]));
+    return ring;
+}
+
 bool fw_probe_has_rate(const fw_probe *p) {
     const fw_quantity_dimension is = p->kind->dimension;
     return p->row->value && (fw_quantity_dimension_equal(is, (fw_quantity_dimension){.m = 1}) ||

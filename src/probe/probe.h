@@ -165,6 +165,13 @@ typedef struct fw_probe_result { /* what a motion did, and by how much that may 
 void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor *looser,
                         const fw_dynamics_motion *motion, int probe, fw_probe_result *result);
 
+/* what still goes to and fro where a motion ends: the last three turns of its samples and its end, where no more than one and
+   a half half-periods are behind the last of them; amplitude 0: it is at rest, or goes one way. Test: test_probe.c */
+typedef struct fw_probe_ring {
+    double amplitude, low, high;
+} fw_probe_ring;
+fw_probe_ring fw_probe_rings(const fw_probe *p, const fw_dynamics_motion *motion);
+
 /* Time after which the probe stays within `band` of its final value: the last crossing, by the line
    between two instants. Of a course that was kept; 0: it never left */
 double fw_probe_settling_s(const fw_probe_course *course, double band);

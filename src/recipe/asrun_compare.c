@@ -40,9 +40,13 @@ static double booked_stop_s(const fw_recipe_asrun *run, const fw_recipe_asrun_en
 /* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
    end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. A clock
    that was read to the minute leaves up to a minute either way. */
-const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+static double clock_s(const fw_recipe_asrun_entry *e) {
     const bool to_the_second = strlen(e->start) > 16 && strlen(e->end) > 16;
-    const double actual_s = e->end_s - e->start_s, read_s = to_the_second ? 0.0 : 60.0;
+    return to_the_second ? 0.0 : 60.0;
+}
+
+const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const double actual_s = e->end_s - e->start_s, read_s = clock_s(e);
     if (!e->step->time.computable) return "no plan";
     if (actual_s + read_s < e->step->time.first_look_s) return "short";
     return actual_s - read_s > booked_stop_s(run, e) ? "long" : "in window";
@@ -69,12 +73,56 @@ static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
     return FW_OK;
 }
 
+/* "19.1 um (17.9 to 20.2), by t = d/R in 45 min"; *does: what was measured goes with it, or nothing was */
+static fw_status amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
+                               const fw_recipe_asrun_entry *e, fw_recipe_amount_in_time *a,
+                               fw_text *planned, fw_text *actual) {
+    int together;
+    const double loads = loads_of(run, e, &together);
+    FW_TRY(fw_recipe_asrun_amount_in_time(arena, e, loads, clock_s(e), a));
+    if (a->fits) return FW_OK;
+    const char *unit = fw_recipe_asrun_accept(e->step, a->measured->measure)->unit;
+    fw_quantity_unit in;
+    if (!fw_quantity_unit_parse(unit, strlen(unit), &in, NULL, NULL)) return FW_INTERNAL;
+    const double law = fw_quantity_unit_from_si(&in, a->law_m);
+    char value[3][32];
+    fw_text_printf(planned, "%s %s (%s to %s %s), by %s in ",
+                   fw_number_text(value[0], sizeof value[0], law, 3), unit,
+                   fw_number_text(value[1], sizeof value[1], law * fmax(0.0, 1.0 - a->off), 3),
+                   fw_number_text(value[2], sizeof value[2], law * (1.0 + a->off), 3), unit,
+                   a->formula);
+    fw_schedule_put_duration(planned, a->time_s);
+    if (a->time_s < (e->end_s - e->start_s) / loads)
+        fw_text_add(planned, " (the rest of it may be handling)");
+    fw_recipe_put_value(actual, a->measured->number);
+    fw_text_printf(actual, " %s", unit);
+    FW_TRY(fw_text_end(planned));
+    return fw_text_end(actual);
+}
+
+/* FW-D654, where the law of the step contradicts what was measured after it */
+static fw_status ask_amount(fw_arena *arena, const fw_recipe_asrun *run,
+                            const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    fw_text planned = fw_text_new(arena), actual = fw_text_new(arena);
+    fw_recipe_amount_in_time a;
+    FW_TRY(amount_by_law(arena, run, e, &a, &planned, &actual));
+    if (a.fits) return FW_OK;
+    fw_diag_warning(
+        diags, 654, place,
+        "step %s: %s = %s does not go with the time that it took: that makes %s. One of "
+        "time, setting and reading is not what is written: give what was set otherwise "
+        "(set NAME=VALUE), or measure again",
+        e->at->id, a.measured->measure, actual.data, planned.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, fw_place place,
                                    fw_diags *diags) {
     const char *how;
     if (e->fate != FW_FATE_RUN || !e->step)
         return FW_OK; /* what became of a wafer is no step that was run */
+    FW_TRY(ask_amount(arena, run, e, place, diags));
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
     fw_diag_warning(diags, 283, place,
@@ -82,12 +130,6 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                     "next step%s",
                     e->at->id, how, e->deviation ? "" : ", and write down why (deviation=...)");
     return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
-    for (int i = 0; i < step->naccept; i++)
-        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
-    return NULL;
 }
 
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
@@ -197,6 +239,17 @@ static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
     return FW_OK;
 }
 
+static fw_status amount_of(builder *b, const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+    fw_recipe_amount_in_time a;
+    FW_TRY(amount_by_law(b->arena, run, e, &a, &planned, &is));
+    if (a.fits ||
+        !fw_recipe_asrun_accepted(fw_recipe_asrun_accept(e->step, a.measured->measure), a.measured))
+        return FW_OK; /* what is not accepted is in the list already */
+    return add(b, e, fw_arena_printf(b->arena, "%s for its time", a.measured->measure), &planned,
+               &is);
+}
+
 static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < e->nset; i++) {
         const fw_recipe_set *s = &e->set[i];
@@ -251,6 +304,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
             b.repeated = !last && !added;
             if (!added) FW_TRY(durations_of(&b, run, e));
             FW_TRY(values_of(&b, e));
+            FW_TRY(amount_of(&b, run, e));
             FW_TRY(settings_of(&b, e));
             if (!added) FW_TRY(waits_of(&b, run, e));
         }

@@ -63,6 +63,17 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
 double fw_recipe_asrun_waited(const fw_recipe_asrun *run, const fw_process_lag *lag,
                               const fw_recipe_asrun_entry *e);
 bool fw_recipe_asrun_wait_is_fine(const fw_process_lag *lag, double wait_s);
+/* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set:
+   asrun_values.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
+typedef struct fw_recipe_amount_in_time {
+    bool fits;                          /* or there is nothing to hold against each other */
+    const fw_recipe_measured *measured; /* in the unit of what is accepted */
+    double time_s, law_m, off; /* what the law makes of that time, and relatively how surely */
+    const char *formula;
+} fw_recipe_amount_in_time;
+fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun_entry *e,
+                                         double loads, double read_s,
+                                         fw_recipe_amount_in_time *out);
 typedef struct fw_recipe_asrun_total {
     int logged, out, repeated;
     double planned_s, actual_s; /* what several wafers share counts once */

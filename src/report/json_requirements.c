@@ -156,8 +156,9 @@ static void across(fw_json *json, const fw_verdict_across *s) {
         fw_json_real(json, "strained_sure", s->strained_sure);
         fw_json_text(json, "strained_hinge", s->strained_hinge);
     }
-    fw_json_real(json, "tips_at", isfinite(s->tips) ? s->tips : (double)NAN);
-    fw_json_real(json, "tips_error", isfinite(s->tips) ? s->tips_error : (double)NAN);
+    const bool tips = fw_verdict_across_tips(s);
+    fw_json_real(json, "tips_at", tips ? s->tips : (double)NAN);
+    fw_json_real(json, "tips_error", tips ? s->tips_error : (double)NAN);
     fw_json_real(json, "lift_m", s->lift_m);
     fw_json_text(json, "verdict", fw_verdict_decision_text(s->decision));
     fw_json_end(json);

@@ -427,11 +427,11 @@ static void across_rows(fw_text *out, const fw_verdict_variant_verdict *v) {
             fw_markup(out, "<td>{p}, {s}</td>", s->strained, s->strained_hinge);
         else
             fw_markup(out, "<td></td>");
-        if (isfinite(s->tips))
+        if (fw_verdict_across_tips(s))
             fw_markup(out, "<td>{n}, {p}</td><td>{n}</td>", s->tips, s->tips_error,
                       s->tips / (1 + s->tips_error));
         else
-            fw_markup(out, "<td></td><td></td>");
+            fw_markup(out, "<td>{s}</td><td></td>", isnan(s->tips) ? "" : "nothing found");
         fw_markup(out, "<td>{s}</td></tr>\n", fw_verdict_decision_text(s->decision));
     }
 }

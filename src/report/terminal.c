@@ -218,8 +218,8 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
 
 /* a scene that acts across the plane, and by how much more than its forces the device may tip out of it */
 static void across(fw_text *out, const fw_verdict_across *s, const fw_mechanism_below *below) {
-    const bool tips = isfinite(s->tips);
-    if (!s->asked && !tips) return;
+    const bool looked = !isnan(s->tips);
+    if (!s->asked && !looked) return;
     fw_text_printf(out, "  %s: ", s->scene);
     if (s->asked) {
         if (isfinite(s->lowest_m)) {
@@ -231,9 +231,10 @@ static void across(fw_text *out, const fw_verdict_across *s, const fw_mechanism_
         if (isfinite(s->strained) && s->strained_hinge)
             number(out, "; in the plane and across it a hinge uses at most ", 100 * s->strained,
                    " % of its limit");
-        fw_text_add(out, tips ? "; " : "");
+        fw_text_add(out, looked ? "; " : "");
     }
-    if (tips) {
+    if (looked && !fw_verdict_across_tips(s)) fw_text_add(out, "nothing that tips it was found");
+    if (looked && fw_verdict_across_tips(s)) {
         number(out, "does not tip below ", s->tips, " times its forces, which may be off by ");
         number(out, "", 100 * s->tips_error, " %: sure up to ");
         number(out, "", s->tips / (1 + s->tips_error), "");

@@ -182,34 +182,54 @@ static fw_status take_indices(fw_study *study, fw_study_result *result,
     return FW_OK;
 }
 
-static fw_status indices(sensing *s, fw_study_result *result) {
-    fw_study *study = s->study;
-    fw_chance_indices out;
-    const char *why = NULL;
-    size_t inputs = (size_t)study->ninput, n = (size_t)study->nresponse;
-    const fw_chance_model of = {.dimensions = inputs, .responses = n, .f = model, .context = s};
-    const fw_chance_index_options o = {.seed = (uint64_t)study->asked->seed,
-                                       .base = (size_t)base_of(study),
-                                       .level = study->asked->confidence};
-    s->base = (long)inputs * NODES;
-    /* in an arena of their own: they give back what they took, and we keep things meanwhile */
-    FW_NEED(s->chance = fw_arena_part(study->arena, 0));
-    fw_status status = fw_chance_indices_run(s->chance, &of, &o, &out, &why);
-    if (status == FW_INPUT)
-        return fw_diag_error(&study->diags, 490, study->asked->place, "study '%s': %s",
-                             study->asked->name, why ? why : "its indices could not be begun");
-    FW_TRY(status);
-    return take_indices(study, result, &out);
+static fw_chance_model model_of(const fw_study *study, sensing *s) {
+    return (fw_chance_model){.dimensions = (size_t)study->ninput,
+                             .responses = (size_t)study->nresponse,
+                             .f = model,
+                             .context = s};
 }
 
-fw_status fw_study_kind_sensitivity(fw_study *study, fw_study_result *result) {
-    sensing s = {.study = study};
+static fw_chance_index_options options_of(const fw_study *study) {
+    return (fw_chance_index_options){.seed = (uint64_t)study->asked->seed,
+                                     .base = (size_t)base_of(study),
+                                     .level = study->asked->confidence};
+}
+
+static fw_status not_begun(fw_study *study, const char *why) {
+    return fw_diag_error(&study->diags, 490, study->asked->place, "study '%s': %s",
+                         study->asked->name, why ? why : "its indices could not be begun");
+}
+
+fw_status fw_study_check_sensitivity(fw_study *study) {
+    const fw_chance_model of = model_of(study, NULL);
+    const fw_chance_index_options o = options_of(study);
+    const char *why;
     for (int k = 0; k < study->ninput; k++)
         if (study->input[k].ntext > 0 || isnan(study->input[k].from))
             return fw_diag_error(&study->diags, 490, study->input[k].place,
                                  "'%s': a derivative is by a number; give from and to instead of "
                                  "listed values, and leave <uncertain> to kind=\"yield\"",
                                  study->input[k].what);
+    return fw_chance_indices_check(&of, &o, &why) == FW_OK ? FW_OK : not_begun(study, why);
+}
+
+static fw_status indices(sensing *s, fw_study_result *result) {
+    fw_study *study = s->study;
+    fw_chance_indices out;
+    const char *why = NULL;
+    const fw_chance_model of = model_of(study, s);
+    const fw_chance_index_options o = options_of(study);
+    s->base = (long)study->ninput * NODES;
+    /* in an arena of their own: they give back what they took, and we keep things meanwhile */
+    FW_NEED(s->chance = fw_arena_part(study->arena, 0));
+    fw_status status = fw_chance_indices_run(s->chance, &of, &o, &out, &why);
+    if (status == FW_INPUT) return not_begun(study, why);
+    FW_TRY(status);
+    return take_indices(study, result, &out);
+}
+
+fw_status fw_study_kind_sensitivity(fw_study *study, fw_study_result *result) {
+    sensing s = {.study = study};
     FW_TRY(derivatives(&s, result));
     fw_status status = indices(&s, result);
     fw_arena_free(s.chance);

@@ -486,18 +486,25 @@ static fw_status two_goals(sizing *s, int most, long *first) {
     return FW_OK;
 }
 
-/* combinations of listed values; FW_INPUT: too many */
-static fw_status count_lists(sizing *s) {
-    s->lists = 1;
-    for (int k = 0; k < s->study->nvary; k++) {
-        if (s->study->input[k].ntext > 0) s->lists *= s->study->input[k].ntext;
-        if (s->lists > LISTS_MOST)
-            return fw_diag_error(&s->study->diags, 490, s->study->input[k].place,
-                                 "more than %d combinations of listed values; each is tried, so "
-                                 "list fewer, or give ranges",
-                                 (int)LISTS_MOST);
+/* combinations of listed values; *at: the input by which they are too many, else FW_NONE */
+static long count_lists(const fw_study *study, int *at) {
+    long lists = 1;
+    *at = FW_NONE;
+    for (int k = 0; k < study->nvary && *at == FW_NONE; k++) {
+        if (study->input[k].ntext > 0) lists *= study->input[k].ntext;
+        if (lists > LISTS_MOST) *at = k;
     }
-    return FW_OK;
+    return lists;
+}
+
+fw_status fw_study_check_size(fw_study *study) {
+    int at;
+    count_lists(study, &at);
+    if (at == FW_NONE) return FW_OK;
+    return fw_diag_error(&study->diags, 490, study->input[at].place,
+                         "more than %d combinations of listed values; each is tried, so "
+                         "list fewer, or give ranges",
+                         (int)LISTS_MOST);
 }
 
 static int searches_of(const fw_study *study, int goals) {
@@ -522,14 +529,14 @@ long fw_study_count_size(const fw_study *study) {
 
 static fw_status prepare(sizing *s, int *most) {
     fw_study *study = s->study;
-    int n = 0;
+    int n = 0, at;
     for (int k = 0; k < study->nresponse; k++) {
         fw_device_respond_goal g = study->response[k].asked->goal;
         if (g != FW_GOAL_NONE) s->goal[s->ngoal++] = (goal){k, g == FW_GOAL_MINIMISE ? 1 : -1};
     }
     for (int k = 0; k < study->nvary; k++)
         n += study->input[k].ntext == 0;
-    FW_TRY(count_lists(s));
+    s->lists = count_lists(study, &at);
     long budget = fw_study_count_size(study), searches = searches_of(study, s->ngoal);
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
@@ -578,4 +585,15 @@ fw_status fw_study_kind_size(fw_study *study, fw_study_result *result) {
     fw_status status = size(study, result);
     study->told = NULL;
     return status;
+}
+
+fw_status fw_study_check_apart(fw_study *study) {
+    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: a study of kind %s chooses each of its samples by the ones before; "
+        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
+        "a study on each "
+        "with a part of the ranges, of which the best is the answer",
+        fw_device_study_kind_text(study->asked->kind));
 }

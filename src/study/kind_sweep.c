@@ -78,7 +78,8 @@ long fw_study_count_sweep(const fw_study *study) {
     return n;
 }
 
-static fw_status check_points(fw_study *study, long n) {
+fw_status fw_study_check_sweep(fw_study *study) {
+    const long n = fw_study_count_sweep(study);
     if (n > SWEEP_MOST)
         return fw_diag_error(&study->diags, 490, study->asked->place,
                              "the grid has more than %d points; take fewer steps, or "
@@ -589,7 +590,6 @@ static fw_status run_fitted(fw_study *study, const sweep *s, fw_study_result *re
 
 fw_status fw_study_kind_sweep(fw_study *study, fw_study_result *result) {
     sweep s = {.study = study, .n = fw_study_count_sweep(study)};
-    FW_TRY(check_points(study, s.n));
     if (study->asked->points == FW_POINTS_SOBOL)
         FW_TRY(fw_chance_sobol_new(study->arena, (size_t)study->ninput,
                                    (uint64_t)study->asked->seed, &s.sobol));

@@ -30,6 +30,27 @@ typedef struct bounds {
     double low, high;           /* interval of the probability of failing, over both */
 } bounds;
 
+static fw_chance_options options_of(const fw_study *study) {
+    return (fw_chance_options){.method = FW_CHANCE_AUTO,
+                               .seed = (uint64_t)study->asked->seed,
+                               .budget =
+                                   study->asked->samples > 0 ? (size_t)study->asked->samples : 4000,
+                               .level = study->asked->confidence};
+}
+
+static fw_status not_begun(fw_study *study, const char *why) {
+    return fw_diag_error(&study->diags, 490, study->asked->place, "study '%s': %s",
+                         study->asked->name, why ? why : "its estimate could not be begun");
+}
+
+/* that something scatters was looked at when it was opened (fw_study_yielding_check) */
+fw_status fw_study_check_yield(fw_study *study) {
+    const fw_chance_limit of = {.dimensions = 1};
+    const fw_chance_options o = options_of(study);
+    const char *why;
+    return fw_chance_estimate_check(&of, &o, &why) == FW_OK ? FW_OK : not_begun(study, why);
+}
+
 static fw_status estimate(fw_study_yielding *y, bounds *out) {
     fw_study *study = y->study;
     const bool apart = study->options.shards > 0;
@@ -37,11 +58,7 @@ static fw_status estimate(fw_study_yielding *y, bounds *out) {
                                 .g = fw_study_yielding_limit,
                                 .apart = apart ? fw_study_yielding_apart : NULL,
                                 .context = y};
-    const fw_chance_options o = {.method = FW_CHANCE_AUTO,
-                                 .seed = (uint64_t)study->asked->seed,
-                                 .budget = study->asked->samples > 0 ? (size_t)study->asked->samples
-                                                                     : 4000,
-                                 .level = study->asked->confidence};
+    const fw_chance_options o = options_of(study);
     const fw_chance_joint *joint = &y->scatter.joint;
     const char *why = NULL;
     fw_status status;
@@ -82,9 +99,7 @@ static fw_status estimate(fw_study_yielding *y, bounds *out) {
             "with a seed of "
             "its own, of whose estimates the mean is the answer",
             study->asked->name);
-    if (status == FW_INPUT)
-        return fw_diag_error(&study->diags, 490, study->asked->place, "study '%s': %s",
-                             study->asked->name, why ? why : "its estimate could not be begun");
+    if (status == FW_INPUT) return not_begun(study, why);
     return status;
 }
 

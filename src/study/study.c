@@ -414,6 +414,19 @@ static fw_status open_dies(fw_study *study) {
     return status;
 }
 
+static fw_status check_kind(fw_study *study) {
+    switch (study->asked->kind) {
+#define FW_STUDY(name, word, sentence)                                                             \
+    case FW_STUDY_IS_##name:                                                                       \
+        return fw_study_check_##name(study);
+#include "device/studies.def"
+#undef FW_STUDY
+    case FW_STUDY_KINDS:
+        break;
+    }
+    return FW_OK;
+}
+
 static fw_status open_all(fw_study *study) {
     char *xml;
     size_t n;
@@ -436,6 +449,7 @@ static fw_status open_all(fw_study *study) {
     }
     FW_TRY(responses);
     if (study->diags.errors > 0) return FW_INPUT;
+    FW_TRY(check_kind(study));
     if (study->asked->kind == FW_STUDY_IS_yield) {
         FW_TRY(judge_device(study));
         FW_TRY(fw_study_scatter_check(study));
@@ -512,17 +526,6 @@ static fw_status tally(void *context, const fw_study_sample *sample) {
     return FW_OK;
 }
 
-fw_status fw_study_check_apart(fw_study *study) {
-    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
-    return fw_diag_error(
-        &study->diags, 490, study->asked->place,
-        "shards: a study of kind %s chooses each of its samples by the ones before; "
-        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
-        "a study on each "
-        "with a part of the ranges, of which the best is the answer",
-        fw_device_study_kind_text(study->asked->kind));
-}
-
 fw_status fw_study_run(fw_study *study) {
     fw_study_result *result = fw_arena_one(study->arena, fw_study_result);
     FW_NEED(result);
@@ -565,11 +568,6 @@ long fw_study_count(const fw_study *study) {
         break;
     }
     return 0;
-}
-
-int fw_study_decision(const fw_study *study) {
-    const fw_study_result *r = study->result;
-    return study->asked && study->asked->kind == FW_STUDY_IS_size && r && r->nfound == 0 ? 1 : 0;
 }
 
 /* ---- shards ---- */

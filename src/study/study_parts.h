@@ -376,6 +376,8 @@ fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, 
 /* ---- the kinds ---- */
 
 #define FW_STUDY(name, word, sentence)                                                             \
+    /* what is wrong with it is said before anything is run or written (FW-D490) */                \
+    fw_status fw_study_check_##name(fw_study *study);                                              \
     fw_status fw_study_kind_##name(fw_study *study, struct fw_study_result *result);               \
     long fw_study_count_##name(const fw_study *study); /* devices, at most */
 #include "device/studies.def"

@@ -464,3 +464,8 @@ fw_status fw_study_csv_save(fw_study *study, const char *path) {
                ? FW_NOMEM
                : FW_IO;
 }
+
+int fw_study_decision(const fw_study *study) {
+    const fw_study_result *r = study->result;
+    return study->asked && study->asked->kind == FW_STUDY_IS_size && r && r->nfound == 0 ? 1 : 0;
+}

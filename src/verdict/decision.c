@@ -205,6 +205,12 @@ static double weakest(const fw_verdict_variant_verdict *v) {
     return pow(fmax(thickness, 0), 3) * fmax(youngs, 0);
 }
 
+/* Forces a million times below what tips are what is left of a zero: a factor on them, and what it is off by, say nothing */
+bool fw_verdict_across_tips(const fw_verdict_across *a) {
+    const double nothing = 1e6;
+    return isfinite(a->tips) && surely_flat(a) < nothing;
+}
+
 bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
     const double near = edges_at_most / weakest(v);

@@ -507,6 +507,13 @@ fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *m, int s
     return FW_OK;
 }
 
+fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *m, int scene, bool *shaken) {
+    shakings by;
+    FW_TRY(find_laws(arena, m, &m->device->scene[scene], &by));
+    *shaken = by.n > 0;
+    return FW_OK;
+}
+
 /* what meets may not, where a mode that lies elsewhere moves less */
 static void may_not_meet(fw_verdict_variant_verdict *v, int scene, double less) {
     const char *name = v->mechanism->device->scene[scene].name;

@@ -564,6 +564,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                            .repetitions = device->limits.cycles};
         FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
+    if (!brief) FW_TRY(fw_verdict_tell_still(arena, diags, v));
     FW_TRY(in_series(arena, v));
     FW_TRY(fw_verdict_out_of_plane_strain(arena, v));
     first = v->nreason;

@@ -95,6 +95,8 @@ typedef struct fw_verdict_across {
     const char *strained_hinge;
     fw_verdict_decision decision;
 } fw_verdict_across;
+/* is `tips` a number to tell? Else nothing that tips it was found, or (NaN) looked for */
+bool fw_verdict_across_tips(const fw_verdict_across *across);
 
 typedef struct fw_verdict_plate_mode {
     double f_Hz, low_Hz,
@@ -191,6 +193,7 @@ typedef struct fw_verdict_requirement {
     double numeric; /* part of the band on either side that a tighter run would take away */
     double lasting; /* relative part of it that no better model of the hinges would take away */
     double t_s;     /* when; NaN: no one time */
+    double rings;   /* of a final value, by how much it still goes to and fro; else 0 */
     /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
     double all_low, all_high;
     fw_verdict_decision decision;

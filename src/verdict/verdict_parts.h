@@ -90,6 +90,9 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechani
 
 /* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
 
+/* warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
+fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
+                                const fw_verdict_variant_verdict *v);
 /* text NULL: FW_NOMEM. keep: share of the scene's loads that would do, held between 0.001 and 0.99 */
 fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device_scene *scene,
                                   int number, fw_verdict_decision decision, double keep,
@@ -110,6 +113,9 @@ struct fw_verdict_shaken {
     double *factor;
     double late; /* what of a largest way may be there at the end besides, for phases run apart */
 };
+/* does a law go to and fro in the scene? */
+fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                               bool *shaken);
 /* v->shaken, whose factors are 1 where no law goes to and fro; bodies (nscene): share that they give
    (fw_verdict_bending_share). A warning (FW-D642), and what may meet then, or may not, is undecided */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,

@@ -199,6 +199,25 @@ static double departure(const fw_probe_result *p, double value) {
     return isnan(p->moved) ? value - p->origin : p->moved;
 }
 
+/* Where a motion still rings at its end, its phase there goes by frequencies that are known to some per cent alone: the final
+   value may be anywhere within the ring. What laws shake is known by them, and by modes that lie elsewhere
+   (resonance.c) */
+static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                          const fw_probe_monitor *monitor, const fw_probe_result *p,
+                          fw_verdict_requirement *r) {
+    const fw_probe_ring ring =
+        fw_probe_rings(&monitor->probe[m->device->requirement[r->asked].probe], motion);
+    const double off = 0.5 * (r->high - r->low);
+    bool shaken;
+    FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
+    if (ring.amplitude > 0.02 * fabs(p->final - p->origin)) r->rings = ring.amplitude;
+    if (shaken || r->rings == 0) return FW_OK;
+    r->low = fmin(r->low, ring.low - off), r->high = fmax(r->high, ring.high + off);
+    if (r->size) r->low = fmax(0, r->low);
+    decide(r);
+    return FW_OK;
+}
+
 static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
                   const fw_probe_monitor *monitor, const fw_probe_result *p,
                   fw_verdict_requirement *r) {
@@ -286,6 +305,8 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         if (r->scene_index != scene || !r->measure) continue;
         const fw_probe_result *p = &v->probed[scene * n + m->device->requirement[r->asked].probe];
         if (p->known) judge(m, v->motion[scene], monitor, p, r);
+        if (p->known && m->device->requirement[r->asked].measure == FW_MEASURE_FINAL)
+            FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
         if (p->known && v->motion[scene]->ended)
             judge_ended(m->device->requirement[r->asked].measure, r);
         if (!p->known && monitor->within)
@@ -420,9 +441,21 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                   below ? "below" : "above", end);
         if (!all) return NULL;
     }
-    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s%s), and at %s %s is required", r->probe,
-                           of, fw_probe_text(value, r->value, r->unit), low, high, all,
-                           below ? "least" : "most", bound);
+    char rings[FW_PROBE_TEXT];
+    const char *still =
+        r->rings > 0
+            ? fw_arena_printf(
+                  arena,
+                  " of a motion that has not come to rest (where it ends it still goes to and fro "
+                  "by %s "
+                  "to either side: a longer scene or damping, <air> or <material-damping>, lets it "
+                  "settle)",
+                  fw_probe_text(rings, r->rings, r->unit))
+            : "";
+    if (!still) return NULL;
+    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s%s), and at %s %s is required%s",
+                           r->probe, of, fw_probe_text(value, r->value, r->unit), low, high, all,
+                           below ? "least" : "most", bound, still);
 }
 
 /* A min of a motion wants more of it: neither less load nor stiffer flexures help, unless its scene was ended. What is

@@ -64,6 +64,8 @@ const char *fw_xml_label(const fw_xml_record *record, char buffer[FW_LABEL]) {
 const char *fw_xml_in_unit(char buffer[FW_LABEL], double value, const char *unit) {
     fw_quantity_unit u = {.factor = 1.0};
     bool pure = !unit || strcmp(unit, "1") == 0;
+    if (!pure && strcmp(unit, "um") == 0 && fabs(value) >= 0.01)
+        unit = fabs(value) >= 1 ? "m" : "mm"; /* no 300000 um */
     if (!pure) fw_quantity_unit_parse(unit, strlen(unit), &u, NULL, NULL);
     /* 40 bytes hold any number; the rest of the buffer is for the unit */
     fw_number_text(buffer, 40, fw_quantity_unit_from_si(&u, value), 6);
@@ -173,13 +175,27 @@ fw_status fw_xml_attribute_evaluate(fw_xml_reader *r, const fw_xml_attribute *a,
     return status == FW_INPUT ? fw_xml_expression_report(r, a, what, 0, &error) : status;
 }
 
-/* "above 0 um and at most 300000 um" */
+/* a number with at most a unit behind it: "-1 mm" */
+static bool is_plain(const char *text) {
+    double number;
+    const size_t n = strcspn(text, " ");
+    return fw_number_parse(text, n, &number) && strcspn(text + n, "+-*/^(") == strlen(text + n);
+}
+
+/* "above 0 um and at most 300 mm"; a value as it is written, and what an expression comes to. What has no id of its own is
+   named by what it stands in */
 static void report_range(fw_xml_reader *r, const fw_xml_record *record,
                          const fw_xml_attribute_row *row, const fw_xml_cell *cell) {
-    char label[FW_LABEL], value[FW_LABEL], low[FW_LABEL], high[FW_LABEL];
+    char label[FW_LABEL], in[FW_LABEL], value[FW_LABEL], low[FW_LABEL], high[FW_LABEL];
+    const bool named =
+        record->parent > 0 && !(record->row->key && fw_xml_text_of(record, record->row->key));
+    const bool plain = is_plain(cell->given->value);
     fw_diag_error(r->diags, fw_xml_numbers_of(r, record->row)->range, cell->given->place,
-                  "%s: %s is %s; it must be %s %s and at most %s (%s)", fw_xml_label(record, label),
-                  row->name, fw_xml_in_unit(value, cell->number, row->unit),
+                  "%s%s%s: %s is %s%s%s; it must be %s %s and at most %s (%s)",
+                  fw_xml_label(record, label), named ? " of " : "",
+                  named ? fw_xml_label(&r->record[record->parent], in) : "", row->name,
+                  plain ? "" : cell->given->value, plain ? "" : ", which is ",
+                  plain ? cell->given->value : fw_xml_in_unit(value, cell->number, row->unit),
                   row->open ? "above" : "at least", fw_xml_in_unit(low, row->min, row->unit),
                   fw_xml_in_unit(high, row->max, row->unit), row->reason);
 }

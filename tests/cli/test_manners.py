@@ -191,12 +191,41 @@ class Manners(unittest.TestCase):
         # within them what few want is folded once more
         self.assertRegex(main, r"<details><summary><h3>The hinges by models")
 
+    def test_a_base_says_that_it_does_not_turn_with_the_device(self):
+        """an arm on an arc that cannot be drawn at 222 degrees, and can at 227"""
+        def device(degrees):
+            c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+            x, y = -1284 * s, 1284 * c  # from the hinge, across its axis
+            return (f"""<?xml version="1.0" encoding="UTF-8"?>
+<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie"/>
+<flexure id="F" kind="csfh" radius="132.689 um" angle="191.4 deg" width="5.341 um" fillet="1.985 um"/>
+<mechanism><body id="arm" x="{x} um" y="{y} um" width="150 um" plate-width="400 um" plate-height="300 um"
+plate-angle="{degrees + 90} deg"/><revolute id="H" a="ground" a-x="0 um" a-y="0 um" b="arm" b-x="{-x} um" b-y="{-y} um" hinge="F"
+axis="{degrees} deg"/></mechanism>
+<scene name="s" duration="10 ms"><torque on="arm" value="10000 pN m" law="ramp" rise="10 ms"/></scene></device>""")
+        with tempfile.TemporaryDirectory() as place:
+            path = pathlib.Path(place) / "d.xml"
+            for degrees, drawn in ((222.173, False), (227.173, True)):
+                path.write_text(device(degrees))
+                done = run("check", str(path), "--corners", "none", "--advice", "none")
+                self.assertEqual("FW-D126" in done.stderr, not drawn, done.stderr)
+                self.assertEqual("the same device turned by some degrees may be drawn" in " ".join(done.stderr.split()), not drawn)
+
     def test_one_mistake_is_one_message(self):
         """and what it says is what a user may do; each a change of the gallery's straight stage or gripper"""
         gallery = {d: (ROOT / f"docs/gallery/{d}/device.xml").read_text() for d in ("straight-stage", "free-form-gripper")}
         cases = (
             ("straight-stage", 'width="120 um"', 'width="120 N"', "FW-D025", "a length is wanted"),
             ("straight-stage", 'plate-width="0.9 mm"', 'plate-width="-0.9 mm"', "FW-D047", "must be at least 1 um"),
+            # as it is written, of which body, and no 300000 um
+            ("straight-stage", 'plate-width="0.9 mm"', 'plate-width="-0.9 mm"', "FW-D047",
+             "body 'stage': plate-width is -0.9 mm; it must be at least 1 um and at most 300 mm ("),
+            ("straight-stage", 'plate-width="0.9 mm"', 'plate-width="0.9 mm - 2 mm"', "FW-D047",
+             "plate-width is 0.9 mm - 2 mm, which is -1100 um; it"),
+            ("free-form-gripper", '<disc x="20 um" y="820 um"', '<disc copies="0" x="20 um" y="820 um"', "FW-D047",
+             "<disc> of body 'left': copies is 0; it must be at least 1 and at most 500 (1 is the shape alone"),
+            ("free-form-gripper", '<body id="left" x="-span" y="0 mm"', '<body id="left" x="-span" y="299.9 mm + 400 um"', "FW-D047",
+             "give its bodies mass and inertia in place of a width, a plate or shapes"),
             ("straight-stage", 'width="120 um"', 'width="120 V/m"', "FW-D025", "this is a quantity in 'm kg s^-3 A^-1', and a"),
             ("free-form-gripper", '<disc x="20 um" y="820 um"', '<disc x="900 um" y="820 um"', "FW-D316",
              "move it into the body"),

@@ -301,6 +301,14 @@ class Study(unittest.TestCase):
             ("yield", '<uncertain what="arc" spread="table"/>', "FW-D491", "needs table"),
             ("yield", '<uncertain what="arc" table="230 deg 0; 240 deg 1" mean="240 deg" sd="1 deg"/>', "FW-D491", "belongs to"),
             ("sweeep", vary + respond, "FW-D048", "sweep"),
+            # of these a store was left behind, and the first ran all derivatives before it was refused
+            ("sensitivity\" samples=\"32", vary + respond, "FW-D490", "at least 128 rows"),
+            ("sensitivity", '<vary what="arc" values="200 deg; 230 deg"/>' + respond, "FW-D490", "a derivative is by a number"),
+            ("sweep", vary.replace("/>", ' steps="1001"/>') + '<vary what="link" from="120 um" to="140 um" steps="100000"/>' + respond,
+             "FW-D490", "the grid has more than"),
+            ("sweep\" points=\"list", '<vary what="arc" values="200 deg; 230 deg"/><vary what="link" values="120 um; 125 um; 130 um"/>'
+             + respond, "FW-D490", "give each as many"),
+            ("yield\" samples=\"100", '<uncertain what="arc" mean="240 deg" sd="1 deg"/>', "FW-D490", "at least 200 evaluations"),
             ("yield", ends, "FW-D490", "of at most 10 are looked at"),
             ("size\" yield=\"0.9", vary + respond.replace("/>", ' goal="minimise"/>') + ends, "FW-D490",
              "of at most 10 are looked at"),

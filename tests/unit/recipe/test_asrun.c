@@ -99,6 +99,46 @@ static void what_was_put_right_stands(void **state) {
     assert_null(strstr(text.data, "thickness was 7.8 um"));
 }
 
+/* Faraday's law has the time of a thickness: 45 min at 20 mA/cm2 make 18 um, and 9.1 um are written. At half the current they
+   do, and so does any other step whose law has the time of what it adds or takes away; a bake's time is none of its height */
+static void a_thickness_goes_with_its_time(void **state) {
+    (void)state;
+    static const struct {
+        const char *words, *told;
+    } entry[] = {
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1",
+         "step C22: thickness = 9.1 um does not go with the time that it took: that makes 18 um (16.6 to 19.3 um), by t = d rho P n "
+         "F/(eta J M) in 42 min"},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1", NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; thickness=9.1", "that makes 2.14 um"},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1; set current density=10 mA/cm2", NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1; set current density=10 mA/cm2",
+         "that makes 4.71 um"},
+        {"C13; start=2026-11-20T10:00; end=2026-11-20T10:01; by=AB; resist height=20 um", NULL},
+    };
+    for (size_t i = 0; i < sizeof entry / sizeof entry[0]; i++) {
+        fw_recipe_asrun run;
+        fw_recipe_deviation *list;
+        bool told = false, listed = false;
+        int n;
+        const char *log = with(begun(), entry[i].words, 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, &run.entry[0], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++) {
+            if (diags.item[k].number != 654) continue;
+            told = true;
+            if (!entry[i].told || !strstr(diags.item[k].message, entry[i].told)) print_message("%s\n", diags.item[k].message);
+            assert_true(entry[i].told && strstr(diags.item[k].message, entry[i].told));
+        }
+        assert_int_equal(told, entry[i].told != NULL);
+        assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+        for (int k = 0; k < n; k++)
+            listed = listed || strcmp(list[k].what, "thickness for its time") == 0;
+        assert_int_equal(listed, told);
+    }
+}
+
 /* a wafer is in one place: what was entered of it before goes on, and another wafer's does not count, nor a bath that is mixed */
 static void a_wafer_is_in_one_place(void **state) {
     (void)state;
@@ -891,6 +931,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(anything_typed, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),
         cmocka_unit_test_setup_teardown(the_clock, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_thickness_goes_with_its_time, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_that_are_out, setup, teardown),
         cmocka_unit_test_setup_teardown(deviations_are_written_down, setup, teardown),
         cmocka_unit_test_setup_teardown(readings_of_what_is_out, setup, teardown),
