@@ -25,29 +25,30 @@ static const range ranges[] = {
 
 enum { RANGES = sizeof ranges / sizeof ranges[0] };
 
-typedef struct units { /* of the rows, read once */
+typedef struct units { /* of the rows, each read when it is first asked for; at first {0} */
     fw_quantity_unit of[RANGES];
+    bool read[RANGES];
 } units;
 
-static units read_units(void) {
-    units u;
-    for (int i = 0; i < RANGES; i++)
-        fw_quantity_unit_parse(ranges[i].unit, strlen(ranges[i].unit), &u.of[i], NULL, NULL);
-    return u;
+static const fw_quantity_unit *unit_of(units *u, int row) {
+    if (!u->read[row])
+        u->read[row] = fw_quantity_unit_parse(ranges[row].unit, strlen(ranges[row].unit),
+                                              &u->of[row], NULL, NULL);
+    return &u->of[row];
 }
 
 /* index, or -1 */
-static int row_of(const units *u, const char *name, fw_quantity_dimension dimension) {
+static int row_of(units *u, const char *name, fw_quantity_dimension dimension) {
     for (int i = 0; i < RANGES; i++)
         if (strcmp(ranges[i].name, name) == 0 &&
-            fw_quantity_dimension_equal(u->of[i].dimension, dimension))
+            fw_quantity_dimension_equal(unit_of(u, i)->dimension, dimension))
             return i;
     return -1;
 }
 
 /* How exactly something is read, and how long a wafer may wait, is found by its id (calibrate.h, wafer_state.c): each is of
    a kind whose range it need not name. */
-static int row_of_id(const units *u, const fw_quantity *q) {
+static int row_of_id(units *u, const fw_quantity *q) {
     static const char waits[] = "-longest";
     const size_t n = q->id ? strlen(q->id) : 0, of_wait = sizeof waits - 1;
     if (n > of_wait && strcmp(q->id + n - of_wait, waits) == 0)
@@ -57,13 +58,13 @@ static int row_of_id(const units *u, const fw_quantity *q) {
                : -1;
 }
 
-static int range_of(const units *u, const fw_quantity *q) {
+static int range_of(units *u, const fw_quantity *q) {
     const int by_id = q->range ? -1 : row_of_id(u, q);
     return by_id >= 0 ? by_id : row_of(u, q->range ? q->range : "", q->dimension);
 }
 
 /* has its kind a plausible range at all? Else nothing could be told of its values, and mostly its unit is a slip */
-static bool is_of_a_kind(const units *u, const fw_quantity *q, fw_diags *diags) {
+static bool is_of_a_kind(units *u, const fw_quantity *q, fw_diags *diags) {
     if (q->least != 0.0 || q->most != 0.0 || q->range || range_of(u, q) >= 0) return true;
     fw_diag_error(diags, 547, q->place,
                   "'%s' is in %s, and no value of a process is of that kind; correct its unit, or "
@@ -72,13 +73,13 @@ static bool is_of_a_kind(const units *u, const fw_quantity *q, fw_diags *diags) 
     return false;
 }
 
-static bool in_range(const units *u, const fw_quantity *q, fw_diags *diags) {
+static bool in_range(units *u, const fw_quantity *q, fw_diags *diags) {
     if (q->least != 0.0 || q->most != 0.0) return fw_xml_quantity_check_range(q, q, diags);
     int at = q->unknown ? -1 : range_of(u, q);
     if (at < 0) return true;
     const range *r = &ranges[at];
-    double least = fw_quantity_unit_to_si(&u->of[at], r->least),
-           most = fw_quantity_unit_to_si(&u->of[at], r->most);
+    double least = fw_quantity_unit_to_si(unit_of(u, at), r->least),
+           most = fw_quantity_unit_to_si(unit_of(u, at), r->most);
     if (q->value >= least && q->value <= most) return true;
     char is[32], low[32], high[32];
     fw_diag_error(diags, 278, q->place,
@@ -102,12 +103,12 @@ static double most_uncertain(const fw_quantity *q, double least, double most) {
     return fmin(width, hot ? 0.25 * q->value : q->value);
 }
 
-static void too_uncertain(const units *u, const fw_quantity *q, fw_diags *diags) {
+static void too_uncertain(units *u, const fw_quantity *q, fw_diags *diags) {
     const int at = range_of(u, q);
     const bool own = q->least != 0.0 || q->most != 0.0;
     if (q->unknown || (at < 0 && !own)) return;
-    const double least = own ? q->least : fw_quantity_unit_to_si(&u->of[at], ranges[at].least),
-                 most = own ? q->most : fw_quantity_unit_to_si(&u->of[at], ranges[at].most),
+    const double least = own ? q->least : fw_quantity_unit_to_si(unit_of(u, at), ranges[at].least),
+                 most = own ? q->most : fw_quantity_unit_to_si(unit_of(u, at), ranges[at].most),
                  slack = 1e-9 * (most - least), limit = most_uncertain(q, least, most);
     fw_quantity bound = *q;
     char low[32], high[32];
@@ -156,14 +157,14 @@ void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diag
 }
 
 bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
-    const units u = read_units();
+    units u = {0};
     return in_range(&u, q, diags);
 }
 
 /* the range that the first one of an id gives holds for every one that replaces it */
 fw_status fw_process_lint_ranges(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
-    const units u = read_units();
+    units u = {0};
     for (int i = 0; i < f->nquantity; i++) {
         fw_quantity *q = f->quantity[i];
         if (q->range && range_of(&u, q) < 0)

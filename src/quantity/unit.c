@@ -197,9 +197,11 @@ const char *const *fw_quantity_unit_names(size_t *count) {
     return names;
 }
 
+/* most are told apart by their first byte */
 static const fw_quantity_unit *find(const char *symbol, size_t n) {
-    for (size_t i = 0; i < UNIT_COUNT; i++)
-        if (strlen(names[i]) == n && memcmp(names[i], symbol, n) == 0) return &rows[i];
+    for (size_t i = 0; n > 0 && i < UNIT_COUNT; i++)
+        if (names[i][0] == symbol[0] && strlen(names[i]) == n && memcmp(names[i], symbol, n) == 0)
+            return &rows[i];
     return NULL;
 }
 

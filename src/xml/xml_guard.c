@@ -26,10 +26,17 @@ int fw_xml_starts_with(fw_xml_bytes xml, size_t at, const char *what) {
     return xml.n - at >= length && memcmp(xml.data + at, what, length) == 0;
 }
 
+/* by the first byte of `what`: a checker of memory may look at all that a search by memmem is given, which is the rest of
+   the file at each tag */
 size_t fw_xml_find(fw_xml_bytes xml, size_t at, const char *what) {
-    if (at >= xml.n) return xml.n;
-    const char *found = memmem(xml.data + at, xml.n - at, what, strlen(what));
-    return found ? (size_t)(found - xml.data) : xml.n;
+    while (at < xml.n) {
+        const char *first = memchr(xml.data + at, what[0], xml.n - at);
+        if (!first) break;
+        at = (size_t)(first - xml.data);
+        if (fw_xml_starts_with(xml, at, what)) return at;
+        at++;
+    }
+    return xml.n;
 }
 
 static int is_space(char c) {
