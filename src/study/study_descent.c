@@ -48,9 +48,12 @@ static const fw_study_tried *look(fw_study_descent *d, const double *x) {
 
 /* ---- COBYLA ---- */
 
-static const double rho = 0.15;      /* first step, share of a range */
-static const double fine = 2e-4;     /* last step */
-static const double as_bad_as = 1e3; /* of what could not be run */
+static const double rho = 0.15;        /* first step, share of a range */
+static const double fine = 2e-4;       /* last step */
+static const double as_bad_as = 1e3;   /* of what could not be run */
+static const double gain_least = 2e-4; /* share of the objective that is worth a judgement */
+static const double inside =
+    2e-4;          /* by which a model has to hold, and worth one of what does not */
 enum { IDLE = 4 }; /* judgements for each input, and so many more, without a better one: enough */
 
 typedef struct simplex {
@@ -61,11 +64,19 @@ typedef struct simplex {
     int at; /* judgements when it came */
 } simplex;
 
+/* by what is worth a judgement */
+static bool clearly_better(const fw_study_tried *a, const fw_study_tried *b, int m) {
+    const double ca = fw_study_tried_worst(a, m), cb = fw_study_tried_worst(b, m);
+    if (!better(a, b, m)) return false;
+    if (ca <= 0 && cb <= 0) return a->f < b->f - gain_least * fabs(b->f);
+    return ca <= 0 || isnan(cb) || ca < cb - inside;
+}
+
 static const fw_study_tried *vertex(simplex *s, const double *x) {
     const int was = s->d->used;
     const fw_study_tried *t = look(s->d, x);
     if (!(s->scale > 0) && isfinite(t->f)) s->scale = fmax(fabs(t->f), 1e-300);
-    if (s->d->used > was && (!s->best || better(t, s->best, s->d->m)))
+    if (s->d->used > was && (!s->best || clearly_better(t, s->best, s->d->m)))
         s->best = t, s->at = s->d->used;
     if (s->d->over || s->d->used - s->at >= IDLE * (s->d->n + 1)) nlopt_force_stop(s->opt);
     return t;
@@ -125,9 +136,7 @@ static const double reach = 0.1;        /* first radius, share of a range */
 static const double least_reach = 2e-3; /* last one */
 static const double away_reach = 0.02; /* down to it places far from what does not hold are tried */
 static const double offset = 0.1;      /* the plane is sought near the best */
-static const double gain_least = 2e-4; /* share of the objective that is worth a judgement */
 static const double again_least = 5e-3; /* and to begin with wide steps again */
-static const double inside = 2e-4;      /* by which a model has to hold */
 static const double apart = 2e-4;       /* of a place from all that was judged, share of a range */
 static const double nearer = 4; /* times as far it may be from what holds as from what does not */
 
