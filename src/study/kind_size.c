@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sizing: the values with which a response is least or largest while every limit holds and check accepts
-   the device; of two responses the Pareto front.
+/* Sizing: the values with which a response is least or largest while every limit holds and check accepts the device; of
+   two responses the Pareto front.
 
-   The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of
-   them, apart from each other, local searches (study_search.c). What is returned is a device that was
-   judged as its texts say. Of two goals each is sought alone, then the first with the second held at nine levels
-   between (epsilon constraints; Haimes, Lasdon, Wismer 1971), and the front is what nothing that was judged beats. Nothing is
-   proved: a better one may be where nobody looked.
+   The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of them, apart from
+   each other, local searches (study_search.c); from the best of all these one more, by models of all that was judged, with
+   what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
+   is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
+   1971), and the front is what nothing that was judged beats. Nothing is proved: a better one may be where nobody looked.
 
    At a wanted yield a device has to hold every limit also as the dies that lie a distance beta from what is intended in the
    direction that is worst for it (sequential optimisation and reliability assessment: X. Du, W. Chen, J. Mech. Des. 126
@@ -23,6 +23,8 @@
 
 enum {
     STARTS = 3,        /* of local searches, a goal each */
+    SEARCHES = 4,      /* and one from all that was judged */
+    EACH = 19,         /* devices of a search for each input, and so many more */
     LEVELS = 9,        /* of the second goal */
     DIGITS = 5,        /* of what is tried: more no mask resolves */
     FRONT_MOST = 200,  /* devices of a front */
@@ -99,11 +101,24 @@ static double objective(const void *context, const fw_study_sample *sample) {
     return goal_of(sample, a->goal);
 }
 
-static double constraint(const void *context, const fw_study_sample *sample) {
+static double constraint(const aim *a, const fw_study_sample *sample) {
+    const double c = constraint_of(a->s->study, sample);
+    return !a->held || isnan(c) ? c : fmax(c, (goal_of(sample, a->held) - a->level) / a->scale);
+}
+
+/* the same, each for itself: limits of responses, what is used, what is held */
+static void constraints(const void *context, const fw_study_sample *sample, double *c,
+                        bool *untold) {
     const aim *a = context;
-    double c = constraint_of(a->s->study, sample);
-    if (!a->held || isnan(c)) return c;
-    return fmax(c, (goal_of(sample, a->held) - a->level) / a->scale);
+    const double used = isnan(sample->used) ? (double)NAN : log(fmax(sample->used, 1e-6));
+    c += fw_study_limits(a->s->study, sample, c);
+    *c++ = used;
+    if (a->held) *c = (goal_of(sample, a->held) - a->level) / a->scale;
+    *untold = isnan(used) || (sample->decision != 0 && sample->used <= fw_study_beyond);
+}
+
+static int constraints_of(const aim *a) {
+    return fw_study_limits(a->s->study, NULL, NULL) + 1 + (a->held != NULL);
 }
 
 /* ---- the first look ---- */
@@ -168,33 +183,46 @@ static fw_status keep_found(fw_study *study, const fw_study_sample *sample, doub
     return FW_OK;
 }
 
-static double shares_apart(const fw_study *study, const fw_study_sample *a,
-                           const fw_study_sample *b) {
-    double most = 0;
-    for (int k = 0; k < study->nvary; k++) {
-        const fw_study_input *in = &study->input[k];
-        if (in->ntext > 0)
-            most = strcmp(a->text[k], b->text[k]) != 0 ? 1 : most;
-        else
-            most = fmax(most, fabs(a->value[k] - b->value[k]) / (in->to - in->from));
+/* the best for an aim; -1: nothing was run */
+static int best_for(const sizing *s, const aim *a) {
+    int best = FW_NONE;
+    for (int i = 0; i < s->nkept; i++) {
+        const fw_study_sample *k = &s->kept[i], *b = best == FW_NONE ? NULL : &s->kept[best];
+        if (k->run && (!b || fw_study_search_better(objective(a, k), constraint(a, k),
+                                                    objective(a, b), constraint(a, b))))
+            best = i;
     }
-    return most;
+    return best;
+}
+
+static int best_of(const sizing *s, const goal *g) {
+    const aim a = {.s = s, .goal = g};
+    return best_for(s, &a);
+}
+
+static fw_study_search search_of(const aim *a, int most, long *first) {
+    *first += PART;
+    return (fw_study_search){.objective = objective,
+                             .nconstraint = constraints_of(a),
+                             .constraint = constraints,
+                             .context = a,
+                             .most = most,
+                             .digits = DIGITS,
+                             .first = *first - PART};
 }
 
 /* starts of searches for an aim: the best of what was judged, each a tenth of a range from the others */
 static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n, int most,
                         long *first) {
-    const fw_study *study = s->study;
     const fw_study_sample *chosen[STARTS];
-    *n = 0;
-    while (*n < STARTS) {
+    for (*n = 0; *n < STARTS;) {
         const fw_study_sample *best = NULL;
         double f = (double)NAN, c = (double)NAN;
         for (int i = 0; i < s->nkept; i++) {
             const fw_study_sample *k = &s->kept[i];
             bool apart = k->run;
             for (int j = 0; j < *n && apart; j++)
-                apart = shares_apart(study, k, chosen[j]) > 0.1;
+                apart = fw_study_search_apart(s->study, k, chosen[j]) > 0.1;
             if (!apart) continue;
             double fk = objective(a, k), ck = isnan(fk) ? (double)NAN : constraint(a, k);
             if (!best || fw_study_search_better(fk, ck, f, c)) best = k, f = fk, c = ck;
@@ -202,15 +230,24 @@ static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n
         if (!best) break;
         chosen[*n] = best;
         fw_study_search *one = &search[(*n)++];
-        *one = (fw_study_search){.objective = objective,
-                                 .constraint = constraint,
-                                 .context = a,
-                                 .most = most,
-                                 .digits = DIGITS,
-                                 .first = *first};
-        *first += PART;
-        FW_TRY(fw_study_search_from(study, best, one));
+        *one = search_of(a, most, first);
+        FW_TRY(fw_study_search_from(s->study, best, one));
     }
+    return FW_OK;
+}
+
+/* one more search, from all that was judged: the first look (nfirst), and by these searches (n), which left it devices */
+static fw_status go_on(sizing *s, const aim *a, const fw_study_search *search, int n, int nfirst,
+                       int most, long *first) {
+    int from = best_for(s, a), left = SEARCHES * most;
+    for (int i = 0; i < n; i++)
+        left -= search[i].used;
+    if (from == FW_NONE || left <= 0) return FW_OK;
+    fw_study_search one = search_of(a, left, first);
+    FW_TRY(fw_study_search_from(s->study, &s->kept[from], &one));
+    FW_TRY(fw_study_search_knows(s->study, &one, s->kept, nfirst, search, n));
+    FW_TRY(fw_study_search_run(s->study, &one, 1));
+    if (one.used > 0 && one.best.run) s->kept[s->nkept++] = one.best;
     return FW_OK;
 }
 
@@ -221,23 +258,10 @@ static fw_status seek(sizing *s, aim *a, int most, long *first) {
     FW_NEED(search);
     FW_TRY(starts(s, a, search, &n, most, first));
     FW_TRY(fw_study_search_run(s->study, search, n));
+    const int nfirst = s->nkept;
     for (int i = 0; i < n; i++)
         if (search[i].used > 0 && search[i].best.run) s->kept[s->nkept++] = search[i].best;
-    return FW_OK;
-}
-
-/* the best for a goal; -1: nothing was run */
-static int best_of(const sizing *s, const goal *g) {
-    aim a = {.s = s, .goal = g};
-    int best = FW_NONE;
-    for (int i = 0; i < s->nkept; i++) {
-        if (!s->kept[i].run) continue;
-        if (best == FW_NONE ||
-            fw_study_search_better(objective(&a, &s->kept[i]), constraint(&a, &s->kept[i]),
-                                   objective(&a, &s->kept[best]), constraint(&a, &s->kept[best])))
-            best = i;
-    }
-    return best;
+    return go_on(s, a, search, n, nfirst, most, first);
 }
 
 /* devices that hold every limit and that no other one beats in both goals, by the first */
@@ -338,14 +362,8 @@ static double farther(double fail, double allowed) {
 
 /* a search with the dies that are there, from sample b, which becomes the best that it met */
 static fw_status search_with_dies(sizing *s, const aim *a, int most, long *first, int *b) {
-    fw_study_search one = {.objective = objective,
-                           .constraint = constraint,
-                           .besides = besides,
-                           .context = a,
-                           .most = s->left < most ? (int)s->left : most,
-                           .digits = DIGITS,
-                           .first = *first};
-    *first += PART;
+    fw_study_search one = search_of(a, s->left < most ? (int)s->left : most, first);
+    one.besides = besides;
     if (one.most <= 0) return FW_OK;
     FW_TRY(fw_study_search_from(s->study, &s->kept[*b], &one));
     FW_TRY(fw_study_search_run(s->study, &one, 1));
@@ -508,9 +526,9 @@ fw_status fw_study_check_size(fw_study *study) {
 }
 
 static int searches_of(const fw_study *study, int goals) {
-    return goals == 2                ? (2 + LEVELS) * STARTS
-           : study->asked->yield > 0 ? STARTS + USUAL_ROUNDS
-                                     : STARTS;
+    return goals == 2                ? (2 + LEVELS) * SEARCHES
+           : study->asked->yield > 0 ? SEARCHES + USUAL_ROUNDS
+                                     : SEARCHES;
 }
 
 long fw_study_count_size(const fw_study *study) {
@@ -524,7 +542,7 @@ long fw_study_count_size(const fw_study *study) {
     }
     for (int k = 0; k < study->nresponse; k++)
         goals += study->response[k].asked->goal != FW_GOAL_NONE;
-    return (n == 0 ? 1 : 1 + 4 * n) * lists + 25 * (n + 1) * searches_of(study, goals);
+    return (n == 0 ? 1 : 1 + 4 * n) * lists + EACH * (n + 1) * searches_of(study, goals);
 }
 
 static fw_status prepare(sizing *s, int *most) {
@@ -541,7 +559,7 @@ static fw_status prepare(sizing *s, int *most) {
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
-    size_t room = (size_t)s->first_n + (size_t)searches + CONFIRMED * ROUNDS;
+    size_t room = (size_t)s->first_n + 2 * (size_t)searches + CONFIRMED * ROUNDS;
     FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, room));
     for (long i = 0; i < s->first_n; i++)
         FW_TRY(fw_study_sample_new(study->arena, study, &s->kept[i]));
@@ -568,7 +586,8 @@ static fw_status size(fw_study *study, fw_study_result *result) {
         result->how = fw_arena_printf(
             study->arena,
             "%ld devices over the ranges, then local searches (COBYLA) from the best of them, at "
-            "most %d devices each%s; a better one may be where none was tried",
+            "most %d devices each, and one from all of them (quadratic models)%s; a better one "
+            "may be where none was tried",
             s.first_n, most,
             study->asked->yield > 0
                 ? ", the last ones with the dies that are worst for the best device"

@@ -69,9 +69,11 @@ static double objective(const void *context, const fw_study_sample *sample) {
     return a->sign * sample->response[a->response];
 }
 
-static double no_constraint(const void *context, const fw_study_sample *sample) {
+static void no_constraint(const void *context, const fw_study_sample *sample, double *c,
+                          bool *untold) {
     const end_aim *a = context;
-    return isnan(sample->response[a->response]) ? (double)NAN : -1;
+    *untold = isnan(sample->response[a->response]);
+    *c = *untold ? (double)NAN : -1;
 }
 
 /* from the most extreme of what was judged */
@@ -85,6 +87,7 @@ static fw_status begin_search(const worst *w, end_aim *a, long first, int most,
     *found = best != NULL;
     if (!best) return FW_OK;
     *search = (fw_study_search){.objective = objective,
+                                .nconstraint = 1,
                                 .constraint = no_constraint,
                                 .context = a,
                                 .most = most,

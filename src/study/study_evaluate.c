@@ -168,6 +168,19 @@ static double missed(double by, double limit) {
     return by / (limit != 0 ? fabs(limit) : 1);
 }
 
+int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c) {
+    int n = 0;
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_device_respond *q = study->response[k].asked;
+        const double value = sample ? sample->response[k] : (double)NAN;
+        if (!isnan(q->min) && c) c[n] = missed(q->min - value, q->min);
+        n += !isnan(q->min);
+        if (!isnan(q->max) && c) c[n] = missed(value - q->max, q->max);
+        n += !isnan(q->max);
+    }
+    return n;
+}
+
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
     double most = -HUGE_VAL;
     if (!sample->run) return (double)NAN;
@@ -409,7 +422,13 @@ static double of_hinges(const fw_verdict_hinge_verdict *h, int n, double most) {
 
 /* Reasons beside hinges and requirements say no number: a device that is not accepted uses at least this. The
    search is told by it which way is out where nothing else tells. */
-static const double beyond = 1.001;
+const double fw_study_beyond = 1.001;
+
+/* Reasons that measure nothing say where advice begins by a round share of the loads, which is no number of the device:
+   taken for one, it would be the same wherever the reason is, and fall where another one is measured. */
+static bool measured(const fw_verdict_reason *r) {
+    return r->keep > 0 && r->keep != FW_VERDICT_KEEP_HALF && r->keep != FW_VERDICT_KEEP_MOST;
+}
 
 static double used_of(const fw_verdict *verdict, int decision) {
     double most = 0;
@@ -423,14 +442,14 @@ static double used_of(const fw_verdict *verdict, int decision) {
             most = of_requirements(c->requirement, v->nrequirement, most);
         }
         for (int k = 0; k < v->nreason; k++)
-            if (v->reason[k].decision != FW_ACCEPT && v->reason[k].keep > 0)
+            if (v->reason[k].decision != FW_ACCEPT && measured(&v->reason[k]))
                 most = fmax(most, fmin(1 / v->reason[k].keep, 10));
     }
     return fw_study_used(most, decision);
 }
 
 double fw_study_used(double most, int decision) {
-    return decision == 0 ? fmin(most, 1) : fmax(most, beyond);
+    return decision == 0 ? fmin(most, 1) : fmax(most, fw_study_beyond);
 }
 
 /* ---- what a decision follows from ---- */

@@ -150,10 +150,39 @@ int fw_study_jobs(const fw_study *study);
 
 /* ---- study_search.c: optimisers over the inputs ---- */
 
+/* study_descent.c: what is judged next */
+
+typedef struct fw_study_tried { /* a device that was judged, as a search sees it */
+    double *x;                  /* shares of the ranged inputs */
+    double f, *c;               /* objective, constraints; NaN: none */
+    bool untold;                /* it does not hold, and none of these numbers says by how much */
+} fw_study_tried;
+
+typedef struct fw_study_descent {
+    int n, m, most; /* shares, 0..1 each; constraints, at least one; what may be judged */
+    /* t->x is given, the rest is wanted; false: it is over */
+    bool (*judge)(void *context, fw_study_tried *t);
+    void *context;
+    fw_study_tried *tried; /* room for `most`; (used) in their order */
+    int used;
+    bool over;
+} fw_study_descent;
+/* the largest constraint; NaN: as bad as can be */
+double fw_study_tried_worst(const fw_study_tried *t, int m);
+/* COBYLA from start, which becomes its end */
+fw_status fw_study_descent_cobyla(fw_study_descent *d, double *start, fw_arena *arena);
+/* from what was judged already, on from the best of it */
+fw_status fw_study_descent_models(fw_study_descent *d, const fw_study_tried *known, int nknown,
+                                  fw_arena *arena);
+/* a is better than b: feasible before infeasible, then by objective, or by constraint */
+bool fw_study_search_better(double fa, double ca, double fb, double cb);
+
 typedef struct fw_study_search {
-    /* of a sample that was run: what is to be small, and what must not be above 0 (NaN: as bad as can be) */
+    /* of a sample that was run: what is to be small, and what must not be above 0 (NaN: as bad as can be), as many as
+       `nconstraint`. *untold: it does not hold, and none of these numbers says by how much */
     double (*objective)(const void *context, const fw_study_sample *sample);
-    double (*constraint)(const void *context, const fw_study_sample *sample);
+    int nconstraint;
+    void (*constraint)(const void *context, const fw_study_sample *sample, double *c, bool *untold);
     /* what is looked at besides check, of a sample that was run and is not in the store: sample->used may rise by it;
        NULL: nothing. Called by several threads at once. */
     fw_status (*besides)(const void *context, fw_study_sample *sample);
@@ -161,21 +190,31 @@ typedef struct fw_study_search {
     /* shares 0..1 of the ranges of the ranged inputs; listed ones keep their texts */
     double *start;
     const fw_study_sample *from; /* texts of listed inputs */
-    int most;                    /* evaluations */
-    int digits;                  /* of the values that are tried */
-    long first;                  /* number of its first sample */
+    /* NULL: COBYLA from the start. Else what was judged already (nknown), of the same texts of listed inputs: models of it
+       say what is judged next, from the best of it on */
+    const fw_study_tried *known;
+    int nknown;
+    int most;   /* evaluations */
+    int digits; /* of the values that are tried */
+    long first; /* number of its first sample */
     /* out: the best sample, feasible first; its objective and constraint */
     fw_study_sample best;
-    double f, c;
+    double f, c;           /* c: the largest constraint */
+    fw_study_tried *tried; /* (used) in their order */
     int used;
 } fw_study_search;
 /* begins at a sample: its shares, and its texts of listed inputs */
 fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *from,
                                fw_study_search *search);
+/* by the largest share of a range that their inputs are apart; 1 where a listed one differs */
+double fw_study_search_apart(const fw_study *study, const fw_study_sample *a,
+                             const fw_study_sample *b);
+/* search->known: of these samples and of what these searches tried those that have the texts of its start */
+fw_status fw_study_search_knows(const fw_study *study, fw_study_search *search,
+                                const fw_study_sample *sample, int nsample,
+                                const fw_study_search *of, int nof);
 /* n searches, in threads: each gives the same whatever runs beside it */
 fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n);
-/* a is better than b: feasible before infeasible, then by objective, or by constraint */
-bool fw_study_search_better(double fa, double ca, double fb, double cb);
 
 /* weights (n <= 7) of the first derivative at `at` by values at the nodes x (kind_sensitivity.c) */
 void fw_study_derivative_weights(const double *x, int n, double at, double *weight);
@@ -194,6 +233,10 @@ void fw_study_sort_samples(fw_study_sample *sample, int n);
 /* the largest share by which a limit of a <respond> is missed; <= 0: all hold; NaN: it was not run, or
    a response that has a limit has no value */
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample);
+/* the same of each limit by itself: c, as many as is answered; c NULL: only counted */
+int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c);
+extern const double
+    fw_study_beyond; /* what a device uses, of which no number says by how much it is not accepted */
 
 /* ---- study_scatter.c: what differs from device to device, on which level, and where ---- */
 

@@ -1,26 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Local searches for the least value of an objective where a constraint is at most 0, by COBYLA (linear
-   models on a simplex, no derivatives; Powell 1994, as NLopt has it), several at once.
+/* Local searches (study_descent.c) for the least value of an objective where constraints are at most 0, several at once.
 
    In: shares of the ranges as starts; every candidate is written with few digits, read, drawn and judged as
    that text says, so that what is found is a design and no rounding of one. The best of all that was tried
    counts, not the last. Cost: `most` devices each. Test: tests/cli/test_study.py */
 #include "study/study_parts.h"
 #include <math.h>
-#include <nlopt.h>
 #include <pthread.h>
 #include <string.h>
-
-static const double rho = 0.15;      /* first step, share of a range */
-static const double fine = 2e-4;     /* last step */
-static const double as_bad_as = 1e3; /* of what could not be run */
-
-bool fw_study_search_better(double fa, double ca, double fb, double cb) {
-    if (isnan(ca)) return false;
-    if (isnan(cb)) return true;
-    if (ca <= 0 && cb <= 0) return fa < fb;
-    return ca <= 0 || (cb > 0 && ca < cb);
-}
 
 typedef struct board { /* of all searches of one run */
     fw_study *study;
@@ -32,11 +19,7 @@ typedef struct board { /* of all searches of one run */
 typedef struct one { /* of one search */
     board *board;
     fw_study_search *s;
-    nlopt_opt opt;
     fw_study_sample now;
-    double *last; /* shares of `now` */
-    bool known;   /* now is of last */
-    double f, c, scale;
 } one;
 
 static int ranged(const fw_study *study) {
@@ -84,71 +67,59 @@ static fw_status evaluate(one *o) {
     return status;
 }
 
-/* objective and constraint at these shares, once for both */
-static void look(one *o, unsigned n, const double *x) {
+/* what was judged, as the search sees it */
+static void see(const fw_study_search *s, const fw_study_sample *sample, fw_study_tried *t) {
+    t->f = sample->run ? s->objective(s->context, sample) : (double)NAN;
+    t->untold = true;
+    for (int k = 0; k < s->nconstraint; k++)
+        t->c[k] = (double)NAN;
+    if (!isnan(t->f)) s->constraint(s->context, sample, t->c, &t->untold);
+}
+
+/* the best is kept */
+static void numbers(one *o, fw_study_tried *t) {
     fw_study_search *s = o->s;
-    if (o->known && memcmp(x, o->last, n * sizeof *x) == 0) return;
-    memcpy(o->last, x, n * sizeof *x);
-    o->known = true;
-    o->now.i = s->first + s->used++;
-    if (o->board->study->told) atomic_fetch_add(&o->board->study->told->done, 1);
-    fw_status status = fill(o->board->study, s, x, &o->now);
+    see(s, &o->now, t);
+    const double c = fw_study_tried_worst(t, s->nconstraint);
+    if (s->used > 1 && !fw_study_search_better(t->f, c, s->f, s->c)) return;
+    s->f = t->f, s->c = c;
+    fw_study_sample_copy(o->board->study, &o->now, &s->best);
+}
+
+static bool judge(void *context, fw_study_tried *t) {
+    one *o = context;
+    board *b = o->board;
+    o->now.i = o->s->first + o->s->used++;
+    if (b->study->told) atomic_fetch_add(&b->study->told->done, 1);
+    fw_status status = fill(b->study, o->s, t->x, &o->now);
     if (status == FW_OK) status = evaluate(o);
-    if (status == FW_OK) status = fill(o->board->study, s, x, &o->now); /* texts, after the store */
+    if (status == FW_OK) status = fill(b->study, o->s, t->x, &o->now); /* texts, after the store */
     if (status != FW_OK) {
-        pthread_mutex_lock(&o->board->lock);
-        if (o->board->status == FW_OK) o->board->status = status;
-        pthread_mutex_unlock(&o->board->lock);
-        nlopt_force_stop(o->opt);
-        return;
+        pthread_mutex_lock(&b->lock);
+        if (b->status == FW_OK) b->status = status;
+        pthread_mutex_unlock(&b->lock);
+        o->now.run = false;
     }
-    o->f = o->now.run ? s->objective(s->context, &o->now) : (double)NAN;
-    o->c = o->now.run ? s->constraint(s->context, &o->now) : (double)NAN;
-    if (isnan(o->f)) o->c = (double)NAN;
-    if (s->used == 1 || fw_study_search_better(o->f, o->c, s->f, s->c)) {
-        s->f = o->f, s->c = o->c;
-        fw_study_sample_copy(o->board->study, &o->now, &s->best);
-    }
-    if (!(o->scale > 0) && isfinite(o->f)) o->scale = fmax(fabs(o->f), 1e-300);
-    if (s->used >= s->most) nlopt_force_stop(o->opt);
-}
-
-static double objective(unsigned n, const double *x, double *gradient, void *context) {
-    one *o = context;
-    (void)gradient;
-    look(o, n, x);
-    return isfinite(o->f) ? o->f / o->scale : as_bad_as;
-}
-
-static double constraint(unsigned n, const double *x, double *gradient, void *context) {
-    one *o = context;
-    (void)gradient;
-    look(o, n, x);
-    return isfinite(o->c) ? o->c : o->c < 0 ? -1.0 : as_bad_as;
+    numbers(o, t);
+    return status == FW_OK;
 }
 
 static fw_status search(board *b, fw_study_search *s, fw_arena *arena) {
-    unsigned n = (unsigned)ranged(b->study);
     one o = {.board = b, .s = s};
-    double least;
+    fw_study_descent d = {.n = ranged(b->study),
+                          .m = s->nconstraint,
+                          .most = s->most,
+                          .judge = judge,
+                          .context = &o,
+                          .tried = s->tried};
     FW_TRY(fw_study_sample_new(arena, b->study, &o.now));
-    FW_NEED(o.last = fw_arena_array(arena, double, n + 1));
     s->used = 0;
-    if (n == 0) {
-        look(&o, 0, s->start);
+    if (d.n == 0) {
+        judge(&o, s->tried);
         return FW_OK;
     }
-    FW_NEED(o.opt = nlopt_create(NLOPT_LN_COBYLA, n));
-    nlopt_set_min_objective(o.opt, objective, &o);
-    nlopt_add_inequality_constraint(o.opt, constraint, &o, 1e-9);
-    nlopt_set_lower_bounds1(o.opt, 0);
-    nlopt_set_upper_bounds1(o.opt, 1);
-    nlopt_set_initial_step1(o.opt, rho);
-    nlopt_set_xtol_abs1(o.opt, fine);
-    nlopt_set_maxeval(o.opt, s->most);
-    nlopt_optimize(o.opt, s->start, &least); /* what it met is what counts */
-    nlopt_destroy(o.opt);
-    return FW_OK;
+    return s->known ? fw_study_descent_models(&d, s->known, s->nknown, arena)
+                    : fw_study_descent_cobyla(&d, s->start, arena);
 }
 
 static fw_status search_one(void *context, long i) {
@@ -171,11 +142,66 @@ fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *fro
     return FW_OK;
 }
 
+static bool same_lists(const fw_study *study, const fw_study_sample *a, const fw_study_sample *b) {
+    for (int k = 0; k < study->nvary; k++)
+        if (study->input[k].ntext > 0 && strcmp(a->text[k], b->text[k]) != 0) return false;
+    return true;
+}
+
+double fw_study_search_apart(const fw_study *study, const fw_study_sample *a,
+                             const fw_study_sample *b) {
+    double most = 0;
+    for (int k = 0; k < study->nvary; k++) {
+        const fw_study_input *in = &study->input[k];
+        if (in->ntext > 0)
+            most = strcmp(a->text[k], b->text[k]) != 0 ? 1 : most;
+        else
+            most = fmax(most, fabs(a->value[k] - b->value[k]) / (in->to - in->from));
+    }
+    return most;
+}
+
+fw_status fw_study_search_knows(const fw_study *study, fw_study_search *s,
+                                const fw_study_sample *sample, int nsample,
+                                const fw_study_search *search, int nsearch) {
+    int most = nsample;
+    fw_study_tried *known;
+    for (int i = 0; i < nsearch; i++)
+        most += search[i].used;
+    FW_NEED(known = fw_arena_array(study->arena, fw_study_tried, (size_t)most + 1));
+    s->known = known;
+    for (int i = 0; i < nsample; i++) {
+        fw_study_search shares;
+        if (!same_lists(study, &sample[i], s->from)) continue;
+        fw_study_tried *t = &known[s->nknown++];
+        FW_NEED(t->c = fw_arena_array(study->arena, double, (size_t)s->nconstraint));
+        FW_TRY(fw_study_search_from(study, &sample[i], &shares));
+        t->x = shares.start;
+        see(s, &sample[i], t);
+    }
+    for (int i = 0; i < nsearch; i++)
+        for (int k = 0; k < search[i].used && same_lists(study, search[i].from, s->from); k++)
+            known[s->nknown++] = search[i].tried[k];
+    return FW_OK;
+}
+
+static fw_status room_for_tried(const fw_study *study, fw_study_search *s) {
+    const size_t n = (size_t)ranged(study), most = (size_t)(s->most > 0 ? s->most : 1);
+    double *x = fw_arena_array(study->arena, double, most *n + 1),
+           *c = fw_arena_array(study->arena, double, most *(size_t)s->nconstraint + 1);
+    FW_NEED(x && c ? x : NULL);
+    FW_NEED(s->tried = fw_arena_array(study->arena, fw_study_tried, most));
+    for (size_t i = 0; i < most; i++)
+        s->tried[i].x = x + i * n, s->tried[i].c = c + i * (size_t)s->nconstraint;
+    return FW_OK;
+}
+
 fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n) {
     board b = {.study = study, .search = search};
     for (int i = 0; i < n; i++) {
         search[i].f = search[i].c = (double)NAN;
         FW_TRY(fw_study_sample_new(study->arena, study, &search[i].best));
+        FW_TRY(room_for_tried(study, &search[i]));
     }
     pthread_mutex_init(&b.lock, NULL);
     fw_status status = fw_study_each(study, n, search_one, &b);

@@ -59,7 +59,7 @@ double fw_study_cost_step(const fw_study_problem *p, const char *method, const c
 /* the same answer at a tenth of the tolerance over this one */
 double fw_study_cost_digit(const char *integrator);
 
-/* ---- parts of the whole: study_grid.c, models.c, study_measure.c ---- */
+/* ---- parts of the whole: study_grid.c, study_tradeoff.c, study_measure.c ---- */
 
 fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t);
 fw_status fw_study_tradeoff_find_reference(fw_study_problem *p, fw_study_tradeoff *t);

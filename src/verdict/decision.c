@@ -149,7 +149,7 @@ fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
                                                   .flow = v->mechanism->variant->flow,
                                                   .number = number,
                                                   .decision = decision,
-                                                  .keep = 0.5,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
                                                   .text = text};
     return FW_OK;
 }

@@ -356,8 +356,8 @@ fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_ve
                     flow, FW_NAMED("scene", s->device->scene[i].name),
                     fw_number_text(most, sizeof most, factor[2 * v->nhinge], 2), what));
         s->fabricated->decision = v->decision = FW_INCONCLUSIVE;
-        return fw_verdict_scene_reason(v, &s->device->scene[i], 636, FW_INCONCLUSIVE, 0.5,
-                                       s->fabricated->reason);
+        return fw_verdict_scene_reason(v, &s->device->scene[i], 636, FW_INCONCLUSIVE,
+                                       FW_VERDICT_KEEP_HALF, s->fabricated->reason);
     }
     return FW_OK;
 }

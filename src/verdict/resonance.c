@@ -437,7 +437,7 @@ static fw_status tell_pumped(fw_arena *arena, const fw_device_scene *s, const fw
                              double share, double grown, fw_verdict_variant_verdict *v) {
     char f[32], goes[32], times[32];
     return fw_verdict_scene_reason(
-        v, s, 650, FW_INCONCLUSIVE, 0.5,
+        v, s, 650, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
         fw_arena_printf(
             arena,
             "%s%s makes the mode at %s Hz stiffer and softer by %s %% as its loads go to and "

@@ -159,6 +159,10 @@ fw_status fw_verdict_drying_words(fw_arena *arena, const struct fw_verdict_varia
 fw_verdict_decision fw_verdict_drying_bears(const struct fw_verdict_variant_verdict *verdict,
                                             const fw_mechanism_drying *drying, int *number);
 
+/* What a reason keeps of the loads where nothing was measured: only where advice starts to look */
+#define FW_VERDICT_KEEP_HALF 0.5
+#define FW_VERDICT_KEEP_MOST 0.7
+
 typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the bands of its hinges */
     const char *scene, *flow;
     int number; /* FW-Dnnn */

@@ -398,7 +398,7 @@ static fw_status say_open(fw_arena *arena, const fw_device *device, int body,
                                                   .flow = v->mechanism->variant->flow,
                                                   .number = 295,
                                                   .decision = FW_INCONCLUSIVE,
-                                                  .keep = 0.5,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
                                                   .not_by_loads = true,
                                                   .not_by_width = true,
                                                   .text = text};
@@ -563,7 +563,7 @@ static fw_status say(fw_arena *arena, const fw_layout_piece *piece, const fw_cle
                                                   .flow = v->mechanism->variant->flow,
                                                   .number = 295,
                                                   .decision = FW_INCONCLUSIVE,
-                                                  .keep = 0.7,
+                                                  .keep = FW_VERDICT_KEEP_MOST,
                                                   .text = text};
     return FW_OK;
 }

@@ -460,7 +460,7 @@ static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v)
     const fw_verdict_fabricated_corner *c = &fabricated->corner[fabricated->at];
     const fw_verdict_hinge_verdict *h =
         fabricated->governing == FW_NONE ? NULL : &c->hinge[fabricated->governing];
-    double keep = h ? fmin(fmax(0.98 / h->utilisation_high, 1e-3), 0.99) : 0.5;
+    double keep = h ? fmin(fmax(0.98 / h->utilisation_high, 1e-3), 0.99) : FW_VERDICT_KEEP_HALF;
     const char *text = fabricated->reason;
     if (fabricated->control)
         FW_NEED(text =

@@ -128,7 +128,7 @@ static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_sc
     to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
     if (!sure && !isfinite(to->lowest_m))
         return fw_verdict_scene_reason(
-            v, s, 580, to->decision, 0.5,
+            v, s, 580, to->decision, FW_VERDICT_KEEP_HALF,
             fw_arena_printf(arena,
                             "how far the device comes down in %s%s is not known, and below "
                             "it are %s um (%s): nothing bounds the law of its shock; state "
@@ -348,7 +348,7 @@ static fw_status tell_strained(fw_arena *arena, const fw_device_scene *s, double
     fw_percent_text(plane, sizeof plane, in);
     if (!isfinite(to->strained) && !sure)
         return fw_verdict_scene_reason(
-            v, s, 641, decision, 0.5,
+            v, s, 641, decision, FW_VERDICT_KEEP_HALF,
             fw_arena_printf(arena,
                             "what hinges bear across the plane in %s%s is not known: "
                             "nothing bounds the law of its shock; state it as a table, "
@@ -580,7 +580,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                   .strained_sure = (double)NAN};
         if (out->why && (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)))
             FW_TRY(fw_verdict_scene_reason(
-                v, s, 581, FW_INCONCLUSIVE, 0.5,
+                v, s, 581, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
                 fw_arena_printf(arena,
                                 "%s%s acts across the plane, and what the device does out of "
                                 "its plane is not known: %s",

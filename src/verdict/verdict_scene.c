@@ -191,7 +191,7 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
     const fw_statics_level_step *step = motion->level;
     if (!step || !step->unknown) return FW_OK;
     return fw_verdict_scene_reason(
-        v, scene, 293, FW_INCONCLUSIVE, 0.5,
+        v, scene, 293, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
         fw_arena_printf(arena,
                         "what the model of the hinges (%s) is off by in %s%s is not "
                         "known: %s; lower the load, or ask for exact beams with "
@@ -204,7 +204,7 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
 static fw_status judge_beside(fw_arena *arena, const fw_device_scene *scene,
                               const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
     if (!motion->ledger.undecided) return FW_OK;
-    return fw_verdict_scene_reason(v, scene, 607, FW_INCONCLUSIVE, 0.7,
+    return fw_verdict_scene_reason(v, scene, 607, FW_INCONCLUSIVE, FW_VERDICT_KEEP_MOST,
                                    fw_arena_printf(arena, "in %s%s %s",
                                                    FW_NAMED("scene", scene->name),
                                                    motion->ledger.undecided));
@@ -221,7 +221,7 @@ static fw_status judge_strains(fw_arena *arena, const fw_device_scene *scene,
         k++;
     if (!saw || k == m->nhinge) return FW_OK;
     return fw_verdict_scene_reason(
-        v, scene, 597, FW_INCONCLUSIVE, 0.5,
+        v, scene, 597, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
         fw_arena_printf(
             arena,
             "the strain of %s%s in %s%s at %s ms is not known: %s; lower the load "
@@ -240,8 +240,8 @@ static fw_status judge_reliability(const fw_device_scene *scene, const fw_diags 
                                    fw_verdict_variant_verdict *v) {
     for (size_t i = 0; i < said->count; i++)
         if (said->item[i].unreliable)
-            FW_TRY(fw_verdict_scene_reason(v, scene, said->item[i].number, FW_INCONCLUSIVE, 0.5,
-                                           said->item[i].message));
+            FW_TRY(fw_verdict_scene_reason(v, scene, said->item[i].number, FW_INCONCLUSIVE,
+                                           FW_VERDICT_KEEP_HALF, said->item[i].message));
     return FW_OK;
 }
 
@@ -313,7 +313,7 @@ fw_status fw_verdict_missing(fw_arena *arena, const fw_device *device, const fw_
                                                       .flow = flow,
                                                       .number = m->number,
                                                       .decision = FW_REJECT,
-                                                      .keep = 0.7,
+                                                      .keep = FW_VERDICT_KEEP_MOST,
                                                       .not_by_loads = true,
                                                       .not_by_width = true,
                                                       .text = text};
@@ -377,7 +377,7 @@ fw_status fw_verdict_bent(fw_arena *arena, const fw_device *device, fw_verdict_v
     v->reason[v->nreason++] = (fw_verdict_reason){.flow = m->variant->flow,
                                                   .number = 622,
                                                   .decision = FW_INCONCLUSIVE,
-                                                  .keep = 0.7,
+                                                  .keep = FW_VERDICT_KEEP_MOST,
                                                   .not_by_loads = true,
                                                   .not_by_width = true,
                                                   .text = text};

@@ -226,7 +226,7 @@ static fw_status say(const fw_mechanism *m, const char *scene, int number,
                                                   .flow = m->variant->flow,
                                                   .number = number,
                                                   .decision = decision,
-                                                  .keep = 0.5,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
                                                   .not_by_loads = true,
                                                   .text = text};
     return FW_OK;
