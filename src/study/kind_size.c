@@ -169,20 +169,6 @@ static fw_status take(void *context, const fw_study_sample *sample) {
 
 /* ---- what is found ---- */
 
-static fw_status keep_found(fw_study *study, const fw_study_sample *sample, double excess,
-                            fw_study_found *found) {
-    fw_study_sample own;
-    FW_TRY(fw_study_sample_new(study->arena, study, &own));
-    fw_study_sample_copy(study, sample, &own);
-    *found = (fw_study_found){.text = own.text,
-                              .value = own.value,
-                              .response = own.response,
-                              .excess = excess,
-                              .decision = own.decision,
-                              .i = own.i};
-    return FW_OK;
-}
-
 /* the best for an aim; -1: nothing was run */
 static int best_for(const sizing *s, const aim *a) {
     int best = FW_NONE;
@@ -286,8 +272,8 @@ static fw_status front(sizing *s) {
         }
         if (next == FW_NONE) break;
         after = goal_of(&s->kept[next], &s->goal[0]);
-        FW_TRY(keep_found(s->study, &s->kept[next], constraint_of(study, &s->kept[next]),
-                          &r->found[r->nfound++]));
+        FW_TRY(fw_study_keep_found(s->study, &s->kept[next], constraint_of(study, &s->kept[next]),
+                                   &r->found[r->nfound++]));
     }
     return FW_OK;
 }
@@ -297,11 +283,11 @@ static fw_status finish(sizing *s) {
     int best = best_of(s, &s->goal[0]);
     if (best == FW_NONE) return FW_OK;
     double c = constraint_of(s->study, &s->kept[best]);
-    if (!(c <= 0)) return keep_found(s->study, &s->kept[best], c, &r->nearest);
+    if (!(c <= 0)) return fw_study_keep_found(s->study, &s->kept[best], c, &r->nearest);
     if (s->ngoal == 2) return front(s);
     FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
     r->nfound = 1;
-    return keep_found(s->study, &s->kept[best], c, r->found);
+    return fw_study_keep_found(s->study, &s->kept[best], c, r->found);
 }
 
 /* ---- at a wanted yield ---- */
@@ -466,7 +452,7 @@ static fw_status at_yield(sizing *s, int most, long *first) {
     int b = best_of(s, &s->goal[0]);
     if (b == FW_NONE) return FW_OK;
     double missed = constraint_of(s->study, &s->kept[b]), low;
-    if (!(missed <= 0)) return keep_found(s->study, &s->kept[b], missed, &r->nearest);
+    if (!(missed <= 0)) return fw_study_keep_found(s->study, &s->kept[b], missed, &r->nearest);
     s->beta = fw_maths_normal_quantile(wanted);
     s->allowed = 1 - wanted;
     s->left = (long)USUAL_ROUNDS * most;
@@ -479,13 +465,13 @@ static fw_status at_yield(sizing *s, int most, long *first) {
         if (low >= wanted && missed <= 0) {
             FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
             r->nfound = 1;
-            return keep_found(s->study, &s->kept[b], missed, r->found);
+            return fw_study_keep_found(s->study, &s->kept[b], missed, r->found);
         }
         const double more = fmax(farther(1 - low, 1 - wanted), 0) + near_enough;
         move_dies(s, s->beta + more);
         s->allowed = fw_maths_normal_cdf(fw_maths_normal_quantile(s->allowed) - more);
     }
-    return keep_found(s->study, &s->kept[b], fmax(missed, still), &r->nearest);
+    return fw_study_keep_found(s->study, &s->kept[b], fmax(missed, still), &r->nearest);
 }
 
 static fw_status two_goals(sizing *s, int most, long *first) {
@@ -604,15 +590,4 @@ fw_status fw_study_kind_size(fw_study *study, fw_study_result *result) {
     fw_status status = size(study, result);
     study->told = NULL;
     return status;
-}
-
-fw_status fw_study_check_apart(fw_study *study) {
-    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
-    return fw_diag_error(
-        &study->diags, 490, study->asked->place,
-        "shards: a study of kind %s chooses each of its samples by the ones before; "
-        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
-        "a study on each "
-        "with a part of the ranges, of which the best is the answer",
-        fw_device_study_kind_text(study->asked->kind));
 }

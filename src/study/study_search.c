@@ -208,3 +208,30 @@ fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n) {
     pthread_mutex_destroy(&b.lock);
     return status;
 }
+
+/* ---- what comes of them ---- */
+
+fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, double excess,
+                              fw_study_found *found) {
+    fw_study_sample own;
+    FW_TRY(fw_study_sample_new(study->arena, study, &own));
+    fw_study_sample_copy(study, sample, &own);
+    *found = (fw_study_found){.text = own.text,
+                              .value = own.value,
+                              .response = own.response,
+                              .excess = excess,
+                              .decision = own.decision,
+                              .i = own.i};
+    return FW_OK;
+}
+
+fw_status fw_study_check_apart(fw_study *study) {
+    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: a study of kind %s chooses each of its samples by the ones before; "
+        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
+        "a study on each "
+        "with a part of the ranges, of which the best is the answer",
+        fw_device_study_kind_text(study->asked->kind));
+}
