@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures of a study: responses against inputs with their limits, maps of two inputs, tornados, the front of
    two goals, how much of the limits the devices use, parallel coordinates. Of many samples every k-th is
-   drawn. Colours tell accepted, rejected and undecided, and so do the shapes. */
+   drawn, of a Sobol' sequence the first ones. Colours tell accepted, rejected and undecided, and so do the shapes. */
 #include "base/sort.h"
 #include "base/svg.h"
 #include "plan/stages.h"
@@ -545,10 +545,19 @@ static fw_status pictures(fw_study_sheet *s, const points *p) {
     return parallel(s, p);
 }
 
+/* the first points of a Sobol' sequence fill the ranges evenly, every k-th of them do not */
+static long every_of(const fw_study *study) {
+    const fw_study_result *r = study->result;
+    const fw_device_study *a = study->asked;
+    return a->kind == FW_STUDY_IS_sweep && a->points == FW_POINTS_SOBOL
+               ? 1
+               : (r->run + r->failed) / DRAWN_MOST + 1;
+}
+
 fw_status fw_study_pictures(fw_study *study, const fw_study_picture **picture, int *n) {
     const fw_study_result *r = study->result;
     size_t inputs = (size_t)study->ninput, responses = (size_t)study->nresponse;
-    points p = {.study = study, .every = (r->run + r->failed) / DRAWN_MOST + 1};
+    points p = {.study = study, .every = every_of(study)};
     fw_study_sheet s = {.study = study,
                         .most =
                             6 + DRAWINGS_MOST + PAIRS_MOST + 3 * study->nresponse + 3 * r->nyield};
