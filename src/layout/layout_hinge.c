@@ -439,7 +439,7 @@ static double off_leg(const fw_layout_drawing *d, int joint, int body) {
     int its[2];
     if (body < 0 || !isnan(device->body[body].plate_width_m) ||
         fw_layout_body_joints(device, body, its, 2) != 2)
-        return NAN;
+        return (double)NAN;
     fw_geometry_vec2 leg =
         fw_sub(fw_layout_joint_point(device, its[1]), fw_layout_joint_point(device, its[0]));
     fw_geometry_vec2 leaf = fw_left(fw_polar(d->layout->hinge[joint].axis_rad));
