@@ -316,11 +316,11 @@ class LargestWorkspace(unittest.TestCase):
         beyond = run("check", self.FILE, "--quiet", "--advice", "none", "--set", f"reach={1.02 * reach} um")
         self.assertNotEqual(beyond.returncode, 0)
 
-    @unittest.skipUnless(ALL, "two sizes at a yield, eight minutes of a processor")
+    @unittest.skipUnless(ALL, "two sizes at a yield, twenty minutes of a processor")
     def test_the_studies_end_where_the_tutorial_says(self):
         for study in ("hand-made", "largest-workspace"):
             with tempfile.TemporaryDirectory(prefix="fw-sizing-") as place:
-                done = run("study", self.FILE, "--study", study, "-o", place + "/o", "--no-progress", preexec_fn=None)  # 500 s of a processor
+                done = run("study", self.FILE, "--study", study, "-o", place + "/o", "--no-progress", preexec_fn=None)  # 1200 s of a processor
                 self.assertEqual(done.returncode, 0, done.stderr)
                 result = json.loads(pathlib.Path(place, "o/study.json").read_text())
                 self.assertEqual([f"{s['path']}={s['value']}" for s in result["found"][0]["set"]], self.stated(study)[1::2])
