@@ -136,6 +136,8 @@ typedef struct fitted {
     double used_far;
     /* room for one point: (terms), (d), (looks x ends), and (responses) each */
     double *work, *z, *end, *value, *least, *most;
+    long refused_at; /* a device that surfaces know nothing of, and why; "" : none */
+    char refused[FW_STUDY_WHY];
     bool made, held; /* there are surfaces; the former ones told this round as it came */
     double open;     /* share of the others that stays open */
     long open_judged, told, checked; /* of the last round those that had been told */
@@ -203,13 +205,12 @@ static fw_status fill_judged(void *context, long k, fw_study_sample *sample, boo
     return at_point(f->sweep, f->at.number[f->at.before + k], sample);
 }
 
-static fw_status refuse(const fitted *f, const fw_study_sample *sample, const char *why,
-                        const char *what) {
-    return fw_diag_error(&f->study->diags, 660, f->study->asked->place,
-                         "fitted: of the devices that were judged, number %ld %s%.200s: response "
-                         "surfaces know nothing of it; make the ranges narrower, or remove fitted, "
-                         "so that all are judged",
-                         sample->i, why, what);
+/* the first by number, whichever thread comes first */
+static bool refuse(fitted *f, const fw_study_sample *sample, const char *why, const char *what) {
+    if (f->refused[0] && f->refused_at < sample->i) return false;
+    f->refused_at = sample->i;
+    snprintf(f->refused, sizeof f->refused, "%s%.200s", why, what);
+    return false;
 }
 
 static int decided_by(const fitted *f, const double *end) {
@@ -229,24 +230,22 @@ static double most_of(const fitted *f, const double *end) {
 }
 
 /* can surfaces know of it? */
-static fw_status check_judged(const fitted *f, const fw_study_sample *sample) {
+static bool check_judged(fitted *f, const fw_study_sample *sample) {
     if (!sample->run) return refuse(f, sample, "could not be judged, ", sample->why);
     for (int r = 0; r < f->responses; r++)
         if (!isfinite(sample->response[r]))
             return refuse(f, sample, "has no value of ", f->study->response[r].asked->name);
-    if (sample->decision < 0) return FW_OK; /* nothing is decided of any */
+    if (sample->decision < 0) return true; /* nothing is decided of any */
     if (sample->nlook == 0)
         return refuse(f, sample,
                       "has other hinges or requirements than the description as it stands", "");
     const double *end = sample->part + f->ends * sample->looks[sample->nlook - 1];
     for (int e = 0; e < f->ends; e++)
         if (!isfinite(end[e])) return refuse(f, sample, "has a band without ends", "");
-    const bool follows =
-        decided_by(f, end) == sample->decision &&
-        fabs(fw_study_used(most_of(f, end), sample->decision) - sample->used) < 1e-9 * sample->used;
-    return follows ? FW_OK
-                   : refuse(f, sample,
-                            "is decided by something else than its hinges and requirements", "");
+    const double used = fw_study_used(most_of(f, end), sample->decision);
+    return (decided_by(f, end) == sample->decision &&
+            fabs(used - sample->used) < 1e-9 * sample->used) ||
+           refuse(f, sample, "is decided by something else than its hinges and requirements", "");
 }
 
 static fw_status take_judged(void *context, const fw_study_sample *sample) {
@@ -255,7 +254,7 @@ static fw_status take_judged(void *context, const fw_study_sample *sample) {
     long k = j->before;
     while (j->number[k] != sample->i)
         k++;
-    FW_TRY(check_judged(f, sample));
+    if (!check_judged(f, sample)) return FW_OK;
     place_of(f, sample, j->z + k * f->d);
     memcpy(j->response + k * f->responses, sample->response, (size_t)f->responses * sizeof(double));
     for (int e = 0; e < FW_VERDICT_LOOKS * f->ends; e++)
@@ -431,10 +430,6 @@ static void follow(const fitted *f, int look, const double *z, told *t) {
         if (f->next[look] & 1 << next) follow(f, next, z, t);
 }
 
-static double half(const told *t, int r) {
-    return 0.5 * (t->most[r] - t->least[r]);
-}
-
 /* open: it is to be judged, as when it may go ways that are further apart than what was asked for */
 static void tell(const fitted *f, const double *z, told *t) {
     told_new(f, t);
@@ -443,7 +438,7 @@ static void tell(const fitted *f, const double *z, told *t) {
     else
         ends_at(f, 0, -1, z, t);
     for (int r = 0; r < f->responses && !t->open; r++)
-        t->open = half(t, r) > f->limit[r] * (1 + 1e-9);
+        t->open = t->most[r] - t->least[r] > 2 * f->limit[r] * (1 + 1e-9);
 }
 
 /* are the devices of this round what the former surfaces tell of them? */
@@ -512,6 +507,12 @@ static fw_status make_surfaces(fitted *f) {
                                     .anew = true,
                                     .context = f};
         FW_TRY(fw_study_pool_run(f->study, &work));
+        if (f->refused[0])
+            return fw_diag_error(
+                &f->study->diags, 660, f->study->asked->place,
+                "fitted: of the devices that were judged, number %ld %s: response surfaces know "
+                "nothing of it; make the ranges narrower, or remove fitted, so that all are judged",
+                f->refused_at, f->refused);
         f->held = holds(f);
         FW_TRY(fit_all(f));
         for (int r = 0; r < f->responses; r++)

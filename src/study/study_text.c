@@ -133,6 +133,10 @@ static void say_samples(fw_text *out, const fw_study *study) {
 static void say_fitted(fw_text *out, const fw_study *study) {
     const fw_study_fitted *f = study->result->fitted;
     if (!f) return;
+    if (f->told == 0) {
+        fw_text_add(out, "  all of them were judged: response surfaces told none\n");
+        return;
+    }
     fw_text_printf(out,
                    "  %ld of them were told by response surfaces of %ld that were judged, %ld more "
                    "were judged since the surfaces left them open\n",

@@ -138,6 +138,7 @@ class Fitted(unittest.TestCase):
             done = run("study", self.study("refused", **more), "-o", self.place / "refused")
             self.assertEqual(done.returncode, 3, f"{what}: {done.stdout}{done.stderr}")
             self.assertIn(says, done.stderr, what)
+            self.assertEqual(done.stderr.count(": error:"), 1, "the first by number, whichever thread comes first")
 
 
 if __name__ == "__main__":
