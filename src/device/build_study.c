@@ -402,13 +402,11 @@ static const char *unfit(const fw_device_study *s) {
                "points=\"sobol\"";
     if (s->judge == FW_JUDGE_MADE)
         return "fitted=\"...\" tells devices as drawn, since what flows make of them is searched "
-               "in "
-               "each device anew; take as=\"drawn\" or as=\"hinges\", or remove it";
+               "in each device anew; take as=\"drawn\" or as=\"hinges\", or remove it";
     for (int k = 0; k < s->nvary; k++)
         if (s->vary[k].ntext > 0)
             return "fitted=\"...\" goes between values, and a <vary> lists its own; give it from "
-                   "and "
-                   "to, or remove fitted";
+                   "and to, or remove fitted";
     return NULL;
 }
 

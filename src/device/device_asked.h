@@ -214,8 +214,8 @@ typedef struct fw_device_study {
     long seed;         /* of random numbers */
     double confidence; /* of intervals */
     double yield;      /* that a size wants; 0: none */
-    double
-        fitted; /* what devices of a sweep that are not judged may be off by, of the largest value; 0: all are judged */
+    /* what responses of a sweep's devices that are not judged may be off by, of the largest; 0: all are judged */
+    double fitted;
     fw_device_vary *vary; /* (nvary) */
     int nvary;
     fw_device_uncertain *uncertain; /* (nuncertain) */

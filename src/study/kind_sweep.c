@@ -134,8 +134,8 @@ typedef struct fitted {
     double *limit; /* (responses) of what is told, how far off it may be */
     double *far;   /* (responses) and is */
     double used_far;
-    /* room for one point: (terms), (d), (looks x ends), and (responses) each */
-    double *work, *z, *end, *value, *least, *most;
+    /* room for one point: (terms), (d), (looks x ends), (ends) twice, and (responses) each */
+    double *work, *z, *end, *lower, *upper, *value, *least, *most;
     long refused_at; /* a device that surfaces know nothing of, and why; "" : none */
     char refused[FW_STUDY_WHY];
     bool made, held; /* there are surfaces; the former ones told this round as it came */
@@ -168,7 +168,8 @@ static fw_status fitted_new(fitted *f, fw_study *study, const sweep *s) {
     j->nlook = j->decision + most;
     FW_NEED(f->work = fw_arena_array(arena, double, FW_CHANCE_SURFACE_TERMS));
     FW_NEED(f->z = fw_arena_array(arena, double, d));
-    FW_NEED(f->end = fw_arena_array(arena, double, FW_VERDICT_LOOKS *e + 1));
+    FW_NEED(f->end = fw_arena_array(arena, double, (FW_VERDICT_LOOKS + 2) * e + 1));
+    f->lower = f->end + FW_VERDICT_LOOKS * e, f->upper = f->lower + e;
     FW_NEED(f->largest_of = fw_arena_array(arena, int, r));
     FW_NEED(f->limit = fw_arena_array(arena, double, 5 * r));
     f->far = f->limit + r, f->value = f->far + r, f->least = f->value + r, f->most = f->least + r;
@@ -222,9 +223,11 @@ static int decided_by(const fitted *f, const double *end) {
     return decision;
 }
 
-static double most_of(const fitted *f, const double *end) {
+/* the largest of a number (FW_PART_...) of all hinges, or of all requirements, too: 0 where there is none */
+static double most_of(const fitted *f, const double *end, int number, bool hinges) {
+    const int until = hinges ? FW_PART_NUMBERS * f->study->nhinge : f->ends;
     double most = 0;
-    for (int e = FW_PART_HIGH; e < f->ends; e += FW_PART_NUMBERS)
+    for (int e = number; e < until; e += FW_PART_NUMBERS)
         most = fmax(most, end[e]);
     return most;
 }
@@ -242,7 +245,7 @@ static bool check_judged(fitted *f, const fw_study_sample *sample) {
     const double *end = sample->part + f->ends * sample->looks[sample->nlook - 1];
     for (int e = 0; e < f->ends; e++)
         if (!isfinite(end[e])) return refuse(f, sample, "has a band without ends", "");
-    const double used = fw_study_used(most_of(f, end), sample->decision);
+    const double used = fw_study_used(most_of(f, end, FW_PART_HIGH, false), sample->decision);
     return (decided_by(f, end) == sample->decision &&
             fabs(used - sample->used) < 1e-9 * sample->used) ||
            refuse(f, sample, "is decided by something else than its hinges and requirements", "");
@@ -313,9 +316,7 @@ static bool is_largest(const fitted *f, int r, int number) {
     const judged *j = &f->at;
     for (long k = 0; k < j->n; k++) {
         const double *end = j->part + (k * FW_VERDICT_LOOKS + last_look(j, k)) * f->ends;
-        double most = -HUGE_VAL;
-        for (int e = number; e < FW_PART_NUMBERS * f->study->nhinge; e += FW_PART_NUMBERS)
-            most = fmax(most, end[e]);
+        const double most = most_of(f, end, number, true);
         if (!(fabs(j->response[k * f->responses + r] - most) <= 1e-12 * fabs(most))) return false;
     }
     return f->ends > 0;
@@ -361,35 +362,32 @@ static void told_new(const fitted *f, told *t) {
         t->least[r] = HUGE_VAL, t->most[r] = -HUGE_VAL;
 }
 
-/* The largest of the hinges' numbers has an edge wherever another hinge comes to be it; each by itself has none. */
-static void largest_hinge(const fitted *f, int look, int number, double *least, double *most) {
+/* The largest of many has an edge wherever another comes to be it; each by itself has none. */
+static void largest_of(const fitted *f, int look, int number, bool hinges, double *least,
+                       double *most) {
     const double *end = f->end + look * f->ends;
-    *least = *most = -HUGE_VAL;
-    for (int e = number; e < FW_PART_NUMBERS * f->study->nhinge; e += FW_PART_NUMBERS) {
-        *least = fmax(*least, end[e] - off(&f->part[look], e));
-        *most = fmax(*most, end[e] + off(&f->part[look], e));
+    for (int e = 0; e < f->ends; e++) {
+        f->lower[e] = end[e] - off(&f->part[look], e);
+        f->upper[e] = end[e] + off(&f->part[look], e);
     }
+    *least = most_of(f, f->lower, number, hinges), *most = most_of(f, f->upper, number, hinges);
 }
 
 /* it may end at this look */
 static void ends_at(const fitted *f, int look, int decision, const double *z, told *t) {
     const fw_chance_surface *s = &f->response[look];
-    const double *end = f->end + look * f->ends;
     t->open = t->open || s->terms == 0 || (t->decision >= 0 && t->decision != decision);
     if (t->open) return;
     t->decision = decision;
     fw_chance_surface_at(s, z, f->work, f->value);
     for (int r = 0; r < f->responses; r++) {
         double at_least = f->value[r] - off(s, r), at_most = f->value[r] + off(s, r);
-        if (f->largest_of[r] >= 0) largest_hinge(f, look, f->largest_of[r], &at_least, &at_most);
+        if (f->largest_of[r] >= 0) largest_of(f, look, f->largest_of[r], true, &at_least, &at_most);
         t->least[r] = fmin(t->least[r], at_least);
         t->most[r] = fmax(t->most[r], at_most);
     }
-    double least = 0, most = 0;
-    for (int e = FW_PART_HIGH; e < f->ends; e += FW_PART_NUMBERS) {
-        least = fmax(least, end[e] - off(&f->part[look], e));
-        most = fmax(most, end[e] + off(&f->part[look], e));
-    }
+    double least, most;
+    largest_of(f, look, FW_PART_HIGH, false, &least, &most);
     t->used[0] = fmin(t->used[0], fw_study_used(least, decision));
     t->used[1] = fmax(t->used[1], fw_study_used(most, decision));
 }

@@ -376,6 +376,7 @@ export class Explore {
         if (!Array.isArray(at)) this.slider.value = Math.round((1000 * (at - x.from)) / (x.to - x.from));
         this.#draw();
         clearTimeout(this.looking);
+        this.closer?.abort();
         if (!Array.isArray(at)) this.looking = setTimeout(() => this.#lookCloser(x, at), QUIET_MS);
     }
 
