@@ -554,6 +554,8 @@ fw_status fw_plan_keep(fw_design *design, fw_plan_kept *kept) {
 }
 
 typedef struct again {
+    const char *xml; /* (n) NULL: the description as it was */
+    size_t n;
     const fw_device_set *set;
     int nset;
     bool *same;
@@ -561,15 +563,28 @@ typedef struct again {
 
 static fw_status again_work(fw_design *d, void *argument) {
     const again *a = argument;
+    if (a->xml) FW_TRY(fw_plan_replace_source(d->plan, a->xml, a->n, a->same));
+    if (a->xml && !*a->same) return FW_OK;
     return fw_plan_load_again(d->plan, a->set, a->nset, a->same);
 }
 
-fw_status fw_plan_kept_again(fw_plan_kept *kept, const fw_device_set *set, int nset, bool *same) {
-    again a = {set, nset, same};
-    *same = false;
+static fw_status begin_again(fw_plan_kept *kept, again *a) {
+    *a->same = false;
     fw_plan_free_steps(kept->design->plan); /* they have arenas of their own */
     fw_arena_copy_put_back(kept->design->plan->arena, &kept->copy);
-    return (fw_status)fw_plan_design_run(kept->design, again_work, &a);
+    clock_t start = clock();
+    fw_status status = (fw_status)fw_plan_design_run(kept->design, again_work, a);
+    kept->design->read_s = seconds_since(start);
+    return status;
+}
+
+fw_status fw_plan_kept_again(fw_plan_kept *kept, const fw_device_set *set, int nset, bool *same) {
+    return begin_again(kept, &(again){.set = set, .nset = nset, .same = same});
+}
+
+fw_status fw_plan_kept_with(fw_plan_kept *kept, const char *xml, size_t n, const fw_device_set *set,
+                            int nset, bool *same) {
+    return begin_again(kept, &(again){xml, n, set, nset, same});
 }
 
 void fw_plan_kept_free(fw_plan_kept *kept) {

@@ -27,6 +27,10 @@ fw_status fw_plan_keep(fw_design *design, fw_plan_kept *kept);
 /* The design is then as one that was read with these settings, which must live as long as it is in use.
    *same false: it names other packs or materials, or has mistakes, and is of no use until the next time */
 fw_status fw_plan_kept_again(fw_plan_kept *kept, const fw_device_set *set, int nset, bool *same);
+/* The same of another description, n bytes that are copied. *same false also where something was said of files that are
+   not the description, which would not be said again, or where these files are others by now */
+fw_status fw_plan_kept_with(fw_plan_kept *kept, const char *xml, size_t n, const fw_device_set *set,
+                            int nset, bool *same);
 void fw_plan_kept_free(fw_plan_kept *kept);
 /* flexwright.table/1 */
 fw_status fw_plan_table_json(fw_text *out);

@@ -23,6 +23,7 @@ fw_plan_live *fw_plan_live_new(const fw_plan_live_settings *settings) {
 void fw_plan_live_free(fw_plan_live *live) {
     if (!live) return;
     fw_plan_live_posed_free(live->posed);
+    fw_plan_live_shown_free(live);
     if (live->kept) live->kept_free(live->kept);
     fw_arena_free(live->answer);
     fw_arena_free(live->self);

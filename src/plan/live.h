@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Live computing behind an interactive page: one request (JSON) in, one answer (JSON) out, again
    and again in one process. Nothing is kept between calls but what an fw_plan_live holds, and
-   that is bounded: the last answer, the mechanism that was last posed, and the study whose points were
-   last asked for (study/study.h). One fw_plan_live belongs to one thread.
+   that is bounded: the last answer, the design of the last preview and what it read of packs, the mechanism that was
+   last posed, and the study whose points were last asked for (study/study.h). One fw_plan_live belongs to one thread.
 
    Documents (docs/reference/json.md): flexwright.table/1, preview/1, pose/1, edit/1. */
 #ifndef FW_PLAN_LIVE_H

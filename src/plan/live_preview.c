@@ -206,8 +206,9 @@ static void excuse(fw_plan *plan) {
     }
 }
 
-static fw_status look(fw_design *d, fw_plan_live_request *request, bool rates, fw_text *out) {
-    int status = fw_design_read_memory(d, "device.xml", request->text, request->length);
+/* judged and moved, of a description that was read with this status */
+static fw_status look(fw_design *d, int status, fw_plan_live_request *request, bool rates,
+                      fw_text *out) {
     if (status == FW_STATUS_USAGE && d->wrong_option)
         return fw_plan_live_wrong(request, d->wrong_option, NULL);
     if (status == FW_STATUS_OK) {
@@ -225,14 +226,75 @@ static fw_status look(fw_design *d, fw_plan_live_request *request, bool rates, f
     return (fw_status)fw_plan_design_run(d, document, &(work){(fw_status)status, rates, out});
 }
 
+/* ---- what the former preview read ---- */
+
+/* A slider changes the description some ten times a second and the packs never; reading them takes a quarter of a
+   preview. The design that was shown last stays as it was read, and becomes the next one if that has the same
+   options and names the same packs, whose files are compared. */
+
+enum { KEPT_MOST = 64 * 1024 * 1024 }; /* bytes of a design that stays */
+
+void fw_plan_live_shown_free(fw_plan_live *live) {
+    fw_plan_kept_free(&live->shown.kept);
+    fw_design_free(live->shown.kept.design);
+    json_decref(live->shown.options);
+    json_decref(live->shown.lab);
+    live->shown = (struct fw_plan_live_shown){.options = NULL};
+}
+
+static bool alike(const json_t *a, const json_t *b) {
+    return a == b || (a && b && json_equal(a, b));
+}
+
+/* *done false: the description is to be read as if there had been none before */
+static fw_status take_shown(fw_plan_live *live, fw_plan_live_request *r, bool *done) {
+    const char *key;
+    json_t *value;
+    int n = 0;
+    fw_device_set *set;
+    *done = false;
+    if (!live->shown.kept.design || !alike(live->shown.options, r->options) ||
+        !alike(live->shown.lab, r->lab) || json_object_size(r->set) > FW_LIVE_SETS_MOST)
+        return FW_OK;
+    FW_NEED(set = fw_arena_array(r->arena, fw_device_set, json_object_size(r->set)));
+    json_object_foreach(r->set, key, value) {
+        if (!json_is_string(value) || !key[0]) return FW_OK; /* a mistake, said elsewhere */
+        set[n++] = (fw_device_set){key, json_string_value(value)};
+    }
+    r->full = live->shown.full;
+    return fw_plan_kept_with(&live->shown.kept, r->text, r->length, set, n, done);
+}
+
+static void keep_shown(fw_plan_live *live, const fw_plan_live_request *r, fw_design *design) {
+    if (fw_plan_keep(design, &live->shown.kept) != FW_OK) {
+        live->shown.kept.design = NULL;
+        return;
+    }
+    live->shown.options = json_incref(r->options);
+    live->shown.lab = json_incref(r->lab);
+    live->shown.full = r->full;
+}
+
 static fw_status preview(fw_plan_live *live, fw_plan_live_request *request, fw_text *out) {
     const json_t *rates = json_object_get(request->root, "rates");
-    fw_design *design;
+    fw_design *design = live->shown.kept.design;
+    int read = FW_STATUS_OK;
+    bool taken;
     if (rates && !json_is_null(rates) && !json_is_boolean(rates))
         return fw_plan_live_wrong(request, "true or false is needed for", "rates");
-    FW_TRY(fw_plan_live_design(live, request, &design));
-    fw_status status = look(design, request, json_is_true(rates), out);
-    fw_design_free(design);
+    FW_TRY(take_shown(live, request, &taken));
+    if (!taken) {
+        fw_plan_live_shown_free(live);
+        FW_TRY(fw_plan_live_design(live, request, &design));
+        read = fw_design_read_memory(design, "device.xml", request->text, request->length);
+        if (read == FW_STATUS_OK) keep_shown(live, request, design);
+    }
+    const bool kept = live->shown.kept.design != NULL;
+    fw_status status = look(design, read, request, json_is_true(rates), out);
+    if (!kept)
+        fw_design_free(design);
+    else if (status != FW_OK || fw_arena_peak(design->plan->arena) > KEPT_MOST)
+        fw_plan_live_shown_free(live);
     return status;
 }
 

@@ -143,7 +143,11 @@ fw_status fw_plan_live_lab(fw_plan_live_request *r, fw_arena *arena, const fw_pl
     json_object_foreach(r->lab, name, text) {
         if (!json_is_string(text) || !name[0])
             return fw_plan_live_wrong(r, "the text of a laboratory pack is needed for", name);
-        item[(*n)++] = (fw_plan_lab_text){name, json_string_value(text), json_string_length(text)};
+        const size_t length = json_string_length(text);
+        fw_plan_lab_text *to = &item[(*n)++];
+        *to = (fw_plan_lab_text){fw_arena_strdup(arena, name),
+                                 fw_arena_strndup(arena, json_string_value(text), length), length};
+        FW_NEED(to->name && to->text ? to : NULL);
     }
     *lab = item;
     return FW_OK;

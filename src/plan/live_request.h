@@ -17,11 +17,18 @@ enum {
     FW_LIVE_SAMPLES_MOST = 2001
 };
 
+struct fw_plan_live_shown { /* the design of the last preview, read and nothing else */
+    fw_plan_kept kept;      /* design NULL: none */
+    json_t *options, *lab;  /* of its request; NULL: it had none */
+    bool full;              /* options.detail */
+};
+
 struct fw_plan_live {
     fw_arena *self; /* holds this struct */
     fw_plan_live_settings settings;
     fw_arena *answer;                 /* of the last one, NULL: none */
     struct fw_plan_live_posed *posed; /* the mechanism that was last posed, NULL: none */
+    struct fw_plan_live_shown shown;
     /* what a room below keeps from one request to the next, and how it is freed; NULL: nothing */
     void *kept;
     void (*kept_free)(void *kept);
@@ -48,6 +55,7 @@ fw_status fw_plan_live_lab(fw_plan_live_request *request, fw_arena *arena,
 /* a design with the options, sets and packs of the request, not read yet */
 fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *request,
                               fw_design **design);
+void fw_plan_live_shown_free(fw_plan_live *live); /* from then on there is none */
 /* optional members of an object: absent leaves *value alone */
 fw_status fw_plan_live_string(fw_plan_live_request *r, const json_t *object, const char *key,
                               const char **value);

@@ -52,7 +52,7 @@ static fw_status pack_meant(fw_plan *plan, const char *wrong, const char **words
 /* ---- files and laboratory packs ---- */
 
 enum {
-    MOST_BYTES = 8 * 1024 * 1024,
+    MOST_BYTES = FW_PLAN_FILE_MOST,
     MOST_PACK_BYTES = 1024 * 1024,
     MOST_PACKS = 8,
     MOST_DRAWINGS = 32

@@ -86,6 +86,51 @@ fw_status fw_plan_load_again(fw_plan *plan, const fw_device_set *set, int nset, 
     return fw_plan_is_final(status) ? status : FW_OK;
 }
 
+/* of the descriptions, diagnostics are said anew */
+static bool said_of_others(const fw_plan *plan) {
+    for (size_t i = 0; i < plan->diags.count; i++)
+        if (!fw_text_same(plan->diags.item[i].place.file, plan->source_file)) return true;
+    return false;
+}
+
+/* the packs and layer tables; names of files in the data directory have a slash, and no other input has one */
+static fw_status same_packs(const fw_plan *plan, bool *same) {
+    fw_mark mark = fw_arena_mark(plan->arena);
+    fw_diags silent = fw_diags_new(plan->arena);
+    *same = true;
+    for (int i = 1; i < plan->ninput && *same; i++) {
+        const fw_plan_input_file *input = &plan->input[i];
+        const char *path;
+        char *bytes, hash[65];
+        size_t n;
+        if (!strchr(input->name, '/')) continue;
+        FW_TRY(fw_data_path(plan->arena, plan->options.data_directory, input->name, &path));
+        *same = false;
+        if (!path) break;
+        fw_status status = fw_input_read(plan->arena, path, input->size, &silent, &bytes, &n);
+        if (status == FW_NOMEM) return status;
+        if (status != FW_OK || n != input->size) break;
+        fw_sha256(bytes, n, hash);
+        *same = strcmp(hash, input->sha256) == 0;
+    }
+    fw_arena_rewind(plan->arena, mark);
+    return FW_OK;
+}
+
+fw_status fw_plan_replace_source(fw_plan *plan, const char *xml, size_t n, bool *same) {
+    char hash[65];
+    *same = n <= FW_PLAN_FILE_MOST && !said_of_others(plan) && plan->ndrawing == 0;
+    if (*same) FW_TRY(same_packs(plan, same));
+    if (!*same) return FW_OK;
+    plan->diags = fw_diags_new(plan->arena);
+    FW_NEED(plan->source = fw_arena_strndup(plan->arena, xml, n));
+    plan->source_length = n;
+    fw_sha256(xml, n, hash);
+    fw_plan_input_file *input = &plan->input[0];
+    *input = (fw_plan_input_file){input->name, fw_arena_strdup(plan->arena, hash), n};
+    return input->sha256 ? FW_OK : FW_NOMEM;
+}
+
 /* ---- the steps of a wafer's sweeps, and how many dies there are with the largest of them ---- */
 
 int fw_plan_sweep_steps(const fw_device_wafer_asked *w) {

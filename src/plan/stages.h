@@ -5,6 +5,10 @@
 #include "base/output.h"
 #include "plan/plan.h"
 
+enum {
+    FW_PLAN_FILE_MOST = 8 * 1024 * 1024
+}; /* bytes of a description, pack, layer table or drawing */
+
 /* FW_INPUT when the device names no material: what is judged or made needs one, a motion does
    not */
 fw_status fw_plan_need_material(fw_plan *plan);
@@ -16,6 +20,9 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
    read again, what was read of packs stays. *same false: it names other packs or materials, or has mistakes;
    the plan is of no further use then. */
 fw_status fw_plan_load_again(fw_plan *plan, const fw_device_set *set, int nset, bool *same);
+/* Another text of n bytes, which are copied, in place of the description of a plan that was read and nothing else, before
+   fw_plan_load_again. *same false: files that are not the description are others by now, or something was said of them */
+fw_status fw_plan_replace_source(fw_plan *plan, const char *xml, size_t n, bool *same);
 void fw_plan_free_steps(fw_plan *plan); /* of a wafer's sweeps */
 /* a description that names the same packs in place of the one before, and its variants of them */
 fw_status fw_plan_take_device(fw_plan *plan, const fw_device *device);
