@@ -12,8 +12,10 @@
 #include <sanitizer/asan_interface.h>
 #endif
 
-enum { ALIGNMENT = 64, FIRST_CHUNK = 64 * 1024, LARGEST_CHUNK = 8 * 1024 * 1024 };
-enum { HUGE_PAGE = 2 * 1024 * 1024 };
+/* The first access to a page costs as much as some thousand operations, on virtual machines ten times that, and an arena is
+   filled from its start: blocks of malloc grow fast to where huge pages hold them. */
+enum { ALIGNMENT = 64, HUGE_PAGE = 2 * 1024 * 1024 };
+enum { FIRST_BLOCK = 64 * 1024, GROWTH = 8, LARGEST_BLOCK = 4 * HUGE_PAGE };
 
 typedef struct chunk {
     struct chunk *before;
@@ -171,17 +173,14 @@ void fw_arena_free(fw_arena *arena) {
     free(arena);
 }
 
-/* one large block is filled from its start: pages of 2 MiB spare it hundreds of faults for each */
-static void in_huge_pages(unsigned char *data, size_t bytes) {
+/* a block of malloc, whole huge pages where it is as large as one; no harm where the system refuses them */
+static void *block_of(size_t bytes) {
+    if (bytes < HUGE_PAGE) return malloc(bytes);
+    void *block = aligned_alloc(HUGE_PAGE, bytes);
 #ifdef MADV_HUGEPAGE
-    uintptr_t from = ((uintptr_t)data + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
-    uintptr_t to = ((uintptr_t)data + bytes) / HUGE_PAGE * HUGE_PAGE;
-    if (bytes >= 4 * (size_t)HUGE_PAGE && to > from)
-        madvise((void *)from, to - from, MADV_HUGEPAGE); /* no harm where it is refused */
-#else
-    (void)data;
-    (void)bytes;
+    if (block) madvise(block, bytes, MADV_HUGEPAGE);
 #endif
+    return block;
 }
 
 /* its pages are there: fresh ones would cost more than most of what is done with them */
@@ -202,17 +201,18 @@ static chunk *take_spare(fw_arena *arena, size_t bytes) {
 static chunk *add_chunk(fw_arena *arena, size_t bytes) {
     chunk *kept = take_spare(arena, bytes);
     if (kept) return kept;
-    size_t size = arena->last ? 2 * arena->last->size : FIRST_CHUNK;
-    if (size > LARGEST_CHUNK) size = LARGEST_CHUNK;
-    if (size < bytes) size = bytes;
-    if (size > SIZE_MAX - sizeof(chunk) - ALIGNMENT) return NULL;
-    size_t whole = size + sizeof(chunk) + ALIGNMENT;
-    chunk *c = malloc(whole);
+    const size_t head = sizeof(chunk) + ALIGNMENT;
+    const chunk *last = arena->last;
+    size_t whole = last ? GROWTH * (last->size + head) : FIRST_BLOCK;
+    if (whole > LARGEST_BLOCK) whole = LARGEST_BLOCK;
+    if (bytes > SIZE_MAX - head - HUGE_PAGE) return NULL;
+    if (whole < bytes + head) whole = bytes + head;
+    if (whole >= HUGE_PAGE) whole = (whole + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+    chunk *c = block_of(whole);
     if (!c) return NULL;
     uintptr_t start = (uintptr_t)(c + 1);
     size_t shift = (ALIGNMENT - start % ALIGNMENT) % ALIGNMENT;
-    *c = (chunk){arena->last, size, 0, (unsigned char *)(c + 1) + shift};
-    in_huge_pages(c->data, bytes);
+    *c = (chunk){arena->last, whole - head, 0, (unsigned char *)(c + 1) + shift};
     hide(c->data, c->size);
     arena->last = c;
     arena->held += whole;

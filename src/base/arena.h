@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One arena owns everything of a plan; nothing is freed singly. Chunks of 64 KiB, doubling.
+/* One arena owns everything of a plan; nothing is freed singly. Chunks of 64 KiB, 512 KiB, 4 MiB, then 8 MiB.
    Memory is zeroed. A failed or capped allocation gives NULL, never an abort. */
 #ifndef FW_BASE_ARENA_H
 #define FW_BASE_ARENA_H

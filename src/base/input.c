@@ -44,6 +44,14 @@ static int open_file(const char *path, const char **why) {
     return fd;
 }
 
+/* bytes of a file and one, so that its end is seen without more room; of what has no size yet, a usual one */
+static size_t room_for(int fd, size_t most) {
+    struct stat about;
+    if (fstat(fd, &about) != 0 || !S_ISREG(about.st_mode) || about.st_size <= 0) return 64 * 1024;
+    const uintmax_t size = (uintmax_t)about.st_size;
+    return size < most ? (size_t)size + 1 : most + 1;
+}
+
 fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
                         char **data, size_t *n) {
     int standard = strcmp(path, "-") == 0;
@@ -54,8 +62,8 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
         fw_diag_error(diags, 220, place, "cannot be read: %s", why);
         return FW_IO;
     }
-    size_t capacity = 64 * 1024, length = 0;
-    char *buffer = fw_arena_alloc(arena, capacity + 1, 1);
+    size_t capacity = room_for(fd, most), length = 0;
+    char *buffer = fw_arena_raw(arena, capacity + 1);
     fw_status status = buffer ? FW_OK : FW_NOMEM;
     while (status == FW_OK) {
         ssize_t got = read(fd, buffer + length, capacity - length);
