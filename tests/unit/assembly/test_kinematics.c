@@ -220,6 +220,31 @@ static void test_six_bar(void **state) {
 
 /* ---- choice of the independent coordinates ---- */
 
+/* of coordinates that are as good, but for rounding, the first is taken: alike bodies of any number, each on a pin of its own */
+static void test_choice_of_equals(void **state) {
+    (void)state;
+    for (int n = 2; n <= 6; n++) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        rig r = rig_new(arena, n, n, 0);
+        for (int b = 0; b < n; b++) {
+            rig_body(&r, "body", 1, 0.1, b + 0.3, 0.7, 0);
+            rig_pin(&r, "pin", FW_GROUND, b, b, 0.1, 0, 0);
+        }
+        double q[18];
+        pose(&r, q);
+        fw_assembly_kinematics_options o = everything;
+        const fw_assembly_kinematics *k;
+        assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_OK);
+        assert_int_equal(k->independent.count, n);
+        for (int b = 0; b < n; b++) {
+            assert_int_equal(k->independent.item[b].body, b);
+            assert_int_equal(k->independent.item[b].axis, 2);
+        }
+        fw_arena_free(arena);
+    }
+}
+
 static void test_choice(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -465,6 +490,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_slider_crank),   cmocka_unit_test(test_four_bar),
         cmocka_unit_test(test_six_bar),        cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_choice_of_equals),
         cmocka_unit_test(test_dead_centre),    cmocka_unit_test(test_driven_crank),
         cmocka_unit_test(test_driven_six_bar), cmocka_unit_test(test_ramp),
         cmocka_unit_test(test_lost),           cmocka_unit_test(test_out_of_memory),

@@ -203,6 +203,8 @@ static void larger_holes_open_a_window(void **state) {
     const char *at = strstr(f->reason[0], "<die release-hole=\"");
     if (!at) fail_msg("%s", f->reason[0]);
     assert_int_equal(sscanf(at, "<die release-hole=\"%lf", &hole), 1);
+    const char *pitch = strstr(f->reason[0], "<die release-pitch=\""), *frame = strstr(f->reason[0], "<die frame=\"");
+    assert_true(frame && pitch && frame < pitch && pitch < at); /* the least change first: 2 %, 5 % and 40 % of what is there */
     assert_true(hole > 10.0 && hole <= 20.0);
     fw_plan_free(plan);
     char die[100];
