@@ -59,8 +59,8 @@ static void places_of_everything(void **state) {
 /* a document that ends anywhere is told the same, whatever lies in memory behind its end */
 static void nothing_behind_the_end_counts(void **state) {
     (void)state;
-    static const char *const text[] = {"<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- a -->\n<r xmlns=\"urn:x\" a='1'>\n<c>t&lt;&#65;</c><![CDATA[x]]>\n"
-                                       "<?pi x?><d e=\"\xc3\xa9\"/></r>\n",
+    static const char *const text[] = {("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- a -->\n<r xmlns=\"urn:x\" a='1'>\n<c>t&lt;&#65;</c>"
+                                        "<![CDATA[x]]>\n<?pi x?><d e=\"\xc3\xa9\"/></r>\n"),
                                        "<r><!DOCTYPE x></r>", "<!DOCTYPE r [<!ENTITY a \"b\">]><r>&a;</r>"};
     static const char *const behind[] = {"", "d", "-- -->", "[CDATA[", "?>", "\"/></r>", ";", "\xa9", "DOCTYPE", "xml "};
     for (size_t t = 0; t < sizeof text / sizeof *text; t++)
