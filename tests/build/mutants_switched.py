@@ -236,10 +236,14 @@ def ask(options):
     ground.WORK = GROUND / "work"
     changes, known, until = kept("changes.json"), kept("tests.json"), time.monotonic() + options.limit_s
     every = tests("|".join(options.what) or ".")
-    for name in sorted(every, key=lambda n: known.get(n, {"seconds": 1})["seconds"]):
+    other = ROOT / f"build-switched-{options.like}/tests.json"
+    times = {n: t["seconds"] for n, t in ((json.loads(other.read_text()) if options.like else {}) | known).items()}
+    for name in sorted(every, key=lambda n: times.get(n, 1)):
         what = every[name]
         if time.monotonic() > until:
             break
+        if times.get(name, 0) > options.most_s:
+            continue
         if name not in known:
             status, seconds, passed = passes(name, what, len(changes))
             known[name] = {"status": status, "seconds": round(seconds, 3), "passed": passed}
@@ -306,9 +310,10 @@ def main():
     parser.add_argument("--name")
     parser.add_argument("--each", type=int, default=12)
     parser.add_argument("--seed", type=int, default=271)
-    parser.add_argument("--rooms", default="report,plan,serve,study,verdict")
+    parser.add_argument("--rooms", default=",".join(sorted(d.name for d in (ROOT / "src").iterdir() if d.is_dir())), help="all by themselves")
     parser.add_argument("--for", type=float, dest="limit_s", default=math.inf)
     parser.add_argument("--most", type=float, dest="most_s", default=math.inf, help="leaves out tests that take longer than these seconds")
+    parser.add_argument("--like", help="the name of another sample, whose tests' times are taken before they are known here")
     options = parser.parse_intermixed_args()
     global GROUND
     GROUND = ROOT / f"build-switched-{options.name}" if options.name else GROUND

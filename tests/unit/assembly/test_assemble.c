@@ -515,6 +515,12 @@ static void test_impossible_driver(void **state) {
         double inner = acos((3.2 * 3.2 + 2.5 * 2.5 - reach * reach) / (2 * 3.2 * 2.5));
         double end = acos(-1.0) - inner;
         assert_near(found, fabs(end - ask[i]) / degree, 0.01);
+        double asked, nearest; /* 1 rad, which stands for the angle that is asked for */
+        const char *says = strstr(diags.item[0].message, "it prescribes ");
+        assert_non_null(says);
+        assert_int_equal(sscanf(says, "it prescribes %lf deg, and the nearest value that the joints allow from this initial guess is %lf deg", &asked, &nearest), 2);
+        assert_near(asked, 1 / degree, 0.05);
+        assert_near(nearest, (1 + end - ask[i]) / degree, 0.05);
         fw_arena_free(arena);
     }
 }

@@ -220,6 +220,33 @@ static void test_six_bar(void **state) {
 
 /* ---- choice of the independent coordinates ---- */
 
+/* of coordinates that are as good, but for rounding, the first is taken: both cranks of a parallelogram turn alike, at any angle */
+static void test_choice_of_equals(void **state) {
+    (void)state;
+    for (int n = 0; n < 6; n++) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        rig r = rig_new(arena, 3, 4, 0);
+        const double x = cos(0.3 + 0.4 * n), y = sin(0.3 + 0.4 * n);
+        rig_body(&r, "one", 1, 0.1, 0.5 * x, 0.5 * y, 0);
+        rig_body(&r, "coupler", 1, 0.1, x + 1, y, 0);
+        rig_body(&r, "two", 1, 0.1, 2 + 0.5 * x, 0.5 * y, 0);
+        rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
+        rig_pin(&r, "B", 0, 1, x, y, 0, 0);
+        rig_pin(&r, "C", 1, 2, 2 + x, y, 0, 0);
+        rig_pin(&r, "D", 2, FW_GROUND, 2, 0, 0, 0);
+        double q[9];
+        pose(&r, q);
+        fw_assembly_kinematics_options o = everything;
+        const fw_assembly_kinematics *k;
+        assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_OK);
+        assert_int_equal(k->independent.count, 1);
+        assert_int_equal(k->independent.item[0].body, 0);
+        assert_int_equal(k->independent.item[0].axis, 2);
+        fw_arena_free(arena);
+    }
+}
+
 static void test_choice(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -465,6 +492,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_slider_crank),   cmocka_unit_test(test_four_bar),
         cmocka_unit_test(test_six_bar),        cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_choice_of_equals),
         cmocka_unit_test(test_dead_centre),    cmocka_unit_test(test_driven_crank),
         cmocka_unit_test(test_driven_six_bar), cmocka_unit_test(test_ramp),
         cmocka_unit_test(test_lost),           cmocka_unit_test(test_out_of_memory),

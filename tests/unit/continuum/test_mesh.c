@@ -40,6 +40,35 @@ static void build(fw_arena *arena, const fw_continuum_shape *shape, double refin
         fail_msg("%s", why);
 }
 
+/* a slice in plane stress is a twentieth of the width deep; where a block's sides are free its end is held from the line of nodes on that is
+   nearest to 0.28 of the width from either side, else all of it */
+static void depth_and_corner(void **state) {
+    for (int which = 1; which <= 4; which++)
+        for (int sides_free = 0; sides_free < 2; sides_free++)
+            for (int root = 0; root < 2; root++) {
+                fw_continuum_shape shape = shape_of(which, (fw_continuum_root)root);
+                fw_continuum_mesh mesh, slice;
+                const char *why = "";
+                shape.sides_free = sides_free;
+                build(*state, &shape, 1, &mesh);
+                assert_relative(mesh.depth_m, shape.depth_m, 1e-12);
+                if (fw_continuum_mesh_build(*state, &shape, 1, true, &slice, &why) != FW_OK) fail_msg("%s", why);
+                assert_relative(slice.depth_m, 0.05 * shape.width_m, 1e-12);
+                if (!mesh.quiet || !sides_free || (fw_continuum_root)root == FW_ROOT_RIGID) {
+                    assert_int_equal(mesh.corner, 0);
+                    continue;
+                }
+                double far[200]; /* of lines of nodes from 0.28 of the strip's width, in its middle */
+                int best = 1, across = 2 * mesh.nj + 1;
+                for (int j = 1; 2 * j < mesh.nj; j++) {
+                    size_t at = (size_t)mesh.ni * (size_t)across, n = at + (size_t)(2 * j);
+                    far[j] = fabs(hypot(mesh.x[n] - mesh.x[at], mesh.y[n] - mesh.y[at]) / shape.width_m - 0.28);
+                    if (far[j] < far[best]) best = j;
+                }
+                assert_int_equal(mesh.corner, best);
+            }
+}
+
 /* volume by quadrature over the bricks against the outline's area; the error of quadratic edges on
    arcs falls with the fourth power of their length */
 static void volume(void **state) {
@@ -272,6 +301,7 @@ static void wrong_constants(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(depth_and_corner, open_arena, close_arena),
         cmocka_unit_test_setup_teardown(volume, open_arena, close_arena),
         cmocka_unit_test_setup_teardown(valid_everywhere, open_arena, close_arena),
         cmocka_unit_test_setup_teardown(general_centre_line, open_arena, close_arena),

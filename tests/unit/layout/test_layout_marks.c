@@ -208,6 +208,30 @@ static void missing_crosses_are_said(void **state) {
     }
 }
 
+/* the narrowest of the four bars decides, whichever it is, and is named as wide as it is */
+static void one_narrow_bar_is_enough(void **state) {
+    (void)state;
+    for (int narrow = -1; narrow < 4; narrow++) {
+        sheet s = {.arena = fw_arena_new(0)};
+        fw_device d = device(NULL, 0);
+        fw_diags diags = fw_diags_new(s.arena);
+        double in[4];
+        for (int k = 0; k < 4; k++)
+            in[k] = 100e-6 + (k == narrow ? 61e-6 + k * 1e-6 : 250e-6 + k * 10e-6); /* 100 um of lane */
+        fw_geometry_box inner = {die.x0 + in[0], die.y0 + in[1], die.x1 - in[2], die.y1 - in[3]};
+        d.die.title = NULL;
+        assert_int_equal(fw_layout_annotate(s.arena, &d, inner, die, &diags, &s.piece, &s.n, &s.capacity), FW_OK);
+        char wide[40];
+        int said = 0;
+        snprintf(wide, sizeof wide, "narrowest bar is %d um wide", 61 + narrow);
+        for (size_t k = 0; k < diags.count; k++)
+            said += diags.item[k].number == 619 && strstr(diags.item[k].message, wide);
+        assert_int_equal(said, narrow >= 0);
+        assert_int_equal(count_of(&s, "alignment cross"), narrow < 0 ? 4 : 0);
+        fw_arena_free(s.arena);
+    }
+}
+
 static void short_memory(void **state) {
     (void)state;
     fw_device d = device(two, 2);
@@ -232,6 +256,7 @@ int main(void) {
         cmocka_unit_test(flows_leave_no_mark),
         cmocka_unit_test(narrow_bars),
         cmocka_unit_test(missing_crosses_are_said),
+        cmocka_unit_test(one_narrow_bar_is_enough),
         cmocka_unit_test(short_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

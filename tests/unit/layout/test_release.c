@@ -200,6 +200,33 @@ static void holes_are_off_the_cuts_of_others(void **state) {
     }
 }
 
+/* nothing else of the outline lies within 2.5 um of the sides of a cut, on its way to straight edges, to round ones and to other holes */
+static void cuts_lie_in_solid(void **state) {
+    (void)state;
+    int cuts = 0;
+    for (double pitch = 27; pitch < 47; pitch += 4) {
+        drawn *d = draw(pitch, 0.3 * pitch);
+        for (int b = 0; b < 5; b++) {
+            fw_geometry_region r = pieces_of(d, b);
+            const fw_geometry_contour *body = &r.contour[0];
+            for (int i = 0; i < body->count; i++) {
+                const fw_geometry_segment *side = &body->segment[i];
+                if (!(side->flags & FW_SEGMENT_THROUGH)) continue;
+                cuts++;
+                for (int k = 0; k < body->count; k++) {
+                    const fw_geometry_segment *s = &body->segment[k];
+                    fw_geometry_vec2 p, q;
+                    if (abs(k - i) % (body->count - 2) < 3) continue; /* its own edge and hole, and the other side */
+                    double far = fw_geometry_segment_distance(side, s, &p, &q);
+                    if (far < 2.5e-6 - 1e-10) fail_msg("%g um beside a cut at pitch %g", 1e6 * far, pitch);
+                }
+            }
+        }
+        fw_arena_free(d->arena);
+    }
+    assert_true(cuts > 500);
+}
+
 /* a body narrower than the reach has none; a pitch that large leaves the drawing as it was */
 static void narrow_bodies_have_none(void **state) {
     (void)state;
@@ -239,6 +266,7 @@ int main(void) {
         cmocka_unit_test(moments_follow), cmocka_unit_test(holes_keep_away),
         cmocka_unit_test(cuts_fit),       cmocka_unit_test(narrow_bodies_have_none),
         cmocka_unit_test(wrong_sizes),    cmocka_unit_test(holes_are_off_the_cuts_of_others),
+        cmocka_unit_test(cuts_lie_in_solid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,6 +66,11 @@ static void identity(void **state) {
             assert_int_equal(o.outline[i].least.count, 0);
         }
         assert_int_equal(o.gone_top + o.gone_bottom + o.gone_least, 0);
+        fw_text out = fw_text_new(s->arena); /* the legend: how far, and on which side */
+        static const char *const says[] = {">mask: 1.1 um outside the drawn edge<", ">mask: 2.6 um outside the drawn edge<",
+                                           ">mask: 0.9 um inside the drawn edge<"};
+        assert_int_equal(fw_mask_write_outlines(mask, &out), FW_OK);
+        if (k < 3 && !strstr(out.data, says[k])) fail_msg("no %s", says[k]);
         scene_free(s);
     }
 }
@@ -90,6 +95,10 @@ static void faces_stand_where_they_are_said_to(void **state) {
             double want = i == 0 ? PI * r * r : (90 * UM + 2 * e) * (8 * UM + 2 * e);
             assert_relative(fw_geometry_contour_area(c[w]), want, 1e-11);
         }
+    fw_text out = fw_text_new(s->arena);
+    assert_int_equal(fw_mask_write_outlines(built(s, 1.7 * UM), &out), FW_OK);
+    assert_non_null(strstr(out.data, "as fabricated, top face, nominal: 0.5 um inside the drawn edge"));
+    assert_non_null(strstr(out.data, "0.4 um outside the drawn edge"));
     scene_free(s);
 }
 

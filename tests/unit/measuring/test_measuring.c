@@ -138,6 +138,28 @@ static void the_rest(void **state) {
     assert_string_equal(text.data, "unknown");
 }
 
+/* of several windows the one is told that loses the largest share of where it lies: here by 500 s of 1200 s, 600 of 6000, and
+   100 of 150 of a window that ends at 1000 s; of equal ones the first. One that was not known loses nothing. */
+static void the_window_that_loses_most(void **state) {
+    (void)state;
+    const double unknown = (double)NAN;
+    const fw_measuring_window row[] = {{"S18", {4800, 6000}, {5100, 5700}}, {"S14", {600, 1200}, {850, 950}}, {"S03", {850, 1000}, {900, 950}},
+                                       {"S05", {unknown, unknown}, {1, 2}}};
+    static const char *const say[] = {"S18: 80..100 to 85..95 min", "S14: 10..20 to 14.17..15.83 min, and 1 more step",
+                                      "S14: 10..20 to 14.17..15.83 min, and 2 more steps", "S14: 10..20 to 14.17..15.83 min, and 3 more steps"};
+    for (int n = 1; n <= 4; n++) {
+        const fw_measuring_item of = {.id = "a", .window = row, .nwindow = n};
+        fw_text text = fw_text_new(arena);
+        fw_measuring_put_windows(&text, &of);
+        assert_string_equal(text.data, say[n - 1]);
+    }
+    const fw_measuring_window close[] = {{"A", {1000, 1100}, {1000, 1060}}, {"B", {100, 200}, {100, 170}}};
+    const fw_measuring_item of = {.id = "a", .window = close, .nwindow = 2};
+    fw_text text = fw_text_new(arena);
+    fw_measuring_put_windows(&text, &of);
+    assert_string_equal(text.data, "B: 100..200 to 100..170 s, and 1 more step"); /* 30 of 200, against 40 of 1100 */
+}
+
 /* nothing reads it: a bound, and said so */
 static void nothing_reads_it(void **state) {
     (void)state;
@@ -193,6 +215,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(what_decides, setup, teardown),
         cmocka_unit_test_setup_teardown(gone, setup, teardown),
         cmocka_unit_test_setup_teardown(the_rest, setup, teardown),
+        cmocka_unit_test_setup_teardown(the_window_that_loses_most, setup, teardown),
         cmocka_unit_test_setup_teardown(nothing_reads_it, setup, teardown),
         cmocka_unit_test_setup_teardown(first_order_and_nothing, setup, teardown),
     };

@@ -275,6 +275,52 @@ static void tips_undrawn(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* Where nothing is drawn and nothing said of what tips a body, a force may act as far from its centre of mass as anything that the
+   scenes attach to it: the factor is that of one force at that distance, whatever it is that lies there. */
+static void loads_act_as_far_as_they_are_attached(void **state) {
+    (void)state;
+    enum { FORCE, OTHER, SPRING_A, SPRING_B, TENDON, COMB_B, COMB_A, CONTACT_A, CONTACT_B, ROWS };
+    const double d = 5e-3, P = 1e-3, x = 0.6 * d, y = 0.8 * d;
+    double factor[ROWS + 1];
+    for (int n = 0; n <= ROWS; n++) {
+        rig r;
+        rig_new(&r);
+        add_body(&r, 1e-3, -2e-3, 400e-6, 100e-6, 2e-9); /* in axes that are not the world's */
+        add_leaf(&r, 1e-3 - 0.5 * (400e-6 + L), -2e-3, FW_GROUND, 0);
+        r.shape[0].area_m2 = (double)NAN;
+        fw_device_force force = {.body = n == OTHER ? 1 : 0, .x_m = n == ROWS ? 2 * x : x, .y_m = n == ROWS ? 2 * y : y};
+        fw_device_spring spring = {.body_a = n == SPRING_A ? 0 : FW_GROUND, .body_b = n == SPRING_A ? FW_GROUND : 0,
+                                   .ax_m = n == SPRING_A ? x : 9, .ay_m = n == SPRING_A ? y : 9, .bx_m = n == SPRING_A ? 9 : x,
+                                   .by_m = n == SPRING_A ? 9 : y};
+        fw_device_eyelet eyelet[2] = {{.body = FW_GROUND, .x_m = 9}, {.body = 0, .x_m = x, .y_m = -y}};
+        fw_device_tendon tendon = {.eyelet = eyelet, .neyelet = 2};
+        /* half its length 1 mm, 4 x 2 x (10 + 40) um wide, a gap of 10 um, and its place 3.59 mm away: 5 mm */
+        fw_device_comb comb = {.fingers = 4, .gap_m = 10e-6, .width_m = 40e-6, .length_m = 2e-3, .body_a = n == COMB_A ? 0 : FW_GROUND,
+                               .body_b = n == COMB_A ? FW_GROUND : 0, .bx_m = n == COMB_A ? 1e-3 + 0.6 * 3.59e-3 : 0.6 * 3.59e-3,
+                               .by_m = n == COMB_A ? -2e-3 + 0.8 * 3.59e-3 : 0.8 * 3.59e-3};
+        fw_device_contact_use contact = {.joint = FW_NONE, .body_a = n == CONTACT_A ? 0 : FW_GROUND, .body_b = n == CONTACT_A ? FW_GROUND : 0,
+                                         .distance_m = 1e-3, .ax_m = n == CONTACT_A ? 0.8 * x : 9, .ay_m = n == CONTACT_A ? 0.8 * y : 9,
+                                         .bx_m = n == CONTACT_A ? 9 : 0.8 * x, .by_m = n == CONTACT_A ? 9 : 0.8 * y};
+        fw_device_scene scene = {.name = "s"};
+        if (n == FORCE || n == OTHER || n == ROWS) scene.force = &force, scene.nforce = 1;
+        if (n == SPRING_A || n == SPRING_B) r.m.spring = &spring, r.m.nspring = 1;
+        if (n == TENDON) scene.tendon = &tendon, scene.ntendon = 1;
+        if (n == COMB_A || n == COMB_B) scene.comb = &comb, scene.ncomb = 1;
+        if (n == CONTACT_A || n == CONTACT_B) scene.contact = &contact, scene.ncontact = 1;
+        const fw_device device = {.scene = &scene, .nscene = 1};
+        r.m.device = &device;
+        const double pull[2] = {P, 0.3 * P}, most[3] = {P * P, 0, 0}, unknown = (double)NAN;
+        const fw_mechanism_plates_pressed by = {pull, most, &unknown, 0};
+        const fw_mechanism_plates bare = plates_of(&r);
+        int hinge;
+        assert_int_equal(fw_mechanism_plates_buckling(r.arena, &bare, &by, &factor[n], &hinge), FW_OK);
+        fw_arena_free(r.arena);
+    }
+    for (int n = 0; n < ROWS; n++)
+        if (n != OTHER) assert_relative(factor[n], factor[FORCE], 1e-9);
+    assert_true(factor[OTHER] > 1.05 * factor[FORCE] && factor[ROWS] < 0.95 * factor[FORCE]); /* of no other body; and farther is worse */
+}
+
 static void counted(void **state) {
     (void)state;
     const double a[] = {10, 30}, b[] = {20, 25, 40};
@@ -312,6 +358,7 @@ int main(void) {
         cmocka_unit_test(tip_mass), cmocka_unit_test(between_two), cmocka_unit_test(curls),
         cmocka_unit_test(as_far_as_its_middle),
         cmocka_unit_test(pressed),  cmocka_unit_test(not_known), cmocka_unit_test(tips_undrawn),   cmocka_unit_test(counted),
+        cmocka_unit_test(loads_act_as_far_as_they_are_attached),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,6 +142,57 @@ static void wider_bases_open_a_window(void **state) {
     }
 }
 
+/* A pad that is lost first is made wider from what is stated, or from 150 um, and no wider than it must be. */
+static double pad_wanted(int width_um, const char *die, bool *no_window) {
+    static char text[2][4000];
+    static int n;
+    char *xml = text[n++ % 2];
+    snprintf(xml, sizeof text[0],
+             "<device xmlns=\"urn:flexwright:device:1\" name=\"pulled\"><material ref=\"silicon-100\" thickness=\"50 um\"/>"
+             "<flow ref=\"soi-deep-rie\"/><flexure id=\"leaf\" kind=\"leaf\" length=\"400 um\" width=\"6 um\" gap=\"10 um\"/><mechanism>"
+             "<body id=\"arm\" x=\"0 mm\" y=\"0.75 mm\" width=\"%d um\"/><revolute id=\"A\" a=\"ground\" a-x=\"0 mm\" a-y=\"0 mm\" b=\"arm\" "
+             "b-x=\"0 mm\" b-y=\"-0.75 mm\" hinge=\"leaf\"/></mechanism><die tethers=\"no\" anchor=\"500 um\" frame=\"500 um\" %s/>"
+             "<scene name=\"pull\" duration=\"1 ms\"><comb-drive id=\"plate\" kind=\"plate\" on=\"arm\" x=\"%d um\" direction=\"0 deg\" "
+             "gap=\"10 um\" length=\"200 um\" voltage=\"1 V\"/></scene></device>",
+             width_um, die, width_um / 2 + 30);
+    fw_plan_options options = fw_plan_options_default();
+    fw_plan *plan = fw_plan_new(&options);
+    if (fw_plan_load_memory(plan, "pulled.xml", xml, strlen(xml)) != FW_OK || fw_plan_judge(plan) != FW_OK)
+        fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "no message");
+    const fw_process_flow *f = plan->flow[0].flow;
+    double um = 0.0;
+    *no_window = f->no_window;
+    const char *at = f->no_window ? strstr(f->reason[0], " pad=\"") : NULL;
+    if (f->no_window && (!at || strstr(f->reason[0], "frame=\"") || strstr(f->reason[0], "anchor=\""))) fail_msg("%s", f->reason[0]);
+    if (at) assert_int_equal(sscanf(at, " pad=\"%lf", &um), 1);
+    fw_plan_free(plan);
+    return um;
+}
+
+static void wider_pads_open_a_window(void **state) {
+    (void)state;
+    static const struct {
+        int width_um;
+        double stated_um; /* 0: what is not stated, 150 um */
+    } row[] = {{120, 0}, {120, 190}, {80, 105}};
+    for (int i = 0; i < 3; i++) {
+        char die[60] = "";
+        bool none;
+        const double stated = row[i].stated_um;
+        if (stated > 0) snprintf(die, sizeof die, "pad=\"%.17g um\"", stated);
+        double um = pad_wanted(row[i].width_um, die, &none);
+        assert_true(none && um > (stated > 0 ? stated : 150));
+        const double hundredths = round(um / (stated > 0 ? stated : 150) * 100); /* of what is there: such are the steps, and then to 1 um */
+        assert_near(um, (stated > 0 ? stated : 150) * hundredths / 100, 0.51);
+        snprintf(die, sizeof die, "pad=\"%.17g um\"", um);
+        pad_wanted(row[i].width_um, die, &none);
+        assert_false(none);
+        snprintf(die, sizeof die, "pad=\"%.17g um\"", um - 0.03 * (stated > 0 ? stated : 150));
+        pad_wanted(row[i].width_um, die, &none);
+        assert_true(none);
+    }
+}
+
 /* larger holes in a grid that is stated */
 static void larger_holes_open_a_window(void **state) {
     (void)state;
@@ -152,6 +203,8 @@ static void larger_holes_open_a_window(void **state) {
     const char *at = strstr(f->reason[0], "<die release-hole=\"");
     if (!at) fail_msg("%s", f->reason[0]);
     assert_int_equal(sscanf(at, "<die release-hole=\"%lf", &hole), 1);
+    const char *pitch = strstr(f->reason[0], "<die release-pitch=\""), *frame = strstr(f->reason[0], "<die frame=\"");
+    assert_true(frame && pitch && frame < pitch && pitch < at); /* the least change first: 2 %, 5 % and 40 % of what is there */
     assert_true(hole > 10.0 && hole <= 20.0);
     fw_plan_free(plan);
     char die[100];
@@ -164,6 +217,7 @@ static void larger_holes_open_a_window(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_change_is_the_least),
                                        cmocka_unit_test(wider_bases_open_a_window),
+                                       cmocka_unit_test(wider_pads_open_a_window),
                                        cmocka_unit_test(larger_holes_open_a_window)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -195,6 +195,35 @@ static void bonds_beside_seams(void **state) {
     }
 }
 
+/* The same of a base whose seam with the frame is aslant, and with edges in any direction, so that both run through cells at any
+   height: at a reach r the square that both make, of side 600 um, has (600 - 2 r)^2 left, cut by the seam through its middle in two
+   halves that are alike. */
+static void bonds_beside_a_seam_aslant(void **state) {
+    (void)state;
+    static const double row[][2] = {{40, 0}, {110, 0}, {-170, 0}, {260, 0}, {30, 0.25 * M_PI}, {-120, 0.25 * M_PI}, {80, 0.4}, {0, 1.1}};
+    for (size_t n = 0; n < sizeof row / sizeof *row; n++) {
+        plate *p = plate_new(1000);
+        const double rise = row[n][0], c = cos(row[n][1]), s = sin(row[n][1]);
+        const double at[2][4][2] = {{{-300, -300}, {300, -300}, {300, rise}, {-300, -rise}}, {{-300, -rise}, {300, rise}, {300, 300}, {-300, 300}}};
+        double xy[2][4][2];
+        for (int i = 0; i < 8; i++) {
+            const double *from = at[i / 4][i % 4];
+            xy[i / 4][i % 4][0] = c * from[0] - s * from[1], xy[i / 4][i % 4][1] = s * from[0] + c * from[1];
+        }
+        fw_geometry_contour frame = polygon(p, (const double(*)[2])xy[0], 4), base = polygon(p, (const double(*)[2])xy[1], 4);
+        frame.segment[2].flags = base.segment[0].flags = FW_SEGMENT_JOINT;
+        plate_add(p, FW_ROLE_FRAME, FW_GROUND, "frame", frame);
+        plate_add(p, FW_ROLE_STRUCTURE, FW_GROUND, "base", base);
+        plate_add(p, FW_ROLE_STRUCTURE, 0, "link", rectangle(p, -100, 500, 100, 560));
+        const fw_release *r = solve(p, 0.1);
+        for (double reach = 20; reach < 280; reach += 3)
+            for (int k = 0; k < 2; k++)
+                assert_near(fw_release_bonded(&r->part[k], reach * UM) / r->part[k].area_m2,
+                            (300 - reach) * (300 - reach) / 300.0 / 300.0, 0.0015);
+        fw_arena_free(p->arena);
+    }
+}
+
 /* any plate with any holes: no random point is farther than the bound, and the worst one found is as far
    as it says, both by the distances of geometry/ */
 static void bounds_hold(void **state) {
@@ -241,6 +270,7 @@ int main(void) {
         cmocka_unit_test(seams_are_no_openings),
         cmocka_unit_test(bonds_shrink_as_in_closed_form),
         cmocka_unit_test(bonds_beside_seams),
+        cmocka_unit_test(bonds_beside_a_seam_aslant),
         cmocka_unit_test(bounds_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,8 @@
 #include "test.h"
 #include "report/fixture.h"
 #include "report/report.h"
+#include "report/report_page.h"
+#include <cairo.h>
 
 typedef struct whole { /* with fewer allocations than matter */
     fw_arena *arena;
@@ -162,12 +164,106 @@ static void actuators_are_drawn(void **state) {
     fw_arena_free(bare.arena);
 }
 
+/* ---- the preview ---- */
+
+typedef struct reading {
+    const fw_text *from;
+    size_t at;
+} reading;
+
+static cairo_status_t next_bytes(void *closure, unsigned char *to, unsigned int length) {
+    reading *r = closure;
+    if (r->at + length > r->from->length) return CAIRO_STATUS_READ_ERROR;
+    memcpy(to, r->from->data + r->at, length);
+    r->at += length;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+enum { ACROSS = 16, COLOURS = 3 };
+
+/* mean of each colour, 0 to 255, in ACROSS x ACROSS parts of a preview of so many pixels */
+static void preview(const whole *w, const fw_layout *layout, int width_px, double mean[ACROSS * ACROSS][COLOURS]) {
+    fw_text png = fw_text_new(w->arena);
+    assert_int_equal(fw_report_device_png(w->arena, &w->f->device, layout, &w->f->verdict, width_px, &png), FW_OK);
+    reading r = {&png, 0};
+    cairo_surface_t *s = cairo_image_surface_create_from_png_stream(next_bytes, &r);
+    assert_int_equal(cairo_surface_status(s), CAIRO_STATUS_SUCCESS);
+    const int wide = cairo_image_surface_get_width(s), high = cairo_image_surface_get_height(s);
+    const unsigned char *data = cairo_image_surface_get_data(s);
+    double n[ACROSS * ACROSS] = {0};
+    assert_int_equal(wide, width_px);
+    memset(mean, 0, ACROSS * ACROSS * sizeof *mean);
+    for (int y = 0; y < high; y++)
+        for (int x = 0; x < wide; x++) {
+            int part = y * ACROSS / high * ACROSS + x * ACROSS / wide;
+            n[part]++;
+            for (int c = 0; c < COLOURS; c++) /* blue, green, red, nothing */
+                mean[part][c] += data[(size_t)y * (size_t)cairo_image_surface_get_stride(s) + 4 * (size_t)x + (size_t)c];
+        }
+    for (int i = 0; i < ACROSS * ACROSS; i++)
+        for (int c = 0; c < COLOURS; c++)
+            mean[i][c] /= n[i];
+    cairo_surface_destroy(s);
+}
+
+/* Twice as many pixels show the same picture: lines, dots and marks are as wide for its width. With shapes and faults, and as
+   sticks; every part of it, where a line of another width would be another share of ink. */
+static void previews_of_any_size_are_alike(void **state) {
+    (void)state;
+    whole w = whole_new();
+    actuate(&w);
+    fw_layout_fault fault = {.number = 120, .message = "too near", .body = {2}, .nbody = 1, .joint = {1, 4}, .njoint = 2, .at = {1e-3, 1e-3}};
+    w.f->layout.fault = &fault;
+    w.f->layout.nfault = 1;
+    for (int k = 0; k < 2; k++) {
+        double one[ACROSS * ACROSS][COLOURS], two[ACROSS * ACROSS][COLOURS];
+        const fw_layout *layout = k ? NULL : &w.f->layout;
+        preview(&w, layout, 640, one);
+        preview(&w, layout, 1280, two);
+        for (int i = 0; i < ACROSS * ACROSS; i++)
+            for (int c = 0; c < COLOURS; c++)
+                assert_near(one[i][c], two[i][c], 1.5);
+    }
+    fw_arena_free(w.arena);
+}
+
+/* the outline of a part that is wrong is 2 px wide at 640 px, as in the drawing: so many pixels change by it */
+static void a_mark_is_as_wide_as_drawn(void **state) {
+    (void)state;
+    enum { PX = 1280 };
+    whole w = whole_new();
+    fw_layout_fault fault = {.number = 120, .message = "too near", .body = {2}, .nbody = 1, .at = {1e-3, 1e-3}};
+    const fw_report_view view = fw_report_device_view(&w.f->device, &w.f->layout, NULL, PX);
+    cairo_surface_t *s[2];
+    for (int k = 0; k < 2; k++) {
+        w.f->layout.fault = &fault;
+        w.f->layout.nfault = k;
+        fw_text png = fw_text_new(w.arena);
+        assert_int_equal(fw_report_device_png(w.arena, &w.f->device, &w.f->layout, &w.f->verdict, PX, &png), FW_OK);
+        reading r = {&png, 0};
+        s[k] = cairo_image_surface_create_from_png_stream(next_bytes, &r);
+        assert_int_equal(cairo_surface_status(s[k]), CAIRO_STATUS_SUCCESS);
+    }
+    double changed = 0, length = 0;
+    const int n = PX * cairo_image_surface_get_height(s[0]);
+    for (int i = 0; i < n; i++)
+        changed += memcmp(cairo_image_surface_get_data(s[0]) + 4 * i, cairo_image_surface_get_data(s[1]) + 4 * i, 3) != 0;
+    for (int i = 0; i < w.f->layout.npiece; i++)
+        if (w.f->layout.piece[i].body == 2) length += fw_geometry_contour_perimeter(&w.f->layout.piece[i].contour) * view.scale;
+    assert_near(changed / length, 4 + 0.7, 0.7); /* some pixels on either side are covered in part */
+    cairo_surface_destroy(s[0]);
+    cairo_surface_destroy(s[1]);
+    fw_arena_free(w.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ledger_on_the_page),
         cmocka_unit_test(pull_in_on_the_page),
         cmocka_unit_test(ledger_in_the_terminal),
         cmocka_unit_test(actuators_are_drawn),
+        cmocka_unit_test(previews_of_any_size_are_alike),
+        cmocka_unit_test(a_mark_is_as_wide_as_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

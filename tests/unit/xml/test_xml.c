@@ -56,6 +56,32 @@ static void places_of_everything(void **state) {
     fw_arena_free(arena);
 }
 
+/* a document that ends anywhere is told the same, whatever lies in memory behind its end */
+static void nothing_behind_the_end_counts(void **state) {
+    (void)state;
+    static const char *const text[] = {("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- a -->\n<r xmlns=\"urn:x\" a='1'>\n<c>t&lt;&#65;</c>"
+                                        "<![CDATA[x]]>\n<?pi x?><d e=\"\xc3\xa9\"/></r>\n"),
+                                       "<r><!DOCTYPE x></r>", "<!DOCTYPE r [<!ENTITY a \"b\">]><r>&a;</r>"};
+    static const char *const behind[] = {"", "d", "-- -->", "[CDATA[", "?>", "\"/></r>", ";", "\xa9", "DOCTYPE", "xml "};
+    for (size_t t = 0; t < sizeof text / sizeof *text; t++)
+        for (size_t n = 1; n < strlen(text[t]); n++) {
+            char first[300] = "", said[300];
+            for (size_t k = 0; k < sizeof behind / sizeof *behind; k++) {
+                fw_arena *arena = fw_arena_new(0);
+                fw_diags diags = fw_diags_new(arena);
+                fw_xml_element *root;
+                char *all = fw_arena_printf(arena, "%.*s%s", (int)n, text[t], behind[k]);
+                int status = (int)fw_xml_read(arena, "t.xml", all, n, &diags, &root);
+                const fw_diag *d = diags.count ? &diags.item[0] : NULL;
+                snprintf(said, sizeof said, "%d: %d at %d:%d %.200s", status, d ? d->number : 0, d ? d->place.line : 0, d ? d->place.column : 0,
+                         d ? d->message : "");
+                if (k == 0) memcpy(first, said, sizeof first);
+                if (strcmp(first, said) != 0) fail_msg("%zu of %zu, with \"%s\" behind: %s, else %s", n, t, behind[k], said, first);
+                fw_arena_free(arena);
+            }
+        }
+}
+
 static void values_with_entities_are_not_exact(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -200,6 +226,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(documents_as_trees),
         cmocka_unit_test(places_of_everything),
+        cmocka_unit_test(nothing_behind_the_end_counts),
         cmocka_unit_test(values_with_entities_are_not_exact),
         cmocka_unit_test(a_mark_and_line_ends),
         cmocka_unit_test(many_lines),
