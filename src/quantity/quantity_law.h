@@ -118,7 +118,8 @@ typedef struct fw_quantity_law_load { /* law NULL: there from the start on */
     const fw_quantity_law *law;
     double size;
 } fw_quantity_law_load;
-/* as fw_quantity_law_swing, of the sum of loads. Test: test_time_law.c swings_of_several */
+/* as fw_quantity_law_swing, of the sum of loads; a jump counts half a sample late, by 7.5 degrees of the mode at most.
+   Test: test_time_law.c swings_of_several */
 double fw_quantity_law_swing_of_all(const fw_quantity_law_load *load, int n, double end_s,
                                     double omega_per_s, double damping);
 /* Something may come again while a mode still rings by what came before: loads that do not all begin and end together, a
