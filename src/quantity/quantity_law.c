@@ -188,6 +188,121 @@ double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as
     return most;
 }
 
+double fw_quantity_law_pumps(const fw_quantity_law *law, bool squared, double end_s, double most,
+                             double omega, double damping, double share) {
+    const double fastest = fw_quantity_law_wave_of(law).fastest_Hz,
+                 a_second = 24 * fmax(omega / (2 * FW_PI), fastest), steps = ceil(a_second * end_s),
+                 h = end_s / steps;
+    double grown = 0;
+    for (int start = 0; start < 2; start++) {
+        double x = 1 - start, v = start ? omega : 0, value[3];
+        for (double i = 0; i < steps; i++) {
+            const double t = (i + 0.5) * h;
+            fw_quantity_law_value(law, t, t, value);
+            const double f = squared ? 2 * pow(value[0] / most, 2) - 1 : value[0] / most;
+            const double middle = x + 0.5 * h * v;
+            v = (v * (1 - damping * omega * h) - h * omega * omega * (1 + share * f) * middle) /
+                (1 + damping * omega * h);
+            x = middle + 0.5 * h * v;
+            grown = fmax(grown, hypot(x, v / omega));
+        }
+    }
+    return grown;
+}
+
+double fw_quantity_law_root_mean_square(const fw_quantity_law *law, double end_s) {
+    enum { CELLS = 2048 };
+    double sum = 0, value[3];
+    for (int i = 0; i < CELLS; i++) {
+        const double t = end_s * (i + 0.5) / CELLS;
+        fw_quantity_law_value(law, t, t, value);
+        sum += value[0] * value[0] / CELLS;
+    }
+    return sqrt(sum);
+}
+
+/* ---- several loads together ---- */
+
+/* Steps a second that see what is fastest of a mode and of loads; a pulse that is shorter than a sixteenth of the mode's
+   period may be seen as a longer one of another size */
+static double fast_enough(const fw_quantity_law_load *load, int n, double end_s,
+                          double omega_per_s) {
+    const double own = omega_per_s / (2 * FW_PI), most = 16 * own;
+    double fastest = own, at[JOLTS + 1], before = 0;
+    for (int i = 0; i < n; i++) {
+        fastest = fmax(fastest, fw_quantity_law_wave_of(load[i].law).fastest_Hz);
+        int count = fw_quantity_law_breaks_of(load[i].law, end_s, at, JOLTS);
+        count = count < JOLTS ? count : JOLTS;
+        fw_sort_doubles(at, (size_t)count);
+        before = 0;
+        for (int k = 0; k < count; before = at[k++])
+            if (at[k] > before) fastest = fmax(fastest, fmin(most, 1 / (2 * (at[k] - before))));
+    }
+    return PER_PERIOD * fastest;
+}
+
+static double sum_of(const fw_quantity_law_load *load, int n, double t_s, double piece_s) {
+    double sum = 0, value[3] = {1, 0, 0};
+    for (int i = 0; i < n; i++) {
+        if (load[i].law) fw_quantity_law_value(load[i].law, t_s, piece_s, value);
+        sum += load[i].size * (load[i].law ? value[0] : 1);
+    }
+    return sum;
+}
+
+double fw_quantity_law_swing_of_all(const fw_quantity_law_load *load, int n, double end_s,
+                                    double omega_per_s, double damping) {
+    const double most_steps = 4e6, w = omega_per_s, turn = w * sqrt(1 - damping * damping);
+    const double steps = ceil(end_s * fast_enough(load, n, end_s, omega_per_s));
+    if (!(steps < most_steps) || !(damping < 1)) return -1;
+    const double h = end_s / steps, decay = exp(-damping * w * h), c = decay * cos(turn * h),
+                 s = decay * sin(turn * h) / turn;
+    double f = sum_of(load, n, 0, 0.5 * h), q = 0, v = 0, most = 0;
+    for (double k = 1; k <= steps; k++) {
+        const double next = sum_of(load, n, k * h, (k - 0.5) * h), slope = (next - f) / h;
+        const double late = 2 * damping * slope / w, x = q - f + late, y = v - slope;
+        q = next - late + x * c + (y + damping * w * x) * s;
+        v = slope + y * c - (w * w * x + damping * w * y) * s;
+        f = next;
+        most = fmax(most, fabs(q));
+    }
+    return most;
+}
+
+/* does a law without breaks change in several places, between which it rests? */
+static bool rests_between(const fw_quantity_law *law, double end_s) {
+    const double hardly = 0.02;
+    double value[3], before, step[SAMPLES], most = 0;
+    int runs = 0, last = -SAMPLES, length = 0;
+    fw_quantity_law_value(law, 0, 0, value);
+    for (int i = 0; i < SAMPLES; i++) {
+        const double t = end_s * (i + 1) / SAMPLES;
+        before = value[0];
+        fw_quantity_law_value(law, t, t, value);
+        step[i] = fabs(value[0] - before);
+        most = fmax(most, step[i]);
+    }
+    for (int i = 0; i < SAMPLES; i++) {
+        if (!(step[i] > hardly * most)) continue;
+        if (i - last > 1 + length) runs++, length = 0;
+        length += i - last < SAMPLES ? i - last : 1;
+        last = i;
+    }
+    return runs > 1;
+}
+
+bool fw_quantity_law_come_again(const fw_quantity_law_load *load, int n, double end_s) {
+    int laws = 0;
+    double at[JOLTS];
+    for (int i = 0; i < n; i++) {
+        if (fw_quantity_law_is_constant(load[i].law)) continue;
+        laws++;
+        const int breaks = fw_quantity_law_breaks_of(load[i].law, end_s, at, JOLTS);
+        if (breaks > 2 || (breaks == 0 && rests_between(load[i].law, end_s))) return true;
+    }
+    return laws > 0 && n > 1;
+}
+
 bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s) {
     enum { LOOKS = 2000 };
     const double once = 0.25; /* of the range: no more than that beyond one way there and back */

@@ -108,6 +108,24 @@ double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as
    range, by 2001 samples of it. True of a law whose variation nothing bounds */
 bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s);
 
+/* By how much x'' + 2 damping w x' + w^2 (1 + share f(t)) x = 0 may grow within the scene, f the law over its largest value:
+   Stoermer's steps, 24 to a period of w or of the law, from either start */
+double fw_quantity_law_pumps(const fw_quantity_law *law, bool squared, double end_s, double most,
+                             double omega_per_s, double damping, double share);
+double fw_quantity_law_root_mean_square(const fw_quantity_law *law, double end_s);
+
+typedef struct fw_quantity_law_load { /* law NULL: there from the start on */
+    const fw_quantity_law *law;
+    double size;
+} fw_quantity_law_load;
+/* as fw_quantity_law_swing, of the sum of loads; a jump counts half a sample late, by 7.5 degrees of the mode at most.
+   Test: test_time_law.c swings_of_several */
+double fw_quantity_law_swing_of_all(const fw_quantity_law_load *load, int n, double end_s,
+                                    double omega_per_s, double damping);
+/* Something may come again while a mode still rings by what came before: loads that do not all begin and end together, a
+   law of more than two breaks, or one without any that rests between two changes (2000 samples) */
+bool fw_quantity_law_come_again(const fw_quantity_law_load *load, int n, double end_s);
+
 /* ---- steps that see all of it (stride.c) ---- */
 
 typedef struct

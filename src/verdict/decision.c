@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Decisions, their order, the errors of the model that they allow for, and what a refined computation may decide. */
+#include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
+#include "quantity/quantity_law.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 
@@ -239,4 +243,200 @@ void fw_verdict_across_checks(const fw_verdict_variant_verdict *v, int nscene, d
         ln[a->scene_index] = check_of(1 / a->tips);
         ln[nscene + a->scene_index] = check_of(a->strained);
     }
+}
+
+/* ---- loads in the plane that tip it, and soften it before they do ---- */
+
+/* Where what tips the device is sure to be `factor` times its forces, their second-order work is at most K/factor, so that
+   what is left is at least K (1 - 1/factor): by as much it sags more, and f^2 of every mode is lower. Proved of a mode, and
+   of the work of what loads it; of one point an estimate, exact where one mode has all of it */
+double fw_verdict_across_softened(const fw_verdict_across *a) {
+    const double sure = surely_flat(a);
+    return sure > 1 ? 1 / sure : sure >= 0 ? 1 : 0;
+}
+
+void fw_verdict_across_under_loads(const fw_verdict_variant_verdict *v, int scene,
+                                   const fw_verdict_plate_mode *of, double *low_Hz,
+                                   double *high_Hz) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    *low_Hz = of->low_Hz, *high_Hz = of->high_Hz;
+    for (int i = 0; o && scene != FW_NONE && i < o->nscene; i++) {
+        if (o->scene[i].scene_index != scene) continue;
+        *low_Hz *= sqrt(1 - fw_verdict_across_softened(&o->scene[i]));
+        *high_Hz *= sqrt(1 + o->scene[i].stiffened);
+    }
+}
+
+double fw_verdict_across_stressed(const fw_verdict_variant_verdict *v) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    double most = 0;
+    for (int i = 0; o && i < o->nscene; i++)
+        if (v->mechanism->device->scene[o->scene[i].scene_index].nstress > 0)
+            most = fmax(most, fw_verdict_across_softened(&o->scene[i]));
+    return most;
+}
+
+/* forces of the scene at their points, with their laws' largest values; of anything else that may act on a body, and
+   of a law without a proved largest value, its force is not looked up */
+void fw_verdict_across_acting(const fw_mechanism *m, const fw_device_scene *s, double *else_Nm) {
+    const bool more = s->ntendon || s->ncomb || s->ncontact || s->npart || m->nspring || m->ndriver;
+    for (int b = 0; b < m->nbody; b++)
+        else_Nm[b] = more ? (double)NAN : 0;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_device_force *f = &s->force[i];
+        if (f->body == FW_GROUND) continue;
+        double arm = hypot(f->x_m, f->y_m);
+        if (!(arm > 0)) continue;
+        double most = fw_quantity_law_measure(f->law, s->duration_s).most;
+        else_Nm[f->body] += isfinite(most) ? most * hypot(f->fx_N, f->fy_N) * arm : (double)NAN;
+    }
+}
+
+/* Joints that only stiff axes hold ring in a motion by forces that its accuracy, which is one of angles, says nothing of */
+static double forces_off(const fw_dynamics_motion *motion) {
+    const fw_verdict_strain_monitor *saw = motion->observed, *other = motion->compared;
+    if (!other || !other->bending.hardest_N || !(other->bending.hardest_N2 > 0)) return 0;
+    const double loose = other->bending.peak->value, tight = saw->bending.peak->value;
+    return motion->stats.estimate_margin * fabs(sqrt(loose / tight) - 1);
+}
+
+/* forces that are a share of those that were looked at, the same ones at all hinges, tip no earlier */
+static bool a_share_of(int n, const double *f, const double *of) {
+    double product = 0, size = 0;
+    for (int i = 0; i < n; i++)
+        product += f[i] * of[i], size += of[i] * of[i];
+    const double share = size > 0 ? product / size : 0;
+    if (!(share >= 0) || share > 1) return false;
+    double off = 0;
+    for (int i = 0; i < n; i++)
+        off += (f[i] - share * of[i]) * (f[i] - share * of[i]);
+    return off <= 1e-12 * size;
+}
+
+/* By how much forces that pull may make it stiffer: what the same ones tip it by the other way round, with all of a
+   flexure's force along it */
+static fw_status stiffened_by(fw_arena *arena, const fw_mechanism_plates *p, const double *forces,
+                              const double *other, const double *most, int n, double *stiffened) {
+    double *back = fw_arena_array(arena, double, 5 * (size_t)n / 2), factor;
+    int weak;
+    FW_NEED(back);
+    for (int i = 0; i < n; i++)
+        back[i] = -forces[i];
+    for (int k = 0; k < n / 2; k++) {
+        double *of = back + n + 3 * k;
+        of[0] = forces[2 * k] * forces[2 * k] + forces[2 * k + 1] * forces[2 * k + 1];
+        of[1] = most[3 * k + 1], of[2] = most[3 * k + 2];
+    }
+    const fw_mechanism_plates_pressed by = {back, back + n, other, 0};
+    FW_TRY(fw_mechanism_plates_buckling(arena, p, &by, &factor, &weak));
+    *stiffened = fmax(*stiffened, 1 / factor);
+    return FW_OK;
+}
+
+/* The least factor at the instant of the largest forces, and at those where a component of a hinge's force is largest one
+   way or the other. looked: ((1 + 2 n) x n); stiffened NULL: nobody asks */
+static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
+                              const fw_verdict_bending *saw, const double *other, int n,
+                              double *looked, double *factor, int *hinge, double *stiffened) {
+    int count = 0;
+    *factor = HUGE_VAL, *hinge = FW_NONE;
+    for (int k = -1; k < (saw->extreme ? 2 * n : 0); k++) {
+        const double *at = k < 0 ? saw->hardest_N : saw->extreme_N + (size_t)k * (size_t)n;
+        const double beside = k < 0 ? saw->beside : saw->extreme[k].beside;
+        double *forces = looked + (size_t)count * (size_t)n;
+        if (k >= 0 && !(saw->extreme[k].value_N > 0)) continue;
+        for (int i = 0; i < n; i++)
+            forces[i] = beside * at[i];
+        bool known = false;
+        for (int j = 0; j < count && !known; j++)
+            known = a_share_of(n, forces, looked + (size_t)j * (size_t)n);
+        if (known) continue;
+        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + 2 * n, other,
+                                                     isfinite(*factor) ? *factor : 0};
+        double now;
+        int weak;
+        FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &now, &weak));
+        if (now < *factor) *factor = now, *hinge = weak;
+        if (stiffened) FW_TRY(stiffened_by(arena, p, forces, other, pressed.most, n, stiffened));
+        count++;
+    }
+    return FW_OK;
+}
+
+/* a frequency across the plane is asked for under this scene's loads */
+static bool frequency_asked(const fw_device *d, int scene) {
+    for (int i = 0; i < d->nrequirement; i++) {
+        const fw_device_probe *p = &d->probe[d->requirement[i].probe];
+        if (d->requirement[i].scene == scene && p->row == FW_PROBE_IS_frequency &&
+            p->plane != FW_PLANE_IN)
+            return true;
+    }
+    return false;
+}
+
+fw_status fw_verdict_across_tipping(fw_arena *arena, const fw_mechanism_plates *p,
+                                    const fw_device_scene *s, double error,
+                                    fw_verdict_variant_verdict *v, fw_verdict_across *to) {
+    const fw_dynamics_motion *motion = v->motion[to->scene_index];
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    const fw_mechanism *m = v->mechanism;
+    const int n = m->nhinge;
+    if (!saw || !saw->bending.hardest_N || !(saw->bending.hardest_N2 > 0)) return FW_OK;
+    int hinge;
+    const size_t parts = 2 * (size_t)n, most = saw->bending.extreme ? 1 + 2 * parts : 1;
+    double *other, *looked = fw_arena_array(arena, double, most *parts);
+    FW_NEED(looked);
+    FW_NEED(other = fw_arena_array(arena, double, (size_t)m->nbody));
+    fw_verdict_across_acting(m, s, other);
+    FW_TRY(least_factor(arena, p, &saw->bending, other, 2 * n, looked, &to->tips, &hinge,
+                        frequency_asked(m->device, to->scene_index) ? &to->stiffened : NULL));
+    to->stiffened *= 1 + error;
+    to->tips *= 1 - error;
+    if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
+    to->tips_error = forces_off(motion);
+    const double sure = to->tips / (1 + to->tips_error);
+    if (!(sure < 1)) return FW_OK;
+    char by[32];
+    to->decision = FW_INCONCLUSIVE;
+    return fw_verdict_scene_reason(
+        v, s, 582, FW_INCONCLUSIVE, 0.95 * sure,
+        fw_arena_printf(
+            arena,
+            "the forces of %s%s may tip the device out of its plane: that they do not is "
+            "sure up to %s times them%s%s%s; a thicker layer, wider or shorter flexures, or less "
+            "load keep it flat",
+            FW_NAMED("scene", s->name), fw_number_text(by, sizeof by, sure, 2),
+            to->hinge ? ", and the least sure by itself is " : "",
+            to->hinge ? fw_text_kind("hinge ", to->hinge) : "", to->hinge ? to->hinge : ""));
+}
+
+/* ---- what loads do to a mode ---- */
+
+int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s, const double *q,
+                        const double *shape, double unit, fw_quantity_law_load *load) {
+    int n = 0;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_device_force *f = &s->force[i];
+        if (f->body == FW_GROUND) continue;
+        const double *u = shape ? shape + 3 * f->body : NULL;
+        const fw_geometry_vec2 arm =
+            fw_geometry_vec_rotate((fw_geometry_vec2){f->x_m, f->y_m}, u ? q[3 * f->body + 2] : 0);
+        load[n++] = (fw_quantity_law_load){
+            f->law,
+            !u ? 1 : (f->fx_N * (u[0] - arm.y * u[2]) + f->fy_N * (u[1] + arm.x * u[2])) / unit};
+    }
+    for (int i = 0; i < s->ntorque; i++)
+        if (s->torque[i].body != FW_GROUND)
+            load[n++] = (fw_quantity_law_load){
+                s->torque[i].law,
+                shape ? s->torque[i].value_Nm * shape[3 * s->torque[i].body + 2] / unit : 1};
+    for (int i = 0; i < s->nbase; i++) {
+        double sum = 0;
+        if (s->base[i].ax_m_per_s2 == 0 && s->base[i].ay_m_per_s2 == 0) continue;
+        for (int b = 0; shape && b < m->nbody; b++)
+            sum -= m->body[b].mass_kg * (shape[3 * b] * s->base[i].ax_m_per_s2 +
+                                         shape[3 * b + 1] * s->base[i].ay_m_per_s2);
+        load[n++] = (fw_quantity_law_load){s->base[i].law, shape ? sum / unit : 1};
+    }
+    return n;
 }

@@ -403,9 +403,14 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
         FW_NEED(to[i].factor = fw_arena_grow(arena, to[i].factor, 2 * h, 2 * h, sizeof(double)));
         if (n == 0) continue;
         FW_NEED(to[i].mode = fw_arena_grow(arena, to[i].mode, n, n, sizeof *to[i].mode));
-        for (size_t k = 0; k < n; k++)
-            FW_NEED(to[i].mode[k].share =
-                        fw_arena_grow(arena, to[i].mode[k].share, h, h, sizeof(double)));
+        for (size_t k = 0; k < n; k++) {
+            fw_verdict_shaken_mode *mode = &to[i].mode[k];
+            const size_t loads = (size_t)mode->nload;
+            FW_NEED(mode->share = fw_arena_grow(arena, mode->share, h, h, sizeof(double)));
+            if (loads == 0) continue;
+            FW_NEED(mode->load =
+                        fw_arena_grow(arena, mode->load, loads, loads, sizeof *mode->load));
+        }
     }
     *kept = to;
     return FW_OK;

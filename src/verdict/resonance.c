@@ -16,6 +16,7 @@
    square. Where that may be reached from rest within the scene frequencies in between belong to the range.
    Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
    Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance
+   What comes again while a mode rings counts likewise, all forces, torques and shaking together (fw_verdict_loads_on).
    Loads that make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
@@ -35,6 +36,8 @@ typedef struct shaking {
 typedef struct shakings { /* of one scene, those that go to and fro */
     shaking *item;
     int n;
+    bool
+        again; /* forces, torques and shaking come while a mode may still ring by what came before */
     double end_s;
 } shakings;
 
@@ -44,6 +47,16 @@ static void take_law(shakings *to, const fw_quantity_law *law, fw_quantity_law_a
 
 static bool in_the_plane(const fw_device_base_motion *b) {
     return b->ax_m_per_s2 != 0 || b->ay_m_per_s2 != 0;
+}
+
+static fw_status come_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                            shakings *to) {
+    fw_quantity_law_load *load =
+        fw_arena_array(arena, fw_quantity_law_load, (size_t)(s->nforce + s->ntorque + s->nbase));
+    FW_NEED(load);
+    to->again =
+        fw_quantity_law_come_again(load, fw_verdict_loads_on(m, s, NULL, NULL, 1, load), to->end_s);
+    return FW_OK;
 }
 
 /* What prescribes a coordinate is followed, and heat strains what is held as a load does: it counts as both. A voltage also
@@ -72,21 +85,10 @@ static fw_status find_laws(fw_arena *arena, const fw_mechanism *m, const fw_devi
         for (int i = 0; i < s->ntemperature; i++)
             take_law(to, s->temperature[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_OF_COORDINATE);
     }
-    return FW_OK;
+    return come_again(arena, m, s, to);
 }
 
 /* ---- about which pose: what of a scene does not go to and fro ---- */
-
-static double root_mean_square(const fw_quantity_law *law, double end_s) {
-    enum { SAMPLES = 2048 };
-    double sum = 0, value[3];
-    for (int i = 0; i < SAMPLES; i++) {
-        const double t = end_s * (i + 0.5) / SAMPLES;
-        fw_quantity_law_value(law, t, t, value);
-        sum += value[0] * value[0] / SAMPLES;
-    }
-    return sqrt(sum);
-}
 
 /* *moves: it stands elsewhere than at rest, or as stiff; *slowly: it comes there in the scene */
 static fw_status steady_part(fw_arena *arena, const fw_device_scene *s, fw_device_scene *to,
@@ -112,7 +114,7 @@ static fw_status steady_part(fw_arena *arena, const fw_device_scene *s, fw_devic
     for (int i = 0; i < s->ncomb; i++) {
         *slowly = *slowly || !fw_quantity_law_is_constant(s->comb[i].law);
         if (!fw_quantity_law_goes_to_and_fro(s->comb[i].law, end)) continue;
-        to->comb[i].voltage_V *= root_mean_square(s->comb[i].law, end);
+        to->comb[i].voltage_V *= fw_quantity_law_root_mean_square(s->comb[i].law, end);
         to->comb[i].law = NULL;
     }
     *moves = to->nforce + to->ntorque + to->ntendon + to->nbase + to->ntemperature + to->npart +
@@ -221,9 +223,10 @@ static double largest_of(const double *x, int n) {
     return most;
 }
 
-static fw_status put_shares(fw_arena *arena, const fw_mechanism *m, const fw_statics_modes *modes,
+static fw_status put_shares(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                            bool again, const fw_statics_modes *modes,
                             const fw_dynamics_motion *motion, fw_verdict_shaken *to) {
-    const double hardly = 1e-3;
+    const double hardly = 1e-3, rings = 0.03;
     const int nh = m->nhinge;
     double *most = fw_arena_array(arena, double, (size_t)(nh + m->nbody));
     FW_NEED(most);
@@ -251,6 +254,12 @@ static fw_status put_shares(fw_arena *arena, const fw_mechanism *m, const fw_sta
         out->damping = fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: 0 */
         out->late = swings[0] > 0 ? swings[1] / swings[0] : 0;
         to->n++;
+        if (!again || !(largest_of(out->share, nh + 1) > rings)) continue;
+        FW_NEED(out->load = fw_arena_array(arena, fw_quantity_law_load,
+                                           (size_t)(s->nforce + s->ntorque + s->nbase)));
+        out->nload = fw_verdict_loads_on(
+            m, s, modes->q, mode->shape,
+            mode->modal_mass_kg_m2 * mode->stiffness_per_s2 * swings[0], out->load);
     }
     return FW_OK;
 }
@@ -287,9 +296,29 @@ static answer answers_to(const shaking *by, double end_s, const fw_verdict_shake
     return r;
 }
 
+/* the same of loads that come again, together, over how far the mode swings: more or less than as computed */
+static answer answers_again(const fw_verdict_shaken_mode *mode, double low, double high,
+                            double end_s, bool softer) {
+    const double as_computed = fw_quantity_law_swing_of_all(mode->load, mode->nload, end_s,
+                                                            mode->omega, mode->damping),
+                 n = fmin(2 + ceil((high - low) * end_s / 0.5), 400);
+    answer r = {1, 1};
+    for (double k = 0; as_computed > 0 && k < n; k++) {
+        const double at = low + (high - low) * k / (n - 1),
+                     now = fw_quantity_law_swing_of_all(mode->load, mode->nload, end_s, at,
+                                                        mode->damping),
+                     by_stiffness = softer ? mode->omega * mode->omega / (at * at) : 1;
+        if (!(now >= 0)) continue;
+        r.up = fmax(r.up, 1 + now * by_stiffness - as_computed);
+        r.down = fmin(r.down, 1 + now * by_stiffness - as_computed);
+    }
+    return r;
+}
+
 static answer answers_of(const shakings *by, const fw_verdict_shaken_mode *mode, double low,
                          double high, bool softer) {
     answer r = {1, 1};
+    if (mode->nload > 0) r = answers_again(mode, low, high, by->end_s, softer);
     for (int i = 0; i < by->n; i++) {
         const answer now = answers_to(&by->item[i], by->end_s, mode, low, high, softer);
         r = (answer){fmax(r.up, now.up), fmin(r.down, now.down)};
@@ -328,14 +357,14 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     fw_device_scene steady, still = {.name = "(none)", .duration_s = 1};
     bool moves, slowly;
     FW_TRY(find_laws(arena, m, s, by));
-    if (by->n == 0 || motion->nsample < 2) return FW_OK;
+    if ((by->n == 0 && !by->again) || motion->nsample < 2) return FW_OK;
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
     FW_TRY(modes_about(arena, m, &steady, moves, 0.03, &modes));
     if (modes && slowly) FW_TRY(modes_about(arena, m, &steady, false, 0.03, &rest));
     if (!modes) FW_TRY(modes_about(arena, m, &still, false, 0.03, &modes));
     if (!modes) return FW_OK;
     FW_NEED(to->mode = fw_arena_array(arena, fw_verdict_shaken_mode, MODES_SHAKEN));
-    FW_TRY(put_shares(arena, m, modes, motion, to));
+    FW_TRY(put_shares(arena, m, s, by->again, modes, motion, to));
     for (int k = 0; k < to->n; k++) {
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
         to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies);
@@ -385,31 +414,6 @@ static double comes_and_goes(const fw_statics_modes *rest, const fw_statics_mode
     return fmin(0.5 * fabs(change[0] - change[1]), 1);
 }
 
-/* By how much x'' + 2 damping w x' + w^2 (1 + share f(t)) x = 0 may grow within the scene, f the law over its largest value:
-   Stoermer's steps, 24 to a period of w or of the law, from either start */
-static double grows(const shaking *by, double end_s, double most, double omega, double damping,
-                    double share) {
-    const double fastest = fw_quantity_law_wave_of(by->law).fastest_Hz,
-                 a_second = 24 * fmax(omega / (2 * FW_PI), fastest), steps = ceil(a_second * end_s),
-                 h = end_s / steps;
-    double grown = 0;
-    for (int start = 0; start < 2; start++) {
-        double x = 1 - start, v = start ? omega : 0, value[3];
-        for (double i = 0; i < steps; i++) {
-            const double t = (i + 0.5) * h;
-            fw_quantity_law_value(by->law, t, t, value);
-            const double f =
-                by->as == FW_LAW_SQUARED ? 2 * pow(value[0] / most, 2) - 1 : value[0] / most;
-            const double middle = x + 0.5 * h * v;
-            v = (v * (1 - damping * omega * h) - h * omega * omega * (1 + share * f) * middle) /
-                (1 + damping * omega * h);
-            x = middle + 0.5 * h * v;
-            grown = fmax(grown, hypot(x, v / omega));
-        }
-    }
-    return grown;
-}
-
 /* the most over the loads and over frequencies from low to high, so close together that none is missed */
 static double grows_most(const shakings *by, double low, double high, double omega, double damping,
                          double share) {
@@ -425,7 +429,8 @@ static double grows_most(const shakings *by, double low, double high, double ome
                      n = fmin(wanted, fmax(3, most_steps / (a_second * run)));
         for (double j = 0; j < n; j++) {
             const double now =
-                grows(&by->item[i], run, largest, low + (high - low) * j / (n - 1), damping, share);
+                fw_quantity_law_pumps(law, by->item[i].as == FW_LAW_SQUARED, run, largest,
+                                      low + (high - low) * j / (n - 1), damping, share);
             /* what has doubled goes on like that */
             grown = fmax(grown, now > 2 ? pow(now, end / run) : now);
         }
@@ -570,11 +575,14 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (!(most > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
             least = fmin(least, f[2 * h + 1]);
+        bool shaken;
+        FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
         fw_diag_warning(diags, 642, d->scene[i].place,
-                        "%s%s shakes near a mode whose frequency is known to some per cent: "
+                        "%s%s %s a mode whose frequency is known to some per cent: "
                         "within them it moves %s to %s times as far, which the bands hold; "
                         "keep the frequencies apart, or say by <material-damping> what damps",
                         FW_NAMED("scene", d->scene[i].name),
+                        shaken ? "shakes near" : "comes again while it still rings by",
                         fw_number_text(down, sizeof down, least, 2),
                         fw_number_text(up, sizeof up, most, 2));
     }

@@ -88,6 +88,8 @@ typedef struct fw_verdict_across {
         tips_error; /* relative: what its forces may be off by, as two runs of the motion differ */
     const char *hinge; /* that tips most easily by itself; NULL */
     double
+        stiffened; /* share by which its forces may make it stiffer at most; 0 where no frequency is asked for */
+    double
         lift_m; /* what electrodes may lift at most (levitation); 0: there are none, or nothing that conducts is below them */
     /* share of its limit that the hinge which bears most may use in the plane and across it, by weight and shocks, at
        most and surely; NaN: not looked at */

@@ -17,6 +17,8 @@ static const double fw_much =
 typedef struct fw_verdict_plates { /* rigid bodies; bodies that give as much as they may */
     fw_mechanism_plates rigid, soft;
     double *x, *f, *ring;
+    double
+        hangs; /* what bodies hang over and bend by their own weight, the most of any, m per m/s2 */
 } both;
 
 /* ---- who asks ---- */
@@ -57,7 +59,9 @@ static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_pl
         fw_verdict_plate_mode *mode = &out->mode[k];
         double f = p->f_Hz[k], soft = is->soft.why ? f : is->soft.f_Hz[k], error = 0.5 * p->error;
         mode->f_Hz = f;
-        mode->low_Hz = fmin(f, soft) * (1 - error), mode->high_Hz = f * (1 + error);
+        /* Dunkerley: 1/omega^2 of both add up, and of what hangs over it is at most its droop per acceleration */
+        soft = fmin(f, soft) / sqrt(1 + is->hangs * pow(2 * FW_PI * fmin(f, soft), 2));
+        mode->low_Hz = soft * (1 - error), mode->high_Hz = f * (1 + error);
         int b = fw_mechanism_plates_mover(p, k, &mode->tilts);
         mode->body = fw_text_name(p->mechanism->body[b].id);
     }
@@ -80,10 +84,11 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
 
 /* ---- one scene ---- */
 
-/* what a scene does at rest to x, and what its shocks set swinging either way to `ring`; *dynamic: by how much more
-   than at rest */
+/* what a scene does at rest to x, and what its shocks set swinging either way to `ring`, where forces in the plane leave
+   the share `left` of stiffnesses; *dynamic: by how much more than at rest */
 static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_device_scene *s,
-                       double curvature_per_m, fw_geometry_vec2 *middle, double *dynamic) {
+                       double left, double curvature_per_m, fw_geometry_vec2 *middle,
+                       double *dynamic) {
     size_t n = (size_t)p->n;
     *middle = (fw_geometry_vec2){0, 0};
     *dynamic = 1;
@@ -107,14 +112,39 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
         for (size_t k = 0; k < n; k++) {
             const double high = sqrt(is->rigid.per_s2[k]), off = 0.5 * is->rigid.error;
             const double low = is->soft.why ? high : fmin(high, sqrt(is->soft.per_s2[k]));
-            const double by =
-                fw_quantity_law_answer(b->law, s->duration_s, low * (1 - off), high * (1 + off));
+            const double by = fw_quantity_law_answer(
+                b->law, s->duration_s, low * (1 - off) * sqrt(left), high * (1 + off));
             is->ring[k] += by * fabs(amplitude[k]);
             if (k > 0) continue;
             const double most = fw_quantity_law_measure(b->law, s->duration_s).most;
             if (most > 0) *dynamic = fmax(*dynamic, by / most);
         }
     }
+}
+
+/* What hangs over bends by the scene's weight, and by shocks as an oscillator of its own beside them and on the modes of
+   the plates, each of which shakes it: at most four times as far as slowly, where it is as slow itself. down, up: m */
+static fw_status hang_over(fw_arena *arena, const both *is, const fw_mechanism_plates *p,
+                           const fw_device_scene *s, double left, double *down, double *up) {
+    const double omega = 1 / sqrt(is->hangs), at_most = 0.75;
+    const fw_geometry_vec2 origin = {0, 0};
+    double rings = 0, *one;
+    *down = is->hangs * fmax(0, -s->gz_m_per_s2), *up = is->hangs * fmax(0, s->gz_m_per_s2);
+    if (!fw_mechanism_plates_shaken(s)) return FW_OK;
+    FW_NEED(one = fw_arena_array(arena, double, 2 * (size_t)p->n));
+    for (int i = 0; i < s->nbase; i++) /* a cantilever of even width has 1.24 omega */
+        rings += fabs(s->base[i].az_m_per_s2) * is->hangs *
+                 fw_quantity_law_answer(s->base[i].law, s->duration_s, omega, 1.3 * omega);
+    for (int k = 0; k < p->n; k++) {
+        if (!(is->ring[k] > 0)) continue;
+        one[k] = is->ring[k];
+        const double z = fw_mechanism_plates_reached(p, one + p->n, one, 0, origin).highest_m;
+        one[k] = 0;
+        rings +=
+            z * p->per_s2[k] * is->hangs / (left * (1 - fmin(at_most, p->per_s2[k] * is->hangs)));
+    }
+    *down += rings, *up += rings;
+    return FW_OK;
 }
 
 /* Sure is what is there at rest, less what flexures may be stiffer than computed; what a shock sets ringing may be
@@ -152,16 +182,20 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
     const fw_mechanism *m = v->mechanism;
     double curvature = fw_mechanism_plates_curvature(m, s);
     fw_geometry_vec2 middle;
+    const double left = fmax(1 - fw_verdict_across_softened(to), 1e-9);
     to->asked = true;
-    load_scene(is, &is->rigid, s, curvature, &middle, &to->dynamic);
+    load_scene(is, &is->rigid, s, 1, curvature, &middle, &to->dynamic);
     fw_mechanism_plates_reach r =
         fw_mechanism_plates_reached(&is->rigid, is->x, NULL, curvature, middle);
     to->sure_m = r.lowest_m;
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
-    load_scene(is, p, s, curvature, &middle, &to->dynamic);
+    load_scene(is, p, s, left, curvature, &middle, &to->dynamic);
     r = fw_mechanism_plates_reached(p, is->x, is->ring, curvature, middle);
-    double more = 1 + is->rigid.error;
-    to->lowest_m = fmin(to->sure_m, r.lowest_m) * more, to->highest_m = r.highest_m * more;
+    double more = (1 + is->rigid.error) / left;
+    double down = 0, up = 0;
+    if (is->hangs > 0) FW_TRY(hang_over(arena, is, p, s, left, &down, &up));
+    to->lowest_m = (fmin(to->sure_m, r.lowest_m) - down) * more,
+    to->highest_m = (r.highest_m + up) * more;
     to->tilt_rad = r.tilt_rad * more;
     if (r.low != FW_NONE) to->body = fw_text_name(m->body[r.low].id);
     return judge_touch(arena, is, s, v, to);
@@ -194,108 +228,6 @@ static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* ---- loads in the plane that tip it ---- */
-
-/* forces of the scene at their points, with their laws' largest values; of anything else that may act on a body, and
-   of a law without a proved largest value, its force is not looked up */
-static void acting(const fw_mechanism *m, const fw_device_scene *s, double *else_Nm) {
-    const bool more = s->ntendon || s->ncomb || s->ncontact || s->npart || m->nspring || m->ndriver;
-    for (int b = 0; b < m->nbody; b++)
-        else_Nm[b] = more ? (double)NAN : 0;
-    for (int i = 0; i < s->nforce; i++) {
-        const fw_device_force *f = &s->force[i];
-        if (f->body == FW_GROUND) continue;
-        double arm = hypot(f->x_m, f->y_m);
-        if (!(arm > 0)) continue;
-        double most = fw_quantity_law_measure(f->law, s->duration_s).most;
-        else_Nm[f->body] += isfinite(most) ? most * hypot(f->fx_N, f->fy_N) * arm : (double)NAN;
-    }
-}
-
-/* Joints that only stiff axes hold ring in a motion by forces that its accuracy, which is one of angles, says nothing of */
-static double forces_off(const fw_dynamics_motion *motion) {
-    const fw_verdict_strain_monitor *saw = motion->observed, *other = motion->compared;
-    if (!other || !other->bending.hardest_N || !(other->bending.hardest_N2 > 0)) return 0;
-    const double loose = other->bending.peak->value, tight = saw->bending.peak->value;
-    return motion->stats.estimate_margin * fabs(sqrt(loose / tight) - 1);
-}
-
-/* forces that are a share of those that were looked at, the same ones at all hinges, tip no earlier */
-static bool a_share_of(int n, const double *f, const double *of) {
-    double product = 0, size = 0;
-    for (int i = 0; i < n; i++)
-        product += f[i] * of[i], size += of[i] * of[i];
-    const double share = size > 0 ? product / size : 0;
-    if (!(share >= 0) || share > 1) return false;
-    double off = 0;
-    for (int i = 0; i < n; i++)
-        off += (f[i] - share * of[i]) * (f[i] - share * of[i]);
-    return off <= 1e-12 * size;
-}
-
-/* The least factor at the instant of the largest forces, and at those where a component of a hinge's force is largest one
-   way or the other. looked: ((1 + 2 n) x n) */
-static fw_status least_factor(fw_arena *arena, const fw_mechanism_plates *p,
-                              const fw_verdict_bending *saw, const double *other, int n,
-                              double *looked, double *factor, int *hinge) {
-    int count = 0;
-    *factor = HUGE_VAL, *hinge = FW_NONE;
-    for (int k = -1; k < (saw->extreme ? 2 * n : 0); k++) {
-        const double *at = k < 0 ? saw->hardest_N : saw->extreme_N + (size_t)k * (size_t)n;
-        const double beside = k < 0 ? saw->beside : saw->extreme[k].beside;
-        double *forces = looked + (size_t)count * (size_t)n;
-        if (k >= 0 && !(saw->extreme[k].value_N > 0)) continue;
-        for (int i = 0; i < n; i++)
-            forces[i] = beside * at[i];
-        bool known = false;
-        for (int j = 0; j < count && !known; j++)
-            known = a_share_of(n, forces, looked + (size_t)j * (size_t)n);
-        if (known) continue;
-        const fw_mechanism_plates_pressed pressed = {forces, saw->hardest_N + 2 * n, other,
-                                                     isfinite(*factor) ? *factor : 0};
-        double now;
-        int weak;
-        FW_TRY(fw_mechanism_plates_buckling(arena, p, &pressed, &now, &weak));
-        if (now < *factor) *factor = now, *hinge = weak;
-        count++;
-    }
-    return FW_OK;
-}
-
-static fw_status judge_tipping(fw_arena *arena, const both *is, const fw_device_scene *s,
-                               const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v,
-                               fw_verdict_across *to) {
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    const fw_mechanism *m = v->mechanism;
-    const int n = m->nhinge;
-    if (!saw || !saw->bending.hardest_N || !(saw->bending.hardest_N2 > 0)) return FW_OK;
-    const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
-    int hinge;
-    const size_t parts = 2 * (size_t)n, most = saw->bending.extreme ? 1 + 2 * parts : 1;
-    double *other, *looked = fw_arena_array(arena, double, most *parts);
-    FW_NEED(looked);
-    FW_NEED(other = fw_arena_array(arena, double, (size_t)m->nbody));
-    acting(m, s, other);
-    FW_TRY(least_factor(arena, p, &saw->bending, other, 2 * n, looked, &to->tips, &hinge));
-    to->tips *= 1 - is->rigid.error;
-    if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
-    to->tips_error = forces_off(motion);
-    const double sure = to->tips / (1 + to->tips_error);
-    if (!(sure < 1)) return FW_OK;
-    char by[32];
-    to->decision = FW_INCONCLUSIVE;
-    return fw_verdict_scene_reason(
-        v, s, 582, FW_INCONCLUSIVE, 0.95 * sure,
-        fw_arena_printf(
-            arena,
-            "the forces of %s%s may tip the device out of its plane: that they do not is "
-            "sure up to %s times them%s%s%s; a thicker layer, wider or shorter flexures, or less "
-            "load keep it flat",
-            FW_NAMED("scene", s->name), fw_number_text(by, sizeof by, sure, 2),
-            to->hinge ? ", and the least sure by itself is " : "",
-            to->hinge ? fw_text_kind("hinge ", to->hinge) : "", to->hinge ? to->hinge : ""));
-}
-
 /* ---- all of it ---- */
 
 static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
@@ -308,6 +240,16 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
     FW_NEED(to->x = fw_arena_array(arena, double, n));
     FW_NEED(to->f = fw_arena_array(arena, double, 2 * n));
     FW_NEED(to->ring = fw_arena_array(arena, double, n));
+    for (int b = 0; b < m->nbody; b++) {
+        double hangs;
+        fw_mark mark = fw_arena_mark(arena);
+        fw_verdict_line *line;
+        int nline;
+        FW_TRY(fw_verdict_body_lines(arena, m->layout, b, &line, &nline));
+        FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, line, nline, &hangs));
+        fw_arena_rewind(arena, mark);
+        to->hangs = fmax(to->hangs, hangs);
+    }
     return FW_OK;
 }
 
@@ -431,11 +373,12 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
     const int n = 1 + is->rigid.n;
     fw_geometry_vec2 middle;
     double(*wrench)[3] = fw_arena_alloc(arena, (size_t)n, sizeof *wrench), worst_in = 0, dynamic;
-    const double curvature = fw_mechanism_plates_curvature(m, s);
+    const double curvature = fw_mechanism_plates_curvature(m, s),
+                 left = fmax(1 - fw_verdict_across_softened(to), 1e-9);
     double lasts = 0;
     const char *tires = NULL;
     FW_NEED(wrench);
-    load_scene(is, &is->rigid, s, curvature, &middle, &dynamic);
+    load_scene(is, &is->rigid, s, left, curvature, &middle, &dynamic);
     to->strained = to->strained_sure = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *h = &m->hinge[k];
@@ -445,10 +388,11 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
         FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form,
                                         (const double(*)[3])wrench, n, strain));
         if (!(limit > 0)) continue;
-        FW_TRY(lasted(arena, is, v, k, s, (const double(*)[3])wrench, in, strain[1], &share));
+        FW_TRY(
+            lasted(arena, is, v, k, s, (const double(*)[3])wrench, in, strain[1] / left, &share));
         if (share > lasts || isnan(share))
             lasts = isnan(share) ? (double)INFINITY : share, tires = m->pin[h->pin].id;
-        const double most = in + strain[1] * (1 + is->rigid.error) / limit;
+        const double most = in + strain[1] * (1 + is->rigid.error) / (left * limit);
         const double sure = strain[0] / (1 + is->rigid.error) / limit;
         to->strained_sure = fmax(to->strained_sure, sure);
         if (most <= to->strained) continue;
@@ -474,7 +418,7 @@ static fw_status required_factor(fw_arena *arena, const both *is,
     FW_NEED(far = fw_arena_array(arena, double, 2 * bodies));
     /* what acts beside the mass centre may act anywhere */
     for (int i = 0; i < m->device->nscene; i++) {
-        acting(m, &m->device->scene[i], far + bodies);
+        fw_verdict_across_acting(m, &m->device->scene[i], far + bodies);
         for (size_t b = 0; b < bodies; b++)
             if (far[bodies + b] != 0) far[b] = (double)NAN;
     }
@@ -546,7 +490,8 @@ static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_o
     fw_mechanism_plates_weight(&is->rigid, -FW_STANDARD_GRAVITY_m_per_s2, is->f);
     fw_mechanism_plates_answer(&is->rigid, is->f, is->x);
     const fw_geometry_vec2 origin = {0, 0};
-    out->weight_m = -fw_mechanism_plates_reached(&is->rigid, is->x, NULL, 0, origin).lowest_m;
+    out->weight_m = is->hangs * FW_STANDARD_GRAVITY_m_per_s2 -
+                    fw_mechanism_plates_reached(&is->rigid, is->x, NULL, 0, origin).lowest_m;
     return FW_OK;
 }
 
@@ -555,7 +500,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     const fw_device *d = m->device;
     both *is;
     fw_verdict_out_of_plane *out;
-    const bool tips = !brief || v->tipping;
+    const bool tips = !brief || v->tipping || fw_verdict_out_of_plane_asked(m);
     v->out_of_plane = NULL;
     if (!d || !m->layout) return FW_OK;
     if (!tips && !fw_verdict_out_of_plane_asked(m)) return FW_OK;
@@ -585,7 +530,9 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                 "%s%s acts across the plane, and what the device does out of "
                                 "its plane is not known: %s",
                                 FW_NAMED("scene", s->name), out->why)));
-        if (tips && is->rigid.n > 0) FW_TRY(judge_tipping(arena, is, s, v->motion[i], v, to));
+        if (tips && is->rigid.n > 0)
+            FW_TRY(fw_verdict_across_tipping(arena, is->soft.why ? &is->rigid : &is->soft, s,
+                                             is->rigid.error, v, to));
         if (out->why) continue;
         if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, is, s, v, to));
         if (!brief && s->ncomb > 0 && fw_effects_levitation_may_be(m))

@@ -6,6 +6,8 @@
 #include "base/sort.h"
 #include "verdict/verdict.h"
 
+struct fw_mechanism_plates;
+
 /* ---- decision.c: which of two hinges matters more, what may still decide ---- */
 
 void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other);
@@ -76,6 +78,20 @@ void fw_verdict_across_checks(const fw_verdict_variant_verdict *v, int nscene, d
 bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v);
 /* what tips is accepted but for what its forces may be off by, so that closer numbers may decide */
 bool fw_verdict_across_open(const fw_verdict_variant_verdict *v);
+/* sum of |F| times the distance from the centre of mass of all that a scene puts on each body (nbody); NaN: not known */
+void fw_verdict_across_acting(const fw_mechanism *m, const fw_device_scene *s, double *else_Nm);
+/* what tips the plates in a scene: tips, tips_error, hinge, and a reason where that may be; error: of the flexures */
+fw_status fw_verdict_across_tipping(fw_arena *arena, const struct fw_mechanism_plates *p,
+                                    const fw_device_scene *s, double error,
+                                    fw_verdict_variant_verdict *v, fw_verdict_across *to);
+/* share of its stiffness across the plane that the forces of a scene take at most; 1: all of it, 0: none, or not looked at */
+double fw_verdict_across_softened(const fw_verdict_across *across);
+/* the most that residual stress takes, of all scenes that have it */
+double fw_verdict_across_stressed(const fw_verdict_variant_verdict *v);
+/* a mode's band about the equilibrium of a scene; FW_NONE: at rest */
+void fw_verdict_across_under_loads(const fw_verdict_variant_verdict *v, int scene,
+                                   const fw_verdict_plate_mode *of, double *low_Hz,
+                                   double *high_Hz);
 /* the mode that a probe counts, if it is one across the plane; NULL: it is that of number *in_plane (from 1) in it, or
    there is none. modes NULL: those in the plane are not known */
 const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
@@ -105,6 +121,10 @@ typedef struct fw_verdict_shaken_mode {
     double *
         share; /* (nhinge + 1) what of a hinge's bending, last of a body's way, it does as computed */
     double late; /* how far it still swings at the end, over how far it ever does */
+    /* of forces, torques and shaking that come again (nload): their modal force over mass and omega^2 and how far the mode
+       swings, whatever omega is */
+    fw_quantity_law_load *load;
+    int nload;
 } fw_verdict_shaken_mode;
 struct fw_verdict_shaken {
     fw_verdict_shaken_mode *mode; /* (n) */
@@ -113,6 +133,10 @@ struct fw_verdict_shaken {
     double *factor;
     double late; /* what of a largest way may be there at the end besides, for phases run apart */
 };
+/* decision.c: forces, torques and shaking of a scene: their laws, and by a mode's shape u about the pose q the modal force of each
+   over `unit`; shape NULL: the laws alone. load: as many as there are of them; returns how many are not 0 */
+int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s, const double *q,
+                        const double *shape, double unit, fw_quantity_law_load *load);
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);

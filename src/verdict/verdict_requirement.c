@@ -339,14 +339,29 @@ static double bodies_give(const fw_mechanism *m, const fw_verdict_variant_verdic
     return most;
 }
 
+/* of either kind: a mode across the plane that lies higher at rest may be the lower one under loads that press */
+static void overtaken(const fw_verdict_variant_verdict *v, const fw_device_probe *probe,
+                      fw_verdict_requirement *r) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    double low, high;
+    for (int k = 0; o && probe->plane != FW_PLANE_IN && r->scene_index != FW_NONE && k < o->nmode;
+         k++) {
+        if (o->mode[k].f_Hz < r->value) continue;
+        fw_verdict_across_under_loads(v, r->scene_index, &o->mode[k], &low, &high);
+        r->low = fmin(r->low, low);
+    }
+}
+
 /* a mode across the plane, or what is asked of those and not known; else *mode: which of those in the plane */
 static bool put_across(const fw_verdict_variant_verdict *v, const fw_device_probe *probe,
                        const fw_statics_modes *modes, int *mode, fw_verdict_requirement *r) {
     const fw_verdict_out_of_plane *o = v->out_of_plane;
     const fw_verdict_plate_mode *of = fw_verdict_frequency(v, probe, modes, mode);
     if (of) {
-        r->value = of->f_Hz, r->low = of->low_Hz, r->high = of->high_Hz;
-        r->numeric = 0, r->lasting = 1 - of->low_Hz / of->f_Hz;
+        r->value = of->f_Hz;
+        fw_verdict_across_under_loads(v, r->scene_index, of, &r->low, &r->high);
+        overtaken(v, probe, r);
+        r->numeric = 0, r->lasting = 1 - r->low / of->f_Hz;
         decide(r);
         return true;
     }
@@ -399,6 +414,10 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         double model = fw_probe_small_error(p, modes) + rigid,
                lasting = modes->stiffness_error + rigid;
         put(r, value, 0, model, lasting, value, true);
+        if (p->asked->row == FW_PROBE_IS_frequency) {
+            overtaken(v, p->asked, r);
+            decide(r);
+        }
         if (isinf(model)) FW_NEED(r->open = open_band(arena, m, modes));
     }
     return FW_OK;

@@ -396,6 +396,9 @@ static fw_status judge_pulls(fw_arena *arena, const fw_mechanism *m, fw_verdict_
     FW_TRY(pull_below(&d, &to->below));
     FW_TRY(pull_beside(&d, &to->beside));
     if (to->below.known && d.drying->adhesion_words) peel(&d, to);
+    /* what stress presses is softer across the plane, and is pulled and held more easily by as much */
+    const double left = 1 - fw_verdict_across_stressed(v);
+    to->below.tension_N_per_m[0] *= left, to->peel[0] *= left;
     put_number(d.drying, &to->below);
     put_number(d.drying, &to->beside);
     FW_TRY(judge_below(arena, m, to, v));

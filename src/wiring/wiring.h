@@ -104,6 +104,8 @@ typedef struct fw_wiring {
     int ndrive;
     fw_wiring_gap *gap; /* (ngap) of every pair of nets */
     int ngap;
+    double density
+        [2]; /* of the air, least and largest over the scenes that put a voltage, over that at 1 atm */
     const char **refusal; /* (nrefusal) sentences: why the flow cannot make the device work */
     int nrefusal;
     const char **open; /* (nopen) what is not guaranteed */
@@ -118,8 +120,8 @@ typedef struct fw_wiring {
 fw_status fw_wiring_find(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                          const fw_wiring_asked *asked, const fw_wiring **wiring);
 
-/* From where to where air at 1 atm breaks down between conductors `gap_m` apart, V. */
-void fw_wiring_breakdown(double gap_m, double volts[2]);
+/* From where to where air breaks down between conductors `gap_m` apart, V. density: over that at 1 atm and 20 degrees */
+void fw_wiring_breakdown(double gap_m, double density, double volts[2]);
 
 /* What the outlines of a mask say of the same nets: pieces are those of the layout, with the contours of the
    mask (count 0: not on it). */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The nets of a layout with their names, what the actuators ask of them, and the same nets on a mask. Test:
    test_wiring_drives.c, test_wiring_mask.c */
+#include "base/constants.h"
 #include "base/text.h"
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"
@@ -276,6 +277,27 @@ static fw_status collect_drives(const fw_device *device, const fw_layout *layout
     return FW_OK;
 }
 
+/* what the air is like in which the drives of a flow have their voltages; a scene without <air> is in that of a room */
+static void find_air(const fw_device *device, const char *flow, double density[2]) {
+    const double room_K = 293.15;
+    bool any = false;
+    density[0] = density[1] = 1;
+    for (int i = 0; i < device->nscene; i++) {
+        const fw_device_scene *s = &device->scene[i];
+        if (!fw_device_in_flow(s->flow, flow) || s->ncomb == 0) continue;
+        for (int k = 0; k == 0 || k < s->nair; k++) {
+            double now = 1;
+            if (k < s->nair && !isnan(s->air[k].pressure_Pa))
+                now = s->air[k].pressure_Pa / FW_STANDARD_ATMOSPHERE_Pa;
+            if (k < s->nair && !isnan(s->air[k].temperature_K))
+                now *= room_K / s->air[k].temperature_K;
+            density[0] = any ? fmin(density[0], now) : now;
+            density[1] = any ? fmax(density[1], now) : now;
+            any = true;
+        }
+    }
+}
+
 static fw_status ask_drives(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_wiring_asked *asked, fw_wiring *w) {
     size_t most = 0;
@@ -285,6 +307,7 @@ static fw_status ask_drives(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(w->drive = fw_arena_array(arena, fw_wiring_drive, most));
     FW_NEED(plan = fw_arena_array(arena, const fw_layout_electrode *, most));
     FW_TRY(collect_drives(device, layout, asked->flow, w, plan));
+    find_air(device, asked->flow, w->density);
     for (int i = 0; i < w->ndrive; i++) {
         const fw_wiring_drive *d = &w->drive[i];
         if (d->rotor < 0 || d->stator < 0 || d->rotor == d->stator) continue;

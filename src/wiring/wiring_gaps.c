@@ -7,7 +7,7 @@
 #include <math.h>
 
 /* ---- what air bears ----
-   From where to where air at 1 atm breaks down between two conductors.
+   From where to where air breaks down between two conductors.
 
      V = B p d/(ln(A p d) - ln ln(1 + 1/gamma)),   A = 15/(cm Torr), B = 365 V/(cm Torr)      Paschen
      V >= (B/A) e ln(1 + 1/gamma),                 its least value, at p d = (e/A) ln(1 + 1/gamma)
@@ -18,7 +18,10 @@
    Below 6 um electrons leave the cathode by the field alone and the voltage falls with the gap: the lower end
    goes straight to 0 from there (43 V/um, below what is measured), the upper end is 350 V/um at most.
 
-   In: gap, m, 0 to about 1 mm (E/p of the constants: 100 to 800 V/(cm Torr)). Out: V. Error: the range is one
+   p: at room temperature; of warmer air that of the same density. Thin air bears less across a wide gap, down to the
+   least value; of still thinner air, left of it, nothing but 350 V/um is known to be too much.
+
+   In: gap, m, 0 to about 1 mm (E/p of the constants: 100 to 800 V/(cm Torr)); density over that at 1 atm. Out: V. Error: the range is one
    of flat, clean metal; edges, burrs and dust lower it, damp lowers it below 1 um. Cost: four logarithms. Source:
    Y. P. Raizer, Gas Discharge Physics (1991), for A and B; P. G. Slade, E. D. Taylor, IEEE Trans. Components and
    Packaging Technol. 25 (2002) 390: Paschen's curve above 6 um, field emission below 4 um; A. Peschot et al., Appl.
@@ -29,20 +32,23 @@ static const double TOWNSEND_A = 15.0 / 1e-2, TOWNSEND_B = 365.0 / 1e-2; /* per 
 static const double GAMMA[2] = {0.02, 0.005};
 static const double EMISSION_BELOW_M = 6e-6, HIGHEST_FIELD_V_per_m = 350e6;
 
-static double paschen(double gap_m, double gamma) {
-    double pd = gap_m * (FW_STANDARD_ATMOSPHERE_Pa / TORR), loss = log1p(1.0 / gamma);
+static double paschen(double gap_m, double density, double gamma) {
+    double pd = gap_m * density * (FW_STANDARD_ATMOSPHERE_Pa / TORR), loss = log1p(1.0 / gamma);
     double least_pd = FW_E * loss / TOWNSEND_A;
     if (pd <= least_pd) return TOWNSEND_B * least_pd;
     return TOWNSEND_B * pd / (log(TOWNSEND_A * pd) - log(loss));
 }
 
-void fw_wiring_breakdown(double gap_m, double volts[2]) {
+void fw_wiring_breakdown(double gap_m, double density, double volts[2]) {
+    const double least_m =
+        FW_E * log1p(1.0 / GAMMA[1]) / (TOWNSEND_A * density) * (TORR / FW_STANDARD_ATMOSPHERE_Pa);
     if (!(gap_m > 0.0)) {
         volts[0] = volts[1] = 0.0;
         return;
     }
-    volts[0] = paschen(gap_m, GAMMA[0]) * fmin(1.0, gap_m / EMISSION_BELOW_M);
-    volts[1] = fmin(paschen(gap_m, GAMMA[1]), HIGHEST_FIELD_V_per_m * gap_m);
+    volts[0] = paschen(gap_m, density, GAMMA[0]) * fmin(1.0, gap_m / EMISSION_BELOW_M);
+    volts[1] = fmin(paschen(gap_m, density, GAMMA[1]), HIGHEST_FIELD_V_per_m * gap_m);
+    if (density < 0.5 && gap_m < least_m) volts[1] = HIGHEST_FIELD_V_per_m * gap_m;
 }
 
 /* ---- gaps between nets ----
@@ -87,10 +93,18 @@ static void take_motion(const fw_wiring *w, const fw_layout *layout, const fw_wi
     }
 }
 
+/* the least of the thinnest air, and what surely is too much of the densest, and of the thinnest where that is more */
+static void air_bears(const fw_wiring *w, double gap_m, double volts[2]) {
+    double dense[2];
+    fw_wiring_breakdown(gap_m, w->density[1], dense);
+    fw_wiring_breakdown(gap_m, w->density[0], volts);
+    volts[0] = fmin(volts[0], dense[0]), volts[1] = fmax(volts[1], dense[1]);
+}
+
 static void bear(const fw_wiring *w, fw_wiring_gap *g) {
     g->volts = difference(potential(w, g->a), potential(w, g->b));
     g->field_V_per_m = g->made_m > 0.0 ? g->volts / g->made_m : HUGE_VAL;
-    fw_wiring_breakdown(g->made_m, g->breakdown_V);
+    air_bears(w, g->made_m, g->breakdown_V);
 }
 
 /* ---- what there is to say ---- */
@@ -160,7 +174,7 @@ static fw_status handle_gaps(fw_arena *arena, fw_wiring *w) {
         const double bears = c->breakdown_V_per_m * c->thickness_m;
         g->breakdown_V[0] = bears * fmax(0.0, 1.0 - 2.0 * c->breakdown_share);
         g->breakdown_V[1] = bears * (1.0 + 2.0 * c->breakdown_share);
-        if (w->net[i].kind == FW_WIRING_ROTOR) fw_wiring_breakdown(c->thickness_m, g->breakdown_V);
+        if (w->net[i].kind == FW_WIRING_ROTOR) air_bears(w, c->thickness_m, g->breakdown_V);
         if (!(g->volts > 0.0) || isnan(g->breakdown_V[0]) || g->volts < g->breakdown_V[0]) continue;
         FW_TRY(fw_wiring_say(
             arena, &w->open, &w->nopen,

@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 from common import ROOT, run
+from test_out_of_plane import STAGE
 
 PLATE = (ROOT / "tests/data/theory/plate.xml").read_text()
 GLASS = '<flow ref="silicon-on-glass" carrier="insulating"/>'
@@ -145,6 +146,23 @@ class Stiction(unittest.TestCase):
             _, dried = self.check(lab=lab)
             self.assertTrue(0.75 < dried["peel"][0] / (stored / (area * most)) < 1.0, dried["peel"])
             self.assertTrue(0.75 < dried["peel"][1] / (flat / (area * least)) < 1.15, dried["peel"])
+
+    def test_stress_that_presses_is_felt_as_it_dries(self):
+        """a stage whose layer is stressed, to a share of what tips it: what it bears of a liquid, and what comes free, fall by
+        that share"""
+        self.lab.write_text(LAB % SLIPPERY)
+        found = []
+        for stress in ("", '<residual-stress mean="-60 MPa"/>', '<residual-stress mean="-120 MPa"/>'):
+            self.file.write_text(STAGE % ("6 um", GLASS + '<die tethers="no"/>', "", stress))
+            whole = json.loads(run("check", self.file, "--json", "--lab", self.lab, *QUICK).stdout)
+            scene = whole["out_of_plane"][0]["scenes"][0]
+            dried = whole["stiction"][0]
+            sure = scene["tips_at"] / (1 + scene["tips_error"]) if stress else math.inf
+            found.append((dried["below"]["bears_N_per_m"][0], dried["peel"][0], 1 - 1 / sure))
+        for bears, peel, left in found[1:]:
+            self.assertTrue(0.1 < left < 0.97, found)
+            self.assertAlmostEqual(bears / found[0][0] / left, 1, 3)
+            self.assertAlmostEqual(peel / found[0][1] / left, 1, 3)
 
     def test_surfaces_that_close(self):
         """a lever that is pressed onto the other half of its hinge: what holds them against what opens them"""

@@ -216,6 +216,27 @@ static void swings(void **state) {
     assert_false(fw_quantity_law_goes_to_and_fro(NULL, 0.2));
 }
 
+/* two pulses of half a period each, n periods apart from start to start: the first leaves pi/2 of what it does at rest, and
+   together they leave 2 |cos(pi n)| times that. Steps one after the other ring by 2 |cos(pi n)| about 2 */
+static void swings_of_several(void **state) {
+    (void)state;
+    const double w = 2 * pi * 1000, period = 1e-3;
+    for (int i = 0; i < 9; i++) {
+        const double n = 20 + i / 8.0, end = 30 * period;
+        const fw_quantity_law one = {.kind = fw_quantity_law_find("half-sine"), .rise_s = 0.5 * period},
+                              other = {.kind = one.kind, .rise_s = 0.5 * period, .start_s = n * period},
+                              late = {.kind = fw_quantity_law_find("step"), .start_s = n * period, .end_s = (double)INFINITY};
+        const fw_quantity_law_load pulses[] = {{&one, 3}, {&other, 3}}, steps[] = {{NULL, 1}, {&late, 1}};
+        const double alone = pi / 2, both = 2 * fabs(cos(pi * n)) * alone;
+        const double far = fw_quantity_law_swing_of_all(pulses, 2, end, w, 0) / 3;
+        if (i % 4 == 0) assert_near(far, fmax(alone, both), 0.05);
+        assert_true(far > fmax(alone, both) - 0.05 && far < 1.2 * fmax(alone, both) + 0.05);
+        assert_near(fw_quantity_law_swing_of_all(steps, 2, end, w, 0), 2 + 2 * fabs(cos(pi * n)), 0.16); /* a jump is a ramp over a sample, half of one late */
+        assert_true(fw_quantity_law_come_again(pulses, 2, end) && fw_quantity_law_come_again(steps, 2, end));
+        assert_false(fw_quantity_law_come_again(pulses, 1, end) || fw_quantity_law_come_again(steps, 1, end));
+    }
+}
+
 static void answers(void **state) {
     (void)state;
     const double w = 2 * pi * 1000, period = 1e-3;
@@ -376,6 +397,7 @@ int main(void) {
         cmocka_unit_test(rings),
         cmocka_unit_test(answers),
         cmocka_unit_test(swings),
+        cmocka_unit_test(swings_of_several),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

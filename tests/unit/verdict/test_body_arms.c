@@ -434,10 +434,36 @@ static void a_neck_before_a_load_is_seen(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* a bar held in its middle by two hinges, 15 um either way, bends at its ends by q l^4/(8 E I), l what reaches beyond, whichever
+   way it lies */
+static void what_hangs_over_bends(void **state) {
+    (void)state;
+    const double w = 0.05, l = 1;
+    const double corner[8][2] = {{-l, 0}, {-0.02, 0}, {-0.01, -0.01}, {0.01, -0.01}, {0.02, 0}, {l, 0}, {l, w}, {-l, w}};
+    for (int i = 0; i < 8; i++) {
+        scene s = body(8, corner, 1u << 1 | 1u << 3, 0.21 * i);
+        fw_mechanism_variant variant = {.thickness_m = 20e-6};
+        fw_mechanism_shape shape = {.area_m2 = 2 * l * w * 1e-6};
+        variant.material.youngs.value = 150e9;
+        s.m.variant = &variant, s.m.shape = &shape;
+        fw_mechanism_mass mass = {.mass_kg = 2330 * 20e-6 * shape.area_m2};
+        s.m.body = &mass;
+        double hangs;
+        fw_verdict_line *line;
+        int nline;
+        assert_int_equal(fw_verdict_body_lines(s.arena, &s.layout, 0, &line, &nline), FW_OK);
+        assert_int_equal(fw_verdict_overhang(s.arena, &s.m, &s.layout, 0, line, nline, &hangs), FW_OK);
+        const double bends = 1.5 * 2330 * pow((l - 0.015) * 1e-3, 4) / (150e9 * 20e-6 * 20e-6);
+        assert_true(hangs > 0.98 * bends && hangs < 1.05 * bends);
+        fw_arena_free(s.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_neck_before_a_load_is_seen),
         cmocka_unit_test(a_bar_is_a_beam),
+        cmocka_unit_test(what_hangs_over_bends),
         cmocka_unit_test(plain_ways_are_bounds),
         cmocka_unit_test(forces_turn_with_the_body),
         cmocka_unit_test(what_is_narrow_is_found),

@@ -5,8 +5,8 @@
 #include <math.h>
 
 /* V in kV, pd in Torr cm: Paschen's law with other units, its least value by search */
-static double paschen(double gap_um, double gamma) {
-    double pd = gap_um * 1e-4 * 760, best = HUGE_VAL, at = 0;
+static double paschen_of(double gap_um, double torr, double gamma) {
+    double pd = gap_um * 1e-4 * torr, best = HUGE_VAL, at = 0;
     double c = log(1 / gamma + 1);
     for (double x = c / 15 * 1.001; x < 10; x *= 1.0005) {
         double v = 365 * x / (log(15 * x) - log(c));
@@ -15,11 +15,15 @@ static double paschen(double gap_um, double gamma) {
     return pd <= at ? best : 365 * pd / log(15 * pd / c);
 }
 
+static double paschen(double gap_um, double gamma) {
+    return paschen_of(gap_um, 760, gamma);
+}
+
 static void follows_paschen_above_six_micrometres(void **unused) {
     (void)unused;
     for (double um = 6; um < 900; um *= 1.3) {
         double v[2];
-        fw_wiring_breakdown(um * 1e-6, v);
+        fw_wiring_breakdown(um * 1e-6, 1, v);
         assert_relative(v[0], paschen(um, 0.02), 1e-6);
         assert_relative(v[1], paschen(um, 0.005), 1e-6);
         assert_true(v[0] < v[1]);
@@ -30,9 +34,9 @@ static void follows_paschen_above_six_micrometres(void **unused) {
 static void holds_what_is_measured(void **unused) {
     (void)unused;
     double v[2];
-    fw_wiring_breakdown(7.5e-6, v);
+    fw_wiring_breakdown(7.5e-6, 1, v);
     assert_true(v[0] < 327 && 327 < v[1]);
-    fw_wiring_breakdown(0.5e-6, v);
+    fw_wiring_breakdown(0.5e-6, 1, v);
     assert_near(v[1], 175, 1e-9);
     assert_true(v[0] > 15 && v[0] < 40);
 }
@@ -41,16 +45,35 @@ static void grows_with_the_gap(void **unused) {
     (void)unused;
     double before[2] = {0, 0}, v[2];
     for (double um = 0.01; um < 1000; um *= 1.07) {
-        fw_wiring_breakdown(um * 1e-6, v);
+        fw_wiring_breakdown(um * 1e-6, 1, v);
         for (int i = 0; i < 2; i++) {
             assert_true(v[i] >= before[i] * (1 - 1e-12));
             before[i] = v[i];
         }
     }
-    fw_wiring_breakdown(0, v);
+    fw_wiring_breakdown(0, 1, v);
     assert_near(v[0] + v[1], 0, 0);
-    fw_wiring_breakdown(-1e-6, v);
+    fw_wiring_breakdown(-1e-6, 1, v);
     assert_near(v[0] + v[1], 0, 0);
+}
+
+/* by the product of density and gap: what 2100 V hold apart at 1 atm 300 V may not at 20 Torr, and of a vacuum nothing says
+   that it breaks down */
+static void thin_air_bears_less(void **unused) {
+    (void)unused;
+    double v[2], room[2];
+    fw_wiring_breakdown(330e-6, 1, room);
+    assert_true(room[0] > 1900);
+    for (double torr = 15; torr < 700; torr *= 1.5) {
+        fw_wiring_breakdown(330e-6, torr / 760, v);
+        assert_relative(v[0], paschen_of(330, torr, 0.02), 1e-6);
+        assert_true(v[0] < room[0]);
+        if (torr > 25) assert_relative(v[1], paschen_of(330, torr, 0.005), 1e-6);
+    }
+    fw_wiring_breakdown(330e-6, 20.0 / 760, v);
+    assert_true(v[0] < 300);
+    fw_wiring_breakdown(330e-6, 1e-4, v);
+    assert_true(v[0] > 250 && v[1] > 1e5);
 }
 
 int main(void) {
@@ -58,6 +81,7 @@ int main(void) {
         cmocka_unit_test(follows_paschen_above_six_micrometres),
         cmocka_unit_test(holds_what_is_measured),
         cmocka_unit_test(grows_with_the_gap),
+        cmocka_unit_test(thin_air_bears_less),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
