@@ -222,3 +222,28 @@ fw_status fw_chance_surface_fit(fw_arena *arena, size_t n, size_t dimensions, co
     if (!found) *out = (fw_chance_surface){.dimensions = dimensions, .columns = columns};
     return FW_OK;
 }
+
+fw_status fw_chance_surface_fill(fw_arena *arena, size_t n, size_t d, const double *z,
+                                 size_t columns, size_t column, double *y, double *missed) {
+    size_t has = 0;
+    fw_chance_surface s;
+    *missed = 0;
+    for (size_t i = 0; i < n; i++)
+        has += y[i * columns + column] != 0;
+    if (has == 0 || has == n) return FW_OK;
+    double *at = fw_arena_array(arena, double, has *d), *of = fw_arena_array(arena, double, has),
+           *work = fw_arena_array(arena, double, FW_CHANCE_SURFACE_TERMS);
+    FW_NEED(at && of && work ? at : NULL);
+    for (size_t i = 0, k = 0; i < n; i++) {
+        if (y[i * columns + column] == 0) continue;
+        memcpy(at + k * d, z + i * d, d * sizeof *at);
+        of[k++] = y[i * columns + column];
+    }
+    FW_TRY(fw_chance_surface_fit(arena, has, d, at, 1, of, &s));
+    if (s.terms == 0) return FW_OK;
+    *missed = s.missed[0];
+    for (size_t i = 0; i < n; i++)
+        if (y[i * columns + column] == 0)
+            fw_chance_surface_at(&s, z + i * d, work, &y[i * columns + column]);
+    return FW_OK;
+}

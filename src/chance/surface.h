@@ -42,6 +42,11 @@ size_t fw_chance_surface_terms(size_t dimensions, int degree);
 fw_status fw_chance_surface_fit(fw_arena *arena, size_t n, size_t dimensions, const double *z,
                                 size_t columns, const double *y, fw_chance_surface *out);
 
+/* A column that some points have no value of, 0: they get that of a surface through the others. *missed: by how much that
+   misses its own; 0 where all points have a value, none has, or too few for a plane: then y is as it was. */
+fw_status fw_chance_surface_fill(fw_arena *arena, size_t n, size_t dimensions, const double *z,
+                                 size_t columns, size_t column, double *y, double *missed);
+
 /* y (columns) at z (dimensions); work (terms) */
 void fw_chance_surface_at(const fw_chance_surface *surface, const double *z, double *work,
                           double *y);
