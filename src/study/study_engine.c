@@ -235,7 +235,7 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     if (!*done) return FW_OK;
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
     const bool die = study->asked && study->asked->judge == FW_JUDGE_DIE;
-    options->verdict.bounded = may_be_bounded(e) && !die; /* clearances decide what is looked at */
+    options->verdict.bounded = may_be_bounded(e);
     options->verdict.grid_ways = e->soft > 0;
     /* a decision is that of check, which draws the masks: only who asks for hinges alone does without */
     options->without_masks = die || (options->verdict.bounded && options->verdict.hinges_only &&

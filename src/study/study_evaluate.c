@@ -295,11 +295,11 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
     *status = FW_STATUS_NOMEM;
     if (!design) return NULL;
     fw_plan_design_cancel_with(design, cancel);
-    fw_plan_design_plan(design)->options.verdict.hinges_only =
-        study->asked && study->asked->judge == FW_JUDGE_HINGES;
-    /* of a die it is drawn what there is to be made */
-    fw_plan_design_plan(design)->options.verdict.at_a_glance =
-        study->asked && study->asked->judge == FW_JUDGE_DIE;
+    fw_verdict_options *verdict = &fw_plan_design_plan(design)->options.verdict;
+    verdict->hinges_only = study->asked && study->asked->judge == FW_JUDGE_HINGES;
+    /* of a die nobody reads the drawn device, which says where there is something to look at */
+    if (study->asked && study->asked->judge == FW_JUDGE_DIE)
+        verdict->at_a_glance = verdict->bounded = true;
     fw_plan_design_plan(design)->options.lab_text = study->options.lab_text;
     fw_plan_design_plan(design)->options.nlab_text = study->options.nlab_text;
     *status = FW_STATUS_OK;

@@ -40,10 +40,15 @@ typedef struct judged {   /* (n) in the order in which they were chosen */
     int *decision, *nlook, *looks; /* looks (x LOOKS) */
 } judged;
 
-typedef struct axis {     /* of what is left to chance */
-    int number;           /* of fw_study_chance_of */
-    double low, high;     /* of all devices */
-    long low_at, high_at; /* which */
+enum { FARTHEST = 8 }; /* devices at either end of an axis that are judged first */
+typedef struct outer {
+    double value[FARTHEST];
+    long at[FARTHEST]; /* the devices, the outermost first; -1: there are not so many */
+} outer;
+
+typedef struct axis { /* of what is left to chance */
+    int number;       /* of fw_study_chance_of */
+    outer low, high;  /* of all devices */
 } axis;
 
 typedef struct
@@ -85,31 +90,47 @@ static void place_of(const fitted *f, const fw_study_sample *sample, double *z) 
     fw_study_chance_of(f->study, sample, f->chance);
     for (int a = 0; a < f->axes; a++) {
         const axis *x = &f->axis[a];
-        z[vary + a] = 2 * (f->chance[x->number] - x->low) / (x->high - x->low) - 1;
+        const double low = x->low.value[0], high = x->high.value[0];
+        z[vary + a] = 2 * (f->chance[x->number] - low) / (high - low) - 1;
     }
 }
 
-/* Each goes from -1 to 1 between the devices that have least and most of it, which are judged first: no device that is told
-   lies beyond. One that is the same in all devices is left out. */
+/* keeps the outermost; way: 1 the largest, -1 the least */
+static void keep_end(outer *e, double value, long at, int way) {
+    for (int i = 0; i < FARTHEST; i++) {
+        if (e->at[i] >= 0 && way * (value - e->value[i]) <= 0) continue;
+        memmove(e->value + i + 1, e->value + i, (size_t)(FARTHEST - 1 - i) * sizeof value);
+        memmove(e->at + i + 1, e->at + i, (size_t)(FARTHEST - 1 - i) * sizeof at);
+        e->value[i] = value, e->at[i] = at;
+        return;
+    }
+}
+
+/* Each goes from -1 to 1 between the devices that have least and most of it. These and some beside them are judged first: no
+   device that is told lies beyond, and what a surface misses at the ends is seen by others near by. One that is the same in
+   all devices is left out. */
 static fw_status find_axes(fitted *f) {
     const int n = fw_study_chances(f->study);
     FW_NEED(f->axis = fw_arena_array(f->study->arena, axis, (size_t)n));
     FW_NEED(f->chance = fw_arena_array(f->study->arena, double, (size_t)n + 1));
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < FARTHEST; k++)
+            f->axis[i].low.at[k] = f->axis[i].high.at[k] = -1;
     for (long k = 0; n > 0 && k < f->points->n; k++) {
         if (fw_cancel_requested(f->study->options.cancel)) return FW_CANCELLED;
         FW_TRY(f->points->at(f->points->context, k, &f->sample));
         fw_study_chance_of(f->study, &f->sample, f->chance);
         for (int i = 0; i < n; i++) {
-            axis *x = &f->axis[i];
-            if (k == 0 || f->chance[i] < x->low) x->low = f->chance[i], x->low_at = k;
-            if (k == 0 || f->chance[i] > x->high) x->high = f->chance[i], x->high_at = k;
+            keep_end(&f->axis[i].low, f->chance[i], k, -1);
+            keep_end(&f->axis[i].high, f->chance[i], k, 1);
         }
     }
-    for (int i = 0; i < n; i++)
-        if (f->axis[i].high - f->axis[i].low > 1e-12 * fabs(f->axis[i].high)) {
-            f->axis[f->axes] = f->axis[i];
-            f->axis[f->axes++].number = i;
-        }
+    for (int i = 0; i < n; i++) {
+        const double low = f->axis[i].low.value[0], high = f->axis[i].high.value[0];
+        if (!(high - low > 1e-12 * fabs(high))) continue;
+        f->axis[f->axes] = f->axis[i];
+        f->axis[f->axes++].number = i;
+    }
     f->d = f->study->nvary + f->axes;
     return FW_OK;
 }
@@ -162,7 +183,7 @@ static long choose(const fitted *f, uint64_t draw) {
 
 static void take(fitted *f, long k) {
     judged *j = &f->at;
-    if (is_taken(f, k) || j->n == j->most) return;
+    if (k < 0 || is_taken(f, k) || j->n == j->most) return;
     f->taken[k / 8] |= (unsigned char)(1 << k % 8);
     j->number[j->n++] = k;
 }
@@ -170,8 +191,11 @@ static void take(fitted *f, long k) {
 static void choose_more(fitted *f, long wanted, uint64_t *draw) {
     judged *j = &f->at;
     j->before = j->n;
-    for (int a = 0; j->n < 2 * f->axes && a < f->axes; a++)
-        take(f, f->axis[a].low_at), take(f, f->axis[a].high_at);
+    for (int i = 0; j->before == 0 && i < FARTHEST * f->axes; i++) {
+        const axis *x = &f->axis[i / FARTHEST];
+        take(f, x->low.at[i % FARTHEST]), take(f, x->high.at[i % FARTHEST]);
+    }
+    wanted += j->n - j->before;
     while (j->n < j->before + wanted && j->n < j->most)
         take(f, choose(f, (*draw)++));
 }
