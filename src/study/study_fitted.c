@@ -40,17 +40,6 @@ typedef struct judged {   /* (n) in the order in which they were chosen */
     int *decision, *nlook, *looks; /* looks (x LOOKS) */
 } judged;
 
-enum { FARTHEST = 8 }; /* devices at either end of an axis that are judged first */
-typedef struct outer {
-    double value[FARTHEST];
-    long at[FARTHEST]; /* the devices, the outermost first; -1: there are not so many */
-} outer;
-
-typedef struct axis { /* of what is left to chance */
-    int number;       /* of fw_study_chance_of */
-    outer low, high;  /* of all devices */
-} axis;
-
 typedef struct
     group { /* the largest of a number (FW_PART_...) of parts from..to; number -1: of none */
     int number, from, to;
@@ -61,9 +50,7 @@ typedef struct fitted {
     fw_study *study;
     int d, responses, ends; /* of a point; of a device; of a look */
     judged at;
-    axis *axis; /* (axes) */
-    int axes;
-    double *chance;       /* room for one point */
+    fw_study_axes axes;   /* of what is left to chance */
     unsigned char *taken; /* (points->n bits) chosen to be judged */
     fw_study_sample sample;
     fw_arena *fits;                                                       /* of the surfaces */
@@ -83,58 +70,6 @@ typedef struct fitted {
     long open_judged, told, checked; /* of the last round those that had been told */
 } fitted;
 
-static void place_of(const fitted *f, const fw_study_sample *sample, double *z) {
-    const int vary = f->study->nvary;
-    for (int v = 0; v < vary; v++)
-        z[v] = 2 * fw_study_input_share(&f->study->input[v], sample->value[v]) - 1;
-    fw_study_chance_of(f->study, sample, f->chance);
-    for (int a = 0; a < f->axes; a++) {
-        const axis *x = &f->axis[a];
-        const double low = x->low.value[0], high = x->high.value[0];
-        z[vary + a] = 2 * (f->chance[x->number] - low) / (high - low) - 1;
-    }
-}
-
-/* keeps the outermost; way: 1 the largest, -1 the least */
-static void keep_end(outer *e, double value, long at, int way) {
-    for (int i = 0; i < FARTHEST; i++) {
-        if (e->at[i] >= 0 && way * (value - e->value[i]) <= 0) continue;
-        memmove(e->value + i + 1, e->value + i, (size_t)(FARTHEST - 1 - i) * sizeof value);
-        memmove(e->at + i + 1, e->at + i, (size_t)(FARTHEST - 1 - i) * sizeof at);
-        e->value[i] = value, e->at[i] = at;
-        return;
-    }
-}
-
-/* Each goes from -1 to 1 between the devices that have least and most of it. These and some beside them are judged first: no
-   device that is told lies beyond, and what a surface misses at the ends is seen by others near by. One that is the same in
-   all devices is left out. */
-static fw_status find_axes(fitted *f) {
-    const int n = fw_study_chances(f->study);
-    FW_NEED(f->axis = fw_arena_array(f->study->arena, axis, (size_t)n));
-    FW_NEED(f->chance = fw_arena_array(f->study->arena, double, (size_t)n + 1));
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < FARTHEST; k++)
-            f->axis[i].low.at[k] = f->axis[i].high.at[k] = -1;
-    for (long k = 0; n > 0 && k < f->points->n; k++) {
-        if (fw_cancel_requested(f->study->options.cancel)) return FW_CANCELLED;
-        FW_TRY(f->points->at(f->points->context, k, &f->sample));
-        fw_study_chance_of(f->study, &f->sample, f->chance);
-        for (int i = 0; i < n; i++) {
-            keep_end(&f->axis[i].low, f->chance[i], k, -1);
-            keep_end(&f->axis[i].high, f->chance[i], k, 1);
-        }
-    }
-    for (int i = 0; i < n; i++) {
-        const double low = f->axis[i].low.value[0], high = f->axis[i].high.value[0];
-        if (!(high - low > 1e-12 * fabs(high))) continue;
-        f->axis[f->axes] = f->axis[i];
-        f->axis[f->axes++].number = i;
-    }
-    f->d = f->study->nvary + f->axes;
-    return FW_OK;
-}
-
 /* ---- those of which surfaces are made ---- */
 
 static bool is_taken(const fitted *f, long k) {
@@ -146,7 +81,8 @@ static fw_status fitted_new(fitted *f, fw_study *study, const fw_study_points *p
     *f = (fitted){.points = points, .study = study, .responses = study->nresponse};
     f->ends = FW_PART_NUMBERS * study->npart;
     FW_TRY(fw_study_sample_new(arena, study, &f->sample));
-    FW_TRY(find_axes(f));
+    FW_TRY(fw_study_axes_find(study, points, &f->sample, &f->axes));
+    f->d = study->nvary + f->axes.n;
     const size_t d = (size_t)f->d, r = (size_t)f->responses, e = (size_t)f->ends,
                  each = d + r + FW_VERDICT_LOOKS * e + 8;
     size_t most = JUDGED_NUMBERS / each;
@@ -191,10 +127,9 @@ static void take(fitted *f, long k) {
 static void choose_more(fitted *f, long wanted, uint64_t *draw) {
     judged *j = &f->at;
     j->before = j->n;
-    for (int i = 0; j->before == 0 && i < FARTHEST * f->axes; i++) {
-        const axis *x = &f->axis[i / FARTHEST];
-        take(f, x->low.at[i % FARTHEST]), take(f, x->high.at[i % FARTHEST]);
-    }
+    for (int i = 0; j->before == 0 && i < f->axes.n; i++)
+        for (int k = 0; k < FW_STUDY_FARTHEST; k++)
+            take(f, f->axes.axis[i].low.at[k]), take(f, f->axes.axis[i].high.at[k]);
     wanted += j->n - j->before;
     while (j->n < j->before + wanted && j->n < j->most)
         take(f, choose(f, (*draw)++));
@@ -261,7 +196,7 @@ static fw_status take_judged(void *context, const fw_study_sample *sample) {
     while (j->number[k] != sample->i)
         k++;
     if (!check_judged(f, sample)) return FW_OK;
-    place_of(f, sample, j->z + k * f->d);
+    fw_study_axes_place(&f->axes, f->study, sample, j->z + k * f->d);
     memcpy(j->response + k * f->responses, sample->response, (size_t)f->responses * sizeof(double));
     for (int e = 0; e < FW_VERDICT_LOOKS * f->ends; e++)
         j->part[k * FW_VERDICT_LOOKS * f->ends + e] = sample->part[e];
@@ -488,7 +423,7 @@ static fw_status count_open(fitted *f) {
         told t;
         if (is_taken(f, k)) continue;
         FW_TRY(f->points->at(f->points->context, k, &f->sample));
-        place_of(f, &f->sample, f->z);
+        fw_study_axes_place(&f->axes, f->study, &f->sample, f->z);
         tell(f, f->z, &t);
         all++, open += t.open;
     }
@@ -555,7 +490,7 @@ static fw_status fill_told(void *context, long k, fw_study_sample *sample, bool 
     *wanted = !is_taken(f, k) && fw_study_is_due(f->study, k);
     if (!*wanted) return FW_OK;
     FW_TRY(f->points->at(f->points->context, k, sample));
-    place_of(f, sample, f->z);
+    fw_study_axes_place(&f->axes, f->study, sample, f->z);
     tell(f, f->z, &t);
     f->open_judged += t.open, f->told += !t.open;
     *wanted = t.open;

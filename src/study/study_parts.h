@@ -248,6 +248,28 @@ typedef struct fw_study_points { /* all devices of a study, chosen beforehand */
     fw_status (*at)(const void *context, long k, fw_study_sample *sample); /* inputs of device k */
     const void *context;
 } fw_study_points;
+enum { FW_STUDY_FARTHEST = 8 }; /* devices at either end of an axis that are judged first */
+typedef struct fw_study_outer {
+    double value[FW_STUDY_FARTHEST];
+    long at[FW_STUDY_FARTHEST]; /* the devices, the outermost first; -1: there are not so many */
+} fw_study_outer;
+
+typedef struct fw_study_axis { /* of what is left to chance */
+    int number;                /* of settings, then of the state of the flow */
+    fw_study_outer low, high;  /* of all devices */
+} fw_study_axis;
+
+typedef struct fw_study_axes { /* numbers in which devices differ by chance */
+    fw_study_axis *axis;       /* (n) */
+    int n;
+    double *chance; /* room for one device */
+} fw_study_axes;
+/* draws all devices; room: a sample. study_axes.c */
+fw_status fw_study_axes_find(const fw_study *study, const fw_study_points *points,
+                             fw_study_sample *room, fw_study_axes *axes);
+/* z (nvary + axes->n) from -1 to 1 */
+void fw_study_axes_place(const fw_study_axes *axes, const fw_study *study,
+                         const fw_study_sample *sample, double *z);
 /* judges some of them, tells those that response surfaces tell, and judges the others. FW_INPUT: FW-D660, FW-D661 */
 fw_status fw_study_fitted_run(fw_study *study, const fw_study_points *points,
                               struct fw_study_result *result);
@@ -270,10 +292,6 @@ fw_status fw_study_die_take(const fw_study *study, fw_plan *plan, fw_study_sampl
 
 /* has each device values of its own of what is uncertain? */
 bool fw_study_draws(const fw_study *study);
-/* what is left to chance in a sample (fw_study_chances): the values of its settings, and the state that its flow makes */
-int fw_study_chances(const fw_study *study);
-void fw_study_chance_of(const fw_study *study, const fw_study_sample *sample, double *at);
-
 /* ---- study_scatter.c: what differs from device to device, on which level, and where ---- */
 
 typedef struct fw_study_group { /* an input: the rows that say how it differs add up */

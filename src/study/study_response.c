@@ -8,7 +8,6 @@
    pick those of which every word is the value of some text ([stroke,step]: the requirement of that probe in that
    scene). Cost: that of the keys on the way. Test: tests/unit/study/test_response.c */
 #include "study/study_parts.h"
-#include "verdict/verdict_fabrication.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -458,30 +457,6 @@ fw_status fw_study_die_take(const fw_study *study, fw_plan *plan, fw_study_sampl
     return put_in_place(plan, &die);
 }
 
-/* ---- where a die is among all ----
-   Of what is left to chance a device has the values of its settings and, of its flow, the state that they make
-   (fw_verdict_fabrication): how far edges stand out, how much walls flare, thickness and modulus against what is drawn.
-   Whatever differs in a flow, and wherever on the wafer the die is, the device is a function of these four numbers alone. */
-
-enum { STATE = 4 };
-
 bool fw_study_draws(const fw_study *study) {
     return study->asked->kind == FW_STUDY_IS_yield || study->asked->judge == FW_JUDGE_DIE;
-}
-
-int fw_study_chances(const fw_study *study) {
-    return study->nsetting + (study->asked->judge == FW_JUDGE_DIE ? STATE : 0);
-}
-
-void fw_study_chance_of(const fw_study *study, const fw_study_sample *sample, double *at) {
-    const int first = study->nvary + study->nsetting;
-    if (study->nsetting > 0)
-        memcpy(at, sample->value + study->nvary, (size_t)study->nsetting * sizeof *at);
-    if (study->asked->judge != FW_JUDGE_DIE) return;
-    const fw_verdict_variant_verdict *v = &study->plan->verdict.variant[0];
-    const fw_verdict_fabrication made =
-        fw_verdict_fabrication_at(v->input, v->ninput, sample->value + first);
-    const double state[STATE] = {made.edge_m, made.flare_m, made.thickness_ratio,
-                                 made.youngs_ratio};
-    memcpy(at + study->nsetting, state, sizeof state);
 }

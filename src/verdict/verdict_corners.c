@@ -476,6 +476,11 @@ static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v)
     return FW_OK;
 }
 
+int fw_verdict_checks(const fw_device *device, const fw_verdict_variant_verdict *v) {
+    return v->nhinge * (device->nscene + 1) + 4 * device->nscene + v->nrequirement +
+           device->nworkspace;
+}
+
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s) {

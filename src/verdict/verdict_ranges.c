@@ -149,11 +149,6 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
 /* a flexure cut through, or a scene that cannot be run through, is beyond its limit by no known share */
 static const double beyond = 0.5;
 
-int fw_verdict_checks(const fw_device *device, const fw_verdict_variant_verdict *v) {
-    return v->nhinge * (device->nscene + 1) + 4 * device->nscene + v->nrequirement +
-           device->nworkspace;
-}
-
 fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
                             const double *x, fw_verdict_die *die) {
@@ -170,6 +165,10 @@ fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_l
     die->ln = s.ln;
     for (int r = 0; r < s.ncheck; r++)
         out->ln = fmax(out->ln, s.ln[r]); /* NaN is passed */
+    /* what would meet first is looked for no further than it counts: up to there a clearance has no number of its own */
+    const int clearances = v->nhinge * (device->nscene + 1) + device->nscene + v->nrequirement;
+    for (int r = clearances; r < clearances + device->nscene; r++)
+        if (s.ln[r] <= log(fw_verdict_clearance_counts)) s.ln[r] = (double)NAN;
     double most = 0;
     for (int k = 0; k < v->nhinge; k++) {
         const fw_verdict_hinge_verdict *h = &c->hinge[k];
