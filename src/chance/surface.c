@@ -23,10 +23,13 @@ typedef struct fit {
     double *w;      /* (terms x columns) */
 } fit;
 
-size_t fw_chance_surface_terms(size_t dimensions, int degree) {
-    double terms = 1;
-    for (int k = 1; k <= degree; k++)
-        terms = terms * (double)(dimensions + (size_t)k) / k;
+/* products of k of the variables, of powers that add up to the degree at most: (dimensions over k) (degree over k) */
+size_t fw_chance_surface_terms(size_t dimensions, int degree, int together) {
+    double terms = 1, of_k = 1;
+    for (int k = 1; k <= degree && k <= together && (size_t)k <= dimensions; k++) {
+        of_k = of_k * (double)(dimensions - (size_t)k + 1) * (degree - k + 1) / ((double)k * k);
+        terms += of_k;
+    }
     return (size_t)(terms + 0.5);
 }
 
@@ -34,13 +37,15 @@ size_t fw_chance_surface_terms(size_t dimensions, int degree) {
 
 /* in the order of their degree: each is one of a degree less, or the same less a last factor, times P_k of a variable that
    comes behind those that it has */
-static void number_terms(fw_chance_surface *s, int *less, int *variable, int *power, int *total) {
+static void number_terms(fw_chance_surface *s, int *less, int *variable, int *power, int *total,
+                         int *factors) {
     size_t n = 1;
-    less[0] = 0, variable[0] = -1, power[0] = 0, total[0] = 0;
+    less[0] = 0, variable[0] = -1, power[0] = 0, total[0] = 0, factors[0] = 0;
     for (int degree = 1; degree <= s->degree; degree++)
         for (size_t t = 0, end = n; t < end; t++)
             for (int v = variable[t] + 1; v < (int)s->dimensions && total[t] < degree; v++) {
-                less[n] = (int)t, variable[n] = v;
+                if (factors[t] == s->together) break;
+                less[n] = (int)t, variable[n] = v, factors[n] = factors[t] + 1;
                 power[n] = degree - total[t], total[n] = degree;
                 n++;
             }
@@ -69,9 +74,10 @@ void fw_chance_surface_at(const fw_chance_surface *s, const double *z, double *w
 /* ---- least squares ---- */
 
 static fw_status number(fw_arena *arena, fw_chance_surface *s) {
-    int *all = fw_arena_array(arena, int, 4 * s->terms);
+    int *all = fw_arena_array(arena, int, 5 * s->terms);
     FW_NEED(all);
-    number_terms(s, all, all + s->terms, all + 2 * s->terms, all + 3 * s->terms);
+    number_terms(s, all, all + s->terms, all + 2 * s->terms, all + 3 * s->terms,
+                 all + 4 * s->terms);
     s->less = all, s->variable = all + s->terms, s->power = all + 2 * s->terms;
     return FW_OK;
 }
@@ -155,7 +161,7 @@ static fw_status fit_new(fw_arena *scratch, const fw_chance_surface *s, size_t n
     *f = (fit){.n = n, .terms = s->terms, .columns = s->columns, .degrees = s->degree};
     FW_NEED(f->within = fw_arena_array(scratch, size_t, (size_t)s->degree + 1));
     for (int k = 0; k <= s->degree; k++)
-        f->within[k] = fw_chance_surface_terms(s->dimensions, k);
+        f->within[k] = fw_chance_surface_terms(s->dimensions, k, s->together);
     FW_NEED(f->v = fw_arena_array(scratch, double, n * f->terms));
     FW_NEED(f->gram = fw_arena_array(scratch, double, f->terms * f->terms));
     FW_NEED(f->w = fw_arena_array(scratch, double, f->terms * f->columns));
@@ -194,21 +200,29 @@ static fw_status fit_degree(fw_arena *scratch, size_t n, const double *z, const 
 }
 
 /* the highest degree for which there are points enough; 0: none */
-static int degree_of(size_t n, size_t dimensions) {
+static int degree_of(size_t n, size_t dimensions, int together) {
     int degree = 0;
     for (; degree < FW_CHANCE_SURFACE_DEGREE; degree++) {
-        const size_t terms = fw_chance_surface_terms(dimensions, degree + 1);
+        const size_t terms = fw_chance_surface_terms(dimensions, degree + 1, together);
         if (terms > FW_CHANCE_SURFACE_TERMS || terms * FW_CHANCE_SURFACE_POINTS > n) break;
     }
     return degree;
 }
 
+/* variables in one product, at most */
+static int together_of(size_t dimensions) {
+    const size_t cubic = fw_chance_surface_terms(dimensions, 3, 3);
+    return cubic > FW_CHANCE_SURFACE_TERMS ? 2 : FW_CHANCE_SURFACE_DEGREE;
+}
+
 fw_status fw_chance_surface_fit(fw_arena *arena, size_t n, size_t dimensions, const double *z,
                                 size_t columns, const double *y, fw_chance_surface *out) {
     bool found = false;
-    for (int degree = degree_of(n, dimensions); degree > 0 && !found; degree--) {
-        *out = (fw_chance_surface){.dimensions = dimensions, .columns = columns, .degree = degree};
-        out->terms = fw_chance_surface_terms(dimensions, degree);
+    const int together = together_of(dimensions);
+    for (int degree = degree_of(n, dimensions, together); degree > 0 && !found; degree--) {
+        *out = (fw_chance_surface){
+            .dimensions = dimensions, .columns = columns, .degree = degree, .together = together};
+        out->terms = fw_chance_surface_terms(dimensions, degree, together);
         FW_TRY(number(arena, out));
         FW_NEED(out->coefficient = fw_arena_array(arena, double, out->terms *columns));
         FW_NEED(out->missed = fw_arena_array(arena, double, columns));
@@ -220,5 +234,30 @@ fw_status fw_chance_surface_fit(fw_arena *arena, size_t n, size_t dimensions, co
         FW_TRY(status);
     }
     if (!found) *out = (fw_chance_surface){.dimensions = dimensions, .columns = columns};
+    return FW_OK;
+}
+
+fw_status fw_chance_surface_fill(fw_arena *arena, size_t n, size_t d, const double *z,
+                                 size_t columns, size_t column, double *y, double *missed) {
+    size_t has = 0;
+    fw_chance_surface s;
+    *missed = 0;
+    for (size_t i = 0; i < n; i++)
+        has += y[i * columns + column] != 0;
+    if (has == 0 || has == n) return FW_OK;
+    double *at = fw_arena_array(arena, double, has *d), *of = fw_arena_array(arena, double, has),
+           *work = fw_arena_array(arena, double, FW_CHANCE_SURFACE_TERMS);
+    FW_NEED(at && of && work ? at : NULL);
+    for (size_t i = 0, k = 0; i < n; i++) {
+        if (y[i * columns + column] == 0) continue;
+        memcpy(at + k * d, z + i * d, d * sizeof *at);
+        of[k++] = y[i * columns + column];
+    }
+    FW_TRY(fw_chance_surface_fit(arena, has, d, at, 1, of, &s));
+    if (s.terms == 0) return FW_OK;
+    *missed = s.missed[0];
+    for (size_t i = 0; i < n; i++)
+        if (y[i * columns + column] == 0)
+            fw_chance_surface_at(&s, z + i * d, work, &y[i * columns + column]);
     return FW_OK;
 }

@@ -2,7 +2,6 @@
 /* One flexure by CalculiX: what decks are made of (device_deck.c uses it, too), its deck, and what comes of it. */
 #include "base/constants.h"
 #include "continuum/continuum.h"
-#include "continuum/mesh.h"
 #include "continuum/solver.h"
 #include <math.h>
 

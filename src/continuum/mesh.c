@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The profile of a flexure (its centre line of lines and arcs, edges, fillets and blocks) and its mesh of bricks. */
-#include "continuum/mesh.h"
+#include "continuum/solver.h"
 #include "base/constants.h"
 #include <math.h>
 

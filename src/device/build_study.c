@@ -402,7 +402,8 @@ static const char *unfit(const fw_device_study *s) {
                "points=\"sobol\"";
     if (s->judge == FW_JUDGE_MADE)
         return "fitted=\"...\" tells devices as drawn, since what flows make of them is searched "
-               "in each device anew; take as=\"drawn\" or as=\"hinges\", or remove it";
+               "in each device anew; take as=\"drawn\" or as=\"hinges\", or as=\"die\", which is "
+               "one of what a flow may make; or remove it";
     for (int k = 0; k < s->nvary; k++)
         if (s->vary[k].ntext > 0)
             return "fitted=\"...\" goes between values, and a <vary> lists its own; give it from "
@@ -418,7 +419,9 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
     const char *what = NULL;
     switch (s->kind) {
     case FW_STUDY_IS_sweep:
-        if (s->nvary == 0) what = "a sweep needs at least one <vary>";
+        if (s->nvary == 0 && s->judge != FW_JUDGE_DIE) what = "a sweep needs at least one <vary>";
+        if (s->nvary == 0 && s->judge == FW_JUDGE_DIE && s->points != FW_POINTS_SOBOL)
+            what = "dies of one device are so many as samples say; add points=\"sobol\"";
         break;
     case FW_STUDY_IS_yield:
         break;
@@ -441,22 +444,27 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
     if (!what && s->kind != FW_STUDY_IS_yield && s->nrespond == 0)
         what = "nothing is asked; add <respond name=\"...\" value=\"governing.utilisation\"/>";
     bool yield = s->kind == FW_STUDY_IS_yield, wanted = s->yield > 0;
+    const bool die = s->judge == FW_JUDGE_DIE, chance = yield || wanted || die;
+    if (!what && die && s->kind != FW_STUDY_IS_sweep)
+        what = "as=\"die\" belongs to kind=\"sweep\"; a yield is of dies in any case";
     if (!what && wanted && s->kind != FW_STUDY_IS_size)
         what = "yield=\"...\" is wanted of a size; remove it, or make kind=\"size\" of it";
     if (!what && wanted && goals > 1)
         what = "a wanted yield and two goals; keep one goal, and make the other a limit";
-    if (!what && !yield && !wanted && s->ntrend > 0)
-        what = "<trend> belongs to kind=\"yield\" or to a size with yield=\"...\"; remove it";
-    if (!what && !yield && !wanted && s->ncorrelation > 0)
-        what = "<correlation> belongs to kind=\"yield\" or to a size with yield=\"...\"; remove it";
+    if (!what && !chance && s->ntrend > 0)
+        what = "<trend> belongs to kind=\"yield\", to a size with yield=\"...\" or to a sweep "
+               "as=\"die\"; remove it";
+    if (!what && !chance && s->ncorrelation > 0)
+        what =
+            "<correlation> belongs to kind=\"yield\", to a size with yield=\"...\" or to a sweep "
+            "as=\"die\"; remove it";
     if (!what && yield && s->nvary > 0)
         what = "a yield chooses nothing; remove <vary>, or make it <uncertain>";
     if (!what && yield && s->nrespond > 0)
         what = "a yield asks what check asks; state limits of its own as <require> in the device";
-    if (!what && !yield && !wanted && s->nuncertain > 0)
-        what =
-            "<uncertain> belongs to kind=\"yield\" or to a size with yield=\"...\"; remove it, or "
-            "make it <vary>";
+    if (!what && !chance && s->nuncertain > 0)
+        what = "<uncertain> belongs to kind=\"yield\", to a size with yield=\"...\" or to a sweep "
+               "as=\"die\"; remove it, or make it <vary>";
     if (!what && s->kind != FW_STUDY_IS_sweep && fw_xml_given(record, "points"))
         what = "points belong to kind=\"sweep\"; remove them";
     if (!what && s->fitted > 0) what = unfit(s);

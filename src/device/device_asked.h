@@ -113,7 +113,8 @@ const char *fw_device_study_points_text(fw_device_study_points points);
 typedef enum fw_device_study_judge { /* what a device of the study is */
                                      FW_JUDGE_DRAWN,
                                      FW_JUDGE_MADE,
-                                     FW_JUDGE_HINGES /* of the drawing, and requirements */
+                                     FW_JUDGE_HINGES, /* of the drawing, and requirements */
+                                     FW_JUDGE_DIE     /* one of those that a flow may make */
 } fw_device_study_judge;
 const char *fw_device_study_judge_text(fw_device_study_judge judge);
 

@@ -20,7 +20,8 @@ static const char *const points[] = {[FW_POINTS_GRID] = "grid",
 static const char *const judged[] = {[FW_JUDGE_DRAWN] = "drawn",
                                      [FW_JUDGE_MADE] = "made",
                                      [FW_JUDGE_HINGES] = "hinges",
-                                     [FW_JUDGE_HINGES + 1] = NULL};
+                                     [FW_JUDGE_DIE] = "die",
+                                     [FW_JUDGE_DIE + 1] = NULL};
 static const char *const spreads[] = {
     [FW_SPREAD_NORMAL] = "normal",   [FW_SPREAD_LOGNORMAL] = "lognormal",
     [FW_SPREAD_UNIFORM] = "uniform", [FW_SPREAD_TRUNCATED] = "truncated",
@@ -67,8 +68,9 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
         {"as", .kind = FW_KIND_WORD, .words = judged, .fallback = "made",                          \
          .sentence =                                                                               \
              "How each device is judged: as drawn, or also as its flows make it; or only the "     \
-             "hinges "                                                                             \
-             "and requirements of the drawing, and nothing of clearances, plates and adhesion."},  \
+             "hinges and requirements of the drawing, and nothing of clearances, plates and "      \
+             "adhesion; of a sweep also as one die, with a value of its own of all that its "      \
+             "flow and <uncertain> make differ, by what it uses of its limits, without bands."},   \
         {"samples",                                                                                \
          D_PURE,                                                                                   \
          WHOLE,                                                                                    \

@@ -135,7 +135,7 @@ static fw_status describe(fw_study_yielding *y, const bounds *b, fw_study_flow_y
     double *share = fw_arena_array(study->arena, double, n),
            *at = fw_arena_array(study->arena, double, n);
     FW_NEED(share && at ? share : NULL);
-    const fw_chance_place *place = fw_study_yielding_place(y, p->u);
+    const fw_chance_place *place = fw_study_scatter_at(s, p->u);
     fw_study_scatter_point(s, p->u, b->most_at, place, drawn, point);
     shares_of(y, p, share);
     for (int k = 0; k < s->groups; k++)
@@ -455,7 +455,7 @@ static fw_status die_at(const fw_study *dies, const fw_study *of, const fw_study
     fw_verdict_made made;
     FW_NEED(drawn && x ? x : NULL);
     fw_study_scatter_point(&y.scatter, die->u, die->unknowns > 0 ? die->unknown : NULL,
-                           fw_study_yielding_place(&y, die->u), drawn, x);
+                           fw_study_scatter_at(&y.scatter, die->u), drawn, x);
     FW_TRY(fw_study_yielding_judge(&y, x, &made));
     *ln = made.ln + (isfinite(made.up) ? made.up : 0);
     return FW_OK;

@@ -183,7 +183,7 @@ static fw_status take_inputs(fw_study *study) {
                                .place = v->place};
         FW_TRY(unit_of(v->unit, &in->unit));
     }
-    for (int k = 0; asked->kind == FW_STUDY_IS_yield && k < asked->nuncertain; k++)
+    for (int k = 0; fw_study_draws(study) && k < asked->nuncertain; k++)
         FW_TRY(take_uncertain(study, &asked->uncertain[k]));
     study->nsetting = study->ninput - study->nvary;
     return FW_OK;
@@ -215,14 +215,15 @@ static fw_status take_responses(fw_study *study) {
         fw_status one = fw_study_response_parse(study->arena, &asked->respond[k], &study->diags,
                                                 &study->response[k]);
         if (one != FW_OK) status = one;
-        if (one == FW_OK && asked->judge == FW_JUDGE_HINGES &&
-            !fw_study_response_of_hinges(&study->response[k]))
+        const bool hinges = asked->judge == FW_JUDGE_HINGES || asked->judge == FW_JUDGE_DIE;
+        if (one == FW_OK && hinges && !fw_study_response_of_hinges(&study->response[k]))
             status = fw_diag_error(&study->diags, 576, asked->respond[k].place,
-                                   "response '%s' (%s): as=\"hinges\" judges hinges and "
+                                   "response '%s' (%s): as=\"%s\" judges hinges and "
                                    "requirements alone, and this is about something else; take "
                                    "as=\"drawn\", or ask for governing, hinges, requirements, "
                                    "hinge_model or failure_probability",
-                                   asked->respond[k].name, asked->respond[k].value);
+                                   asked->respond[k].name, asked->respond[k].value,
+                                   fw_device_study_judge_text(asked->judge));
         if (one == FW_OK) study->stages |= fw_study_documents[study->response[k].document].stages;
     }
     /* a yield and a size ask what check says */
@@ -245,7 +246,7 @@ static fw_status run_as_it_stands(fw_study *study) {
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK) status = fw_study_responses_take(study, design, now, &study->diags);
     if (status == FW_STATUS_OK && study->asked->fitted > 0)
-        fw_study_parts_of(&fw_plan_design_plan(design)->verdict, study);
+        fw_study_parts_of(fw_plan_design_plan(design), study);
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
     fw_design_free(design);
     study->seconds_each =
@@ -450,11 +451,12 @@ static fw_status open_all(fw_study *study) {
     FW_TRY(responses);
     if (study->diags.errors > 0) return FW_INPUT;
     FW_TRY(check_kind(study));
-    if (study->asked->kind == FW_STUDY_IS_yield) {
+    if (fw_study_draws(study)) {
         FW_TRY(judge_device(study));
         FW_TRY(fw_study_scatter_check(study));
         FW_TRY(add_made_inputs(study));
-        FW_TRY(fw_study_yielding_check(study));
+        const bool die = study->asked->judge == FW_JUDGE_DIE;
+        FW_TRY(die ? fw_study_dies_check(study) : fw_study_yielding_check(study));
     }
     if (study->asked->yield > 0) FW_TRY(open_dies(study));
     FW_TRY(find_hash(study));

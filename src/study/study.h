@@ -106,6 +106,7 @@ typedef struct fw_study {
     unsigned stages; /* FW_STUDY_STAGE_..., what the responses need */
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
     int npart, nhinge;
+    int neach; /* of a die: how many of them each hinge has (scenes and workspace); else 0 */
     fw_design *design;            /* the description as it stands; of a yield judged as drawn */
     fw_design *former;            /* as it was first read: places are of it; NULL: the same */
     fw_plan *plan;                /* of `design` */

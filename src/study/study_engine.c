@@ -25,6 +25,11 @@ typedef struct engine { /* of one thread at a time */
     fw_dynamics_tapes *tapes; /* motions that devices have in common */
     fw_device_set *set;       /* those of the study's options, then those of the sample */
     double looked_s;
+    /* of dies whose drawing is always the same: it is judged once, and what follows is given back */
+    bool one_drawing, judged;
+    fw_verdict verdict;
+    fw_verdict_variant_verdict variant;
+    fw_mark mark;
     int soft; /* samples to come whose bodies are taken to be soft; results do not hang on it */
     struct engine *next;
 } engine;
@@ -127,6 +132,8 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
                             bool *changed) {
     int status;
     e->study = study;
+    e->one_drawing =
+        study->asked && study->asked->judge == FW_JUDGE_DIE && study->nvary + study->nsetting == 0;
     e->looked_s = fw_study_now_s();
     FW_NEED(e->set = fw_arena_array(e->arena, fw_device_set,
                                     (size_t)(study->options.nset + study->ninput)));
@@ -200,10 +207,23 @@ static void give(const fw_study *study, engine *e) {
     pthread_mutex_unlock(&study->engines->lock);
 }
 
+/* another die of the drawing that was judged; *done false: there is none yet */
+static fw_status another_die(engine *e, fw_study_sample *sample, bool *done) {
+    fw_plan *plan = fw_plan_design_plan(e->design);
+    *done = e->judged;
+    if (!e->judged) return FW_OK;
+    fw_arena_rewind(plan->arena, e->mark);
+    plan->verdict = e->verdict, plan->verdict.variant[0] = e->variant;
+    fw_plan_design_forget_documents(e->design);
+    return (fw_status)fw_study_answers_take(e->study, e->design, sample);
+}
+
 /* in a design that is there; *done false: it is to be read anew, by itself */
 static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     const fw_study *study = e->study;
     int n = 0;
+    FW_TRY(another_die(e, sample, done));
+    if (*done) return FW_OK;
     for (int i = 0; i < study->options.nset; i++)
         e->set[n++] = study->options.set[i];
     for (int i = 0; i < study->ninput; i++)
@@ -214,13 +234,22 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     FW_TRY(read);
     if (!*done) return FW_OK;
     fw_plan_options *options = &fw_plan_design_plan(e->design)->options;
+    const bool die = study->asked && study->asked->judge == FW_JUDGE_DIE;
     options->verdict.bounded = may_be_bounded(e);
     options->verdict.grid_ways = e->soft > 0;
     /* a decision is that of check, which draws the masks: only who asks for hinges alone does without */
-    options->without_masks = options->verdict.bounded && options->verdict.hinges_only &&
-                             study->asked->kind != FW_STUDY_IS_size;
+    options->without_masks = die || (options->verdict.bounded && options->verdict.hinges_only &&
+                                     study->asked->kind != FW_STUDY_IS_size);
     options->without_changes = asks_for_no_clearance(study);
-    fw_status status = (fw_status)fw_study_answers_take(study, e->design, sample);
+    fw_status status = FW_OK;
+    if (e->one_drawing) {
+        status = (fw_status)fw_study_stages_run(e->design, study->stages);
+        fw_plan *plan = fw_plan_design_plan(e->design);
+        e->judged = status == FW_OK;
+        e->mark = fw_arena_mark(plan->arena);
+        if (e->judged) e->verdict = plan->verdict, e->variant = plan->verdict.variant[0];
+    }
+    if (status == FW_OK) status = (fw_status)fw_study_answers_take(study, e->design, sample);
     e->soft =
         fw_plan_design_plan(e->design)->verdict.soft_bodies ? soft_for : e->soft - (e->soft > 0);
     return fw_plan_is_final(status) ? status : FW_OK;

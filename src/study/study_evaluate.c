@@ -295,8 +295,11 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
     *status = FW_STATUS_NOMEM;
     if (!design) return NULL;
     fw_plan_design_cancel_with(design, cancel);
-    fw_plan_design_plan(design)->options.verdict.hinges_only =
-        study->asked && study->asked->judge == FW_JUDGE_HINGES;
+    fw_verdict_options *verdict = &fw_plan_design_plan(design)->options.verdict;
+    verdict->hinges_only = study->asked && study->asked->judge == FW_JUDGE_HINGES;
+    /* of a die nobody reads the drawn device, which says where there is something to look at */
+    if (study->asked && study->asked->judge == FW_JUDGE_DIE)
+        verdict->at_a_glance = verdict->bounded = true;
     fw_plan_design_plan(design)->options.lab_text = study->options.lab_text;
     fw_plan_design_plan(design)->options.nlab_text = study->options.nlab_text;
     *status = FW_STATUS_OK;
@@ -452,43 +455,6 @@ double fw_study_used(double most, int decision) {
     return decision == 0 ? fmin(most, 1) : fmax(most, fw_study_beyond);
 }
 
-/* ---- what a decision follows from ---- */
-
-static int part_count(const fw_verdict *verdict) {
-    int n = verdict->nhinge;
-    for (int i = 0; i < verdict->nvariant; i++)
-        n += verdict->variant[i].nrequirement;
-    return n;
-}
-
-void fw_study_parts_of(const fw_verdict *verdict, fw_study *study) {
-    study->npart = part_count(verdict), study->nhinge = verdict->nhinge;
-}
-
-static void take_part(double low, double high, double value, double **part) {
-    *(*part)++ = isnan(low) ? 0 : low;
-    *(*part)++ = isnan(high) ? 0 : high;
-    *(*part)++ = isnan(value) ? 0 : value;
-}
-
-static void take_parts(const fw_study *study, const fw_verdict *verdict, fw_study_sample *sample) {
-    sample->nlook = part_count(verdict) == study->npart ? verdict->ncomputed : 0;
-    for (int l = 0; l < sample->nlook; l++) {
-        const fw_verdict_computed *look = &verdict->computed[l];
-        double *part = sample->part + FW_PART_NUMBERS * study->npart * (int)look->refinement;
-        sample->looks[l] = (int)look->refinement;
-        for (int i = 0; i < verdict->nhinge; i++) {
-            const fw_verdict_hinge_verdict *h = &look->hinge[i];
-            take_part(h->utilisation_low, h->utilisation_high, h->utilisation, &part);
-        }
-        for (int i = 0; i < verdict->nvariant; i++)
-            for (int k = 0; look->requirement[i] && k < verdict->variant[i].nrequirement; k++) {
-                const fw_verdict_requirement *r = &look->requirement[i][k];
-                take_part(r->utilisation_low, r->utilisation_high, r->utilisation, &part);
-            }
-    }
-}
-
 bool fw_study_same_files(const fw_study *study, fw_design *design) {
     fw_plan *plan = fw_plan_design_plan(design);
     const char *was, *is;
@@ -509,20 +475,30 @@ static void blank(const fw_study *study, fw_study_sample *sample) {
 }
 
 int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample) {
+    const bool die = study->asked && study->asked->judge == FW_JUDGE_DIE;
+    fw_plan *plan = fw_plan_design_plan(design);
+    bool numbers = true;
     blank(study, sample);
-    int status = fw_study_stages_run(design, study->stages);
+    /* dies of one drawing follow each other in a design that was judged (study_engine.c) */
+    int status = die && design->done & FW_DONE_JUDGED ? FW_STATUS_OK
+                                                      : fw_study_stages_run(design, study->stages);
     fw_study_note_error(study, design, status);
-    if (status == FW_STATUS_OK)
+    if (status == FW_STATUS_OK && die)
+        status = (int)fw_study_die_take(study, plan, sample, &numbers);
+    if (status == FW_STATUS_OK && numbers)
         status = fw_study_responses_take(study, design, sample->response, NULL);
-    sample->run = status == FW_STATUS_OK;
-    if (sample->run) {
+    if (status != FW_STATUS_OK) {
+        sample->run = false;
+        first_error(design, status, sample->why);
+    } else if (die) {
+        sample->used = fw_study_used(sample->used, sample->decision);
+    } else {
+        sample->run = true;
         sample->decision = fw_design_decision(design);
         if (sample->decision >= 0 && study->asked && study->asked->fitted > 0)
-            take_parts(study, &fw_plan_design_plan(design)->verdict, sample);
-        if (sample->decision >= 0)
-            sample->used = used_of(&fw_plan_design_plan(design)->verdict, sample->decision);
-    } else
-        first_error(design, status, sample->why);
+            fw_study_parts_take(study, &plan->verdict, sample);
+        if (sample->decision >= 0) sample->used = used_of(&plan->verdict, sample->decision);
+    }
     return status;
 }
 

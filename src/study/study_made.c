@@ -2,7 +2,6 @@
 /* Devices that a flow may make of a description, as a limit state of independent standard normal numbers: each judged as
    made, once for its values, in threads, and kept in the store under its number. A shard judges what chooses later points
    and its share of the rest. Test: tests/cli/test_study.py */
-#include "maths/functions.h"
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
@@ -219,15 +218,6 @@ fw_status fw_study_yielding_points(void *context, long first, size_t n, const do
     return status;
 }
 
-/* the last number of a point says at which place of the wafer it is, where that matters */
-const fw_chance_place *fw_study_yielding_place(const fw_study_yielding *y, const double *u) {
-    const fw_study_scatter *s = &y->scatter;
-    if (s->dimensions == s->joint.dimensions) return NULL;
-    const fw_study_place *p =
-        fw_study_scatter_place(s, fw_maths_normal_cdf(u[s->joint.dimensions]));
-    return p ? &p->at : NULL;
-}
-
 /* Points (count x npoint) that were not asked for before get the next numbers. steers: their values choose later points,
    so that every shard needs them; otherwise a shard judges its own. */
 static fw_status know(fw_study_yielding *y, fw_arena *scratch, size_t count, const double *x,
@@ -268,7 +258,7 @@ static fw_status limit_with(fw_study_yielding *y, fw_arena *scratch, size_t coun
     FW_TRY(make_room(y, count));
     for (size_t k = 0; k < count; k++) {
         const double *at = u + k * s->dimensions;
-        fw_study_scatter_point(s, at, y->unknown, fw_study_yielding_place(y, at), drawn,
+        fw_study_scatter_point(s, at, y->unknown, fw_study_scatter_at(s, at), drawn,
                                x + k * values);
     }
     FW_TRY(know(y, scratch, count, x, steers));

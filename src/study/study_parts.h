@@ -84,9 +84,6 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
                             fw_diags *diags);
 /* what a design that was read says: decision and responses, or why not; the library's status */
 int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample);
-enum { FW_PART_LOW, FW_PART_HIGH, FW_PART_VALUE, FW_PART_NUMBERS }; /* numbers of a part */
-/* what the decision of a device as drawn follows from: its hinges and its requirements, npart and nhinge */
-void fw_study_parts_of(const fw_verdict *verdict, fw_study *study);
 /* used (limit_used) of a device whose hinges and requirements use at most so much, by what was decided: 0 accepted */
 double fw_study_used(double most, int decision);
 /* what responses need of a design that was read; the library's status */
@@ -243,6 +240,58 @@ int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double
 extern const double
     fw_study_beyond; /* what a device uses, of which no number says by how much it is not accepted */
 
+/* ---- study_fitted.c: devices that are told and not judged ---- */
+
+struct fw_study_result;
+typedef struct fw_study_points { /* all devices of a study, chosen beforehand */
+    long n;
+    fw_status (*at)(const void *context, long k, fw_study_sample *sample); /* inputs of device k */
+    const void *context;
+} fw_study_points;
+enum { FW_STUDY_FARTHEST = 8 }; /* devices at either end of an axis that are judged first */
+typedef struct fw_study_outer {
+    double value[FW_STUDY_FARTHEST];
+    long at[FW_STUDY_FARTHEST]; /* the devices, the outermost first; -1: there are not so many */
+} fw_study_outer;
+
+typedef struct fw_study_axis { /* of what is left to chance */
+    int number;                /* of settings, then of the state of the flow */
+    fw_study_outer low, high;  /* of all devices */
+} fw_study_axis;
+
+typedef struct fw_study_axes { /* numbers in which devices differ by chance */
+    fw_study_axis *axis;       /* (n) */
+    int n;
+    double *chance; /* room for one device */
+} fw_study_axes;
+/* draws all devices; room: a sample. study_axes.c */
+fw_status fw_study_axes_find(const fw_study *study, const fw_study_points *points,
+                             fw_study_sample *room, fw_study_axes *axes);
+/* z (nvary + axes->n) from -1 to 1 */
+void fw_study_axes_place(const fw_study_axes *axes, const fw_study *study,
+                         const fw_study_sample *sample, double *z);
+/* judges some of them, tells those that response surfaces tell, and judges the others. FW_INPUT: FW-D660, FW-D661 */
+fw_status fw_study_fitted_run(fw_study *study, const fw_study_points *points,
+                              struct fw_study_result *result);
+
+/* does anything differ from die to die of a sweep, and in one flow? FW_INPUT: FW-D491, FW-D658 */
+fw_status fw_study_dies_check(fw_study *study);
+
+/* ---- study_response.c: what a decision follows from ---- */
+
+enum { FW_PART_LOW, FW_PART_HIGH, FW_PART_VALUE, FW_PART_NUMBERS }; /* numbers of a part */
+/* npart and nhinge of the description as it stands: as drawn its hinges and requirements, of a die every check, those of
+   hinges first */
+void fw_study_parts_of(const fw_plan *plan, fw_study *study);
+void fw_study_parts_take(const fw_study *study, const fw_verdict *verdict, fw_study_sample *sample);
+/* The die that the flow makes with the values of a sample, of a device that was judged as drawn: run, used, decision (0
+   accepted: no check uses more than its limit, by the value of a first look and not by its band, as dies of a yield are
+   counted; 1 rejected) and parts. *numbers: hinges and requirements of the plan's verdict are those of the die. */
+fw_status fw_study_die_take(const fw_study *study, fw_plan *plan, fw_study_sample *sample,
+                            bool *numbers);
+
+/* has each device values of its own of what is uncertain? */
+bool fw_study_draws(const fw_study *study);
 /* ---- study_scatter.c: what differs from device to device, on which level, and where ---- */
 
 typedef struct fw_study_group { /* an input: the rows that say how it differs add up */
@@ -282,6 +331,8 @@ fw_status fw_study_scatter_of(fw_study *study, const fw_verdict_variant_verdict 
                               fw_study_scatter *scatter);
 /* the place at a share (0..1) of all, from the centre outwards; NULL: there is no wafer */
 const fw_study_place *fw_study_scatter_place(const fw_study_scatter *s, double share);
+/* the last number of a point u (dimensions) says where the die is, where that matters; NULL: nowhere */
+const fw_chance_place *fw_study_scatter_at(const fw_study_scatter *s, const double *u);
 /* point (npoint) of u (joint.dimensions). unknown NULL: middles; place NULL: no trends. x: room for joint.values */
 void fw_study_scatter_point(const fw_study_scatter *s, const double *u, const double *unknown,
                             const fw_chance_place *place, double *x, double *point);
@@ -353,8 +404,6 @@ fw_status fw_study_yielding_apart(void *context, size_t first, size_t count, con
 /* fw_study_judge, of which a shard leaves out those of others */
 fw_status fw_study_yielding_points(void *context, long first, size_t n, const double *x,
                                    double *ln);
-/* the last number of a point says at which place of the wafer it is, where that matters; NULL: nowhere */
-const fw_chance_place *fw_study_yielding_place(const fw_study_yielding *y, const double *u);
 
 /* ---- kind_yield.c: the dies of a device that a size looks at ----
    A yield of the same description, its dies around a device that is chosen. */

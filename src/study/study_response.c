@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A number of a document, by the keys that lead to it.
+/* Numbers of a device that a study looks at: what a decision follows from, and one of a document, by the keys that lead
+   to it.
 
      [DOCUMENT:] KEY ( .KEY | [SELECTOR] )*
 
@@ -332,4 +333,130 @@ bool fw_study_response_find(const fw_study_response *response, const json_t *roo
             w.found);
     *value = w.found > 0 ? w.value : (double)NAN;
     return why[0] == '\0';
+}
+
+/* ---- what a decision follows from ----
+   Numbers that response surfaces may be laid through (study_fitted.c): of a device as drawn both ends of the band of every
+   hinge and requirement, look by look; of a die what each check uses. Test: tests/cli/test_fitted.py, test_dies.py */
+
+static int part_count(const fw_verdict *verdict) {
+    int n = verdict->nhinge;
+    for (int i = 0; i < verdict->nvariant; i++)
+        n += verdict->variant[i].nrequirement;
+    return n;
+}
+
+void fw_study_parts_of(const fw_plan *plan, fw_study *study) {
+    const fw_verdict *verdict = &plan->verdict;
+    study->npart = part_count(verdict), study->nhinge = verdict->nhinge;
+    if (study->asked->judge != FW_JUDGE_DIE) return;
+    study->npart = fw_verdict_checks(plan->device, &verdict->variant[0]);
+    study->neach = plan->device->nscene + 1;
+    study->nhinge = verdict->variant[0].nhinge * study->neach;
+}
+
+static void take_part(double low, double high, double value, double **part) {
+    *(*part)++ = isnan(low) ? 0 : low;
+    *(*part)++ = isnan(high) ? 0 : high;
+    *(*part)++ = isnan(value) ? 0 : value;
+}
+
+void fw_study_parts_take(const fw_study *study, const fw_verdict *verdict,
+                         fw_study_sample *sample) {
+    sample->nlook = part_count(verdict) == study->npart ? verdict->ncomputed : 0;
+    for (int l = 0; l < sample->nlook; l++) {
+        const fw_verdict_computed *look = &verdict->computed[l];
+        double *part = sample->part + FW_PART_NUMBERS * study->npart * (int)look->refinement;
+        sample->looks[l] = (int)look->refinement;
+        for (int i = 0; i < verdict->nhinge; i++) {
+            const fw_verdict_hinge_verdict *h = &look->hinge[i];
+            take_part(h->utilisation_low, h->utilisation_high, h->utilisation, &part);
+        }
+        for (int i = 0; i < verdict->nvariant; i++)
+            for (int k = 0; look->requirement[i] && k < verdict->variant[i].nrequirement; k++) {
+                const fw_verdict_requirement *r = &look->requirement[i][k];
+                take_part(r->utilisation_low, r->utilisation_high, r->utilisation, &part);
+            }
+    }
+}
+
+/* ---- one die ---- */
+
+/* every check is a number of one look; one that is not there uses nothing */
+static void take_checks(const fw_study *study, const double *ln, fw_study_sample *sample) {
+    double *part = sample->part;
+    for (int r = 0; r < study->npart; r++) {
+        const double used = isnan(ln[r]) ? 0 : exp(ln[r]);
+        take_part(used, used, used, &part);
+    }
+    sample->looks[0] = 0, sample->nlook = 1;
+}
+
+/* Hinges and requirements of the drawn device become those of the die, for documents; what was drawn stays where it is. A
+   hinge uses what its worst check does: the one that governs by its band may use less. */
+static fw_status put_in_place(fw_plan *plan, const fw_verdict_die *die) {
+    fw_verdict *verdict = &plan->verdict;
+    fw_verdict_variant_verdict *v = &verdict->variant[0];
+    const size_t n = (size_t)v->nhinge, m = (size_t)verdict->nhinge;
+    const int each = plan->device->nscene + 1;
+    fw_verdict_hinge_verdict *hinge = fw_arena_array(plan->arena, fw_verdict_hinge_verdict, n),
+                             *merged = fw_arena_array(plan->arena, fw_verdict_hinge_verdict, m);
+    FW_NEED(hinge && merged ? hinge : NULL);
+    memcpy(merged, verdict->hinge, m * sizeof *merged);
+    for (int k = 0; k < v->nhinge; k++) {
+        double most = -HUGE_VAL;
+        for (int r = k * each; r < (k + 1) * each; r++)
+            most = fmax(most, die->ln[r]); /* NaN is passed */
+        hinge[k] = die->hinge[k];
+        hinge[k].utilisation = exp(most);
+        for (size_t i = 0; i < m; i++)
+            if (merged[i].joint == hinge[k].joint) merged[i] = hinge[k];
+    }
+    v->hinge = hinge, verdict->hinge = merged;
+    if (v->nrequirement > 0)
+        FW_NEED(v->requirement =
+                    fw_arena_grow(plan->arena, die->requirement, (size_t)v->nrequirement,
+                                  (size_t)v->nrequirement, sizeof *v->requirement));
+    return FW_OK;
+}
+
+static fw_status not_run(fw_study_sample *sample, const char *why) {
+    snprintf(sample->why, FW_STUDY_WHY, "%s", why);
+    return FW_OK;
+}
+
+static bool has_numbers(const fw_verdict_die *die, const fw_verdict_variant_verdict *v) {
+    bool any = v->nhinge == 0;
+    for (int k = 0; k < v->nhinge; k++)
+        any = any || die->hinge[k].scene;
+    return any && (v->nrequirement == 0 || die->requirement);
+}
+
+fw_status fw_study_die_take(const fw_study *study, fw_plan *plan, fw_study_sample *sample,
+                            bool *numbers) {
+    fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
+    const int first = study->nvary + study->nsetting;
+    fw_verdict_die die;
+    *numbers = false;
+    if (plan->layout && plan->layout->nfault > 0) { /* whatever its motion does */
+        sample->run = true, sample->decision = 1, sample->used = 0;
+        return FW_OK;
+    }
+    if (v->ninput != study->ninput - first)
+        return not_run(sample, "other quantities of its flow differ from die to die");
+    FW_TRY(fw_verdict_die_at(plan->arena, plan->device, plan->layout, &plan->options.verdict, v,
+                             sample->value + first, &die));
+    if (isnan(die.made.ln))
+        return not_run(sample, die.made.why ? die.made.why : "no check of it has a value");
+    sample->run = true, sample->decision = die.made.ln > 0 ? 1 : 0;
+    sample->used = exp(die.made.ln);
+    *numbers = has_numbers(&die, v);
+    if (!*numbers) return FW_OK;
+    if (study->npart > 0 && study->npart == fw_verdict_checks(plan->device, v))
+        take_checks(study, die.ln, sample);
+    return put_in_place(plan, &die);
+}
+
+bool fw_study_draws(const fw_study *study) {
+    return study->asked->kind == FW_STUDY_IS_yield || study->asked->judge == FW_JUDGE_DIE;
 }

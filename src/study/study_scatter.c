@@ -2,6 +2,7 @@
 /* What differs from device to device, on which level and where on the wafer: the rows of <uncertain> and <trend> and what
    the packs state, as one map from independent standard normal numbers to the values of a device; and wafers simulated
    by it: what of the spread is between lots, wafers, places, dies and hinges, and the yield by place. */
+#include "maths/functions.h"
 #include "study/study.h"
 #include "study/study_parts.h"
 #include "wafer/wafer.h"
@@ -379,6 +380,13 @@ const fw_study_place *fw_study_scatter_place(const fw_study_scatter *s, double s
     if (s->places == 0) return NULL;
     size_t k = (size_t)(share * (double)s->places);
     return &s->place[k < s->places ? k : s->places - 1];
+}
+
+const fw_chance_place *fw_study_scatter_at(const fw_study_scatter *s, const double *u) {
+    if (s->dimensions == s->joint.dimensions) return NULL;
+    const fw_study_place *p =
+        fw_study_scatter_place(s, fw_maths_normal_cdf(u[s->joint.dimensions]));
+    return p ? &p->at : NULL;
 }
 
 void fw_study_scatter_point(const fw_study_scatter *s, const double *u, const double *unknown,

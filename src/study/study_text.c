@@ -63,6 +63,8 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     if (a->judge == FW_JUDGE_HINGES)
         fw_text_add(out, "hinges and requirements of each device judged as drawn, and nothing of "
                          "clearances, plates and adhesion: ask check of what is chosen\n");
+    else if (a->judge == FW_JUDGE_DIE)
+        fw_text_add(out, "each device judged as one die of its flow, by value and not by band\n");
     else
         fw_text_printf(out, "each device judged as %s\n",
                        a->kind == FW_STUDY_IS_yield ? "made"

@@ -537,6 +537,19 @@ typedef struct fw_verdict_made { /* one device that a flow may make */
 fw_status fw_verdict_made_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
                              const double *x, fw_verdict_made *out);
+/* the same with all that it was judged by, in the arena */
+typedef struct fw_verdict_die {
+    fw_verdict_made made;
+    const fw_verdict_hinge_verdict *hinge;     /* (nhinge) no scene: nothing of it was run */
+    const fw_verdict_requirement *requirement; /* (nrequirement) NULL: nothing was run */
+    /* (fw_verdict_checks) logarithms of the shares of their limits, those of hinges in each scene and in the workspace
+       first; NaN: there is no such check, or hardly anything is used */
+    const double *ln;
+} fw_verdict_die;
+int fw_verdict_checks(const fw_device *device, const fw_verdict_variant_verdict *v);
+fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                            const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
+                            const double *x, fw_verdict_die *die);
 /* the worst of a requirement over the corners that were run, with its band over all; NULL: none was */
 const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
                                                           int k, int *corner);

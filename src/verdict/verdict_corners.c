@@ -476,19 +476,23 @@ static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v)
     return FW_OK;
 }
 
+int fw_verdict_checks(const fw_device *device, const fw_verdict_variant_verdict *v) {
+    return v->nhinge * (device->nscene + 1) + 4 * device->nscene + v->nrequirement +
+           device->nworkspace;
+}
+
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s) {
     size_t n = (size_t)v->ninput, h = (size_t)v->nhinge;
-    const int nplane = v->nhinge * (device->nscene + 1) + 2 * device->nscene + v->nrequirement +
-                       device->nworkspace;
+    const int ncheck = fw_verdict_checks(device, v), nplane = ncheck - 2 * device->nscene;
     *s = (fw_verdict_search){.arena = arena,
                              .device = device,
                              .layout = layout,
                              .options = *options,
                              .v = v,
                              .nplane = nplane,
-                             .ncheck = nplane + 2 * device->nscene,
+                             .ncheck = ncheck,
                              .tipping = fw_verdict_across_counts(v),
                              .clearances = fw_verdict_search_clearances_count(v, false),
                              .nearest = fw_verdict_search_clearances_count(v, true)};

@@ -149,19 +149,26 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
 /* a flexure cut through, or a scene that cannot be run through, is beyond its limit by no known share */
 static const double beyond = 0.5;
 
-static fw_status judge(fw_arena *scratch, fw_arena *arena, const fw_device *device,
-                       const fw_layout *layout, const fw_verdict_options *options,
-                       const fw_verdict_variant_verdict *v, const double *x, fw_verdict_made *out) {
+fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                            const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
+                            const double *x, fw_verdict_die *die) {
     fw_verdict_search s;
     fw_verdict_options glance = *options;
+    fw_verdict_made *out = &die->made;
     glance.at_a_glance = true; /* the value counts, not the decision */
-    FW_TRY(fw_verdict_search_begin(scratch, device, layout, &glance, v, &s));
+    FW_TRY(fw_verdict_search_begin(arena, device, layout, &glance, v, &s));
     s.told->of = 0; /* who draws them counts them */
     FW_TRY(fw_verdict_search_run(&s, x, FW_NO_CORNER));
     const fw_verdict_fabricated_corner *c = &s.fabricated->corner[0];
     *out = (fw_verdict_made){.decision = c->decision, .ln = -HUGE_VAL, .up = 0, .down = 0};
+    die->hinge = c->hinge, die->requirement = c->requirement;
+    die->ln = s.ln;
     for (int r = 0; r < s.ncheck; r++)
         out->ln = fmax(out->ln, s.ln[r]); /* NaN is passed */
+    /* what would meet first is looked for no further than it counts: up to there a clearance has no number of its own */
+    const int clearances = v->nhinge * (device->nscene + 1) + device->nscene + v->nrequirement;
+    for (int r = clearances; r < clearances + device->nscene; r++)
+        if (s.ln[r] <= log(fw_verdict_clearance_counts)) s.ln[r] = (double)NAN;
     double most = 0;
     for (int k = 0; k < v->nhinge; k++) {
         const fw_verdict_hinge_verdict *h = &c->hinge[k];
@@ -172,7 +179,7 @@ static fw_status judge(fw_arena *scratch, fw_arena *arena, const fw_device *devi
         out->down = h->utilisation_low > 0 ? log(h->utilisation / h->utilisation_low) : HUGE_VAL;
     }
     if (most == 0) out->hinge = FW_NONE;
-    if (c->why) FW_NEED(out->why = fw_arena_strdup(arena, c->why));
+    out->why = c->why;
     if (c->decision == FW_REJECT && out->ln <= 0 && c->why) out->ln = beyond;
     if (!isfinite(out->ln)) out->ln = c->decision == FW_REJECT ? beyond : (double)NAN;
     return FW_OK;
@@ -183,7 +190,12 @@ fw_status fw_verdict_made_at(fw_arena *arena, const fw_device *device, const fw_
                              const double *x, fw_verdict_made *out) {
     fw_arena *scratch = fw_arena_part(arena, 0);
     FW_NEED(scratch);
-    fw_status status = judge(scratch, arena, device, layout, options, v, x, out);
+    fw_verdict_die die;
+    fw_status status = fw_verdict_die_at(scratch, device, layout, options, v, x, &die);
+    if (status == FW_OK) {
+        *out = die.made;
+        if (out->why && !(out->why = fw_arena_strdup(arena, out->why))) status = FW_NOMEM;
+    }
     fw_arena_free(scratch);
     return status;
 }

@@ -5,13 +5,18 @@
     tests/bench/study.py build/flexwright [--designs 1000] [--checks 30] [--rounds 3] [--jobs N]
     tests/bench/study.py build/flexwright --instructions 10 [--as hinges]
     tests/bench/study.py build/flexwright --designs 1000000 --checks 6 --rounds 1 --jobs 2 --as hinges --fitted 0.01
+    tests/bench/study.py build/flexwright --designs 100000 --checks 2000 --jobs 2 --as die --fitted 0.02 [--inputs 12]
 
 The reference six-bar as drawn, the width and the arc of every hinge at random, a step load, accuracy 1e-3, the
 verdict of every hinge. Rounds take turns, so that all meet the same noise; times are of the processor, user and
 system, of whole commands, less those of a study of two devices where it says "each". The median of the rounds is
 told, and all of them. --instructions counts those of so many devices by valgrind, which no noise changes, and what
-of them is spent where."""
+of them is spent where.
+
+--as die: the gallery's six-bar as its first flow makes it, each device one die with a sample of the process of its own, and
+as many of the widths and arcs at random as --inputs says; --checks of them are judged as well, and compared."""
 import argparse
+import json
 import os
 import pathlib
 import re
@@ -84,13 +89,47 @@ def instructions(program, place, designs, judged):
         print(f"  {what:36} {(many[1][what] - few[1][what]) / designs / 1e6:9.2f}")
 
 
+def dies(program, place, given):
+    """time of a study of dies, and those that are judged as well against what was told of them"""
+    rows = [row for h, w in WIDTHS.items() for row in (
+        f'<vary what="flexure[{h}]/@width" from="{0.8 * w:g} um" to="{1.2 * w:g} um"/>',
+        f'<vary what="flexure[{h}]/@angle" from="200 deg" to="250 deg"/>')][:given.inputs]
+    hinges = "".join(f'<respond name="{h}" value="hinges[{h}].utilisation"/>' for h in WIDTHS)
+    fitted = f'fitted="{given.fitted}"' if given.fitted else ""
+    for name, more in (("told", fitted), ("judged", "")):
+        (place / f"{name}.xml").write_text(
+            f'<study xmlns="urn:flexwright:study:1" name="dies" kind="sweep" points="sobol" as="die" '
+            f'samples="{given.designs}" {more} device="{GALLERY}">{"".join(rows)}{hinges}</study>')
+    options = ("--flow", "al-masked-rie", "--jobs", given.jobs)
+    cpu, wall, memory = run(program, "study", place / "told.xml", "-o", place / "told", *options)
+    print(f"{given.designs} dies: {wall:.1f} s, {cpu:.1f} s of a processor, {memory / 1e6:.0f} MB")
+    said = json.loads((place / "told/study.json").read_text())
+    if "fitted" not in said:
+        return
+    print(", ".join(f"{key} {said['fitted'][key]}" for key in ("judged", "left_open", "told")))
+    run(program, "study", place / "judged.xml", "-o", place / "judged", *options, "--shard",
+        f"1/{max(1, given.designs // given.checks)}")
+
+    def rows_of(name):
+        with sqlite3.connect(place / name / "study.sqlite") as store:
+            return {row[0]: row for row in store.execute("SELECT * FROM sample")}
+    told, off = rows_of("told"), [r["told_within"] for r in said["responses"]]
+    pairs = [(row, told[i]) for i, row in rows_of("judged").items() if told[i][2]]
+    print(f"{len(pairs)} of those told were judged as well: {sum(a[1] != b[1] for a, b in pairs)} decided otherwise")
+    for k, (h, far) in enumerate(zip(WIDTHS, off)):
+        worst = max(abs(a[k - 6] - b[k - 6]) for a, b in pairs)
+        print(f"  hinge {h}: {min(r[k - 6] for r in told.values()):.3f} to {max(r[k - 6] for r in told.values()):.3f}, "
+              f"told to within {far:.4f}, off by {worst:.4f} at most")
+
+
 def main():
     ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ask.add_argument("program", type=pathlib.Path)
     for name, usual in (("designs", 1000), ("checks", 30), ("rounds", 3), ("jobs", 1)):
         ask.add_argument(f"--{name}", type=int, default=usual)
     ask.add_argument("--instructions", type=int, default=0, metavar="DESIGNS")
-    ask.add_argument("--as", dest="judged", choices=("drawn", "hinges"), default="drawn")
+    ask.add_argument("--as", dest="judged", choices=("drawn", "hinges", "die"), default="drawn")
+    ask.add_argument("--inputs", type=int, default=0, help="of --as die: how many widths and arcs are at random")
     ask.add_argument("--fitted", metavar="SHARE", help="devices that response surfaces tell are not judged")
     given = ask.parse_args()
     program = given.program.resolve()
@@ -98,6 +137,9 @@ def main():
     with tempfile.TemporaryDirectory(prefix="fw-bench-") as name:
         place = pathlib.Path(name)
         (place / "device.xml").write_text(device())
+        if given.judged == "die":
+            dies(program, place, given)
+            return
         if given.instructions:
             instructions(program, place, given.instructions, given.judged)
             return

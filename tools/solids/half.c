@@ -8,7 +8,7 @@
    From the first root's block to the middle section, which stays plane and is turned by 1 N m (the
    half depth by half of it) about the wafer's normal, free to move and to change its width. um, uN,
    MPa. Cost: some ms, the solver's some seconds. tools/solids/README.md */
-#include "continuum/mesh.h"
+#include "continuum/solver.h"
 #include "geometry/contour.h"
 #include "row.h"
 #include <stdlib.h>

@@ -35,10 +35,53 @@ static fw_chance_surface fit(size_t n, size_t columns) {
 
 static void terms(void **state) {
     (void)state;
-    assert_int_equal(fw_chance_surface_terms(3, 0), 1);
-    assert_int_equal(fw_chance_surface_terms(3, 1), 4);
-    assert_int_equal(fw_chance_surface_terms(3, 4), 35);
-    assert_int_equal(fw_chance_surface_terms(12, 3), 455);
+    assert_int_equal(fw_chance_surface_terms(3, 0, 3), 1);
+    assert_int_equal(fw_chance_surface_terms(3, 1, 3), 4);
+    assert_int_equal(fw_chance_surface_terms(3, 4, 12), 35);
+    assert_int_equal(fw_chance_surface_terms(12, 3, 3), 455);
+    assert_int_equal(fw_chance_surface_terms(15, 3, 2), 1 + 15 * 3 + 105 * 3);
+}
+
+/* of 15 variables: pairs come back to the third degree, a product of three is in what is missed */
+static void of_many_variables_pairs(void **state) {
+    (void)state;
+    enum { MANY = 15, N = 1100 };
+    double *at = fw_arena_array(arena, double, N * MANY), *of = fw_arena_array(arena, double, 2 * N);
+    fw_chance_surface s;
+    assert_non_null(at);
+    assert_non_null(of);
+    for (size_t i = 0; i < N; i++) {
+        double *a = at + i * MANY;
+        for (size_t v = 0; v < MANY; v++)
+            a[v] = 2 * fw_chance_uniform(9, i, v) - 1;
+        of[2 * i] = 1 + a[0] * a[14] * a[14] - 2 * a[3] * a[7] + a[5] * a[5] * a[5];
+        of[2 * i + 1] = of[2 * i] + 0.3 * a[1] * a[2] * a[4];
+    }
+    assert_int_equal(fw_chance_surface_fit(arena, N, MANY, at, 2, of, &s), FW_OK);
+    assert_int_equal(s.terms, 361);
+    assert_int_equal(s.degree, 3);
+    assert_true(s.missed[0] < 1e-12);
+    assert_true(s.missed[1] > 0.1 && s.missed[1] < 1);
+}
+
+/* values that are only known where they are not small go by a surface of the others */
+static void what_some_points_lack_is_filled(void **state) {
+    (void)state;
+    double missed, worst = 0;
+    place_points(150);
+    for (size_t i = 0; i < 150; i++) {
+        const double *at = z + i * DIMENSIONS, is = 1 + at[0] + 0.5 * at[1] * at[2];
+        y[2 * i] = 7, y[2 * i + 1] = is > 0.4 ? is : 0;
+    }
+    assert_int_equal(fw_chance_surface_fill(arena, 150, DIMENSIONS, z, 2, 1, y, &missed), FW_OK);
+    for (size_t i = 0; i < 150; i++) {
+        const double *at = z + i * DIMENSIONS, is = 1 + at[0] + 0.5 * at[1] * at[2];
+        assert_near(y[2 * i], 7, 0);
+        worst = fmax(worst, fabs(y[2 * i + 1] - is));
+    }
+    assert_true(worst < 1e-9 && missed < 1e-12);
+    assert_int_equal(fw_chance_surface_fill(arena, 150, DIMENSIONS, z, 2, 0, y, &missed), FW_OK);
+    assert_true(missed == 0); /* all have one */
 }
 
 static void a_polynomial_comes_back(void **state) {
@@ -98,6 +141,8 @@ static void too_few_or_all_in_a_line_are_no_surface(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(terms),
                                        cmocka_unit_test(a_polynomial_comes_back),
+                                       cmocka_unit_test(of_many_variables_pairs),
+                                       cmocka_unit_test(what_some_points_lack_is_filled),
                                        cmocka_unit_test(a_point_left_out_is_missed_by_as_much),
                                        cmocka_unit_test(too_few_or_all_in_a_line_are_no_surface)};
     return cmocka_run_group_tests(tests, open_arena, close_arena);

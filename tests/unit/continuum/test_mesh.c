@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lattice is valid, closed, has the volume of the exact outline; the deck says what the mesh
    is, twice the same. No solver needed. */
-#include "continuum/mesh.h"
+#include "continuum/solver.h"
 #include "shapes.h"
 #include "test.h"
 #include <stdlib.h>
