@@ -146,6 +146,7 @@ fw_script_test(docs.theory LABEL longer COMMAND ${Python3_EXECUTABLE} tests/docs
 fw_script_test(docs.limits COMMAND ${Python3_EXECUTABLE} tests/docs/limits.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 1500)
 fw_script_test(build.threads COMMAND tests/build/threads.sh TIMEOUT 900)
+fw_script_test(build.labels LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/labels.py ${PROJECT_BINARY_DIR})
 fw_script_test(build.together LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/together.py)
 fw_script_test(build.bytes COMMAND ${Python3_EXECUTABLE} tests/build/bytes.py ${FW_PROGRAM} TIMEOUT 900)
 set_tests_properties(build.bytes PROPERTIES DEPENDS build.sanitized) # uses what they build
