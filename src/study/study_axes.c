@@ -36,7 +36,7 @@ void fw_study_axes_place(const fw_study_axes *axes, const fw_study *study,
         z[v] = 2 * fw_study_input_share(&study->input[v], sample->value[v]) - 1;
     chance_of(study, sample, axes->chance);
     for (int a = 0; a < axes->n; a++) {
-        const fw_study_axis *x = &axes->axis[a];
+        const fw_study_chance_axis *x = &axes->axis[a];
         const double low = x->low.value[0], high = x->high.value[0];
         z[vary + a] = 2 * (axes->chance[x->number] - low) / (high - low) - 1;
     }
@@ -60,7 +60,7 @@ fw_status fw_study_axes_find(const fw_study *study, const fw_study_points *point
                              fw_study_sample *room, fw_study_axes *out) {
     const int n = chances(study);
     *out = (fw_study_axes){.n = 0};
-    FW_NEED(out->axis = fw_arena_array(study->arena, fw_study_axis, (size_t)n));
+    FW_NEED(out->axis = fw_arena_array(study->arena, fw_study_chance_axis, (size_t)n));
     FW_NEED(out->chance = fw_arena_array(study->arena, double, (size_t)n + 1));
     for (int i = 0; i < n; i++)
         for (int k = 0; k < FW_STUDY_FARTHEST; k++)

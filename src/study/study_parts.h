@@ -254,13 +254,13 @@ typedef struct fw_study_outer {
     long at[FW_STUDY_FARTHEST]; /* the devices, the outermost first; -1: there are not so many */
 } fw_study_outer;
 
-typedef struct fw_study_axis { /* of what is left to chance */
-    int number;                /* of settings, then of the state of the flow */
-    fw_study_outer low, high;  /* of all devices */
-} fw_study_axis;
+typedef struct fw_study_chance_axis { /* of what is left to chance */
+    int number;                       /* of settings, then of the state of the flow */
+    fw_study_outer low, high;         /* of all devices */
+} fw_study_chance_axis;
 
-typedef struct fw_study_axes { /* numbers in which devices differ by chance */
-    fw_study_axis *axis;       /* (n) */
+typedef struct fw_study_axes {  /* numbers in which devices differ by chance */
+    fw_study_chance_axis *axis; /* (n) */
     int n;
     double *chance; /* room for one device */
 } fw_study_axes;

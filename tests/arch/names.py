@@ -59,12 +59,15 @@ def prefix_problems(room, name, kinds, public):
 def problems():
     public = set(re.findall(r"\bfw_\w+", (ROOT / "include/flexwright.h").read_text()))
     rooms_of_type, files = collections.defaultdict(set), collections.defaultdict(set)
+    bodies = collections.defaultdict(list)  # where "struct NAME {" stands
     for path in sorted(SRC.rglob("*.[ch]")):
         where = path.relative_to(SRC).as_posix()
         room, text = where.split("/")[0], code_of(path)
         files[path.name].add(where)
         for name in sorted(names(TYPES, text)):
             rooms_of_type[name].add(room)
+        for m in TYPES[0].finditer(text):
+            bodies[m.group(1)].append(where)
         if room not in UNPREFIXED:
             for name in sorted(names(TYPES, text)):
                 yield from (f"{where}: {p}" for p in prefix_problems(room, name, "the type", public))
@@ -78,6 +81,9 @@ def problems():
     for name, rooms in sorted(rooms_of_type.items()):
         if len(rooms) > 1:
             yield f"the type {name} is defined in {' and '.join(sorted(rooms))}"
+    for name, where in sorted(bodies.items()):
+        if len(where) > 1 and len(rooms_of_type[name]) == 1:
+            yield f"the type {name} is defined in {' and in '.join(where)}"
     for name, where in sorted(files.items()):
         if len({w.split('/')[0] for w in where}) > 1:
             yield f"the file name {name} stands in {', '.join(sorted(where))}"
