@@ -153,7 +153,7 @@ static void changed(const char *name, const char *to, const char *from, const ch
 
 static void files_that_change(void **state) {
     (void)state;
-    char directory[] = "/tmp/flexwright-kept-XXXXXX", path[600];
+    char directory[] = "fw-kept-XXXXXX", path[600];
     static const char *const folder[] = {"processes", "masks"}, *const file[] = {BASE, PACK, MASK};
     assert_non_null(mkdtemp(directory));
     for (int i = 0; i < 2; i++) {
