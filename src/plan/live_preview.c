@@ -248,19 +248,13 @@ static bool alike(const json_t *a, const json_t *b) {
 
 /* *done false: the description is to be read as if there had been none before */
 static fw_status take_shown(fw_plan_live *live, fw_plan_live_request *r, bool *done) {
-    const char *key;
-    json_t *value;
-    int n = 0;
     fw_device_set *set;
+    int n;
     *done = false;
     if (!live->shown.kept.design || !alike(live->shown.options, r->options) ||
-        !alike(live->shown.lab, r->lab) || json_object_size(r->set) > FW_LIVE_SETS_MOST)
+        !alike(live->shown.lab, r->lab))
         return FW_OK;
-    FW_NEED(set = fw_arena_array(r->arena, fw_device_set, json_object_size(r->set)));
-    json_object_foreach(r->set, key, value) {
-        if (!json_is_string(value) || !key[0]) return FW_OK; /* a mistake, said elsewhere */
-        set[n++] = (fw_device_set){key, json_string_value(value)};
-    }
+    FW_TRY(fw_plan_live_sets(r, r->arena, r->set, &set, &n));
     r->full = live->shown.full;
     return fw_plan_kept_with(&live->shown.kept, r->text, r->length, set, n, done);
 }

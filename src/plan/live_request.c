@@ -112,18 +112,31 @@ fw_status fw_plan_live_options(fw_plan_live_request *r, fw_design_options *o, bo
     return FW_OK;
 }
 
-static fw_status apply_sets(fw_plan_live_request *r, fw_design *design) {
+fw_status fw_plan_live_sets(fw_plan_live_request *r, fw_arena *arena, json_t *object,
+                            fw_device_set **set, int *n) {
     const char *key;
     json_t *value;
-    if (json_object_size(r->set) > FW_LIVE_SETS_MOST)
+    *n = 0;
+    if (json_object_size(object) > FW_LIVE_SETS_MOST)
         return fw_plan_live_wrong(r, "set holds more than 256 values, the most of one request",
                                   NULL);
-    json_object_foreach(r->set, key, value) {
+    FW_NEED(*set = fw_arena_array(arena, fw_device_set, json_object_size(object)));
+    json_object_foreach(object, key, value) {
         if (!json_is_string(value)) return fw_plan_live_wrong(r, "a string is needed for", key);
         if (!key[0])
             return fw_plan_live_wrong(
                 r, "set needs the name of a parameter or a path before every value", NULL);
-        int status = fw_design_set(design, key, json_string_value(value));
+        (*set)[(*n)++] = (fw_device_set){key, json_string_value(value)};
+    }
+    return FW_OK;
+}
+
+static fw_status apply_sets(fw_plan_live_request *r, fw_design *design) {
+    fw_device_set *set;
+    int n;
+    FW_TRY(fw_plan_live_sets(r, r->arena, r->set, &set, &n));
+    for (int i = 0; i < n; i++) {
+        int status = fw_design_set(design, set[i].path, set[i].value);
         if (status != FW_STATUS_OK) return (fw_status)status;
     }
     return FW_OK;

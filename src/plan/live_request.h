@@ -52,6 +52,9 @@ fw_status fw_plan_live_options(fw_plan_live_request *request, fw_design_options 
 /* the laboratory packs of the request; texts belong to it */
 fw_status fw_plan_live_lab(fw_plan_live_request *request, fw_arena *arena,
                            const fw_plan_lab_text **lab, int *n);
+/* what an object of the request sets, NULL: nothing; texts belong to it */
+fw_status fw_plan_live_sets(fw_plan_live_request *request, fw_arena *arena, json_t *object,
+                            fw_device_set **set, int *n);
 /* a design with the options, sets and packs of the request, not read yet */
 fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *request,
                               fw_design **design);

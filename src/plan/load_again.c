@@ -118,17 +118,17 @@ static fw_status same_packs(const fw_plan *plan, bool *same) {
 }
 
 fw_status fw_plan_replace_source(fw_plan *plan, const char *xml, size_t n, bool *same) {
-    char hash[65];
+    char *copy;
     *same = n <= FW_PLAN_FILE_MOST && !said_of_others(plan) && plan->ndrawing == 0;
     if (*same) FW_TRY(same_packs(plan, same));
     if (!*same) return FW_OK;
     plan->diags = fw_diags_new(plan->arena);
-    FW_NEED(plan->source = fw_arena_strndup(plan->arena, xml, n));
+    FW_NEED(copy = fw_arena_strndup(plan->arena, xml, n));
+    plan->source = copy;
     plan->source_length = n;
-    fw_sha256(xml, n, hash);
-    fw_plan_input_file *input = &plan->input[0];
-    *input = (fw_plan_input_file){input->name, fw_arena_strdup(plan->arena, hash), n};
-    return input->sha256 ? FW_OK : FW_NOMEM;
+    plan->input[0].size = n;
+    const fw_text text = {.data = copy, .length = n};
+    return fw_plan_hash(plan, &text, &plan->input[0].sha256);
 }
 
 /* ---- the steps of a wafer's sweeps, and how many dies there are with the largest of them ---- */

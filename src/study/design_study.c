@@ -167,25 +167,6 @@ static fw_status ask_inputs(explored *e) {
     return FW_OK;
 }
 
-/* what is set beside the inputs; strings belong to `root` */
-static fw_status sets_of(fw_plan_live_request *r, explored *e, fw_study_options *o) {
-    json_t *set = json_object_get(e->root, "set"), *value;
-    const char *path;
-    size_t n = json_object_size(set);
-    if (n > FW_LIVE_SETS_MOST)
-        return fw_plan_live_wrong(r, "set holds more than 256 values, the most of one request",
-                                  NULL);
-    fw_device_set *item = fw_arena_array(e->arena, fw_device_set, n);
-    FW_NEED(item);
-    json_object_foreach(set, path, value) {
-        if (!json_is_string(value) || !path[0])
-            return fw_plan_live_wrong(r, "a string is needed for", path);
-        item[o->nset++] = (fw_device_set){path, json_string_value(value)};
-    }
-    o->set = item;
-    return FW_OK;
-}
-
 static fw_status open_points(const fw_plan_live *live, fw_plan_live_request *r, explored *e) {
     bool full;
     fw_study_options o = {.design = fw_design_options_default(),
@@ -197,7 +178,9 @@ static fw_status open_points(const fw_plan_live *live, fw_plan_live_request *r, 
     o.design.memory_cap = live->settings.memory_cap;
     FW_TRY(fw_plan_live_options(r, &o.design, &full));
     FW_TRY(ask_inputs(e));
-    FW_TRY(sets_of(r, e, &o));
+    fw_device_set *set;
+    FW_TRY(fw_plan_live_sets(r, e->arena, json_object_get(e->root, "set"), &set, &o.nset));
+    o.set = set;
     FW_TRY(fw_plan_live_lab(r, e->arena, &o.lab_text, &o.nlab_text));
     return fw_study_open_points(&o, &e->asked, &e->study);
 }
