@@ -37,6 +37,7 @@ set_tests_properties(arch.additions PROPERTIES RUN_SERIAL ON)
 fw_script_test(arch.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/names.py)
 fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/symbols.py
                $<TARGET_FILE:flexwright_library>)
+fw_script_test(library.state LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/state.py ${PROJECT_BINARY_DIR})
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 1200)
 fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/cli/test_advice.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.fitted COMMAND ${Python3_EXECUTABLE} tests/cli/test_fitted.py ${FW_PROGRAM})
@@ -145,7 +146,8 @@ set_tests_properties(docs.schema PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(docs.theory LABEL longer COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
 fw_script_test(docs.limits COMMAND ${Python3_EXECUTABLE} tests/docs/limits.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 1500)
-fw_script_test(build.threads COMMAND tests/build/threads.sh TIMEOUT 900)
+# a third tree, to run what library.state has looked for in every object
+fw_script_test(build.threads LABEL long COMMAND tests/build/threads.sh TIMEOUT 900)
 fw_script_test(build.labels LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/labels.py ${PROJECT_BINARY_DIR})
 fw_script_test(build.together LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/together.py)
 fw_script_test(build.bytes COMMAND ${Python3_EXECUTABLE} tests/build/bytes.py ${FW_PROGRAM} TIMEOUT 900)
@@ -234,7 +236,7 @@ list(REMOVE_DUPLICATES programs)
 add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 
 # The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
-foreach(cost web.page:300 cli.study:55 cli.advice:47 build.threads:45 cli.program:45 klayout.cells:44 accept.masks:40
+foreach(cost web.page:300 cli.study:55 cli.advice:47 cli.program:45 klayout.cells:44 accept.masks:40
         docs.json:40 library.consumer:40 python.package:38 cli.slurm:34 docs.readme:32 accept.wafer:32 build.bytes:31
         golden.plans:30 serve.robust:30 install.tree:28 cli.probe:26 cli.effects:25 arch.additions:25
         unit.continuum.test_continuum:24 cli.workspace:22 effects.absent:22 cli.measurements:20 python.install:20
