@@ -44,7 +44,7 @@ typedef struct fw_mechanism_variant { /* what the device is made of, in one flow
     fw_device_material material;
     const char *substrate;           /* name of what the layer is anchored to; NULL: not known */
     fw_quantity substrate_expansion; /* of it, 1/K */
-    bool substrate_insulates;        /* it is glass, which screens no field */
+    bool substrate_insulates;        /* what faces the device is glass or the like, which screens no field */
     double thickness_m;
     double orientation_rad; /* of [100] of a crystal from +x */
     double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;

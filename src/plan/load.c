@@ -343,19 +343,6 @@ static void check_orientation(fw_plan *plan, const fw_device_flow_use *use,
         m->id);
 }
 
-/* what the anchors are held by: silicon, unless the flow says that the carrier stays and insulates:
-   that is glass */
-static void stand_on_substrate(fw_plan *plan, const fw_device_flow_use *use,
-                               fw_mechanism_variant *v) {
-    bool glass = use && use->insulating_carrier;
-    const fw_device_material *of =
-        fw_device_material_find(&plan->materials, glass ? "glass-carrier" : "silicon-substrate");
-    if (!of) return; /* a pack without it: not known */
-    v->substrate = of->name;
-    v->substrate_insulates = glass;
-    v->substrate_expansion = of->expansion;
-}
-
 static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_material *own) {
     const fw_device *d = plan->device;
     const fw_device_flow_use *use = pf->use;
@@ -368,7 +355,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
                                 .orientation_rad = orientation_of(d, use)};
     if (use && use->material && !fw_text_same(use->material, d->material_ref))
         v->material = *fw_device_material_find(&plan->materials, use->material);
-    stand_on_substrate(plan, use, v);
+    FW_TRY(fw_plan_find_ground(plan, pf, v));
     FW_TRY(fw_plan_find_below(plan, pf, &v->below));
     FW_TRY(fw_plan_find_drying(plan, pf, &v->drying));
     if (isnan(v->thickness_m))

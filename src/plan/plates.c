@@ -488,6 +488,29 @@ fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags 
 
 /* ---- what the flow leaves below the device ---- */
 
+/* the description says what the flow does not: that a device which is cut out of its wafer is put on glass */
+static bool on_glass(const fw_plan_flow *pf) {
+    return pf->use && pf->use->insulating_carrier && !(pf->flow && pf->flow->insulating);
+}
+
+/* What holds the anchors, and whether what lies below lets fields through: by the films of the flow, else silicon, or the
+   glass that the description names. */
+fw_status fw_plan_find_ground(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_variant *v) {
+    const fw_process_material *carries = NULL, *faces = NULL;
+    if (pf->flow) FW_TRY(fw_process_flow_ground(plan->arena, pf->flow, &carries, &faces));
+    if (carries && on_glass(pf))
+        return fw_diag_error(&plan->diags, 666, pf->use->place,
+                             "devices of flow '%s' stand on %s and are one conductor there: "
+                             "carrier=\"insulating\" says otherwise; leave it out",
+                             pf->flow->id, carries->name);
+    const char *id = carries ? carries->id : on_glass(pf) ? "glass-carrier" : "silicon-substrate";
+    const fw_device_material *of = fw_device_material_find(&plan->materials, id);
+    v->substrate_insulates = faces ? faces->conducts == 0 : !carries && on_glass(pf);
+    v->substrate = of ? of->name : carries ? carries->name : NULL;
+    if (of) v->substrate_expansion = of->expansion;
+    return FW_OK;
+}
+
 fw_status fw_plan_find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_below *below) {
     bool hollow;
     const char *material;
@@ -497,7 +520,7 @@ fw_status fw_plan_find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism
     const fw_quantity *gap = fw_process_flow_gap(pf->flow, &below->open, &hollow, &material);
     below->known = below->open || (gap && !gap->unknown);
     if (below->open)
-        below->words = pf->use && pf->use->insulating_carrier
+        below->words = on_glass(pf)
                            ? "nothing of the wafer, which is etched through; how far below it its "
                              "insulating carrier lies, nothing says"
                            : "nothing: the wafer is etched through";

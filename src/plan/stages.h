@@ -42,6 +42,7 @@ fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double
 void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_mask_table *table);
 /* what is below the device once the flow has freed it (plates.c) */
 fw_status fw_plan_find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_below *below);
+fw_status fw_plan_find_ground(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_variant *v);
 /* how the flow dries it, and what of adhesion it knows (plates.c) */
 fw_status fw_plan_find_drying(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_drying *drying);
 /* is what moves over its hollow wherever it goes, and is the hollow as deep as the scenes' air? Reasons of the flow,

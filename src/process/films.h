@@ -66,6 +66,14 @@ fw_status fw_process_flow_stack_before(fw_arena *arena, const fw_process_flow *f
 bool fw_process_stack_holds(const fw_process_stack *stack, int column, const char *material);
 /* outermost film of a column, seen from the front or from the back; NULL: it has none */
 const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int column, bool back);
+/* does an etch of the flow run sideways below the device, through this material? */
+bool fw_process_flow_runs_below(const fw_process_flow *flow, const char *material);
+/* What carries a finished device. *carries: the thickest of all films below it, where it is held; NULL: none,
+   since the layer is the wafer itself. *faces: what is next below it where a gap is, or where an etch has run
+   sideways, one that conducts before one that does not; NULL: nothing is. Test: test_below.c */
+fw_status fw_process_flow_ground(fw_arena *arena, const fw_process_flow *flow,
+                                 const fw_process_material **carries,
+                                 const fw_process_material **faces);
 /* outermost film of the material in a column, seen from the front or from the back; NULL: it is not there. *cover: material
    of the outermost film beyond it that has no holes; NULL: it lies open there, or at its side, where it stands out beyond
    the other columns */

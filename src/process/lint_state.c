@@ -501,15 +501,6 @@ static fw_status lint_end_state(fw_process_pack *pack) {
     return FW_OK;
 }
 
-static bool reaches_below(const fw_process_flow *f, const char *material) {
-    for (int i = 0; i < f->nstep; i++)
-        for (int k = 0; k < f->step[i].nchange; k++) {
-            const fw_process_change *c = &f->step[i].change[k];
-            if (c->reach && strcmp(c->material, material) == 0) return true;
-        }
-    return false;
-}
-
 /* the lowest of a column that the device hangs on: what touches below it, down to where nothing does or an etch runs
    sideways; NULL: it hangs on nothing, or is the wafer itself */
 static const char *hangs_on(const fw_process_flow *f, const fw_process_cell *cell, int i,
@@ -520,7 +511,7 @@ static const char *hangs_on(const fw_process_flow *f, const fw_process_cell *cel
         const fw_process_material *m = fw_process_flow_material(f, on->material);
         if (on->bottom + on->height < c->bottom - 1e-9 || on->back) return NULL;
         *insulated = *insulated || (m && m->conducts == 0);
-        if (reaches_below(f, on->material)) return NULL;
+        if (fw_process_flow_runs_below(f, on->material)) return NULL;
     }
     return cell[0].material;
 }

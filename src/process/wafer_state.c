@@ -7,7 +7,9 @@
      vacuum    after a tool that is pumped, without <finish kind="vent">
      seasoned  from what prepares a pumped chamber (op="mount") to the first step in it
    A resist that is taken off ends its states. Cost: steps times states. Test: test_wafer_state.c. */
+#include "process/films.h"
 #include "process/pack.h"
+#include <math.h>
 #include <string.h>
 
 static const char WATER[] = "water"; /* in the place of a chemical's id */
@@ -325,5 +327,47 @@ fw_status fw_process_flow_waits(fw_arena *arena, fw_process_flow *flow) {
             if (to < flow->nstep)
                 FW_TRY(add_wait(arena, flow, &after[i], (fw_process_state)state, i, to));
         }
+    return FW_OK;
+}
+
+/* ---- what carries the device, and what is below it ---- */
+
+bool fw_process_flow_runs_below(const fw_process_flow *flow, const char *material) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (c->reach && strcmp(c->material, material) == 0) return true;
+        }
+    return false;
+}
+
+fw_status fw_process_flow_ground(fw_arena *arena, const fw_process_flow *flow,
+                                 const fw_process_material **carries,
+                                 const fw_process_material **faces) {
+    fw_process_stack s;
+    double thickest = -1;
+    *carries = *faces = NULL;
+    FW_TRY(fw_process_flow_stack(arena, flow, flow->nstep - 1, &s, NULL));
+    for (int column = 0; flow->material && column < s.columns; column++) {
+        const fw_process_cell *cell = s.cell[column];
+        int at = 0;
+        while (at < s.n[column] && strcmp(cell[at].material, flow->material) != 0)
+            at++;
+        if (at == 0 || at == s.n[column]) continue;
+        bool free = false; /* above what cell[i - 1] is */
+        for (int i = at; i > 0; i--) {
+            const fw_process_cell *c = &cell[i - 1];
+            const fw_process_material *m = fw_process_flow_material(flow, c->material);
+            const double thick = isnan(c->thickness_m) ? 0 : c->thickness_m;
+            if (thick > thickest) thickest = thick, *carries = m;
+            const bool sideways = fw_process_flow_runs_below(flow, c->material),
+                       gap = c->bottom + c->height < cell[i].bottom - 1e-9;
+            if ((free || gap) && !sideways) {
+                if (!*faces || (m && m->conducts != 0)) *faces = m;
+                break;
+            }
+            free = free || sideways || gap;
+        }
+    }
     return FW_OK;
 }

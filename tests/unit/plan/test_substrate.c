@@ -31,7 +31,7 @@ static const char behind[] =
     "stiffness=\"1e-6 N m/rad\"/>"
     "</mechanism><scene name=\"a\" duration=\"1 ms\"><temperature change=\"100 K\"";
 
-static fw_plan *loaded(const char *flow, const char *temperature) {
+static fw_plan *read_with(const char *flow, const char *temperature, fw_status *status) {
     fw_plan_options o = fw_plan_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.verdict.motion.effects.mode = FW_EFFECTS_ALL;
@@ -41,8 +41,14 @@ static fw_plan *loaded(const char *flow, const char *temperature) {
     const char *xml = fw_arena_printf(plan->arena, "%s%s%s%s/></scene></device>", before, flow,
                                       behind, temperature);
     assert_non_null(xml);
-    if (fw_plan_load_memory(plan, "portal.xml", xml, strlen(xml)) != FW_OK)
-        fail_msg("%s", plan->diags.item[0].message);
+    *status = fw_plan_load_memory(plan, "portal.xml", xml, strlen(xml));
+    return plan;
+}
+
+static fw_plan *loaded(const char *flow, const char *temperature) {
+    fw_status status;
+    fw_plan *plan = read_with(flow, temperature, &status);
+    if (status != FW_OK) fail_msg("%s", plan->diags.item[0].message);
     return plan;
 }
 
@@ -56,6 +62,11 @@ static void of_the_flow(void **state) {
         {"<flow ref=\"al-masked-rie\"/>", "", "silicon substrate", 2.57e-6, 2.57e-6},
         {"<flow ref=\"al-masked-rie\" carrier=\"insulating\"/>", "", "borosilicate glass carrier",
          2.57e-6, 3.3e-6},
+        {"<flow ref=\"silicon-on-glass\"/>", "", "borosilicate glass carrier", 2.57e-6, 3.3e-6},
+        {"<flow ref=\"silicon-on-glass\" carrier=\"insulating\"/>", "",
+         "borosilicate glass carrier", 2.57e-6, 3.3e-6},
+        {"<flow ref=\"soi-deep-rie\" carrier=\"insulating\"/>", "", "silicon substrate", 2.57e-6,
+         2.57e-6},
         {"<flow ref=\"copper-on-porous-silicon\" material=\"copper-plated\" thickness=\"9 um\"/>",
          "", "silicon substrate", 16.7e-6, 2.57e-6},
         {"<flow ref=\"copper-on-porous-silicon\" material=\"copper-plated\" thickness=\"9 um\"/>",
@@ -128,7 +139,20 @@ static void a_strip_comes_down_first(void **state) {
     fw_plan_free(plan);
 }
 
+static void what_contradicts_the_flow_is_refused(void **state) {
+    (void)state;
+    fw_status status;
+    fw_plan *plan =
+        read_with("<flow ref=\"copper-on-porous-silicon\" material=\"copper-plated\" "
+                  "thickness=\"9 um\" carrier=\"insulating\"/>",
+                  "", &status);
+    assert_int_not_equal(status, FW_OK);
+    assert_int_equal(plan->diags.item[0].number, 666);
+    fw_plan_free(plan);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(of_the_flow), cmocka_unit_test(a_strip_comes_down_first)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(of_the_flow), cmocka_unit_test(a_strip_comes_down_first),
+                                       cmocka_unit_test(what_contradicts_the_flow_is_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
