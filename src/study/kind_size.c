@@ -237,12 +237,18 @@ static fw_status go_on(sizing *s, const aim *a, const fw_study_search *search, i
     return FW_OK;
 }
 
+/* devices that a local search begins with and its first step: with fewer one search from all that was judged has them */
+static int simplex(const fw_study *study) {
+    return study->nvary + 2;
+}
+
 /* searches for one aim; all that they found joins what was judged */
 static fw_status seek(sizing *s, aim *a, int most, long *first) {
     fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, STARTS);
     int n;
     FW_NEED(search);
     FW_TRY(starts(s, a, search, &n, most, first));
+    if (most < simplex(s->study)) n = 0;
     FW_TRY(fw_study_search_run(s->study, search, n));
     const int nfirst = s->nkept;
     for (int i = 0; i < n; i++)
@@ -572,9 +578,9 @@ static fw_status size(fw_study *study, fw_study_result *result) {
         result->how = fw_arena_printf(
             study->arena,
             "%ld devices over the ranges, then local searches (COBYLA) from the best of them, at "
-            "most %d devices each, and one from all of them (quadratic models)%s; a better one "
+            "most %d devices each%s, and one from all of them (quadratic models)%s; a better one "
             "may be where none was tried",
-            s.first_n, most,
+            s.first_n, most, most < simplex(study) ? " (too few: left out)" : "",
             study->asked->yield > 0
                 ? ", the last ones with the dies that are worst for the best device"
                 : ""));

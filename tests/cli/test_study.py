@@ -529,6 +529,13 @@ class Study(unittest.TestCase):
                               "none", status=1)
         self.assertIn("no device was found", done.stdout)
 
+    def test_of_few_devices_the_end_of_a_range_is_one(self):
+        path = self.write(ONE_LEAF, "one.xml")
+        for goal, end in (("minimise", 0.15), ("maximise", 0.05)):
+            rows = f'<vary what="push" from="0.05 mN" to="0.15 mN"/><respond name="turned" value="hinges[A].peak_angle_rad" goal="{goal}"/>'
+            found = self.run_study(self.write(study("s", "size", rows, path, samples=10, **{"as": "drawn"})), goal)["found"]
+            self.assertEqual(found[0]["set"], [{"path": "push", "value": f"{end} mN"}])
+
     def test_few_dies_are_enough_where_hardly_one_fails(self):
         """and the interval that is stated is that of these few"""
         rows = ('<vary what="push" from="50 uN" to="60 uN"/><uncertain what="push" sd="2 uN"/>'
