@@ -555,6 +555,12 @@ static fw_status may_meet(fw_arena *arena, int scene, double by, fw_verdict_vari
     return FW_OK;
 }
 
+/* and electrodes come nearer to each other */
+static void may_come_near(int scene, double by, fw_verdict_variant_verdict *v) {
+    for (int k = 0; k < v->nstator; k++)
+        if (v->stator[k].index == scene) v->stator[k].low_m -= (by - 1) * v->stator[k].moved_m;
+}
+
 /* v->shaken; a warning, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
                             bool brief, fw_diags *diags, fw_verdict_variant_verdict *v) {
@@ -571,6 +577,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
+        may_come_near(i, f[2 * nh], v);
         most = largest_of(f, 2 * nh + 2);
         if (!(most > told) || brief) continue;
         for (int h = 0; h <= nh; h++)

@@ -306,8 +306,9 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_TRY(fw_verdict_bent(arena, device, v));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
-    FW_TRY(fw_verdict_clearance_begin(arena, options->hinges_only ? NULL : layout, m,
-                                      !brief && !v->corner, watch, v));
+    FW_TRY(fw_verdict_clearance_begin(
+        arena, options->hinges_only ? NULL : layout, m,
+        v->corner ? !options->decision_only && !options->at_a_glance : !brief, watch, v));
     watch[0].ways = watch[1].ways = options->ways || !(options->bounded || (brief && v->corner));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];

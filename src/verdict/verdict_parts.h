@@ -271,6 +271,10 @@ bool fw_verdict_ends_unknown(const fw_verdict_search *s); /* a requirement witho
 unsigned fw_verdict_ends_next(const fw_verdict_search *s);
 /* s->fabricated->requirement */
 fw_status fw_verdict_ends_made(fw_verdict_search *s);
+/* fabrication.c: what stays of the stators of one that was run; low_m of v->stator at all corners, run or not */
+fw_status fw_verdict_stators_keep(fw_arena *arena, const fw_verdict_variant_verdict *now,
+                                  fw_verdict_fabricated_corner *corner);
+void fw_verdict_stators_made(const fw_verdict_search *s, fw_verdict_variant_verdict *v);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */
