@@ -400,6 +400,16 @@ static fw_status judge_marks(fw_plan *plan, fw_plan_flow *pf) {
             no_room.id ? no_room.id : ""));
 }
 
+/* how far anything drawn comes down, under its weight on a table and in scenes */
+static double sag_of(const fw_verdict_variant_verdict *v) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    if (!o || o->why) return 0;
+    double sag_m = o->weight_m;
+    for (int i = 0; i < o->nscene; i++)
+        sag_m = fmax(sag_m, -o->scene[i].lowest_m);
+    return sag_m;
+}
+
 fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
     const fw_layout *layout;
     fw_layout_no_room no_room;
@@ -408,7 +418,7 @@ fw_status fw_plan_wiring(fw_plan *plan, fw_plan_flow *pf) {
     if (!pf->wiring) {
         const fw_verdict_variant_verdict *v = verdict_of(plan, pf);
         fw_wiring_asked asked = {.flow = pf->variant.flow, .wall_m = walls_of(pf->flow)};
-        if (v) asked.moved = v->stator, asked.nmoved = v->nstator;
+        if (v) asked.moved = v->stator, asked.nmoved = v->nstator, asked.sag_m = sag_of(v);
         FW_TRY(carrier_of(plan, pf, &asked.carrier));
         FW_TRY(fw_plan_marked(plan, pf, &layout, &no_room));
         FW_TRY(fw_wiring_find(plan->arena, plan->device, layout, &asked, &pf->wiring));

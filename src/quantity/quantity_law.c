@@ -230,7 +230,8 @@ static double fast_enough(const fw_quantity_law_load *load, int n, double end_s,
     const double own = omega_per_s / (2 * FW_PI), most = 16 * own;
     double fastest = own, at[JOLTS + 1], before = 0;
     for (int i = 0; i < n; i++) {
-        fastest = fmax(fastest, fw_quantity_law_wave_of(load[i].law).fastest_Hz);
+        const double own_Hz = fw_quantity_law_wave_of(load[i].law).fastest_Hz;
+        fastest = fmax(fastest, load[i].squared ? 2 * own_Hz : own_Hz);
         int count = fw_quantity_law_breaks_of(load[i].law, end_s, at, JOLTS);
         count = count < JOLTS ? count : JOLTS;
         fw_sort_doubles(at, (size_t)count);
@@ -245,7 +246,8 @@ static double sum_of(const fw_quantity_law_load *load, int n, double t_s, double
     double sum = 0, value[3] = {1, 0, 0};
     for (int i = 0; i < n; i++) {
         if (load[i].law) fw_quantity_law_value(load[i].law, t_s, piece_s, value);
-        sum += load[i].size * (load[i].law ? value[0] : 1);
+        const double now = load[i].law ? value[0] : 1;
+        sum += load[i].size * (load[i].squared ? now * now : now - load[i].from);
     }
     return sum;
 }
@@ -291,16 +293,46 @@ static bool rests_between(const fw_quantity_law *law, double end_s) {
     return runs > 1;
 }
 
+/* the same at all times; of what is not a table by its numbers */
+static bool one_course(const fw_quantity_law *a, const fw_quantity_law *b, double end_s) {
+    const bool still = fw_quantity_law_is_constant(a);
+    if (a == b || still || fw_quantity_law_is_constant(b))
+        return a == b || (still && fw_quantity_law_is_constant(b));
+    if (a->kind != b->kind || a->program != b->program || a->ntable != b->ntable) return false;
+    for (int i = 0; i < a->ntable; i++)
+        if (a->table_t_s[i] != b->table_t_s[i] || a->table_value[i] != b->table_value[i])
+            return false;
+    for (int i = 0; i < FW_QUANTITY_LAW_OWN; i++)
+        if (a->own[i] != b->own[i]) return false;
+    return a->start_s == b->start_s && fmin(a->end_s, end_s) == fmin(b->end_s, end_s) &&
+           a->rise_s == b->rise_s && a->frequency_Hz == b->frequency_Hz &&
+           a->phase_rad == b->phase_rad && a->frequency_most_Hz == b->frequency_most_Hz &&
+           a->lines == b->lines && a->seed == b->seed;
+}
+
 bool fw_quantity_law_come_again(const fw_quantity_law_load *load, int n, double end_s) {
-    int laws = 0;
+    bool apart = false;
     double at[JOLTS];
     for (int i = 0; i < n; i++) {
+        apart = apart || !one_course(load[0].law, load[i].law, end_s);
         if (fw_quantity_law_is_constant(load[i].law)) continue;
-        laws++;
         const int breaks = fw_quantity_law_breaks_of(load[i].law, end_s, at, JOLTS);
         if (breaks > 2 || (breaks == 0 && rests_between(load[i].law, end_s))) return true;
     }
-    return laws > 0 && n > 1;
+    return apart;
+}
+
+bool fw_quantity_law_goes(const fw_quantity_law *law, double end_s, double *from, double *to) {
+    enum { LOOKS = 500 };
+    double value[3];
+    fw_quantity_law_value(law, 0, 0.5 * end_s / LOOKS, value);
+    *from = *to = value[0];
+    for (int i = 1; i <= LOOKS; i++) {
+        const double t = end_s * i / LOOKS;
+        fw_quantity_law_value(law, t, t, value);
+        if (fabs(value[0] - *from) > fabs(*to - *from)) *to = value[0];
+    }
+    return *to != *from;
 }
 
 bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s) {

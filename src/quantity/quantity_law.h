@@ -114,15 +114,20 @@ double fw_quantity_law_pumps(const fw_quantity_law *law, bool squared, double en
                              double omega_per_s, double damping, double share);
 double fw_quantity_law_root_mean_square(const fw_quantity_law *law, double end_s);
 
+/* of a coordinate: where it begins, and the farthest from there of 501 looks; false: it stays */
+bool fw_quantity_law_goes(const fw_quantity_law *law, double end_s, double *from, double *to);
+
 typedef struct fw_quantity_law_load { /* law NULL: there from the start on */
     const fw_quantity_law *law;
     double size;
+    bool squared; /* of a voltage, by whose square it acts */
+    double from; /* value of the law at which it does nothing: of a coordinate, where that begins */
 } fw_quantity_law_load;
 /* as fw_quantity_law_swing, of the sum of loads; a jump counts half a sample late, by 7.5 degrees of the mode at most.
    Test: test_time_law.c swings_of_several */
 double fw_quantity_law_swing_of_all(const fw_quantity_law_load *load, int n, double end_s,
                                     double omega_per_s, double damping);
-/* Something may come again while a mode still rings by what came before: loads that do not all begin and end together, a
+/* Something may come again while a mode still rings by what came before: loads that do not all have one course, a
    law of more than two breaks, or one without any that rests between two changes (2000 samples) */
 bool fw_quantity_law_come_again(const fw_quantity_law_load *load, int n, double end_s);
 

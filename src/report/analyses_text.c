@@ -102,8 +102,8 @@ static void modes_that_stick(const fw_statics_modes *modes, fw_text *out) {
     }
 }
 
-/* of rigid plates about the drawn pose, the first ones */
-static void modes_across(const fw_mechanism_plates *p, fw_text *out) {
+/* of rigid plates about the drawn pose, the first ones; scene: whose loads they lack */
+static void modes_across(const fw_mechanism_plates *p, const char *scene, fw_text *out) {
     enum { FEW = 6 };
     char error[32];
     if (p->why) {
@@ -115,6 +115,11 @@ static void modes_across(const fw_mechanism_plates *p, fw_text *out) {
         "\nout of the plane, of rigid bodies on their flexures (off by up to %s %%, and lower "
         "with bodies that bend):\n  mode          f Hz  body\n",
         (fw_percent_text(error, sizeof error, 0.5 * p->error), error));
+    if (scene)
+        fw_text_printf(out,
+                       "  (as drawn, without the loads of %s%s, which may take a part of them: "
+                       "the bands of check have that)\n",
+                       FW_NAMED("scene", scene));
     for (int k = 0; k < p->n && k < FEW; k++) {
         bool tilts = false;
         int body = fw_mechanism_plates_mover(p, k, &tilts);
@@ -145,7 +150,7 @@ fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_sc
         frequencies_off(modes, out);
         fw_mechanism_plates plates;
         FW_TRY(fw_mechanism_plates_new(out->arena, mechanism, NULL, &plates));
-        modes_across(&plates, out);
+        modes_across(&plates, modes->at_equilibrium ? scene->name : NULL, out);
     }
     return fw_text_end(out);
 }

@@ -322,6 +322,7 @@ static void modes_across(fw_json *json, const fw_mechanism_plates *p) {
     fw_json_truth(json, "known", !p->why);
     fw_json_text(json, "why", p->why);
     fw_json_real(json, "frequency_error", p->why ? (double)NAN : 0.5 * p->error);
+    fw_json_truth(json, "with_loads", false);
     fw_json_list(json, "modes");
     for (int k = 0; k < p->n; k++) {
         bool tilts = false;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "statics/statics_equilibrium.h"
 #include <float.h>
@@ -381,5 +382,66 @@ fw_status fw_statics_equilibrium_stick(fw_statics_equilibrium *w, fw_statics_mod
         out->mode[k].stuck_Hz =
             k < left ? sqrt(fmax(value[k], 0) * fw_statics_equilibrium_per_s2(w)) / (2 * FW_PI)
                      : (double)INFINITY;
+    return FW_OK;
+}
+
+/* ---- how far drivers and heat hold a device ----
+   For one unit of one of them, all others as they begin: the equilibrium with it at its farthest less that without, over
+   how far it goes, (3 nbody) in m and rad; 0 where there is no equilibrium. Error: that of a straight way. Cost: one or two
+   equilibria. Test: test_effects.py, test_what_comes_again_whatever_drives_it */
+
+/* where it rests in a scene, as drivers stand at its end; false: nowhere */
+static fw_status rests_at(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                          const double **from, const double **to, bool *known) {
+    const fw_statics_static_options o = {.accuracy = 0.03};
+    const fw_statics *found = NULL;
+    fw_diags own = fw_diags_new(arena);
+    const fw_status status = fw_statics_solve(arena, m, scene, &o, &own, &found);
+    *known = status == FW_OK && found;
+    if (*known) *from = found->rest_q, *to = found->q;
+    return status == FW_NOMEM || status == FW_CANCELLED || own.failed
+               ? (status == FW_CANCELLED ? status : FW_NOMEM)
+               : FW_OK;
+}
+
+fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *m, int driver, double end_s,
+                                double *way) {
+    static const double ends[2] = {0, 1};
+    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
+    const size_t n = (size_t)m->ndriver;
+    fw_mechanism held = *m;
+    double *value, turned = 1;
+    const double *from, *to;
+    bool known;
+    FW_NEED(held.driver = fw_arena_grow(arena, m->driver, n, n, sizeof *held.driver));
+    FW_NEED(value = fw_arena_array(arena, double, 2 * n));
+    for (int i = 0; i < m->ndriver; i++) {
+        double *at = value + 2 * i;
+        fw_quantity_law_goes(&m->driver[i].law, end_s, &at[0], &at[1]);
+        if (i == driver)
+            turned = at[1] - at[0];
+        else
+            at[1] = at[0];
+        held.driver[i].law = (fw_quantity_law){
+            .kind = &fw_quantity_law_table, .table_t_s = ends, .table_value = at, .ntable = 2};
+    }
+    FW_TRY(rests_at(arena, &held, &still, &from, &to, &known));
+    for (int i = 0; known && i < 3 * m->nbody; i++)
+        way[i] = (to[i] - from[i]) / turned;
+    return FW_OK;
+}
+
+fw_status fw_statics_heated_way(fw_arena *arena, const fw_mechanism *m,
+                                const fw_device_temperature *heat, double *way) {
+    fw_device_temperature steady = *heat;
+    fw_device_scene still = {.name = "(none)", .duration_s = 1}, heated = still;
+    const double *rest, *from, *to;
+    bool known[2];
+    steady.law = NULL;
+    heated.temperature = &steady, heated.ntemperature = 1;
+    FW_TRY(rests_at(arena, m, &still, &rest, &from, &known[0]));
+    FW_TRY(rests_at(arena, m, &heated, &rest, &to, &known[1]));
+    for (int i = 0; known[0] && known[1] && i < 3 * m->nbody; i++)
+        way[i] = to[i] - from[i];
     return FW_OK;
 }

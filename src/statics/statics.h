@@ -108,6 +108,13 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
                            const fw_device_scene *scene, const fw_statics_static_options *options,
                            fw_diags *diags, const fw_statics **statics);
 
+/* How far one unit of a driver, or a heat as if it were there from the start on, holds every body from where it rests,
+   way (3 nbody), zeroed by the caller */
+fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *mechanism, int driver,
+                                double end_s, double *way);
+fw_status fw_statics_heated_way(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_device_temperature *heat, double *way);
+
 /* ---- pull_in.c ---- */
 
 /* The voltage at which comb drives lose their equilibrium. Theory:

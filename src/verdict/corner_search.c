@@ -154,6 +154,7 @@ static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdi
     FW_TRY(take_requirements(s, now, corner));
     FW_TRY(fw_verdict_shaken_keep(s->arena, now, &corner->shaken));
     FW_TRY(take_reason(s, now, corner));
+    FW_TRY(fw_verdict_stators_keep(s->arena, now, corner));
     take_checks(s, now, ln);
     return FW_OK;
 }

@@ -3,6 +3,7 @@
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
 #include "quantity/quantity_law.h"
+#include "statics/statics.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -410,10 +411,102 @@ fw_status fw_verdict_across_tipping(fw_arena *arena, const fw_mechanism_plates *
             to->hinge ? fw_text_kind("hinge ", to->hinge) : "", to->hinge ? to->hinge : ""));
 }
 
-/* ---- what loads do to a mode ---- */
+/* ---- what loads do to a mode ----
+   The modal force of everything that a scene puts on a mode, at a law of 1: forces, torques, shaking and weight by the mode's
+   shape u; voltages (whose law acts by its square) and tendons by what their elements say at the pose, f . w with w the
+   ports' way by u. Drivers and heat have no force: where they hold the device at rest, x, is found as an equilibrium, and
+   u . M x omega^2 is the modal force that would. In: shapes and poses in SI. Range: small motions, as modes are; of what
+   goes far the way to its farthest value stands for all. Test: test_effects.py,
+   test_what_comes_again_whatever_drives_it */
 
-int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s, const double *q,
-                        const double *shape, double unit, fw_quantity_law_load *load) {
+static double with_masses(const fw_mechanism *m, const double *u, double ax, double ay) {
+    double sum = 0;
+    for (int b = 0; b < m->nbody; b++)
+        sum += m->body[b].mass_kg * (u[3 * b] * ax + u[3 * b + 1] * ay);
+    return sum;
+}
+
+int fw_verdict_loads_most(const fw_mechanism *m, const fw_device_scene *s) {
+    return s->nforce + s->ntorque + s->nbase + s->ncomb + s->ntendon + s->ntemperature +
+           m->ndriver + 1;
+}
+
+enum { PORTS = 64 };
+
+/* of an element without its law */
+static double element_on(const fw_effects_force_element *from, const double *q,
+                         const double *shape) {
+    fw_effects_force_element e = *from;
+    double p[3 * PORTS], w[3 * PORTS], f[3 * PORTS], still[3 * PORTS] = {0}, sum = 0;
+    bool on[PORTS];
+    if (e.ports > PORTS || e.switches > PORTS || !e.class_->slope) return 0;
+    for (int i = 0; i < PORTS; i++)
+        on[i] = true;
+    e.laws = 0, e.law[0] = NULL;
+    fw_effects_element_place_ports(&e, q, shape, p, w);
+    const fw_effects_port_state state = {.load = 1, .p = p, .w = still, .on = on, .still = true};
+    e.class_->slope(&e, &state, f);
+    for (int i = 0; i < 3 * e.ports; i++)
+        sum += f[i] * w[i];
+    return isfinite(sum) ? sum : 0;
+}
+
+/* combs and tendons: shape NULL: their laws alone */
+static int elements_on(const fw_device_scene *s, const fw_verdict_acting *by, const double *q,
+                       const double *shape, double unit, fw_quantity_law_load *load) {
+    int n = 0;
+    for (int i = 0; !shape && i < s->ncomb; i++)
+        if (s->comb[i].voltage_V != 0)
+            load[n++] = (fw_quantity_law_load){s->comb[i].law, 1, true, 0};
+    for (int i = 0; !shape && i < s->ntendon; i++) {
+        const fw_device_tendon *t = &s->tendon[i];
+        if (!(isnan(t->pull_N) ? t->draw_m == 0 : t->pull_N == 0))
+            load[n++] = (fw_quantity_law_load){t->law, 1, false, 0};
+    }
+    for (int i = 0; shape && by->loads && i < by->loads->nelement; i++) {
+        const fw_effects_force_element *e = &by->loads->element[i];
+        const double sum = element_on(e, q, shape);
+        if (sum != 0)
+            load[n++] = (fw_quantity_law_load){e->laws > 0 ? e->law[0] : NULL, sum / unit,
+                                               e->class_->electrodes, 0};
+    }
+    return n;
+}
+
+static int laws_of(const fw_mechanism *m, const fw_device_scene *s, fw_quantity_law_load *load) {
+    int n = 0;
+    double from, to;
+    for (int i = 0; i < m->ndriver; i++)
+        if (fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to))
+            load[n++] = (fw_quantity_law_load){&m->driver[i].law, 1, false, from};
+    for (int i = 0; i < s->ntemperature; i++)
+        if (s->temperature[i].change_K != 0)
+            load[n++] = (fw_quantity_law_load){s->temperature[i].law, 1, false, 0};
+    return n;
+}
+
+fw_status fw_verdict_acting_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                               const fw_effects_loads *loads, fw_verdict_acting *by) {
+    double from, to, *way;
+    *by = (fw_verdict_acting){.loads = loads};
+    FW_NEED(by->way = way = fw_arena_array(
+                arena, double, 3 * (size_t)m->nbody * (size_t)(m->ndriver + s->ntemperature)));
+    for (int i = 0; i < m->ndriver; i++) {
+        if (!fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to)) continue;
+        FW_TRY(fw_statics_driven_way(arena, m, i, s->duration_s, way));
+        way += 3 * m->nbody;
+    }
+    for (int i = 0; i < s->ntemperature; i++) {
+        if (s->temperature[i].change_K == 0) continue;
+        FW_TRY(fw_statics_heated_way(arena, m, &s->temperature[i], way));
+        way += 3 * m->nbody;
+    }
+    return FW_OK;
+}
+
+int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s,
+                        const fw_verdict_acting *by, const double *q, const double *shape,
+                        double square, double unit, fw_quantity_law_load *load) {
     int n = 0;
     for (int i = 0; i < s->nforce; i++) {
         const fw_device_force *f = &s->force[i];
@@ -421,22 +514,47 @@ int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s, const d
         const double *u = shape ? shape + 3 * f->body : NULL;
         const fw_geometry_vec2 arm =
             fw_geometry_vec_rotate((fw_geometry_vec2){f->x_m, f->y_m}, u ? q[3 * f->body + 2] : 0);
-        load[n++] = (fw_quantity_law_load){
-            f->law,
-            !u ? 1 : (f->fx_N * (u[0] - arm.y * u[2]) + f->fy_N * (u[1] + arm.x * u[2])) / unit};
+        const double sum =
+            !u ? 1 : f->fx_N * (u[0] - arm.y * u[2]) + f->fy_N * (u[1] + arm.x * u[2]);
+        load[n++] = (fw_quantity_law_load){.law = f->law, .size = sum / unit};
     }
     for (int i = 0; i < s->ntorque; i++)
         if (s->torque[i].body != FW_GROUND)
             load[n++] = (fw_quantity_law_load){
-                s->torque[i].law,
-                shape ? s->torque[i].value_Nm * shape[3 * s->torque[i].body + 2] / unit : 1};
-    for (int i = 0; i < s->nbase; i++) {
+                .law = s->torque[i].law,
+                .size =
+                    shape ? s->torque[i].value_Nm * shape[3 * s->torque[i].body + 2] / unit : 1};
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0)
+            load[n++] = (fw_quantity_law_load){
+                .law = s->base[i].law,
+                .size =
+                    shape ? -with_masses(m, shape, s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) /
+                                unit
+                          : 1};
+    if (s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0)
+        load[n++] = (fw_quantity_law_load){
+            .size = shape ? with_masses(m, shape, s->gx_m_per_s2, s->gy_m_per_s2) / unit : 1};
+    n += elements_on(s, by, q, shape, unit, load + n);
+    const int laws = laws_of(m, s, load + n);
+    for (int i = 0; shape && i < laws; i++) {
+        const double *way = by->way + (size_t)i * 3 * (size_t)m->nbody;
         double sum = 0;
-        if (s->base[i].ax_m_per_s2 == 0 && s->base[i].ay_m_per_s2 == 0) continue;
-        for (int b = 0; shape && b < m->nbody; b++)
-            sum -= m->body[b].mass_kg * (shape[3 * b] * s->base[i].ax_m_per_s2 +
-                                         shape[3 * b + 1] * s->base[i].ay_m_per_s2);
-        load[n++] = (fw_quantity_law_load){s->base[i].law, shape ? sum / unit : 1};
+        for (int b = 0; b < m->nbody; b++)
+            sum += m->body[b].mass_kg *
+                       (shape[3 * b] * way[3 * b] + shape[3 * b + 1] * way[3 * b + 1]) +
+                   m->body[b].inertia_kg_m2 * shape[3 * b + 2] * way[3 * b + 2];
+        load[n + i].size = sum * square / unit;
     }
-    return n;
+    return n + laws;
+}
+
+fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                                 bool *again) {
+    fw_quantity_law_load *load =
+        fw_arena_array(arena, fw_quantity_law_load, (size_t)fw_verdict_loads_most(m, s));
+    FW_NEED(load);
+    const int n = fw_verdict_loads_on(m, s, NULL, NULL, NULL, 1, 1, load);
+    *again = fw_quantity_law_come_again(load, n, s->duration_s);
+    return FW_OK;
 }

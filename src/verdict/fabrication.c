@@ -443,3 +443,56 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
     const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
     return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }
+
+/* ---- how near stators come as made ----
+   Breakdown asks for the least gap between electrodes that any device of the flow has. At corners that were run the
+   distance lost, from where the motion begins to the least that it may be, is known. At others it is a product of what
+   each input alone does to it, as every estimate there (verdict_corners.c), with the error that estimates were seen to
+   have:  lost <= lost_0 exp(sum over inputs of max(g (low - x_0), g (high - x_0)) + error),  g = d ln lost/dx.
+   In: corners of a search, m. Out: v->stator[].low_m. Range: corners with a motion. Test: Breakdown
+   in tests/cli/test_effects.py. Source: docs/theory/wiring.md, 4. */
+
+fw_status fw_verdict_stators_keep(fw_arena *arena, const fw_verdict_variant_verdict *now,
+                                  fw_verdict_fabricated_corner *corner) {
+    const size_t n = (size_t)now->nstator;
+    corner->nstator = now->nstator;
+    if (n > 0)
+        FW_NEED(corner->stator = fw_arena_grow(arena, now->stator, n, n, sizeof *corner->stator));
+    return FW_OK;
+}
+
+/* what is lost at a corner; 10 nm more, so that nothing has a ratio; NaN: it is not known there */
+static double lost_at(const fw_verdict_search *s, int point, const fw_wiring_moved *of) {
+    const double hardly_m = 1e-8;
+    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[point];
+    double most = (double)NAN;
+    for (int i = 0; i < c->nstator; i++)
+        if (c->stator[i].index == of->index && c->stator[i].stator == of->stator)
+            most = fmax(most, c->stator[i].start_m - c->stator[i].low_m + hardly_m);
+    return most;
+}
+
+static double lost_unrun(const fw_verdict_search *s, const fw_wiring_moved *of) {
+    const double none = lost_at(s, 0, of);
+    double ln = s->fabricated->error;
+    for (int i = 0; i < s->v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &s->v->input[i];
+        const int like = s->slope_like[i], point = s->slope_point[like];
+        if (point == FW_NONE) continue;
+        const double off = s->fabricated->corner[point].x[like] - s->v->input[like].nominal,
+                     scale = like < i ? in->edge_m / s->v->input[like].edge_m : 1,
+                     slope = scale * log(lost_at(s, point, of) / none) / off;
+        ln += fmax(slope * (in->low - in->nominal), slope * (in->high - in->nominal));
+    }
+    return none * exp(ln);
+}
+
+void fw_verdict_stators_made(const fw_verdict_search *s, fw_verdict_variant_verdict *v) {
+    for (int k = 0; k < v->nstator; k++) {
+        fw_wiring_moved *to = &v->stator[k];
+        double most = s->first > 0 && !s->fabricated->all ? lost_unrun(s, to) : (double)NAN;
+        for (int p = 0; p < s->fabricated->ncorner; p++)
+            most = fmax(most, lost_at(s, p, to));
+        if (most > 0) to->low_m = fmin(to->low_m, to->start_m - most);
+    }
+}

@@ -16,7 +16,7 @@
    square. Where that may be reached from rest within the scene frequencies in between belong to the range.
    Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
    Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance
-   What comes again while a mode rings counts likewise, all forces, torques and shaking together (fw_verdict_loads_on).
+   What comes again while a mode rings counts likewise, all that acts together (fw_verdict_loads_on).
    Loads that make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
@@ -36,8 +36,7 @@ typedef struct shaking {
 typedef struct shakings { /* of one scene, those that go to and fro */
     shaking *item;
     int n;
-    bool
-        again; /* forces, torques and shaking come while a mode may still ring by what came before */
+    bool again; /* something comes while a mode may still ring by what came before */
     double end_s;
 } shakings;
 
@@ -47,16 +46,6 @@ static void take_law(shakings *to, const fw_quantity_law *law, fw_quantity_law_a
 
 static bool in_the_plane(const fw_device_base_motion *b) {
     return b->ax_m_per_s2 != 0 || b->ay_m_per_s2 != 0;
-}
-
-static fw_status come_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                            shakings *to) {
-    fw_quantity_law_load *load =
-        fw_arena_array(arena, fw_quantity_law_load, (size_t)(s->nforce + s->ntorque + s->nbase));
-    FW_NEED(load);
-    to->again =
-        fw_quantity_law_come_again(load, fw_verdict_loads_on(m, s, NULL, NULL, 1, load), to->end_s);
-    return FW_OK;
 }
 
 /* What prescribes a coordinate is followed, and heat strains what is held as a load does: it counts as both. A voltage also
@@ -85,7 +74,7 @@ static fw_status find_laws(fw_arena *arena, const fw_mechanism *m, const fw_devi
         for (int i = 0; i < s->ntemperature; i++)
             take_law(to, s->temperature[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_OF_COORDINATE);
     }
-    return come_again(arena, m, s, to);
+    return fw_verdict_comes_again(arena, m, s, &to->again);
 }
 
 /* ---- about which pose: what of a scene does not go to and fro ---- */
@@ -228,8 +217,10 @@ static fw_status put_shares(fw_arena *arena, const fw_mechanism *m, const fw_dev
                             const fw_dynamics_motion *motion, fw_verdict_shaken *to) {
     const double hardly = 1e-3, rings = 0.03;
     const int nh = m->nhinge;
+    fw_verdict_acting by;
     double *most = fw_arena_array(arena, double, (size_t)(nh + m->nbody));
     FW_NEED(most);
+    if (again) FW_TRY(fw_verdict_acting_of(arena, m, s, motion->loads, &by));
     see_most(m, motion, modes->unit_length_m, most);
     const double bends = largest_of(most, nh), goes = largest_of(most + nh, m->nbody);
     for (int k = 0; k < modes->count && k < MODES_SHAKEN; k++) {
@@ -256,9 +247,9 @@ static fw_status put_shares(fw_arena *arena, const fw_mechanism *m, const fw_dev
         to->n++;
         if (!again || !(largest_of(out->share, nh + 1) > rings)) continue;
         FW_NEED(out->load = fw_arena_array(arena, fw_quantity_law_load,
-                                           (size_t)(s->nforce + s->ntorque + s->nbase)));
+                                           (size_t)fw_verdict_loads_most(m, s)));
         out->nload = fw_verdict_loads_on(
-            m, s, modes->q, mode->shape,
+            m, s, &by, modes->q, mode->shape, mode->stiffness_per_s2,
             mode->modal_mass_kg_m2 * mode->stiffness_per_s2 * swings[0], out->load);
     }
     return FW_OK;
@@ -555,6 +546,12 @@ static fw_status may_meet(fw_arena *arena, int scene, double by, fw_verdict_vari
     return FW_OK;
 }
 
+/* and electrodes come nearer to each other */
+static void may_come_near(int scene, double by, fw_verdict_variant_verdict *v) {
+    for (int k = 0; k < v->nstator; k++)
+        if (v->stator[k].index == scene) v->stator[k].low_m -= (by - 1) * v->stator[k].moved_m;
+}
+
 /* v->shaken; a warning, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
                             bool brief, fw_diags *diags, fw_verdict_variant_verdict *v) {
@@ -571,6 +568,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
+        may_come_near(i, f[2 * nh], v);
         most = largest_of(f, 2 * nh + 2);
         if (!(most > told) || brief) continue;
         for (int h = 0; h <= nh; h++)

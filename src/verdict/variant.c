@@ -271,7 +271,7 @@ static bool is_brief(const fw_verdict_options *options, const fw_verdict_variant
 
 size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
-        FW_REASONS * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
+        (FW_REASONS + 1) * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
         13; /* strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
@@ -306,8 +306,9 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_TRY(fw_verdict_bent(arena, device, v));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
-    FW_TRY(fw_verdict_clearance_begin(arena, options->hinges_only ? NULL : layout, m,
-                                      !brief && !v->corner, watch, v));
+    FW_TRY(fw_verdict_clearance_begin(
+        arena, options->hinges_only ? NULL : layout, m,
+        v->corner ? !options->decision_only && !options->at_a_glance : !brief, watch, v));
     watch[0].ways = watch[1].ways = options->ways || !(options->bounded || (brief && v->corner));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
@@ -553,6 +554,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     fw_verdict_bent_leaves_open(v, first);
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));
+    if (!brief) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
 
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *hinge = &m->hinge[k];

@@ -115,7 +115,9 @@ typedef struct fw_verdict_out_of_plane {
     double
         weight_m; /* how far any part comes down under its weight on a table, g = 9.80665 m/s^2 */
     const char *body; /* the one that the next two are of: it gives most at its centre of mass */
-    double across_N_per_m, ratio;     /* across the plane; over the least in it, NaN: not known */
+    double across_N_per_m, ratio; /* across the plane; over the least in it, NaN: not known */
+    const double
+        *hangs_in; /* (nbody) what bends in the plane by its own weight, at most, m per m/s2 */
     struct fw_verdict_plates *plates; /* what it was computed with (verdict_out_of_plane.c) */
     fw_verdict_across *scene;         /* (nscene) of this flow, those that were run */
     int nscene;
@@ -221,6 +223,8 @@ typedef struct fw_verdict_fabricated_corner {
     bool not_by_loads, not_by_width;     /* of `why`, as in fw_verdict_reason */
     fw_verdict_requirement *requirement; /* (nrequirement) of the variant; NULL: nothing was run */
     const fw_verdict_shaken *shaken;     /* (nscene) NULL: nothing was run */
+    const fw_wiring_moved *stator;       /* (nstator) how near what moves comes to stators */
+    int nstator;
     fw_verdict_decision decision;
     bool undecided; /* it is not accepted, and closer numbers might decide that */
 } fw_verdict_fabricated_corner;
@@ -303,7 +307,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_clearance_things *things;     /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;       /* (nclearance) none of what is not drawn */
     int nclearance;
-    fw_wiring_moved *stator; /* (nstator) every stator in every scene, as drawn; none at a corner */
+    fw_wiring_moved
+        *stator; /* (nstator) every stator in every scene, as drawn; low_m: at all corners */
     int nstator;
     fw_probe_result *probed;             /* (nscene x nprobe); NULL: no probe has a course */
     fw_verdict_requirement *requirement; /* (nrequirement) the same at every corner */

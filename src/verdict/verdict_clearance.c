@@ -336,6 +336,13 @@ static void warn_jump(const fw_device_scene *scene, const fw_clearance_path *pat
         fw_number_text(by, sizeof by, 1e6 * path->jump_m, 3));
 }
 
+static fw_wiring_moved moved_of(const char *stator, const char *scene, int index,
+                                const fw_clearance_least *l) {
+    return (fw_wiring_moved){stator,    scene,      index,      l->m,
+                             l->t_s,    l->start_m, l->moved_m, isfinite(l->low_m) ? l->low_m : 0,
+                             l->at.at_a};
+}
+
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
                                      const fw_layout *layout, bool brief, fw_diags *diags,
                                      fw_verdict_variant_verdict *v) {
@@ -352,12 +359,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     FW_TRY(consume(w));
     for (int k = 0; k < w->nstator; k++) {
         const fw_clearance_least *l = &w->stator[k].least;
-        if (!l->known) continue;
-        v->stator[v->nstator++] = (fw_wiring_moved){.stator = w->stator[k].label,
-                                                    .scene = scene->name,
-                                                    .m = l->m,
-                                                    .t_s = l->t_s,
-                                                    .at = l->at.at_a};
+        if (l->known) v->stator[v->nstator++] = moved_of(w->stator[k].label, scene->name, i, l);
     }
     if (!w->least.known) return FW_OK; /* nothing moves against anything */
     fw_verdict_clearance *c = &v->clearance[v->nclearance++];
@@ -406,9 +408,9 @@ static fw_status say_open(fw_arena *arena, const fw_device *device, int body,
 }
 
 /* the least distance of every stator from all that moves, over the poses of a required box */
-static fw_status stators_of_box(fw_arena *arena, const fw_layout *layout,
-                                const fw_device_workspace_box *box, const fw_clearance_wish *wish,
-                                fw_verdict_variant_verdict *v) {
+static fw_status stators_of_box(fw_arena *arena, const fw_layout *layout, int index,
+                                const fw_clearance_wish *wish, fw_verdict_variant_verdict *v) {
+    const fw_device_workspace_box *box = &v->mechanism->device->workspace[index];
     fw_clearance_wish own = *wish;
     bool *among;
     FW_TRY(all_bodies(arena, v->things, &among));
@@ -423,11 +425,9 @@ static fw_status stators_of_box(fw_arena *arena, const fw_layout *layout,
         FW_TRY(stator_alone(arena, v->things, label, &alone));
         FW_TRY(fw_clearance_of_box(arena, &alone, v->mechanism, box, &own, &least, &known, &open));
         if (!known || !least.known) continue;
-        v->stator[v->nstator++] = (fw_wiring_moved){.stator = label,
-                                                    .scene = "workspace",
-                                                    .m = least.m,
-                                                    .t_s = (double)NAN,
-                                                    .at = least.at.at_a};
+        least.t_s = (double)NAN;
+        v->stator[v->nstator++] =
+            moved_of(label, "workspace", v->mechanism->device->nscene + index, &least);
     }
     return FW_OK;
 }
@@ -450,7 +450,7 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
         FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known,
                                    &open));
         if (open != FW_NONE) FW_TRY(say_open(arena, device, open, v));
-        FW_TRY(stators_of_box(arena, layout, asked, &wish, v));
+        FW_TRY(stators_of_box(arena, layout, i, &wish, v));
         if (!known || !least.known) continue;
         fw_verdict_clearance *c = &v->clearance[v->nclearance++];
         *c = (fw_verdict_clearance){.scene = "workspace",

@@ -571,6 +571,7 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
         s.fabricated->hinge[k].most = fmax(s.fabricated->hinge[k].most, apart_most[k]);
     }
     if (!decided) FW_TRY(fw_verdict_ends_made(&s));
+    if (!decided) fw_verdict_stators_made(&s, v);
     fw_verdict_search_govern(&s);
     v->fabricated = s.fabricated;
     if (s.fabricated->decision == FW_ACCEPT) return fw_verdict_between_corners(&s, v);

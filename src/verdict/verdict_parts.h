@@ -98,6 +98,15 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
                                                   const fw_device_probe *probe,
                                                   const fw_statics_modes *modes, int *in_plane);
 
+/* ---- verdict_stiction.c: what hangs over bends in the plane ---- */
+
+/* after requirements and required boxes of a verdict whose values count: what may meet then, is displaced or swings
+   otherwise is undecided, with a reason (FW-D638, FW-D639, FW-D640) */
+fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v);
+/* strain_monitor.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
+fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                    double *to);
+
 /* ---- verdict_stiction.c: what a liquid pulls, and what adhesion holds ---- */
 
 /* after the scenes were run: v->stiction, and reasons of v. brief: only where a meniscus passes over it */
@@ -121,7 +130,7 @@ typedef struct fw_verdict_shaken_mode {
     double *
         share; /* (nhinge + 1) what of a hinge's bending, last of a body's way, it does as computed */
     double late; /* how far it still swings at the end, over how far it ever does */
-    /* of forces, torques and shaking that come again (nload): their modal force over mass and omega^2 and how far the mode
+    /* of what comes again (nload): its modal force over mass and omega^2 and how far the mode
        swings, whatever omega is */
     fw_quantity_law_load *load;
     int nload;
@@ -133,10 +142,23 @@ struct fw_verdict_shaken {
     double *factor;
     double late; /* what of a largest way may be there at the end besides, for phases run apart */
 };
-/* decision.c: forces, torques and shaking of a scene: their laws, and by a mode's shape u about the pose q the modal force of each
-   over `unit`; shape NULL: the laws alone. load: as many as there are of them; returns how many are not 0 */
-int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s, const double *q,
-                        const double *shape, double unit, fw_quantity_law_load *load);
+/* decision.c: beside what a scene states of itself: the elements of its motion, and how far one unit of each driver that
+   moves, then of each heat, holds every body from where it rests (rows of 3 nbody) */
+typedef struct fw_verdict_acting {
+    const fw_effects_loads *loads;
+    const double *way;
+} fw_verdict_acting;
+fw_status fw_verdict_acting_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                               const fw_effects_loads *loads, fw_verdict_acting *by);
+/* All that acts in a scene, by laws, and by a mode's shape u about the pose q the modal force of each over `unit`; square:
+   of its omega. shape NULL: the laws alone. load: fw_verdict_loads_most; returns how many there are */
+int fw_verdict_loads_most(const fw_mechanism *m, const fw_device_scene *s);
+int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s,
+                        const fw_verdict_acting *by, const double *q, const double *shape,
+                        double square, double unit, fw_quantity_law_load *load);
+/* does something of it come while a mode may still ring by what came before? */
+fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                                 bool *again);
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);
@@ -271,6 +293,10 @@ bool fw_verdict_ends_unknown(const fw_verdict_search *s); /* a requirement witho
 unsigned fw_verdict_ends_next(const fw_verdict_search *s);
 /* s->fabricated->requirement */
 fw_status fw_verdict_ends_made(fw_verdict_search *s);
+/* fabrication.c: what stays of the stators of one that was run; low_m of v->stator at all corners, run or not */
+fw_status fw_verdict_stators_keep(fw_arena *arena, const fw_verdict_variant_verdict *now,
+                                  fw_verdict_fabricated_corner *corner);
+void fw_verdict_stators_made(const fw_verdict_search *s, fw_verdict_variant_verdict *v);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */

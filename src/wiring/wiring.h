@@ -32,7 +32,11 @@ typedef struct fw_wiring_carrier {
 typedef struct fw_wiring_moved {
     const char *stator; /* label of its piece */
     const char *scene;
+    int index; /* of the scene; behind the last scene required boxes */
     double m, t_s;
+    double start_m, moved_m; /* distance where the motion begins; how far the two go at most */
+    double
+        low_m; /* least that it may be, by what the motion is off by and at all corners of the flow */
     fw_geometry_vec2 at;
 } fw_wiring_moved;
 
@@ -42,6 +46,7 @@ typedef struct fw_wiring_asked {
     const fw_wiring_moved *moved; /* (nmoved) */
     int nmoved;
     double wall_m; /* by how much two walls come nearer than drawn in this flow; 0: as drawn */
+    double sag_m;  /* by how much what moves comes down to its carrier at most; 0: not known */
 } fw_wiring_asked;
 
 typedef struct fw_wiring_net {
@@ -87,10 +92,12 @@ typedef struct
     double moved_m,
         t_s; /* the least over the motions, and when; NaN: none was run, or nothing moves */
     const char *scene;
-    double made_m; /* the lesser of both less what walls come nearer by */
-    double volts;  /* the largest potential difference that the drives ask for */
+    double made_m;  /* the lesser of both less what walls come nearer by */
+    double least_m; /* likewise of the least that it may be (fw_wiring_moved.low_m) */
+    double volts;   /* the largest potential difference that the drives ask for */
     double field_V_per_m;
-    double breakdown_V[2]; /* of that gap in air, or of the insulator: from, to; NaN: not known */
+    /* in air, or of the insulator: from (of the least gap), to (of that as computed); NaN: not known */
+    double breakdown_V[2];
 } fw_wiring_gap;
 
 typedef struct fw_wiring {
@@ -138,6 +145,8 @@ fw_status fw_wiring_compare(fw_arena *arena, const fw_wiring *wiring, const fw_l
 
 const char *fw_wiring_contact_word(const fw_wiring_net *net); /* "probed", "edge", "none" */
 /* where a net is contacted, and what a gap bears, in words */
+/* ", or down to 12.6 um with its errors"; "": it is hardly less than computed */
+const char *fw_wiring_least_words(char text[64], const fw_wiring_gap *gap);
 fw_status fw_wiring_contact_words(fw_arena *arena, const fw_wiring_net *net, const char **out);
 fw_status fw_wiring_gap_words(fw_arena *arena, const fw_wiring *wiring, const fw_wiring_gap *gap,
                               const char **out);

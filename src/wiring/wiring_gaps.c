@@ -54,8 +54,10 @@ void fw_wiring_breakdown(double gap_m, double density, double volts[2]) {
 /* ---- gaps between nets ----
    In: nets with their potentials. A net that nobody contacts may have any potential between those of its
    neighbours, so the largest difference that there is counts. The gap is the lesser of that drawn and the
-   least over the motions, less what walls come nearer by as made. Field: V/gap of parallel faces; at edges
-   and tips it is higher, which the range of fw_wiring_breakdown does not know. Test: test_wiring_drives.c */
+   least over the motions, less what walls come nearer by as made. The lower end of what it bears is that of the least
+   that it may be: by what motions are off by, near a resonance, at all corners of the flow. That least gap and the
+   largest voltage of any scene are taken to come together, so that no time between is missed. Field: V/gap of parallel
+   faces; at edges and tips it is higher, which the range of fw_wiring_breakdown does not know. Test: test_wiring_drives.c */
 
 typedef struct span {
     double low, high;
@@ -80,12 +82,14 @@ static double difference(span p, span q) {
 static void take_motion(const fw_wiring *w, const fw_layout *layout, const fw_wiring_asked *asked,
                         fw_wiring_gap *g) {
     g->moved_m = g->t_s = (double)NAN;
+    g->least_m = g->m;
     if (w->net[g->a].kind != FW_WIRING_ROTOR || w->net[g->b].kind != FW_WIRING_STATOR) return;
     for (int k = 0; k < asked->nmoved; k++) {
         const fw_wiring_moved *m = &asked->moved[k];
         bool mine = false;
         for (int i = 0; i < layout->npiece && !mine; i++)
             mine = w->net_of[i] == g->b && layout->piece[i].label == m->stator;
+        if (mine) g->least_m = fmin(g->least_m, fmin(m->low_m, m->m));
         if (!mine || !(isnan(g->moved_m) || m->m < g->moved_m)) continue;
         g->moved_m = m->m;
         g->t_s = m->t_s;
@@ -101,25 +105,34 @@ static void air_bears(const fw_wiring *w, double gap_m, double volts[2]) {
     volts[0] = fmin(volts[0], dense[0]), volts[1] = fmax(volts[1], dense[1]);
 }
 
+/* from what the least gap may bear to what that as computed surely does not */
+static void bears_in_air(const fw_wiring *w, fw_wiring_gap *g) {
+    double least[2];
+    air_bears(w, g->made_m, g->breakdown_V);
+    air_bears(w, g->least_m, least);
+    g->breakdown_V[0] = fmin(g->breakdown_V[0], least[0]);
+}
+
 static void bear(const fw_wiring *w, fw_wiring_gap *g) {
     g->volts = difference(potential(w, g->a), potential(w, g->b));
     g->field_V_per_m = g->made_m > 0.0 ? g->volts / g->made_m : HUGE_VAL;
-    air_bears(w, g->made_m, g->breakdown_V);
+    bears_in_air(w, g);
 }
 
 /* ---- what there is to say ---- */
 
 static fw_status say_gap(fw_arena *arena, const fw_wiring *w, const fw_wiring_gap *g,
                          const char **out) {
-    char gap[32], volts[32], field[32], low[32], high[32], x[32], y[32];
+    char gap[32], volts[32], field[32], low[32], high[32], x[32], y[32], least[64];
     FW_NEED(*out = fw_arena_printf(
                 arena,
-                "between %s and %s there are up to %s V across %s um (%s V/um) at (%s, %s) "
+                "between %s and %s there are up to %s V across %s um%s (%s V/um) at (%s, %s) "
                 "um%s%s%s, "
                 "and air breaks down between %s and %s V",
                 w->net[g->a].name, g->b < w->nnet ? w->net[g->b].name : "the handle",
                 fw_number_text(volts, sizeof volts, g->volts, 4),
                 fw_number_text(gap, sizeof gap, 1e6 * g->made_m, 4),
+                fw_wiring_least_words(least, g),
                 fw_number_text(field, sizeof field, 1e-6 * g->field_V_per_m, 3),
                 fw_number_text(x, sizeof x, 1e6 * g->at[0].x, 5),
                 fw_number_text(y, sizeof y, 1e6 * g->at[0].y, 5), g->scene ? " in " : "",
@@ -155,7 +168,7 @@ static fw_status judge_gap(fw_arena *arena, fw_wiring *w, const fw_wiring_gap *g
 
 /* the conductor below the insulator: across it below what is held, and across the air that the release leaves
    below what moves, which is as thin */
-static fw_status handle_gaps(fw_arena *arena, fw_wiring *w) {
+static fw_status handle_gaps(fw_arena *arena, double sag_m, fw_wiring *w) {
     const fw_wiring_carrier *c = &w->carrier;
     char volts[32], um[32], low[32], high[32];
     if (!c->insulates || !c->handle || !(c->thickness_m > 0.0)) return FW_OK;
@@ -168,13 +181,17 @@ static fw_status handle_gaps(fw_arena *arena, fw_wiring *w) {
                              .label = {w->net[i].name, "handle"},
                              .moved_m = (double)NAN,
                              .t_s = (double)NAN,
-                             .made_m = c->thickness_m};
+                             .made_m = c->thickness_m,
+                             .least_m = c->thickness_m};
         g->volts = difference(potential(w, i), potential(w, w->nnet));
         g->field_V_per_m = g->volts / c->thickness_m;
         const double bears = c->breakdown_V_per_m * c->thickness_m;
         g->breakdown_V[0] = bears * fmax(0.0, 1.0 - 2.0 * c->breakdown_share);
         g->breakdown_V[1] = bears * (1.0 + 2.0 * c->breakdown_share);
-        if (w->net[i].kind == FW_WIRING_ROTOR) air_bears(w, c->thickness_m, g->breakdown_V);
+        if (w->net[i].kind == FW_WIRING_ROTOR) {
+            g->least_m = fmax(c->thickness_m - sag_m, 0);
+            bears_in_air(w, g);
+        }
         if (!(g->volts > 0.0) || isnan(g->breakdown_V[0]) || g->volts < g->breakdown_V[0]) continue;
         FW_TRY(fw_wiring_say(
             arena, &w->open, &w->nopen,
@@ -241,9 +258,10 @@ fw_status fw_wiring_gaps(fw_arena *arena, const fw_layout *layout, const fw_wiri
             }
             take_motion(w, layout, asked, g);
             g->made_m = (g->moved_m < g->m ? g->moved_m : g->m) - asked->wall_m;
+            g->least_m -= asked->wall_m;
             bear(w, g);
             FW_TRY(judge_gap(arena, w, g));
         }
-    FW_TRY(handle_gaps(arena, w));
+    FW_TRY(handle_gaps(arena, asked->sag_m, w));
     return remarks(arena, layout, w);
 }

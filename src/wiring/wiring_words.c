@@ -38,14 +38,24 @@ fw_status fw_wiring_contact_words(fw_arena *arena, const fw_wiring_net *n, const
     return FW_OK;
 }
 
+const char *fw_wiring_least_words(char text[64], const fw_wiring_gap *g) {
+    const double hardly = 0.01;
+    char um[32];
+    if (!(g->least_m < (1 - hardly) * g->made_m)) return "";
+    fw_number_text(um, sizeof um, 1e6 * fmax(g->least_m, 0), 3);
+    snprintf(text, 64, ", or down to %s um with its errors", um);
+    return text;
+}
+
 fw_status fw_wiring_gap_words(fw_arena *arena, const fw_wiring *w, const fw_wiring_gap *g,
                               const char **out) {
-    char um[32], volts[32], field[32], low[32], high[32];
+    char um[32], volts[32], field[32], low[32], high[32], least[64];
     const char *b = g->b < w->nnet ? w->net[g->b].name : "handle";
     FW_NEED(*out = fw_arena_printf(
-                arena, "%s to %s: %s um%s%s, up to %s V, %s V/um", w->net[g->a].name, b,
+                arena, "%s to %s: %s um%s%s%s, up to %s V, %s V/um", w->net[g->a].name, b,
                 fw_number_text(um, sizeof um, 1e6 * g->made_m, 4), g->scene ? " at least in " : "",
-                g->scene ? g->scene : "", fw_number_text(volts, sizeof volts, g->volts, 4),
+                g->scene ? g->scene : "", fw_wiring_least_words(least, g),
+                fw_number_text(volts, sizeof volts, g->volts, 4),
                 fw_number_text(field, sizeof field, 1e-6 * g->field_V_per_m, 3)));
     if (isnan(g->breakdown_V[0])) return FW_OK;
     FW_NEED(*out = fw_arena_printf(arena, "%s; breaks down between %s and %s V", *out,
@@ -146,6 +156,7 @@ static void gap(fw_json *json, const fw_wiring *w, const fw_wiring_gap *g) {
     fw_json_text(json, "scene", g->scene);
     fw_json_real(json, "t_s", g->t_s);
     fw_json_real(json, "made_m", g->made_m);
+    fw_json_real(json, "least_m", g->least_m);
     fw_json_real(json, "voltage_V", g->volts);
     fw_json_real(json, "field_V_per_m", g->field_V_per_m);
     fw_json_list(json, "breakdown_V");

@@ -191,6 +191,38 @@ class OutOfPlane(unittest.TestCase):
         # what is short hangs over by next to nothing
         self.assertLess(-judged(0.3, -1000.0)[1]["scenes"][0]["lowest_m"], 0.5e-6)
 
+    def test_what_hangs_over_bends_in_the_plane(self):
+        """a bar held in its middle, whose ends are pulled aside by F each: by F L^3/(3 E I), by m' a L^4/(8 E I) where it is shaken, and with
+        3.516/(2 pi L^2) sqrt(E I/m') as a cantilever. As a rigid body it goes nowhere, and swings at 29 kHz"""
+        long, wide, deep, modulus, density = 3e-3, 40e-6, 50e-6, 150e9, 2329.0
+        section = deep * wide ** 3 / 12
+
+        def judged(scene, asked):
+            self.file.write_text(f'''<device xmlns="urn:flexwright:device:1" name="wings">
+<material ref="silicon-100" youngs-modulus="150 GPa" poisson="0.25" thickness="50 um" strength="3 GPa"/><die clearance="100 um"/>
+<flexure id="leaf" kind="leaf" length="200 um" width="10 um" fillet="10 um"/><mechanism>
+<body id="bar" x="0 mm" y="0.5 mm" width="100 um"><plate width="6 mm" height="40 um"/></body>
+<revolute id="A" a="ground" b="bar" b-x="0 mm" b-y="-0.5 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<probe id="tip" kind="displacement" on="bar" x="3 mm" y="0 mm" direction="90 deg"/>{asked}<scene name="s" duration="5 ms">{scene}</scene></device>''')
+            said = json.loads(run("check", self.file, "--json", *QUICK).stdout)
+            return said["verdict"], [(r["code"], float(re.search(r"by up to ([\d.e+-]+) ", r["text"])[1])) for r in said["reasons"]]
+
+        ends = "".join(f'<force on="bar" x="{x} mm" fy="20 uN"/>' for x in (3, -3))
+        tip = '<require probe="tip" measure="maximum" max="2 um" scene="s"/>'
+        own = 3.516 / (2 * math.pi * long ** 2) * math.sqrt(modulus * section / (density * wide * deep))  # 5.8 kHz
+        goes = 20e-6 * long ** 3 / (3 * modulus * section)  # 4.5 um, and twice that where it comes at once
+        verdict, reasons = judged(ends, f'{tip}<require frequency="2" plane="in" min="{own * 1.01} Hz"/>')
+        self.assertEqual((verdict, [r[0] for r in reasons]), ("inconclusive", ["FW-D639", "FW-D640"]))
+        self.assertTrue(1.9 * goes < 1e-6 * reasons[0][1] < 2.5 * goes, (goes, reasons))
+        shaken = '<base-motion ay="3000 m/s^2" law="half-sine" rise="1 ms"/>'
+        goes = density * wide * deep * 3000 * long ** 4 / (8 * modulus * section)  # 3.5 um
+        verdict, reasons = judged(shaken, tip)
+        self.assertEqual((verdict, reasons[0][0]), ("inconclusive", "FW-D639"))
+        self.assertTrue(1.9 * goes < 1e-6 * reasons[0][1] < 2.4 * goes, (goes, reasons))
+        self.assertEqual(judged(shaken.replace("3000", "300"), f'{tip}<require frequency="2" plane="in" min="{own / 1.4} Hz"/>'), ("accept", []))
+        # 200 uN bend it by 45 um, which with its sudden double reaches the frame
+        self.assertEqual(judged(ends.replace("20 uN", "200 uN"), "")[1][0][0], "FW-D638")
+
     def test_what_a_flow_makes_tips(self):
         """a device that surely stays flat as drawn, and does not where the flow makes it thinner and softer: neither as made
         nor in a yield does it count as one that holds"""

@@ -226,7 +226,8 @@ static void swings_of_several(void **state) {
         const fw_quantity_law one = {.kind = fw_quantity_law_find("half-sine"), .rise_s = 0.5 * period},
                               other = {.kind = one.kind, .rise_s = 0.5 * period, .start_s = n * period},
                               late = {.kind = fw_quantity_law_find("step"), .start_s = n * period, .end_s = (double)INFINITY};
-        const fw_quantity_law_load pulses[] = {{&one, 3}, {&other, 3}}, steps[] = {{NULL, 1}, {&late, 1}};
+        const fw_quantity_law_load pulses[] = {{.law = &one, .size = 3}, {.law = &other, .size = 3}},
+                                   steps[] = {{.size = 1}, {.law = &late, .size = 1}};
         const double alone = pi / 2, both = 2 * fabs(cos(pi * n)) * alone;
         const double far = fw_quantity_law_swing_of_all(pulses, 2, end, w, 0) / 3;
         if (i % 4 == 0) assert_near(far, fmax(alone, both), 0.05);
@@ -234,6 +235,13 @@ static void swings_of_several(void **state) {
         assert_near(fw_quantity_law_swing_of_all(steps, 2, end, w, 0), 2 + 2 * fabs(cos(pi * n)), 0.16); /* a jump is a ramp over a sample, half of one late */
         assert_true(fw_quantity_law_come_again(pulses, 2, end) && fw_quantity_law_come_again(steps, 2, end));
         assert_false(fw_quantity_law_come_again(pulses, 1, end) || fw_quantity_law_come_again(steps, 1, end));
+        /* loads of one course are one; a voltage acts by its square; a coordinate by how far it goes from its start */
+        const fw_quantity_law copy = late;
+        const fw_quantity_law_load alike[] = {{.law = &late, .size = 1}, {.law = &copy, .size = 2}},
+                                   twice = {.law = &late, .size = 4, .from = 0.5}, half = {.size = 0.5, .squared = true};
+        assert_false(fw_quantity_law_come_again(alike, 2, end));
+        assert_near(fw_quantity_law_swing_of_all(&half, 1, end, w, 0), 1, 0.01);
+        assert_near(fw_quantity_law_swing_of_all(&twice, 1, 10 * period, w, 0), 4, 0.04); /* -2 at once */
     }
 }
 
