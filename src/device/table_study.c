@@ -76,8 +76,8 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
          WHOLE,                                                                                    \
          RANGE(1, 1e7, "more than ten million devices are several studies"),                       \
          .fallback = "as many as the kind asks for",                                               \
-         .sentence = "Devices of a Sobol' sequence or of indices; most of them of a yield or a "   \
-                     "size."},                                                                     \
+         .sentence = "Devices of a Sobol' sequence or of indices; most of them of a yield (at "    \
+                     "least 200, and a yield has no <respond>) or a size."},                       \
         {"seed",          D_PURE,                                                                  \
          WHOLE,           RANGE(0, 2147483647, "seeds have 31 bits"),                              \
          .fallback = "1", .sentence = "Of random numbers: the same seed gives the same study."},   \
