@@ -97,7 +97,7 @@ static fw_clearance_pose about(uint64_t *seed, fw_clearance_pose p, double size,
 static void slack_bounds_every_pose(void **state) {
     (void)state;
     uint64_t seed = 11;
-    for (int i = 0; i < test_cases(3000, 500); i++) {
+    for (int i = 0; i < test_fewest(test_cases(3000, 500), 150); i++) {
         scene s = start();
         box(&s, 0, 0, 0, chance(&seed, 1e-5, 1e-3), chance(&seed, 1e-5, 1e-3));
         box(&s, 1, 1.1e-3, 0, 1.2e-3 + chance(&seed, 0, 1e-3), chance(&seed, 1e-5, 1e-3));
@@ -160,7 +160,7 @@ static void direction_bounds_every_pose(void **state) {
     (void)state;
     uint64_t seed = 29;
     int better = 0, straight = 0;
-    for (int i = 0; i < test_cases(6000, 1000); i++) {
+    for (int i = 0; i < test_fewest(test_cases(6000, 1000), 300); i++) {
         scene s = start();
         const bool lines = i % 2;
         box(&s, 0, 0, 0, chance(&seed, 1e-5, 1e-3), chance(&seed, 1e-5, 1e-3));

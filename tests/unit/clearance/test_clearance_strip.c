@@ -55,7 +55,7 @@ static void points_stay_within_the_bound(void **state) {
     leaf l;
     leaf_of(&l);
     double nearest = HUGE_VAL;
-    for (int round = 0; round < 400; round++) {
+    for (int round = 0; round < test_fewest(400, 100); round++) {
         double k = chance(&seed, 50, 2500), curvature[STEPS], turn;
         fw_geometry_vec2 edge[2][STEPS + 1];
         int change = (int)chance(&seed, 0, STEPS), kind = round % 3;
@@ -97,7 +97,7 @@ static void a_wall_beside_the_strip(void **state) {
     int clear = 0, met = 0, missed = 0;
     leaf l;
     leaf_of(&l);
-    for (int round = 0; round < 300; round++) {
+    for (int round = 0; round < test_fewest(300, 75); round++) {
         const double x = chance(&seed, 10e-6, 120e-6) * (round % 2 ? 1 : -1);
         const double y = chance(&seed, -0.4, 0.5) * LENGTH, turn = chance(&seed, 0.02, 1);
         const double share = chance(&seed, 0, 0.2), force = share * turn / LENGTH;
@@ -171,7 +171,7 @@ static void what_bends_less_keeps_off(void **state) {
     int clear = 0, covered = 0;
     leaf l;
     leaf_of(&l);
-    for (int round = 0; round < 600; round++) {
+    for (int round = 0; round < test_fewest(600, 150); round++) {
         const double x = chance(&seed, 5e-6, 200e-6) * (round % 2 ? 1 : -1);
         fw_clearance_edge wall = {.segment = {.kind = FW_LINE,
                                               .a = {x, chance(&seed, -0.4, 0.5) * LENGTH},

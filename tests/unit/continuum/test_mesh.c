@@ -98,7 +98,7 @@ static void valid_everywhere(void **state) {
     for (int which = 1; which <= 4; which++)
         for (int n = 0; n < 5; n++)
             for (int wide = 0; wide < 2; wide++)
-                for (int level = 0; level < 3; level++) {
+                for (int level = 0; level < test_fewest(3, 2); level++) {
                     fw_mark mark = fw_arena_mark(*state);
                     fw_flexure_input in = flexure_of(which);
                     fw_continuum_shape shape;

@@ -461,7 +461,7 @@ static void damage_is_survived(void **state) {
     refer(&s, "LEAF", 0x8000, 2, 45, 0, 0);
     end(&s, true);
     unsigned seed = 12345;
-    const int whole = test_cases(3000, 300);
+    const int whole = test_fewest(test_cases(3000, 300), 60);
     for (int i = 0; i < whole; i++) {
         fw_arena *arena = fw_arena_new(64 << 20);
         fw_diags diags = fw_diags_new(arena);

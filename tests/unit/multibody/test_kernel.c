@@ -31,12 +31,12 @@ static void test_sincos(void **state) {
     static const double size[] = {1e-3, 0.8, 7, 100, 1e4, 1e5};
     uint64_t seed = 1;
     double worst = 0;
-    for (int block = 0; block < 970; block++) {
+    for (int block = 0; block < test_fewest(970, 60); block++) {
         for (int i = 0; i < 4096; i++)
             x[i] = size[block % 6] * (2 * rig_random(&seed) - 1);
         worst = fmax(worst, worst_sincos(4096, x));
     }
-    for (int k = 0; k < 63000; k += 4096 / 8) {
+    for (int k = 0; k < 63000; k += test_fewest(4096 / 8, 4096)) {
         for (int i = 0; i < 4096; i++) {
             double at = (double)(k + i / 8) * 1.57079632679489661923;
             x[i] = at > 99999 ? 1 : at * (1 + (i % 8 - 4) * DBL_EPSILON);

@@ -33,7 +33,7 @@ static bool inside(const fw_schedule_machine *m, double start, double end) {
 
 static void earliest_fit(void **state) {
     (void)state;
-    const int cases = test_cases(400, 100);
+    const int cases = test_fewest(test_cases(400, 100), 25);
     int never = 0;
     for (int i = 0; i < cases; i++) {
         fw_schedule_calendar hours[2] = {{0}};
@@ -159,7 +159,7 @@ static void in_parts(void **state) {
 /* the open time of a machine, quarter by quarter */
 static void worked(void **state) {
     (void)state;
-    const int cases = test_cases(400, 100);
+    const int cases = test_fewest(test_cases(400, 100), 25);
     for (int i = 0; i < cases; i++) {
         double closed[1][2] = {{DAY * (double)below(7), 0.0}};
         closed[0][1] = closed[0][0] + DAY * (1.0 + below(2));

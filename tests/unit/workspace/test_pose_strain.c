@@ -286,7 +286,7 @@ static double strain(const loaded_six_bar *d, const still_pose *s, int i, const 
 static void sample(const loaded_six_bar *d, const fw_workspace_hold *hold,
                    const fw_workspace_box3 *box, const fw_workspace_strain_proof *proof,
                    double most[6], double most_N[6]) {
-    int n = test_cases(300, 100);
+    int n = test_fewest(test_cases(300, 100), 30);
     for (int k = 0; k < n; k++) {
         double pose[3];
         still_pose s;
@@ -368,7 +368,7 @@ static void bound(bool given) {
     seed = 11;
     static const double scale[] = {1, 0.45, 0.35};
     double loose = 1;
-    int count = test_cases(40, 12), proved = 0;
+    int count = test_fewest(test_cases(40, 12), 5), proved = 0;
     for (int n = 0; n < count; n++) {
         loaded_six_bar d = {0};
         make(&d, scale[n % 3], n % 5 != 4, given && n % KINDS == NO_SCENE ? TORQUE_AND_FORCE : n % KINDS);
@@ -553,7 +553,7 @@ static void kept_from_device_to_device(void **state) {
     fw_arena *keeps = fw_arena_new(0);
     fw_workspace_kept *kept;
     assert_int_equal(fw_workspace_kept_new(keeps, &kept), FW_OK);
-    int proved = 0, count = test_cases(24, 12);
+    int proved = 0, count = test_fewest(test_cases(24, 12), 6);
     for (int n = 0; n < count; n++) {
         loaded_six_bar d = {0};
         seed = (uint64_t)(n / 4 % 2 + 1); /* pins, hinges and loads of two devices, by turns */
