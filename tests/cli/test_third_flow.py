@@ -91,6 +91,38 @@ class ThirdFlow(unittest.TestCase):
         self.assertAlmostEqual(made[40][2] / made[50][2], 0.8, 9)
 
 
+class OrderedPlate(unittest.TestCase):
+    """A plate within the CD tolerance that its order states is one that the verdict still accepts: hinges, and what is required."""
+    LEAF = """<device xmlns="urn:flexwright:device:1" name="tuned-leaf">
+      <parameter name="w" value="10 um"/><material ref="silicon-100" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/>
+      <die tethers="no"/><order/><flexure id="leaf" kind="leaf" length="400 um" width="w"/>
+      <mechanism><body id="bar" x="0 mm" y="0.75 mm" width="120 um"/><revolute id="A" a="ground" b="bar" b-y="-0.75 mm" hinge="leaf"/></mechanism>
+      <require frequency="1" plane="in" min="4 kHz"/>
+      <scene name="nudge" duration="1 ms"><torque on="bar" value="1e-4 mN mm"/></scene>
+    </device>"""
+
+    def test_tolerance_keeps_the_verdict(self):
+        here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, here)
+        done = run("plan", "-", "--measurements", "none", "-o", here / "out", input=self.LEAF)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        order = json.loads((here / "out/masks/silicon-on-glass-plate.device.order.json").read_text())
+        cd = order["cd_tolerance_um"]
+        self.assertIn("requirement frequency-1", order["cd_tolerance_decided_by"])
+        self.assertEqual(order["cd_tolerance_from"], "half of what the verdict has left")
+
+        def check(*options):
+            return run("check", "-", "--advice", "none", *options, input=self.LEAF).returncode
+        for line in (10 - cd, 10 + cd):  # the leaves alone
+            self.assertEqual(check("--set", f"w={line} um"), 0, line)
+        for share, status in ((1, 0), (2.5, 4)):  # every edge of the device, beside what the laboratory prints
+            edge = 0.15 + 0.5 * share * cd
+            (here / "lab.xml").write_text(f"""<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="a plate" flow="silicon-on-glass">
+              <source id="plate" kind="measured">CD of the plate</source>
+              <q id="litho.edge" value="0" lo="-{edge}" hi="{edge}" unit="um" status="assumed" src="plate"/></process>""")
+            self.assertEqual(check("--lab", here / "lab.xml"), status, share)
+
+
 class BothFaces(unittest.TestCase):
     """soi-double-sided: windows etched from the back by a plate of its own, aligned to the front"""
     FLOW = "soi-double-sided"
