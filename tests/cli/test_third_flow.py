@@ -91,6 +91,20 @@ class ThirdFlow(unittest.TestCase):
         self.assertAlmostEqual(made[40][2] / made[50][2], 0.8, 9)
 
 
+class Coupons(unittest.TestCase):
+    def test_a_coupon_gives_what_is_read_of_it(self):
+        """an entry with the readings of the slots is not asked for their depth besides; one without them is"""
+        here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, here)
+        (here / "leaf.xml").write_text(OrderedPlate.LEAF.replace("silicon-on-glass", FLOW).replace(' carrier="insulating"', "").replace("<order/>", ""))
+        for coupon, asked in (("; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=16 min", 1), ("", 2)):
+            done = run("log", here / "leaf.xml", "--flow", FLOW, "--corners", "none", "--run", here / f"{asked}.log", "--lot", "L", "--wafers", "1", "--entry",
+                       "D11; wafer=1; start=2026-11-20T11:00; end=2026-11-20T11:12; by=AB; flexure width against the drawn one=0.1" + coupon)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stderr.count("the entry does not give"), asked, done.stderr)
+            self.assertEqual("depth of the slots" in done.stderr, asked == 2, done.stderr)
+
+
 class OrderedPlate(unittest.TestCase):
     """A plate within the CD tolerance that its order states is one that the verdict still accepts: hinges, and what is required."""
     LEAF = """<device xmlns="urn:flexwright:device:1" name="tuned-leaf">
