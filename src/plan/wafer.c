@@ -81,24 +81,19 @@ static void say(fw_plan *plan, const fw_device_wafer_asked *w, const fw_wafer_va
                     index + 1, name, flow, v->why ? v->why : "no mask");
 }
 
-/* of the hinge that the corners strain most: dU/dx of an input that moves edges, over what it moves them
-   by, gives dU per metre of an edge; a line that is wider by d has each edge moved by d/2 */
-static fw_status width_effect(fw_plan *plan, int flow, fw_wafer_width_effect *out) {
+/* an edge that moves by e changes a line by 2e. Swept dies are on one plate: the least of all that are accepted */
+static void narrow_effect(const fw_plan *plan, int flow, fw_wafer_width_effect *out) {
     const fw_verdict_variant_verdict *v = &plan->verdict.variant[flow];
-    int h = v->fabricated ? fw_verdict_most_used(v) : FW_NONE;
-    *out = (fw_wafer_width_effect){.per_m = (double)NAN, .used = (double)NAN};
-    if (h < 0) return FW_OK;
-    const fw_verdict_fabricated_hinge *made = &v->fabricated->hinge[h];
-    for (int i = 0; made->share && i < v->ninput; i++) {
-        const fw_verdict_fabrication_input *in = &v->input[i];
-        if (in->edge_m == 0 || in->thickness != 0 || in->youngs != 0 || !(in->sigma > 0)) continue;
-        double per = 0.5 * made->share[i] / in->sigma / in->edge_m;
-        if (isnan(out->per_m) || fabs(per) > fabs(out->per_m)) out->per_m = per;
-    }
-    if (isnan(out->per_m)) return FW_OK;
-    out->used = made->most;
-    FW_NEED(out->what = fw_arena_printf(plan->arena, "%s%s", FW_NAMED("hinge", v->hinge[h].id)));
-    return FW_OK;
+    const fw_verdict_edge_room *room = v->fabricated ? &v->fabricated->room : NULL;
+    const bool known = v->decision == FW_ACCEPT && room && room->says;
+    const fw_wafer_width_effect own = {
+        .says = v->decision != FW_ACCEPT
+                    ? "the device is not accepted, so that no tolerance keeps it accepted"
+                : known ? room->says
+                        : "what a width changes of the verdict is not known",
+        .left_m = known ? 2 * room->edge_m : (double)NAN,
+        .looked_m = known ? 2 * room->looked_m : (double)NAN};
+    if (!out->says || own.left_m < out->left_m || (known && isnan(out->left_m))) *out = own;
 }
 
 static double overlay_of(const fw_process_flow *flow) {
@@ -127,8 +122,11 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
             v[i].value[k] = value[i][k];
         if (!v[i].mask) say(plan, w, &v[i], i, pf->use->ref);
     }
-    fw_wafer_width_effect effect;
-    FW_TRY(width_effect(plan, flow, &effect));
+    fw_wafer_width_effect effect = {.left_m = (double)NAN, .looked_m = (double)NAN};
+    narrow_effect(plan, flow, &effect);
+    for (int i = 0; i < n && w->nsweep > 0; i++)
+        if (plan->step[i] && plan->step[i]->verdict.variant[flow].decision == FW_ACCEPT)
+            narrow_effect(plan->step[i], flow, &effect);
     const fw_mask *test = w->asked && w->tests > 0 && pf->coupons ? pf->coupons->mask : NULL;
     const fw_wafer_input input = {.single = !w->asked,
                                   .effect = effect,

@@ -71,6 +71,48 @@ static fw_status add_row(lot *l, wafer *w, int index) {
     return FW_OK;
 }
 
+/* ---- one reading that was logged twice ---- */
+
+static bool same_number(double a,
+                        double b) { /* but for rounding, as sites in another order have it */
+    return (isnan(a) && isnan(b)) || fabs(a - b) <= 1e-9 * fmax(fabs(a), fabs(b));
+}
+
+/* Sites of one coupon of one wafer that read the very same are one reading, at whatever steps it was logged. The scatter of
+   sites is far above the last digit, so that two do not agree by chance in all of them. */
+static bool same_reading(const fw_process_reading *a, const fw_process_reading *b) {
+    return alike(a, b) && strcmp(a->wafer, b->wafer) == 0 && a->nsite == b->nsite &&
+           same_number(a->row.value, b->row.value) && same_number(a->row.drawn_m, b->row.drawn_m) &&
+           same_number(a->row.at, b->row.at) &&
+           (a->nsite < 2 || fabs(sqrt(a->squares) - sqrt(b->squares)) <= 1e-9 * fabs(a->row.value));
+}
+
+/* each once: `kept` is what counts */
+static fw_status leave_out_copies(fw_arena *arena, const fw_process_readings *all, fw_diags *diags,
+                                  fw_process_readings *kept) {
+    *kept = *all;
+    kept->n = 0;
+    FW_NEED(kept->item = fw_arena_array(arena, fw_process_reading, (size_t)all->n + 1));
+    for (int i = 0; i < all->n; i++) {
+        const fw_process_reading *now = &all->item[i];
+        int before = 0;
+        while (before < kept->n && !same_reading(&kept->item[before], now))
+            before++;
+        if (before == kept->n) {
+            kept->item[kept->n++] = *now;
+            continue;
+        }
+        const fw_process_reading *was = &kept->item[before];
+        fw_diag_warning(
+            diags, 662, now->row.place,
+            "%s of step %s%s%s reads site by site what line %d has of step %s: it is one "
+            "reading, and counts once",
+            now->row.coupon, now->step, now->wafer[0] ? ", wafer " : "", now->wafer,
+            was->row.place.line, was->step);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 static fw_status wafer_of(lot *l, const char *name, wafer **w) {
     for (int i = 0; i < l->nwafer; i++)
         if (strcmp(l->wafer[i].name, name) == 0) {
@@ -303,6 +345,9 @@ fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *fl
     lot *l = fw_arena_one(arena, lot);
     fw_status status = FW_OK;
     FW_NEED(l);
+    fw_process_readings kept;
+    FW_TRY(leave_out_copies(arena, readings, diags, &kept));
+    readings = &kept;
     l->arena = arena, l->flow = flow, l->readings = readings, l->diags = diags;
     FW_NEED(l->wafer = fw_arena_array(arena, wafer, MOST_WAFERS));
     if (readings->n == 0)

@@ -284,6 +284,17 @@ static void fill_judged(fw_process_flow *flow, const char *least, const char *mo
     fill(flow, most, known ? ceil(1e3 * b) / 1e3 : (double)NAN, 0.0);
 }
 
+/* between which widths, against the drawn ones, lines of the layer that masks the last etch are judged: what the mask adds
+   for that etch, and the ranges of the corners of edges; to 10 nm outwards */
+static void fill_metal(fw_process_flow *flow) {
+    const fw_process_fixed_point *p = &flow->edges;
+    const double more = p->etch_m + p->worn_m, to = 1e8;
+    fill(flow, "mask.metal-least",
+         p->solved ? floor(2.0 * to * (more + p->off_low_m) + 1e-6) / to : (double)NAN, 0.0);
+    fill(flow, "mask.metal-most",
+         p->solved ? ceil(2.0 * to * (more + p->off_high_m) - 1e-6) / to : (double)NAN, 0.0);
+}
+
 static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *facts) {
     const fw_process_fixed_point *p = &flow->edges;
     const fw_process_edge none = {.top_m = (double)NAN, .bottom_m = (double)NAN};
@@ -294,6 +305,7 @@ static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *fact
     fill_judged(flow, "mask.top-least", "mask.top-most", width_m, low.top_m, high.top_m);
     fill_judged(flow, "mask.bottom-least", "mask.bottom-most", width_m, low.bottom_m,
                 high.bottom_m);
+    fill_metal(flow);
 }
 
 /* edges, bias and gaps; the narrowest opening goes to the laws of the steps */

@@ -296,6 +296,26 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* Residuals that agree better than one in a thousand of such tables would, with more than a few of them: the same coupon
+   tells several values, and is named once. Test: test_calibrate.c, too_good */
+static void ask_too_good(const fw_process_calibration *calibration, int i, const char *file,
+                         fw_diags *diags) {
+    static const double most = 0.999;
+    static const int few = 3;
+    const fw_process_calibrated *c = &calibration->item[i];
+    char p[32];
+    if (!(c->probability > most) || c->freedom <= few) return;
+    for (int k = 0; k < i; k++) {
+        const fw_process_calibrated *other = &calibration->item[k];
+        if (strcmp(other->coupon, c->coupon) == 0 && other->chi_square == c->chi_square) return;
+    }
+    fw_diag_warning(diags, 663, (fw_place){.file = file},
+                    "readings of %s agree with their law better than their uncertainties let them: "
+                    "%d degrees of freedom, probability %s of a larger chi square. Readings that "
+                    "were copied, or a u= that is of an error which all of them share, look so",
+                    c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
+}
+
 /* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
    test_calibrate.c, far_from_the_plan. */
 void fw_process_calibration_ask(const fw_process_flow *flow,
@@ -305,6 +325,7 @@ void fw_process_calibration_ask(const fw_process_flow *flow,
         const fw_process_calibrated *c = &calibration->item[i];
         const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
         char times[32];
+        ask_too_good(calibration, i, file, diags);
         if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
         double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
         const fw_process_coupon *kind = kind_named(c->coupon);

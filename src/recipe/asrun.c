@@ -268,9 +268,12 @@ static int index_of_wafer(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
     return 0;
 }
 
+/* what only goes back into the pack, and has no limits, is given by the coupon itself */
 static bool gives(const fw_recipe_asrun_entry *e, const fw_process_accept *a) {
     for (int i = 0; i < e->nmeasured; i++)
         if (strcmp(e->measured[i].measure, a->measure) == 0) return true;
+    for (int i = 0; a->coupon && !a->low[0] && !a->high[0] && i < e->ncoupon; i++)
+        if (strcmp(e->coupon[i].row.coupon, fw_process_coupon_called(a->coupon)) == 0) return true;
     return false;
 }
 

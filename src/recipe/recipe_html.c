@@ -293,6 +293,34 @@ static void labelled(const char *label, const char *words, fw_text *out) {
     fw_text_add(out, ".</p>\n");
 }
 
+/* the step that frees the devices; NULL: none does */
+static const fw_process_step *freeing(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++)
+            if (strcmp(flow->step[i].op, "release") == 0 &&
+                strcmp(flow->step[i].change[k].kind, "remove") == 0)
+                return &flow->step[i];
+    return NULL;
+}
+
+/* who gets a whole wafer must know before the first one how dies come off it: free devices bear no saw */
+static void parting(const fw_process_flow *flow, fw_text *out) {
+    const fw_process_step *s = freeing(flow);
+    if (fw_process_step_is_of_dies(flow, flow->nstep)) return;
+    const char *words =
+        s ? fw_arena_printf(
+                out->arena,
+                "no step of this flow parts the wafer into dies, and step %s frees the devices "
+                "while "
+                "it is whole. Water and shaking of a saw tear free devices off: settle before the "
+                "first wafer how it is parted, with half cuts before step %s that it is broken "
+                "along dry, or by something else that neither wets nor shakes it",
+                s->id, s->id)
+          : "no step of this flow parts the wafer into dies: settle before the first one who does";
+    if (!words) out->failed = true;
+    labelled("Parting", words, out);
+}
+
 static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
     static const char *const word[] = {"Not guaranteed until something is measured",
                                        "Not manufacturable in this flow",
@@ -318,6 +346,7 @@ static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw
     if (h->verdict && fw_verdict_drying_words(out->arena, h->verdict, &words) != FW_OK)
         out->failed = true;
     labelled("Drying", words, out);
+    parting(flow, out);
     if (!h->release || out->failed) return;
     fw_text_add(out, "<div class=\"release\">");
     fw_text_bytes(out, h->release->data, h->release->length);

@@ -239,7 +239,7 @@ static fw_status go_on(sizing *s, const aim *a, const fw_study_search *search, i
 
 /* devices that a local search begins with and its first step: with fewer one search from all that was judged has them */
 static int simplex(const fw_study *study) {
-    return study->nvary + 2;
+    return study->nvary + 1;
 }
 
 /* searches for one aim; all that they found joins what was judged */

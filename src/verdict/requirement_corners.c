@@ -243,6 +243,163 @@ void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]
     band[1] = isnan(r->all_high) ? r->high : r->all_high;
 }
 
+/* ---- how much further edges may lie ----
+   Room of one check, r = (z_limit - z_most)/|dz/de| with z_most at the corner that is worst for it (its band and what first
+   order was off by included), and de the way of an edge; the least of all hinges in all scenes, requirements at both their
+   bounds, distances, pull-in, and what tips. In: what the search has run. Out: m of every edge, either way. Range: first
+   order, so that who uses it takes half, and goes no further than the corners went again. Cost: nothing is run. Test:
+   test_ranges.c, room_of_edges; tests/cli/test_mask_certificate.py. */
+
+double fw_verdict_band_above(const fw_verdict_search *s, int hinge) {
+    double most = 1.0;
+    for (int c = 0; c < s->fabricated->ncorner; c++) {
+        const fw_verdict_hinge_verdict *h = &s->fabricated->corner[c].hinge[hinge];
+        if (h->scene && h->utilisation > 0)
+            most = fmax(most, h->utilisation_high / h->utilisation); /* NaN is passed */
+    }
+    return most;
+}
+
+bool fw_verdict_search_edges_only(const fw_verdict_fabrication_input *in) {
+    return fw_verdict_search_has_range(in) && in->edge_m != 0.0 && in->flare_m == 0.0 &&
+           in->thickness == 0.0 && in->youngs == 0.0;
+}
+
+/* ln of the most that a check uses at any corner */
+static double most_of(const fw_verdict_search *s, int check) {
+    const int n = s->v->ninput;
+    double most = -HUGE_VAL, first = s->ln[check];
+    unsigned worst = 0;
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        most = fmax(most, s->ln[(size_t)p * (size_t)s->ncheck + (size_t)check]); /* NaN is passed */
+    for (int i = 0; i < n; i++) {
+        const fw_verdict_fabrication_input *in = &s->v->input[i];
+        const double slope = s->slope[check * n + i];
+        if (!fw_verdict_search_has_range(in)) continue;
+        worst |= slope > 0.0 ? 1u << i : 0u;
+        first += slope * ((slope > 0.0 ? in->high : in->low) - in->nominal);
+    }
+    if (s->fabricated->all || fw_verdict_search_find(s, worst) != FW_NONE) return most;
+    return fmax(most, first + (check < s->nplane ? s->fabricated->error : s->across_error));
+}
+
+typedef struct edges {
+    fw_verdict_search *s;
+    int input;   /* whose slopes are those of edges */
+    double room; /* the least so far */
+    const char *says;
+} edges;
+
+/* "lines 0.1 um wider change that by -0.0137 %": a line that is wider by d has each edge moved by d/2 */
+static fw_status keep(edges *e, double room, const char *what, double per_edge,
+                      const char *unit) { /* NULL: a share */
+    if (!(room < e->room) && !(isnan(room) && !isnan(e->room))) return FW_OK;
+    const double wider = 0.1e-6;
+    char change[FW_PROBE_TEXT];
+    const double by = 0.5 * per_edge * wider;
+    if (unit)
+        fw_probe_text(change, by, unit);
+    else
+        fw_number_text(change, sizeof change - 2, 100 * by, 3), strcat(change, " %");
+    FW_NEED(what);
+    e->room = room;
+    FW_NEED(e->says = isnan(per_edge)
+                          ? fw_arena_printf(e->s->arena,
+                                            "%s: how it changes with a width is not known", what)
+                          : fw_arena_printf(e->s->arena, "%s; lines 0.1 um wider change that by %s",
+                                            what, change));
+    return FW_OK;
+}
+
+/* "hinge D: at most 2.62 % of its limit" */
+static const char *name_of(const fw_verdict_search *s, int check, double most) {
+    const int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1);
+    const int distances = hinges + scenes + s->v->nrequirement;
+    const fw_device_scene *scene = s->device->scene;
+    char used[32];
+    fw_percent_text(used, sizeof used, most);
+    if (check < hinges)
+        return fw_arena_printf(s->arena, "%s%s: at most %s %% of its limit",
+                               FW_NAMED("hinge", s->v->hinge[check / (scenes + 1)].id), used);
+    if (check < hinges + scenes)
+        return fw_arena_printf(s->arena, "pull-in of %s%s: at most %s %% of its limit",
+                               FW_NAMED("scene", scene[check - hinges].name), used);
+    if (check >= s->nplane)
+        return fw_arena_printf(s->arena, "out of its plane in %s%s: at most %s %% of its limit",
+                               FW_NAMED("scene", scene[(check - s->nplane) % scenes].name), used);
+    if (check >= distances + scenes)
+        return fw_arena_printf(s->arena, "distances over required poses: at most %s %% used", used);
+    return fw_arena_printf(s->arena, "distances in %s%s: at most %s %% used",
+                           FW_NAMED("scene", scene[check - distances].name), used);
+}
+
+static fw_status room_of_check(edges *e, int check) {
+    fw_verdict_search *s = e->s;
+    const int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1), n = s->v->ninput;
+    const int distances = hinges + scenes + s->v->nrequirement;
+    const bool distance = check >= distances && check < s->nplane;
+    double most = most_of(s, check), limit = check < s->nplane ? 0.0 : log(FW_NEAR_TIPPING);
+    double least = check >= s->nplane ? FW_FLAT_BELOW
+                   : distance         ? fw_verdict_clearance_counts
+                                      : 0.0;
+    double slope = s->slope[check * n + e->input] / s->v->input[e->input].edge_m;
+    if (check <
+        hinges) { /* as all corners have it, where that is less; and where hinges differ, where that is more */
+        const fw_verdict_fabricated_hinge *h = &s->fabricated->hinge[check / (scenes + 1)];
+        const double bound = log(h->most);
+        most = fmin(most, bound) + log(fw_verdict_band_above(s, check / (scenes + 1)));
+        for (int i = 0; i < n; i++)
+            if (s->v->input[i].local != 0.0) most += fmax(0.0, bound - most_of(s, check));
+    }
+    if (most < log(least) || (isnan(slope) && most < log(FW_FAR_BELOW)) || slope == 0.0)
+        return FW_OK;
+    return keep(e, fmax(0.0, limit - most) / fabs(slope), name_of(s, check, exp(most)),
+                exp(most) * slope, NULL);
+}
+
+/* of one bound of a requirement; both as they are, where the bound has another sign */
+static fw_status room_of_end(edges *e, int end) {
+    fw_verdict_search *s = e->s;
+    const fw_verdict_requirement *made = &s->fabricated->requirement[end / 2];
+    const bool up = end % 2;
+    const double bound = up ? made->max : made->min, worst = up ? made->all_high : made->all_low;
+    const fw_verdict_end *of = &s->end[end];
+    const double slope = of->slope[e->input] / s->v->input[e->input].edge_m;
+    const double size = of->sign ? fabs(worst) : 1.0; /* dv/dz */
+    double way = z_of(of, bound) - z_of(of, worst), per = slope;
+    char is[FW_PROBE_TEXT], asked[FW_PROBE_TEXT];
+    if (isnan(bound) || slope == 0.0) return FW_OK;
+    if (isnan(way)) way = bound - worst, per = slope * size;
+    const char *what = fw_arena_printf(s->arena, "%s%s (%s): at %s %s at any corner, %s required",
+                                       FW_NAMED("requirement", made->probe),
+                                       made->measure ? made->measure : made->kind,
+                                       up ? "most" : "least", fw_probe_text(is, worst, made->unit),
+                                       fw_probe_text(asked, bound, made->unit));
+    return keep(e, fmax(0.0, up ? way : -way) / fabs(per), what, slope * size, made->unit);
+}
+
+fw_status fw_verdict_edge_room_made(fw_verdict_search *s) {
+    const int requirements = s->v->nhinge * (s->device->nscene + 1) + s->device->nscene;
+    edges e = {
+        .s = s, .input = FW_NONE, .room = HUGE_VAL, .says = "nothing asked changes with edges"};
+    double looked = 0.0;
+    for (int i = s->v->ninput - 1; i >= 0; i--) {
+        const fw_verdict_fabrication_input *in = &s->v->input[i];
+        if (!fw_verdict_search_edges_only(in)) continue;
+        looked += fabs(in->edge_m) * fmin(in->high - in->nominal, in->nominal - in->low);
+        e.input = i;
+    }
+    s->fabricated->room = (fw_verdict_edge_room){.edge_m = (double)NAN};
+    if (e.input == FW_NONE || s->first == 0) return FW_OK;
+    for (int r = 0; r < s->ncheck; r++)
+        if ((r < requirements || r >= requirements + s->v->nrequirement) && !isnan(s->ln[r]))
+            FW_TRY(room_of_check(&e, r));
+    for (int k = 0; k < 2 * s->v->nrequirement; k++)
+        FW_TRY(room_of_end(&e, k));
+    s->fabricated->room = (fw_verdict_edge_room){e.says, e.room, looked};
+    return FW_OK;
+}
+
 /* ---- how many there may be, for who waits ---- */
 
 /* No more points are run than the nominal one, one for the slopes of each input, all corners, each hinge alone and the

@@ -236,6 +236,15 @@ typedef struct fw_verdict_fabricated_hinge {
     double *share; /* (ninput) dU/dx sigma_x */
 } fw_verdict_fabricated_hinge;
 
+/* How far edges may lie beyond all that the corners make of them, either way, before something that is accepted is not.
+   Test: test_ranges.c, room_of_edges; tests/cli/test_mask_certificate.py */
+typedef struct fw_verdict_edge_room {
+    const char
+        *says; /* which hinge, requirement or distance decides, and how it goes; NULL: not known */
+    double edge_m;   /* to first order; HUGE_VAL: nothing of it changes with edges */
+    double looked_m; /* how far the corners themselves move edges either way */
+} fw_verdict_edge_room;
+
 typedef struct fw_verdict_fabricated_verdict {
     fw_verdict_fabricated_corner *corner; /* (ncorner) the first is the nominal device */
     int ncorner;
@@ -254,6 +263,7 @@ typedef struct fw_verdict_fabricated_verdict {
     const char *reason;  /* a sentence: why it does not accept */
     const double *ln;    /* (ncorner x ncheck) of the search that found it, for one that follows */
     int ncheck;
+    fw_verdict_edge_room room; /* where it is accepted */
 } fw_verdict_fabricated_verdict;
 
 /* share of a limit that is used, the least and the most of the devices that were run. high

@@ -8,11 +8,6 @@
 
 /* a first-order estimate that was off by more than this proves nothing: every corner is run */
 static const double fw_trusted = 0.3;
-/* checks below this share of their limits are of no account to estimates; so are those across the plane, of which nothing
-   is told but whether they are beyond */
-static const double far_below = 0.1, flat_below = 0.5;
-static const double near_tipping =
-    0.97; /* both are bounds; what forces may be off by is little beside this */
 /* below this an input does not decide which corner is the worst one */
 static const double fw_of_no_account = 2e-3;
 
@@ -23,15 +18,9 @@ static void nominal_point(const fw_verdict_variant_verdict *v, double *x) {
         x[i] = v->input[i].nominal;
 }
 
-/* inputs that change nothing but edges have the same slopes, scaled */
-static bool edges_only(const fw_verdict_fabrication_input *in) {
-    return fw_verdict_search_has_range(in) && in->edge_m != 0.0 && in->flare_m == 0.0 &&
-           in->thickness == 0.0 && in->youngs == 0.0;
-}
-
 static int first_edge(const fw_verdict_variant_verdict *v) {
     int i = 0;
-    while (!edges_only(&v->input[i]))
+    while (!fw_verdict_search_edges_only(&v->input[i]))
         i++;
     return i;
 }
@@ -43,7 +32,7 @@ static fw_status slopes(fw_verdict_search *s) {
     double x[FW_FABRICATION_INPUTS];
     for (int i = 0; i < v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &v->input[i];
-        int like = edges_only(in) ? first_edge(v) : i, n = v->ninput;
+        int like = fw_verdict_search_edges_only(in) ? first_edge(v) : i, n = v->ninput;
         s->slope_like[i] = like;
         s->slope_point[i] = FW_NONE;
         if (!fw_verdict_search_has_range(in)) continue; /* slopes are 0: it stays where it is */
@@ -158,17 +147,6 @@ static double highest_bound(const fw_verdict_search *s, int check, bool unrun, u
     return highest;
 }
 
-/* how far the band of a hinge reaches above its utilisation, as a factor, where it was run */
-static double band_above(const fw_verdict_search *s, int k) {
-    double most = 1.0;
-    for (int c = 0; c < s->fabricated->ncorner; c++) {
-        const fw_verdict_hinge_verdict *h = &s->fabricated->corner[c].hinge[k];
-        if (h->scene && h->utilisation > 0)
-            most = fmax(most, h->utilisation_high / h->utilisation); /* NaN is passed */
-    }
-    return most;
-}
-
 /* Of corners that are nobody's worst, the one where a hinge may still be beyond its limit: the bound
    that is reported of an accepted hinge is below its limit. */
 static unsigned not_yet_below(const fw_verdict_search *s) {
@@ -178,7 +156,7 @@ static unsigned not_yet_below(const fw_verdict_search *s) {
     for (int k = 0; k < s->v->nhinge; k++)
         for (int r = k * checks; r < (k + 1) * checks; r++) {
             if (isnan(s->ln[r])) continue;
-            double upper = highest_bound(s, r, true, &at) + log(band_above(s, k));
+            double upper = highest_bound(s, r, true, &at) + log(fw_verdict_band_above(s, k));
             if (upper > highest) highest = upper, next = at;
         }
     return next;
@@ -194,7 +172,7 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
         const bool across = r >= s->nplane;
         unsigned bits = choose(s, r, true);
         double upper = estimate(s, r, bits) + (across ? s->across_error : s->fabricated->error);
-        double bar = across ? log(near_tipping) : fmin(largest, log(near_limit(s, r)));
+        double bar = across ? log(FW_NEAR_TIPPING) : fmin(largest, log(near_limit(s, r)));
         bool first = !across && s->fabricated->ncorner == s->first; /* one is run in any case */
         if (!first && (fw_verdict_search_find(s, bits) != FW_NONE || !(upper > bar))) continue;
         if (upper > highest) highest = upper, next = bits;
@@ -208,9 +186,9 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
     FW_TRY(fw_verdict_search_run(s, x, next));
     const int at = s->fabricated->ncorner - 1;
     s->fabricated->error =
-        fmax(s->fabricated->error, estimate_error(s, at, 0, s->nplane, far_below));
+        fmax(s->fabricated->error, estimate_error(s, at, 0, s->nplane, FW_FAR_BELOW));
     s->across_error =
-        fmax(s->across_error, estimate_error(s, at, s->nplane, s->ncheck, flat_below));
+        fmax(s->across_error, estimate_error(s, at, s->nplane, s->ncheck, FW_FLAT_BELOW));
     fw_verdict_ends_compare(s, at);
     return FW_OK;
 }
@@ -356,7 +334,7 @@ static fw_status run_patterns(fw_verdict_search *s, apart *a) {
         if (next == FW_NONE) return FW_OK;
         done[next] = true;
         const bool across = next >= s->nplane;
-        const double near = log(across ? near_tipping : near_limit(s, next));
+        const double near = log(across ? FW_NEAR_TIPPING : near_limit(s, next));
         if ((any || across) && !(a->most[next] + (across ? 0 : a->error) > near)) continue;
         FW_TRY(run_pattern(s, a, next, &ran));
         any = any || ran;
@@ -574,7 +552,10 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     if (!decided) fw_verdict_stators_made(&s, v);
     fw_verdict_search_govern(&s);
     v->fabricated = s.fabricated;
-    if (s.fabricated->decision == FW_ACCEPT) return fw_verdict_between_corners(&s, v);
+    if (s.fabricated->decision == FW_ACCEPT) {
+        if (!quick) FW_TRY(fw_verdict_edge_room_made(&s));
+        return fw_verdict_between_corners(&s, v);
+    }
     if (quick) {
         v->decision = FW_INCONCLUSIVE;
         return FW_OK;

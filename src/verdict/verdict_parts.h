@@ -272,6 +272,11 @@ enum {
     FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) + FW_MOST_APART
 };
 #define FW_NO_CORNER (~0u)
+/* checks below this share of their limits are of no account to estimates; so are those across the plane, of which nothing
+   is told but whether they are beyond */
+#define FW_FAR_BELOW    0.1
+#define FW_FLAT_BELOW   0.5
+#define FW_NEAR_TIPPING 0.97 /* both are bounds; what forces may be off by is little beside this */
 
 /* for ranges of v; options are those of the drawn device's verdict */
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
@@ -297,6 +302,10 @@ fw_status fw_verdict_ends_made(fw_verdict_search *s);
 fw_status fw_verdict_stators_keep(fw_arena *arena, const fw_verdict_variant_verdict *now,
                                   fw_verdict_fabricated_corner *corner);
 void fw_verdict_stators_made(const fw_verdict_search *s, fw_verdict_variant_verdict *v);
+/* how far the band of a hinge reaches above its utilisation, as a factor, where it was run */
+double fw_verdict_band_above(const fw_verdict_search *s, int hinge);
+/* s->fabricated->room, after fw_verdict_ends_made and the bounds of hinges */
+fw_status fw_verdict_edge_room_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */
@@ -308,6 +317,8 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /
 fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v);
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest);
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
+/* inputs that change nothing but edges have the same slopes, scaled */
+bool fw_verdict_search_edges_only(const fw_verdict_fabrication_input *in);
 void fw_verdict_search_corner_point(const fw_verdict_search *s, unsigned bits, double *x);
 unsigned fw_verdict_search_without_range(const fw_verdict_variant_verdict *v);
 int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits); /* a point, or FW_NONE */

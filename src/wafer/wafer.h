@@ -80,11 +80,13 @@ typedef struct fw_wafer_variant {
     int dies;                    /* filled by fw_wafer_build */
 } fw_wafer_variant;
 
-/* what a width on the plate does to what governs the verdict, from its corners */
+/* how much wider or narrower lines of the plate may be, by what the verdict has looked at */
 typedef struct fw_wafer_width_effect {
-    const char *what; /* "hinge A"; NULL: not known */
-    double used;      /* most of its limit at any corner */
-    double per_m;     /* change of that for lines that are 1 m wider, first order */
+    const char
+        *says; /* which hinge, requirement or distance decides, and how it goes with a width */
+    double
+        left_m; /* before that is not accepted, first order; HUGE_VAL: nothing decides, NaN: not known */
+    double looked_m; /* how far the verdict's corners have gone either way; NaN: not known */
 } fw_wafer_width_effect;
 
 typedef struct fw_wafer_input {

@@ -75,20 +75,27 @@ static bool of_device(const sheet *s) {
     return s->written->of == s->wafer->table->device_plate;
 }
 
-/* Half of what the governing hinge has left, over what a wider line changes of it; a tenth of the least
-   feature at most. Of another plate, which no hinge asks: a third of its overlay. In: effect, m. Out: m,
-   downwards to 10 nm. First order. */
+/* Half of the way by which lines of the device's plate may be off before something that the verdict accepts is not: a
+   hinge, a requirement, a distance. That is first order, so no more than the verdict's corners went themselves; and a
+   tenth of the least feature. Of another plate, which no hinge asks: a third of its overlay. In: effect, m. Out: m,
+   downwards to 10 nm. */
 static said cd_of(const sheet *s, double least_m) {
     const fw_wafer_width_effect *e = &s->wafer->effect;
-    double most = 0.1 * least_m, left = 0.5 * (1 - e->used) / fabs(e->per_m);
-    const char *from = "half of what the verdict has left";
+    said best = {0.1 * least_m, s->unfinished
+                                    ? "a tenth of the least feature or space that was found"
+                                    : "a tenth of the least feature or space"};
     if (!isnan(s->written->asked->cd_m)) return (said){s->written->asked->cd_m, "stated"};
-    if (!of_device(s)) left = closest_overlay(s) / 3, from = "a third of the closest overlay";
-    bool derived = isfinite(left) && left > 0 && left < most;
-    return (said){downwards(derived ? left : most, 10e-9),
-                  derived         ? from
-                  : s->unfinished ? "a tenth of the least feature or space that was found"
-                                  : "a tenth of the least feature or space"};
+    if (!of_device(s)) {
+        const double third = closest_overlay(s) / 3;
+        if (third < best.m) best = (said){third, "a third of the closest overlay"};
+    } else {
+        if (0.5 * e->left_m < best.m)
+            best = (said){0.5 * e->left_m, "half of what the verdict has left"};
+        if (e->looked_m < best.m)
+            best = (said){e->looked_m, "as far again as the verdict's corners have moved lines"};
+    }
+    best.m = downwards(best.m, 10e-9);
+    return best;
 }
 
 static said registration_of(const sheet *s) {
@@ -206,16 +213,9 @@ static void line_from(fw_text *out, const char *what, said value, double unit_m,
 }
 
 static void tolerances(const sheet *s, fw_text *out) {
-    const fw_wafer_width_effect *e = &s->wafer->effect;
-    char text[300], u[32], per[32];
+    char text[300];
     line_from(out, "CD tolerance +-", s->cd, 1e-6, "um");
-    snprintf(text, sizeof text,
-             "%s: at most %s %% of its limit; lines 0.1 um wider change that by %s %%",
-             e->what ? e->what : "", fw_number_text(u, sizeof u, 100 * e->used, 3),
-             fw_number_text(per, sizeof per, 100 * e->per_m * 0.1e-6, 3));
-    if (of_device(s))
-        fw_mask_order_line(out, "",
-                           e->what ? text : "what a width changes of the verdict is not known");
+    if (of_device(s)) fw_mask_order_line(out, "", s->wafer->effect.says);
     line_from(out, "registration +-", s->registration, 1e-6, "um");
     if (s->wafer->fiducial_m > 0) {
         char at[32];
@@ -436,6 +436,7 @@ static void json_glass(fw_json *json, const sheet *s) {
     fw_json_truth(json, "flat_line", s->beside.flat_line);
     json_said(json, "thickness_mm", "thickness_from", s->thickness, 1e-3);
     json_said(json, "cd_tolerance_um", "cd_tolerance_from", s->cd, 1e-6);
+    if (of_device(s)) fw_json_text(json, "cd_tolerance_decided_by", s->wafer->effect.says);
     json_said(json, "registration_um", "registration_from", s->registration, 1e-6);
     json_said(json, "largest_defect_um", "largest_defect_from", s->defect, 1e-6);
     fw_json_line(json, 2);

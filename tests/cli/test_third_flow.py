@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A flow that is XML alone (processes/soi-deep-rie.xml and masks/soi-deep-rie.xml; no line of code knows it) plans the devices
 of the gallery; and one number of the device moves verdict, mask, times and run sheet together."""
+import html
 import json
 import os
 import pathlib
@@ -89,6 +90,94 @@ class ThirdFlow(unittest.TestCase):
             self.assertNotEqual(before, after)
         self.assertAlmostEqual(made[40][1] / made[50][1], 0.8, delta=1e-3)
         self.assertAlmostEqual(made[40][2] / made[50][2], 0.8, 9)
+
+
+class Coupons(unittest.TestCase):
+    def test_a_coupon_gives_what_is_read_of_it(self):
+        """an entry with the readings of the slots is not asked for their depth besides; one without them is"""
+        here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, here)
+        (here / "leaf.xml").write_text(OrderedPlate.LEAF.replace("silicon-on-glass", FLOW).replace(' carrier="insulating"', "").replace("<order/>", ""))
+        for coupon, asked in (("; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=16 min", 1), ("", 2)):
+            done = run("log", here / "leaf.xml", "--flow", FLOW, "--corners", "none", "--run", here / f"{asked}.log", "--lot", "L", "--wafers", "1", "--entry",
+                       "D11; wafer=1; start=2026-11-20T11:00; end=2026-11-20T11:12; by=AB; "
+                       "flexure width at the top against the drawn one=-1; flexure width at the bottom against the drawn one=1" + coupon)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stderr.count("the entry does not give"), asked, done.stderr)
+            self.assertEqual("depth of the slots" in done.stderr, asked == 2, done.stderr)
+
+
+class MeasuredWidths(unittest.TestCase):
+    """Widths that steps accept agree with each other, and with what the verdict has judged: no step holds a wafer that another
+    one has passed, nothing between them having etched it, or that lies within the ranges of its own corners."""
+
+    def test_limits_are_those_that_were_judged(self):
+        printed = {"copper-on-porous-silicon": 0.5}  # litho.edge, either way, um; others 0.15
+        metal = {"al-masked-rie": 0.22, "silicon-on-glass": 0.22}  # made.al-edge, two standard uncertainties
+        here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, here)
+        for flow in (*FLOWS, FLOW, "soi-double-sided", "silicon-on-glass"):
+            text = OrderedPlate.LEAF.replace("silicon-on-glass", flow).replace("<order/>", "")
+            if flow == FLOWS[1]:
+                text = text.replace('<material ref="silicon-100" thickness="50 um"/>', '<material ref="copper-plated"/>')
+            if flow != "silicon-on-glass":
+                text = text.replace(' carrier="insulating"', "")
+            done = run("recipe", "-", "--flow", flow, "--corners", "none", "--measurements", "none", "--advice", "none", "--force", "-o", here / flow, input=text)
+            self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+            sheet = (here / flow / f"recipes/{flow}.html").read_text()
+            page = html.unescape(re.sub("<[^>]+>", "", sheet))
+            # who has to part the wafer is told before its first step, not in the sheet's last line
+            head = re.sub("<[^b][^>]+>", "", sheet.split("Can this flow make this device?")[1].split("<h3>")[0].split("<h2>")[0])
+            parted = ("al-masked-rie", "silicon-on-glass")
+            self.assertEqual("no step of this flow parts the wafer" in head, flow not in parted, flow)
+            self.assertEqual("frees the devices while it is whole" in head, flow not in parted, flow)
+            self.assertEqual("no step of it parts it into dies" in page, flow not in parted, flow)
+            found = {}
+            for what, low, high, unit in re.findall(r"(flexure width[^\n]*?) against the drawn one[^\n]*?(-?[\d.]+) to (-?[\d.]+) (%|µm)", page):
+                found.setdefault(what, set()).add((float(low), float(high), unit))
+            if flow not in FLOWS[:1] + ("silicon-on-glass",):
+                self.assertEqual(sorted(found), ["flexure width at the bottom", "flexure width at the top"], flow)
+            for what, limits in found.items():
+                self.assertEqual(len(limits), 1, (flow, what, limits))
+                low, high, unit = limits.pop()
+                edge = printed.get(flow, 0.15) + metal.get(flow, 0)
+                judged = 2 * edge * (1 if unit == "µm" else 10)  # leaves of 10 um
+                # an etch that takes more above than below moves the lower end at the top, the upper one at the bottom, away
+                self.assertLessEqual(low, -judged + 1e-9 if what != "flexure width at the bottom" else judged, (flow, what))
+                self.assertGreaterEqual(high, judged - 1e-9 if what != "flexure width at the top" else -judged, (flow, what))
+                self.assertLess(high - low, 2 * judged + (35 if unit == "%" else 0.011), (flow, what))
+
+
+class OrderedPlate(unittest.TestCase):
+    """A plate within the CD tolerance that its order states is one that the verdict still accepts: hinges, and what is required."""
+    LEAF = """<device xmlns="urn:flexwright:device:1" name="tuned-leaf">
+      <parameter name="w" value="10 um"/><material ref="silicon-100" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/>
+      <die tethers="no"/><order/><flexure id="leaf" kind="leaf" length="400 um" width="w"/>
+      <mechanism><body id="bar" x="0 mm" y="0.75 mm" width="120 um"/><revolute id="A" a="ground" b="bar" b-y="-0.75 mm" hinge="leaf"/></mechanism>
+      <require frequency="1" plane="in" min="4 kHz"/>
+      <scene name="nudge" duration="1 ms"><torque on="bar" value="1e-4 mN mm"/></scene>
+    </device>"""
+
+    def test_tolerance_keeps_the_verdict(self):
+        here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, here)
+        done = run("plan", "-", "--measurements", "none", "-o", here / "out", input=self.LEAF)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        order = json.loads((here / "out/masks/silicon-on-glass-plate.device.order.json").read_text())
+        cd = order["cd_tolerance_um"]
+        self.assertIn("requirement frequency-1", order["cd_tolerance_decided_by"])
+        self.assertEqual(order["cd_tolerance_from"], "half of what the verdict has left")
+
+        def check(*options):
+            return run("check", "-", "--advice", "none", *options, input=self.LEAF).returncode
+        for line in (10 - cd, 10 + cd):  # the leaves alone
+            self.assertEqual(check("--set", f"w={line} um"), 0, line)
+        for share, status in ((1, 0), (2.5, 4)):  # every edge of the device, beside what the laboratory prints
+            edge = 0.15 + 0.5 * share * cd
+            (here / "lab.xml").write_text(f"""<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="a plate" flow="silicon-on-glass">
+              <source id="plate" kind="measured">CD of the plate</source>
+              <q id="litho.edge" value="0" lo="-{edge}" hi="{edge}" unit="um" status="assumed" src="plate"/></process>""")
+            self.assertEqual(check("--lab", here / "lab.xml"), status, share)
 
 
 class BothFaces(unittest.TestCase):

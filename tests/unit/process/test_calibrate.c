@@ -291,6 +291,23 @@ static void far_from_the_plan(void **state) {
     assert_non_null(strstr(quiet.item[0].message, "does not widen the lines"));
 }
 
+/* six lines that all lost the very same, within 0.05 um each: said, once; where they scatter nothing is */
+static void too_good(void **state) {
+    (void)state;
+    fw_process_calibration c;
+    for (int same = 0; same < 2; same++) {
+        quiet = fw_diags_new(arena);
+        nrow = 0;
+        for (int i = 0; i < 6; i++)
+            put("cd-lines", "line", 10 + i, LENGTH, (7.8 + i + (same ? 0 : 0.05 * (i % 2 ? 1 : -1))) * 1e-6, 0.05e-6, LENGTH, (double)NAN, (double)NAN);
+        assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &quiet, &c), FW_OK);
+        fw_process_calibration_ask(silicon, &c, "coupons.csv", &quiet);
+        assert_int_equal(quiet.count, same);
+    }
+    assert_int_equal(quiet.item[0].number, 663);
+    assert_non_null(strstr(quiet.item[0].message, "cd-lines agree"));
+}
+
 /* the same coupons in another flow: its own ids, and lines of resist, of which nothing is taken: printed 0.05 um wide on each side,
    2 % of 55 um undercut; S and R from two slots; selectivity 50 um over 0.8 um */
 static void of_another_flow(void **state) {
@@ -563,7 +580,7 @@ int main(void) {
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
-        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan),
+        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(too_good),
         cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -164,6 +164,42 @@ static void slots(void **state) {
     }
 }
 
+/* readings of one slot that stand at two steps of a wafer are one: nothing is known better by them; those of another wafer
+   are others */
+static void copies_count_once(void **state) {
+    (void)state;
+    static const double width[] = {10e-6, 30e-6, 100e-6}, depth[] = {45.6e-6, 46.9e-6, 47.9e-6};
+    fw_process_calibration c[2];
+    for (int twice = 0; twice < 2; twice++) {
+        fw_diags said = fw_diags_new(arena);
+        seed = 5;
+        readings = (fw_process_readings){.item = item, .file = "lot.log", .sha256 = ""};
+        for (int k = 0; k < 3; k++) {
+            fw_process_reading *r = put("arde-slots", "", "1", depth[k], 0.1e-6, SITES, 0.1e-6);
+            r->row.drawn_m = width[k];
+            r->row.at = 960.0, r->row.at_uncertainty = 0.0;
+            r->row.at_dimension = (fw_quantity_dimension)FW_DIM_TIME;
+            r->row.place.line = k + 2;
+        }
+        if (twice) {
+            item[readings.n] = item[0];
+            item[readings.n].row.place.line = 9;
+            item[readings.n++].step = "S19";
+        }
+        assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &said, &c[twice]), FW_OK);
+        assert_int_equal(said.count, twice);
+        if (!twice) continue;
+        assert_int_equal(said.item[0].number, 662);
+        assert_int_equal(said.item[0].place.line, 9);
+        assert_non_null(strstr(said.item[0].message, "line 2 has of step S18"));
+    }
+    for (int i = 0; i < 2; i++) {
+        assert_near(c[1].item[i].value, c[0].item[i].value, 0);
+        assert_near(c[1].item[i].uncertainty, c[0].item[i].uncertainty, 0);
+        assert_string_equal(c[1].item[i].source, c[0].item[i].source);
+    }
+}
+
 static void refused(void **state) {
     (void)state;
     fw_process_calibration c;
@@ -184,6 +220,7 @@ static void refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coverage), cmocka_unit_test(slots),
+                                       cmocka_unit_test(copies_count_once),
                                        cmocka_unit_test(refused)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -281,27 +281,28 @@ static void test_order(void **state) {
     fw_arena_free(p->arena);
 }
 
-/* CD tolerance: half of what the governing hinge has left over what a width changes of it, downwards
-   to 10 nm, and a tenth of the least feature at most; what is stated stays as it is stated */
+/* CD tolerance: half of what the verdict has left of a width, no more than its corners have gone, downwards to 10 nm, and a
+   tenth of the least feature at most; what is stated stays as it is stated */
 static void cd_tolerance(void **state) {
     (void)state;
+    const double none = (double)NAN;
     const struct {
-        double used, per_m, stated_m;
+        double left_m, looked_m, stated_m;
         const char *says;
     } row[] = {
-        {0.60, 2e6, (double)NAN, "+- 0.1 um (half of what the verdict has left)"},
-        {0.60, -2e6, (double)NAN, "+- 0.1 um (half of what the verdict has left)"},
-        {0.60, 0.7e6, (double)NAN, "+- 0.28 um (half of what the verdict has left)"},
-        {0.60, 1e3, (double)NAN, " um (a tenth of the least feature or space)"},
-        {0.60, 0, (double)NAN, " um (a tenth of the least feature or space)"},
-        {1.20, 2e6, (double)NAN, " um (a tenth of the least feature or space)"},
-        {0.60, 2e6, 0.25e-6, "+- 0.25 um (stated)"},
+        {0.2e-6, 0.3e-6, none, "+- 0.1 um (half of what the verdict has left)"},
+        {0.576e-6, 0.3e-6, none, "+- 0.28 um (half of what the verdict has left)"},
+        {0.8e-6, 0.3e-6, none, "+- 0.3 um (as far again as the verdict's corners have moved lines)"},
+        {4e-4, 3e-4, none, " um (a tenth of the least feature or space)"},
+        {HUGE_VAL, 3e-4, none, " um (a tenth of the least feature or space)"},
+        {none, none, none, " um (a tenth of the least feature or space)"},
+        {0.2e-6, 0.3e-6, 0.25e-6, "+- 0.25 um (stated)"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         plate *p = plate_new(240);
-        p->input.effect = (fw_wafer_width_effect){"hinge A", row[i].used, row[i].per_m};
+        p->input.effect = (fw_wafer_width_effect){"hinge A: at most 60 % of its limit",
+                                                    row[i].left_m, row[i].looked_m};
         p->input.overlay_m = (double)NAN;
-        double none = (double)NAN;
         p->device.wafer.order = (fw_device_order_asked){.thickness_m = none,
                                                         .cd_m = row[i].stated_m,
                                                         .registration_m = none,
