@@ -348,15 +348,17 @@ fw_status fw_verdict_undrawn_as(fw_arena *arena, const fw_device *device, fw_dev
 static fw_status undrawn_sentence(fw_arena *arena, const fw_device *d,
                                   const fw_device_contact_use *c, bool second, fw_geometry_vec2 at,
                                   const char **text) {
-    static const char *const judged[] = {
-        [FW_UNDRAWN_NOT_SAID] = "it has to be put there from elsewhere, or drawn by masks that you "
-                                "add; judged is that it "
-                                "stands where it is stated, and that its edge moves as all edges "
-                                "do (undrawn=\"placed\" or "
-                                "\"etched\" says which)",
-        [FW_UNDRAWN_PLACED] = "it has to be put there from elsewhere, and what its place is off by "
-                              "comes off what the contact leaves",
-        [FW_UNDRAWN_ETCHED] = "masks that you add have to draw it in the same layer"};
+    static const char not_said[] =
+        "it has to be put there from elsewhere, or drawn by masks that you add; judged is that it "
+        "stands where it is stated, and that its edge moves as all edges do (undrawn=\"placed\" or "
+        "\"etched\" says which)";
+    static const char placed[] =
+        "it has to be put there from elsewhere, and what its place is off by comes off what the "
+        "contact leaves";
+    static const char etched[] = "masks that you add have to draw it in the same layer";
+    static const char *const judged[] = {[FW_UNDRAWN_NOT_SAID] = not_said,
+                                         [FW_UNDRAWN_PLACED] = placed,
+                                         [FW_UNDRAWN_ETCHED] = etched};
     char x[32], y[32];
     const int body = second ? c->body_b : c->body_a;
     const double um = 1e-3; /* of coordinates: to a nanometre */
